@@ -1,0 +1,36 @@
+#pragma once
+/// @file Points and polygons in the plane, x to the right and y up, in metres.
+
+#include <Eigen/Core>
+#include <vector>
+
+namespace voussoir {
+
+using Point = Eigen::Vector2d;
+
+/// A simple polygon by its corners, counter-clockwise, first corner not repeated.
+using Polygon = std::vector<Point>;
+
+/// z component of the cross product a x b.
+inline double cross(const Point& a, const Point& b) {
+  return a.x() * b.y() - a.y() * b.x();
+}
+
+/// Signed area [m2]: positive for counter-clockwise corners.
+double area(const Polygon& polygon);
+
+/// Centre of gravity [m]. Precondition: the area is not zero.
+Point centroid(const Polygon& polygon);
+
+/// True if the point is inside the polygon or on its boundary (tolerance in metres).
+bool contains(const Polygon& polygon, const Point& point, double tolerance = 0.0);
+
+/// The parts of `subject` outside `hole`, each counter-clockwise, from left to right; parts with an area of at
+/// most `smallest_area` [m2] are dropped, corners closer than a micrometre are merged and corners that lie on
+/// the straight line between their neighbours are removed.
+std::vector<Polygon> subtract(const Polygon& subject, const Polygon& hole, double smallest_area);
+
+/// Mirror image across the vertical line at `axis_x`, counter-clockwise again.
+Polygon mirrored(const Polygon& polygon, double axis_x);
+
+}  // namespace voussoir

@@ -1,0 +1,26 @@
+#pragma once
+/// @file What a solver says of a scene.
+
+#include <string_view>
+
+#include "core/mesh.h"
+
+namespace voussoir {
+
+enum class Outcome : std::uint8_t {
+  standing = 0,   ///< equilibrium was reached
+  collapsed = 1,  ///< blocks fall; the field is a snapshot at a stated moment
+  unresolved = 2  ///< neither could be shown; the residual says how far it got
+};
+
+/// "standing", "collapsed", "unresolved"
+std::string_view to_string(Outcome outcome);
+
+struct Solution {
+  Outcome outcome = Outcome::unresolved;
+  Field displacement;       ///< [m], 2 x nodes; NaN at nodes of removed blocks
+  double residual = 0.0;    ///< largest unbalanced nodal force over the largest nodal weight [-]
+  int iterations = 0;       ///< Newton iterations (factorisations) spent
+};
+
+}  // namespace voussoir
