@@ -15,8 +15,8 @@ struct QuasiStaticSettings {
   double loose_tolerance = 1e-5;  ///< the residual is at most this (fine meshes cannot reach `tolerance`)
   int most_warm_iterations =
       12;                    ///< factorisations from a given start before the search starts again from zero
-  int most_iterations = 30;  ///< factorisations from zero before the bridge is let fall
-  int most_falling_iterations = 40;    ///< factorisations of the fall before the scene is `unresolved`
+  int most_iterations = 30;  ///< factorisations of a search from zero
+  int most_falling_iterations = 40;    ///< factorisations of a fall
   double collapse_displacement = 0.1;  ///< [m] a standing bridge moves less; beyond it blocks are falling
 };
 
