@@ -23,13 +23,15 @@ void add_arch_blocks(const SpanDescription& span, std::vector<Block>& blocks) {
   const double inner = span.intrados_radius;
   const double outer = span.extrados_radius();
   const auto leg = [&](double left, double right) {
-    Block block{.kind = BlockKind::leg};
+    Block block;
+    block.kind = BlockKind::leg;
     block.polygon = {{left, 0.0}, {right, 0.0}, {right, span.centre_y}, {left, span.centre_y}};
     return block;
   };
   if (span.centre_y > 0.0) blocks.push_back(leg(span.centre_x - outer, span.centre_x - inner));
   for (int j = 0; j < span.voussoirs; ++j) {
-    Block block{.kind = BlockKind::voussoir};
+    Block block;
+    block.kind = BlockKind::voussoir;
     block.polygon = {ring_point(span, outer, j), ring_point(span, inner, j), ring_point(span, inner, j + 1),
                      ring_point(span, outer, j + 1)};
     blocks.push_back(block);

@@ -1,5 +1,8 @@
 #include "core/geometry.h"
 
+// Boost's default snaps coordinates to an integer grid of about a micrometre; plain doubles keep round-off only.
+#define BOOST_GEOMETRY_NO_ROBUSTNESS
+
 #include <algorithm>
 #include <boost/geometry.hpp>
 #include <boost/geometry/geometries/point_xy.hpp>

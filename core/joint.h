@@ -23,7 +23,7 @@ struct Joint {
   double length;                    ///< [m]
 };
 
-/// All stretches where edges of different blocks run against each other within `tolerance` [m].
+/// All stretches longer than `tolerance` [m] where edges of different blocks run against each other within it.
 std::vector<Joint> find_joints(const Mesh& mesh, double tolerance);
 
 }  // namespace voussoir
