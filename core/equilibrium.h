@@ -1,0 +1,60 @@
+#pragma once
+/// @file The discrete equations of a bridge: which displacements are free, what forces unbalance them, and the tangent.
+///
+///   r(u) = weight - internal forces of the triangles - forces of the joints,   tangent = - dr/du
+///
+/// Removed blocks keep their places in the vectors and the matrix (unit diagonal, zero residual), so that all scenes
+/// of a bridge share one sparsity pattern and one symbolic factorisation.
+
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
+#include <vector>
+
+#include "core/bridge.h"
+#include "core/joint_kinematics.h"
+#include "core/triangle_element.h"
+
+namespace voussoir {
+
+/// Everything about the equations that no scene and no displacement changes.
+struct EquilibriumSystem {
+  explicit EquilibriumSystem(const Bridge& bridge);
+
+  const Bridge* bridge;                   ///< outlives the system
+  PlaneModuli moduli;
+  std::vector<TriangleShape> triangles;
+  std::vector<JointFrame> joints;
+  std::vector<BlockId> triangle_block;
+  Eigen::VectorXd weight;                 ///< of each node [N], positive
+  double largest_weight;                  ///< [N] the unit of residuals
+  std::vector<int> unknown;               ///< per displacement component 2 node + axis: its unknown, or -1 if held
+  std::vector<int> component;             ///< the inverse: per unknown its displacement component
+  Eigen::SparseMatrix<double> pattern;    ///< of the tangent, all values zero
+  std::vector<std::array<int, 36>> triangle_slots;  ///< position of each entry in the value array, -1 if held
+  std::vector<std::array<int, 64>> joint_slots;
+  std::vector<int> diagonal_slots;
+
+  int unknown_count() const { return static_cast<int>(component.size()); }
+};
+
+/// How joints answer in an assembly.
+enum class JointMode {
+  exact,  ///< the joint law
+  bonded  ///< closed and sticking everywhere: the linear start of a Newton search
+};
+
+/// Unbalanced force of every displacement component [N] (2 x nodes); zero at removed blocks and held components.
+Field unbalanced_forces(const EquilibriumSystem& system, const std::vector<bool>& removed, const Field& displacement);
+
+/// The same, and the tangent's values in the order of `system.pattern`.
+Field assemble(const EquilibriumSystem& system, const std::vector<bool>& removed, const Field& displacement,
+               JointMode mode, std::vector<double>& tangent_values);
+
+/// Per block: is it missing?
+std::vector<bool> removal_mask(const Scene& scene, std::size_t block_count);
+
+/// Largest unbalanced force component of a field over the largest nodal weight, computed from the field alone (NaN
+/// at nodes of removed blocks is expected and ignored). What a stored field is checked by.
+double unbalanced_force(const Bridge& bridge, const Scene& scene, const Field& displacement);
+
+}  // namespace voussoir
