@@ -1,6 +1,6 @@
 #pragma once
-/// @file Writing and reading plain little-endian values one after the other: the journal's records and what checksums
-/// are taken over.
+/// @file Writing and reading plain little-endian values one after the other: the journal's records and what
+/// checksums are taken over.
 
 #include <bit>
 #include <cstddef>

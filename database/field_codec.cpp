@@ -53,10 +53,12 @@ Field to_storage_precision(const Field& field) {
 }
 
 Bytes pack_field(const Field& field) {
-  const Bytes shuffled = shuffle(std::as_bytes(std::span(field.data(), static_cast<std::size_t>(field.size()))));
+  const Bytes shuffled =
+      shuffle(std::as_bytes(std::span(field.data(), static_cast<std::size_t>(field.size()))));
   Bytes packed(compressBound(shuffled.size()));
   uLongf size = packed.size();
-  if (compress2(zlib_bytes(packed.data()), &size, zlib_bytes(shuffled.data()), shuffled.size(), kDeflateLevel) != Z_OK)
+  if (compress2(zlib_bytes(packed.data()), &size, zlib_bytes(shuffled.data()), shuffled.size(),
+                kDeflateLevel) != Z_OK)
     throw Failure("zlib could not compress a field");
   packed.resize(size);
   return packed;
@@ -69,7 +71,8 @@ std::optional<Field> unpack_field(ByteView packed, Eigen::Index nodes) {
   const int status = uncompress2(zlib_bytes(shuffled.data()), &size, zlib_bytes(packed.data()), &used);
   if (status != Z_OK || size != shuffled.size() || used != packed.size()) return std::nullopt;
   Field field(2, nodes);
-  unshuffle(shuffled, std::as_writable_bytes(std::span(field.data(), static_cast<std::size_t>(field.size()))));
+  unshuffle(shuffled,
+            std::as_writable_bytes(std::span(field.data(), static_cast<std::size_t>(field.size()))));
   return field;
 }
 

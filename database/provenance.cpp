@@ -12,9 +12,10 @@ namespace {
 
 using Member = std::string Provenance::*;
 
-constexpr std::array<Member, 8> kMembers = {
-    &Provenance::bridge_name, &Provenance::bridge_text,   &Provenance::solver_settings, &Provenance::program_version,
-    &Provenance::compiler,    &Provenance::compile_flags, &Provenance::solver_revision, &Provenance::results_key};
+constexpr std::array<Member, 8> kMembers = {&Provenance::bridge_name,     &Provenance::bridge_text,
+                                            &Provenance::solver_settings, &Provenance::program_version,
+                                            &Provenance::compiler,        &Provenance::compile_flags,
+                                            &Provenance::solver_revision, &Provenance::results_key};
 
 std::vector<std::string> lines_of(const std::string& text) {
   std::vector<std::string> lines;
@@ -24,7 +25,8 @@ std::vector<std::string> lines_of(const std::string& text) {
 }
 
 /// Lines of the settings that changed, "tolerance = 1e-8 (was tolerance = 1e-10)".
-void append_setting_changes(const std::string& now, const std::string& before, std::vector<std::string>& changes) {
+void append_setting_changes(const std::string& now, const std::string& before,
+                            std::vector<std::string>& changes) {
   const auto new_lines = lines_of(now);
   const auto old_lines = lines_of(before);
   if (new_lines.size() != old_lines.size()) {
@@ -32,15 +34,16 @@ void append_setting_changes(const std::string& now, const std::string& before, s
     return;
   }
   for (std::size_t i = 0; i < new_lines.size(); ++i)
-    if (new_lines[i] != old_lines[i]) changes.push_back(fmt::format("{} (was {})", new_lines[i], old_lines[i]));
+    if (new_lines[i] != old_lines[i])
+      changes.push_back(fmt::format("{} (was {})", new_lines[i], old_lines[i]));
 }
 
 }  // namespace
 
 Provenance make_provenance(const BridgeFile& bridge, const std::string& solver_settings,
                            const std::string& results_key) {
-  return {bridge.description.name, bridge.text,   solver_settings,           kVersion,
-          kCompiler,               kCompileFlags, std::string(kSolverRevision), results_key};
+  return {bridge.description.name,      bridge.text, solver_settings, kVersion, kCompiler, kCompileFlags,
+          std::string(kSolverRevision), results_key};
 }
 
 std::vector<std::string> differences(const Provenance& now, const Provenance& before) {
@@ -64,7 +67,8 @@ std::string version_text(const std::string& program) {
 
 std::string to_text(const Provenance& provenance) {
   std::string text;
-  for (const Member member : kMembers) text += fmt::format("{}\n{}", (provenance.*member).size(), provenance.*member);
+  for (const Member member : kMembers)
+    text += fmt::format("{}\n{}", (provenance.*member).size(), provenance.*member);
   return text;
 }
 

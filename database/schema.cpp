@@ -54,11 +54,15 @@ void append_blocks(const BlockLayout& layout, std::vector<DatasetValue>& dataset
     corners.insert(corners.end(), block.polygon.begin(), block.polygon.end());
     ranges.push_back({begin, static_cast<int>(corners.size())});
   }
-  datasets.push_back(int_dataset(dataset::kBlockIndex, index, 2, "course (0 is the arch) and position of each block"));
-  datasets.push_back(flag_dataset(dataset::kBlockKind, kind, "0 leg, 1 voussoir, 2 plain, 3 cut by the arch"));
+  datasets.push_back(
+      int_dataset(dataset::kBlockIndex, index, 2, "course (0 is the arch) and position of each block"));
+  datasets.push_back(
+      flag_dataset(dataset::kBlockKind, kind, "0 leg, 1 voussoir, 2 plain, 3 cut by the arch"));
   datasets.push_back(flag_dataset(dataset::kBlockTopCourse, top, "1 for blocks of the highest course"));
-  datasets.push_back(point_dataset(dataset::kCorners, corners, "x, y of the blocks' corners, counter-clockwise"));
-  datasets.push_back(range_dataset(dataset::kBlockCorners, ranges, "first and one past last corner of each block"));
+  datasets.push_back(
+      point_dataset(dataset::kCorners, corners, "x, y of the blocks' corners, counter-clockwise"));
+  datasets.push_back(
+      range_dataset(dataset::kBlockCorners, ranges, "first and one past last corner of each block"));
 }
 
 void append_mesh(const Mesh& mesh, std::vector<DatasetValue>& datasets) {
@@ -70,17 +74,26 @@ void append_mesh(const Mesh& mesh, std::vector<DatasetValue>& datasets) {
   std::vector<std::int32_t> edges;
   for (const BoundaryEdge& edge : mesh.edges) edges.insert(edges.end(), {value(edge.from), value(edge.to)});
   datasets.push_back(point_dataset(dataset::kNodes, nodes, "x, y of the nodes before loading"));
-  datasets.push_back(range_dataset(dataset::kBlockNodes, mesh.block_nodes, "first and one past last node of each block"));
-  datasets.push_back(int_dataset(dataset::kTriangles, triangles, 3, "nodes of the triangles, counter-clockwise"));
   datasets.push_back(
-      range_dataset(dataset::kBlockTriangles, mesh.block_triangles, "first and one past last triangle of each block"));
-  datasets.push_back(int_dataset(dataset::kEdges, edges, 2, "nodes of the boundary edges, the block on the left"));
-  datasets.push_back(range_dataset(dataset::kBlockEdges, mesh.block_edges, "first and one past last edge of each block"));
+      range_dataset(dataset::kBlockNodes, mesh.block_nodes, "first and one past last node of each block"));
+  datasets.push_back(
+      int_dataset(dataset::kTriangles, triangles, 3, "nodes of the triangles, counter-clockwise"));
+  datasets.push_back(range_dataset(dataset::kBlockTriangles, mesh.block_triangles,
+                                   "first and one past last triangle of each block"));
+  datasets.push_back(
+      int_dataset(dataset::kEdges, edges, 2, "nodes of the boundary edges, the block on the left"));
+  datasets.push_back(
+      range_dataset(dataset::kBlockEdges, mesh.block_edges, "first and one past last edge of each block"));
 }
 
 void append_points(const std::vector<ControlPoint>& points, std::vector<DatasetValue>& datasets) {
-  DatasetValue names{dataset::kPointName, ElementType::text, {points.size()}, kPointNameWidth, "text",
-                     "T: on top, A: on the intrados, from left to right", {}};
+  DatasetValue names{dataset::kPointName,
+                     ElementType::text,
+                     {points.size()},
+                     kPointNameWidth,
+                     "text",
+                     "T: on top, A: on the intrados, from left to right",
+                     {}};
   std::vector<Point> positions;
   std::vector<std::int32_t> blocks;
   std::vector<std::int32_t> nodes;
@@ -94,15 +107,17 @@ void append_points(const std::vector<ControlPoint>& points, std::vector<DatasetV
     nodes.push_back(value(point.node));
   }
   datasets.push_back(std::move(names));
-  datasets.push_back(point_dataset(dataset::kPointPosition, positions, "x, y of the control points before loading"));
-  datasets.push_back(int_dataset(dataset::kPointBlock, blocks, 1, "block that each control point belongs to"));
+  datasets.push_back(
+      point_dataset(dataset::kPointPosition, positions, "x, y of the control points before loading"));
+  datasets.push_back(
+      int_dataset(dataset::kPointBlock, blocks, 1, "block that each control point belongs to"));
   datasets.push_back(int_dataset(dataset::kPointNode, nodes, 1, "node at each control point"));
 }
 
 }  // namespace
 
-std::vector<DatasetValue> shared_datasets(const Provenance& provenance, const BlockLayout& layout, const Mesh& mesh,
-                                          const std::vector<ControlPoint>& points) {
+std::vector<DatasetValue> shared_datasets(const Provenance& provenance, const BlockLayout& layout,
+                                          const Mesh& mesh, const std::vector<ControlPoint>& points) {
   std::vector<DatasetValue> datasets;
   datasets.push_back(text_dataset(dataset::kBridgeText, provenance.bridge_text, "the bridge file (TOML)"));
   datasets.push_back(text_dataset(dataset::kSolverSettings, provenance.solver_settings, "key = value lines"));

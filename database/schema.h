@@ -1,6 +1,6 @@
 #pragma once
-/// @file The schema in one place: names, version, and the datasets that all scenes share. database/README.md explains
-/// it to readers.
+/// @file The schema in one place: names, version, and the datasets that all scenes share. database/README.md
+/// explains it to readers.
 
 #include <string>
 #include <vector>
@@ -77,9 +77,9 @@ struct DatasetValue {
   Bytes bytes;
 };
 
-/// The datasets that all scenes share (bridge text, settings, geometry, control points) in the order in which the
-/// content digest takes them.
-std::vector<DatasetValue> shared_datasets(const Provenance& provenance, const BlockLayout& layout, const Mesh& mesh,
-                                          const std::vector<ControlPoint>& points);
+/// The datasets that all scenes share (bridge text, settings, geometry, control points) in the order in which
+/// the content digest takes them.
+std::vector<DatasetValue> shared_datasets(const Provenance& provenance, const BlockLayout& layout,
+                                          const Mesh& mesh, const std::vector<ControlPoint>& points);
 
 }  // namespace voussoir

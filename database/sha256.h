@@ -32,6 +32,8 @@ class Sha256Stream {
 };
 
 Sha256 sha256(ByteView bytes);
-inline Sha256 sha256(std::string_view text) { return sha256(view_bytes(text)); }
+inline Sha256 sha256(std::string_view text) {
+  return sha256(view_bytes(text));
+}
 
 }  // namespace voussoir
