@@ -32,8 +32,8 @@ struct Build {
 
 std::string all_settings(const BuildRequest& request, const SolverChoice& solver, const Bridge& bridge) {
   const bool mirror = request.mirror == UseMirror::yes && bridge.symmetry.has_value();
-  return solver.settings + fmt::format("mirror_images = {}\nstorage_step_m = {}\n", mirror ? "used" : "not used",
-                                       kStorageStep);
+  return solver.settings +
+         fmt::format("mirror_images = {}\nstorage_step_m = {}\n", mirror ? "used" : "not used", kStorageStep);
 }
 
 Build prepare(const BuildRequest& request, const SolverChoice& solver, Progress& progress) {
@@ -57,16 +57,16 @@ KnownRecords open_records(const Build& build) {
                      build.request.fields);
   if (const auto& discarded = known.journal().discarded()) {
     const auto changes = differences(build.provenance, *discarded);
-    build.progress.say(fmt::format("{}: its records are of another build and are dropped ({})",
-                                   known.journal().path().string(),
-                                   changes.empty() ? "other control points or --fields" : fmt::format("{}", fmt::join(changes, "; "))));
+    build.progress.say(fmt::format(
+        "{}: its records are of another build and are dropped ({})", known.journal().path().string(),
+        changes.empty() ? "other control points or --fields" : fmt::format("{}", fmt::join(changes, "; "))));
   }
   return known;
 }
 
 /// Solves one task and keeps its records.
-void run_task(const Build& build, const SolvingTask& task, const SceneSolver& solver, const StartingFields& starts,
-              KnownRecords& known) {
+void run_task(const Build& build, const SolvingTask& task, const SceneSolver& solver,
+              const StartingFields& starts, KnownRecords& known) {
   const auto keep = [&](const Scene& scene, const Solution& solution) {
     const KeepField field = starts_others(scene) ? KeepField::yes : build.request.fields;
     known.journal().append(
@@ -78,7 +78,8 @@ void run_task(const Build& build, const SolvingTask& task, const SceneSolver& so
   if (task.image) keep(*task.image, mirrored_solution(solution, *build.bridge.symmetry));
 }
 
-/// The fields that a stage starts from. They come out of the records, whether these were made just now or long ago.
+/// The fields that a stage starts from. They come out of the records, whether these were made just now or
+/// long ago.
 StartingFields read_starts(const std::vector<SolvingTask>& stage, const KnownRecords& known) {
   std::set<Scene> scenes;
   for (const SolvingTask& task : stage) {
@@ -97,9 +98,11 @@ StartingFields read_starts(const std::vector<SolvingTask>& stage, const KnownRec
 void run_plan(const Build& build, const BuildPlan& plan, KnownRecords& known) {
   using namespace oneapi;
   const int threads = build.request.threads > 0 ? build.request.threads : tbb::info::default_concurrency();
-  const tbb::global_control allowed(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
+  const tbb::global_control allowed(tbb::global_control::max_allowed_parallelism,
+                                    static_cast<std::size_t>(threads));
   tbb::task_arena arena(threads);
-  tbb::enumerable_thread_specific<SceneSolver> solvers([&] { return build.solver.make_solver(build.bridge); });
+  tbb::enumerable_thread_specific<SceneSolver> solvers(
+      [&] { return build.solver.make_solver(build.bridge); });
   for (const auto& stage : plan.stages) {
     const StartingFields starts = read_starts(stage, known);
     arena.execute([&] {
@@ -134,7 +137,8 @@ void run(const Build& build, std::optional<Database> old, BuildSummary& summary)
   KnownRecords known = open_records(build);
   summary.resumed = known.journal().size();
   if (summary.resumed > 0)
-    build.progress.say(fmt::format("going on with an interrupted build: {} scenes are done", summary.resumed));
+    build.progress.say(
+        fmt::format("going on with an interrupted build: {} scenes are done", summary.resumed));
   if (old) summary.reused = known.reuse(std::move(*old), build.wanted);
   if (summary.reused > 0)
     build.progress.say(fmt::format("{} scenes of the old file are still valid and are kept", summary.reused));

@@ -11,8 +11,10 @@ constexpr int kMostThreads = 4096;
 constexpr int kBadUsage = 2;
 
 constexpr const char* kFooter =
-    "--scenes takes all, singles, pairs, or items separated by ';': intact, a scene (10,4 or 10,4+6,4), or a scene with\n"
-    "ranges (10,1..20  0,*  10,4+2..4,*). An interrupted build goes on when the same command is run again; a file that is\n"
+    "--scenes takes all, singles, pairs, or items separated by ';': intact, a scene (10,4 or 10,4+6,4), or a "
+    "scene with\n"
+    "ranges (10,1..20  0,*  10,4+2..4,*). An interrupted build goes on when the same command is run again; a "
+    "file that is\n"
     "up to date is left alone. Exit codes: 0 done, 1 could not be done, 2 bad usage or bad bridge file.";
 
 std::string check_solver(const std::string& name) {
@@ -40,7 +42,9 @@ BuildOptions parse_build_options(int argc, char** argv) {
   app.add_option("--threads", options.request.threads, "threads, 0: one for each core")
       ->check(CLI::Range(0, kMostThreads))
       ->capture_default_str();
-  app.add_option("--solver", solver, "quasi-static")->check(CLI::Validator(check_solver, ""))->capture_default_str();
+  app.add_option("--solver", solver, "quasi-static")
+      ->check(CLI::Validator(check_solver, ""))
+      ->capture_default_str();
   app.add_option("--fields", fields, "displacements of all nodes are kept of all scenes or of none")
       ->transform(CLI::Transformer(field_names))
       ->default_str("all")

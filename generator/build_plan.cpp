@@ -70,7 +70,8 @@ BuildPlan plan_build(const std::vector<Scene>& wanted, const Bridge& bridge, Use
   }
   BuildPlan plan;
   plan.stages.resize(kStages);
-  for (auto& [solved, task] : tasks) plan.stages[static_cast<std::size_t>(stage_of(solved))].push_back(std::move(task));
+  for (auto& [solved, task] : tasks)
+    plan.stages[static_cast<std::size_t>(stage_of(solved))].push_back(std::move(task));
   return plan;
 }
 

@@ -16,8 +16,8 @@ struct SolvingTask {
 };
 
 struct BuildPlan {
-  /// Stages follow each other: intact, then singles, then everything else, which starts from their fields. Tasks of a
-  /// stage do not depend on each other.
+  /// Stages follow each other: intact, then singles, then everything else, which starts from their fields.
+  /// Tasks of a stage do not depend on each other.
   std::vector<std::vector<SolvingTask>> stages;
 
   std::size_t records() const;  ///< that the tasks of all stages give
@@ -25,9 +25,10 @@ struct BuildPlan {
 
 enum class UseMirror { no, yes };
 
-/// A task for every wanted scene and for the intact bridge and the singles that wanted scenes start from, except for
-/// scenes that `is_known` already. With a mirror symmetry the lexicographically smaller of a scene and its image is
-/// solved, whatever scenes are wanted, so that a scene's record does not depend on the rest of the list.
+/// A task for every wanted scene and for the intact bridge and the singles that wanted scenes start from,
+/// except for scenes that `is_known` already. With a mirror symmetry the lexicographically smaller of a scene
+/// and its image is solved, whatever scenes are wanted, so that a scene's record does not depend on the rest
+/// of the list.
 BuildPlan plan_build(const std::vector<Scene>& wanted, const Bridge& bridge, UseMirror mirror,
                      const std::function<bool(const Scene&)>& is_known);
 

@@ -16,7 +16,8 @@ std::vector<std::string> find_changes(const Database& database, const Provenance
                                       const std::vector<Scene>& wanted, KeepField fields) {
   std::vector<std::string> changes = differences(provenance, database.provenance());
   if (!has_scenes(database, wanted))
-    changes.push_back(fmt::format("other scenes are wanted ({}, was {})", wanted.size(), database.table().rows));
+    changes.push_back(
+        fmt::format("other scenes are wanted ({}, was {})", wanted.size(), database.table().rows));
   if (database.has_fields() != (fields == KeepField::yes))
     changes.push_back(fields == KeepField::yes ? "fields are wanted" : "fields are no longer wanted");
   return changes;
@@ -33,8 +34,9 @@ ExistingDatabase examine_existing(const std::filesystem::path& output, const Pro
     return existing;
   }
   if (!begins_like_hdf5(output))
-    throw Failure(fmt::format("{}: exists and is no database; give another file with -o, or --force to replace it",
-                              output.string()));
+    throw Failure(
+        fmt::format("{}: exists and is no database; give another file with -o, or --force to replace it",
+                    output.string()));
   try {
     existing.database = Database::open(output);
     existing.changes = find_changes(*existing.database, provenance, wanted, fields);

@@ -15,8 +15,8 @@ struct ExistingDatabase {
   std::vector<std::string> changes;  ///< why it is not up to date, in words
 };
 
-/// Looks at the file; `force` makes any file out of date and its records worthless. Throws Failure for a file that is
-/// no HDF5 file (unless forced): a build should not replace what is none of its own.
+/// Looks at the file; `force` makes any file out of date and its records worthless. Throws Failure for a file
+/// that is no HDF5 file (unless forced): a build should not replace what is none of its own.
 ExistingDatabase examine_existing(const std::filesystem::path& output, const Provenance& provenance,
                                   const std::vector<Scene>& wanted, KeepField fields, bool force);
 

@@ -1,5 +1,6 @@
 #pragma once
-/// @file Records that need not be computed: those of an interrupted build and those of the database to be replaced.
+/// @file Records that need not be computed: those of an interrupted build and those of the database to be
+/// replaced.
 
 #include <optional>
 #include <set>
@@ -17,8 +18,8 @@ class KnownRecords {
   KnownRecords(Journal journal, const Bridge& bridge, KeepField fields)
       : journal_(std::move(journal)), bridge_(&bridge), fields_(fields) {}
 
-  /// Takes over, from an older database with the same results key and with fields, the scenes that are wanted or can
-  /// start others; records whose checksum is not right stay behind. Returns how many were taken.
+  /// Takes over, from an older database with the same results key and with fields, the scenes that are wanted
+  /// or can start others; records whose checksum is not right stay behind. Returns how many were taken.
   std::size_t reuse(Database old, const std::vector<Scene>& wanted);
 
   Journal& journal() { return journal_; }
@@ -39,6 +40,8 @@ class KnownRecords {
 };
 
 /// True if fields of this scene start others and are kept even if the database is to hold none.
-inline bool starts_others(const Scene& scene) { return scene.missing() <= 1; }
+inline bool starts_others(const Scene& scene) {
+  return scene.missing() <= 1;
+}
 
 }  // namespace voussoir

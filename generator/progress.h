@@ -7,8 +7,8 @@
 
 namespace voussoir {
 
-/// Writes to stderr: a bar that is drawn over and over on a terminal, a plain line every few seconds elsewhere.
-/// Thread-safe.
+/// Writes to stderr: a bar that is drawn over and over on a terminal, a plain line every few seconds
+/// elsewhere. Thread-safe.
 class Progress {
  public:
   enum class Mode { automatic, quiet };

@@ -9,8 +9,8 @@
 namespace voussoir {
 namespace {
 
-/// Numbers by their bits, so that no two values look alike. The structured bindings below fail to compile when a
-/// description gains a member, which then has to be added here.
+/// Numbers by their bits, so that no two values look alike. The structured bindings below fail to compile
+/// when a description gains a member, which then has to be added here.
 template <class... Numbers>
 std::string row(const char* name, const Numbers&... numbers) {
   std::string text = name;
@@ -49,8 +49,8 @@ std::string support_text(const SupportDescription& supports) {
 }
 
 std::string physics_text(const BridgeDescription& description) {
-  const auto& [name, wall, spans, material, joints, supports, control_points, mesh, gravity, joint_tolerance] =
-      description;
+  const auto& [name, wall, spans, material, joints, supports, control_points, mesh, gravity,
+               joint_tolerance] = description;
   static_cast<void>(name);
   static_cast<void>(control_points);
   std::string text = wall_text(wall);

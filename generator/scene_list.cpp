@@ -34,9 +34,10 @@ std::vector<std::string_view> split(std::string_view text, char separator) {
 }
 
 [[noreturn]] void refuse(std::string_view item) {
-  throw InputError(fmt::format("--scenes: cannot read '{}': expected all, singles, pairs, intact, a scene such as 10,4 or "
-                               "10,4+6,4, or a range such as 10,1..20 or 0,*",
-                               item));
+  throw InputError(
+      fmt::format("--scenes: cannot read '{}': expected all, singles, pairs, intact, a scene such as 10,4 or "
+                  "10,4+6,4, or a range such as 10,1..20 or 0,*",
+                  item));
 }
 
 int parse_number(std::string_view text, std::string_view item) {
@@ -51,11 +52,13 @@ NumberRange parse_range(std::string_view text, std::string_view item) {
   if (text == "*") return {0, std::numeric_limits<int>::max()};
   const auto dots = text.find("..");
   if (dots == std::string_view::npos) return {parse_number(text, item), parse_number(text, item)};
-  return {parse_number(trimmed(text.substr(0, dots)), item), parse_number(trimmed(text.substr(dots + 2)), item)};
+  return {parse_number(trimmed(text.substr(0, dots)), item),
+          parse_number(trimmed(text.substr(dots + 2)), item)};
 }
 
 /// The blocks that "10,1..20" stands for.
-std::vector<BlockId> matching_blocks(std::string_view text, std::string_view item, const BlockLayout& layout) {
+std::vector<BlockId> matching_blocks(std::string_view text, std::string_view item,
+                                     const BlockLayout& layout) {
   const auto parts = split(text, ',');
   if (parts.size() != 2) refuse(item);
   const NumberRange course = parse_range(parts[0], item);
@@ -91,7 +94,8 @@ std::vector<Scene> scenes_of_range(std::string_view item, const BlockLayout& lay
   std::vector<std::vector<BlockId>> choices;
   for (const std::string_view part : split(item, '+')) choices.push_back(matching_blocks(part, item, layout));
   auto scenes = combinations(choices, item);
-  if (scenes.empty()) throw InputError(fmt::format("--scenes: '{}' names no scene without a repeated block", item));
+  if (scenes.empty())
+    throw InputError(fmt::format("--scenes: '{}' names no scene without a repeated block", item));
   return scenes;
 }
 

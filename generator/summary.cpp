@@ -30,8 +30,8 @@ std::string origin_text(const BuildSummary& summary) {
 
 std::string to_text(const BuildSummary& summary) {
   return fmt::format("{}: {} scenes ({})\n", summary.output.string(), summary.scenes, origin_text(summary)) +
-         fmt::format("  standing    {}\n  collapsed   {}\n  unresolved  {}\n", summary.standing, summary.collapsed,
-                     summary.unresolved.size()) +
+         fmt::format("  standing    {}\n  collapsed   {}\n  unresolved  {}\n", summary.standing,
+                     summary.collapsed, summary.unresolved.size()) +
          unresolved_text(summary.unresolved) +
          fmt::format("  time        {:.1f} s\n  size        {:.1f} MB\n  digest      {}\n", summary.seconds,
                      static_cast<double>(summary.bytes) * 1e-6, summary.digest);

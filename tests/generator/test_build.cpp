@@ -31,7 +31,8 @@ std::string digest_of_reference() {
 }
 
 bool same_bits(const Field& first, const Field& second) {
-  return std::memcmp(first.data(), second.data(), static_cast<std::size_t>(first.size()) * sizeof(double)) == 0;
+  return std::memcmp(first.data(), second.data(), static_cast<std::size_t>(first.size()) * sizeof(double)) ==
+         0;
 }
 
 std::string text_of(const std::filesystem::path& path) {
@@ -111,7 +112,8 @@ TEST_CASE("Without mirror images every scene is solved and the digest says so") 
     const std::size_t row = *database.find(Scene{{block}});
     starts.add(Scene{{block}}, database.solution(row).outcome, database.field(row));
   }
-  const Field expected = to_storage_precision(test::answer_from(bridge, last, starts.start_for(last)).displacement);
+  const Field expected =
+      to_storage_precision(test::answer_from(bridge, last, starts.start_for(last)).displacement);
   CHECK(same_bits(database.field(database.table().rows - 1), expected));
 }
 
@@ -255,7 +257,8 @@ TEST_CASE("An interrupted build of another bridge is not mixed in") {
 
 TEST_CASE("A second builder of the same file is told that there is one already") {
   const Site site;
-  const Journal held = Journal::open(site.request.output, test::made_up_provenance(site.request.bridge), "any");
+  const Journal held =
+      Journal::open(site.request.output, test::made_up_provenance(site.request.bridge), "any");
   CHECK_THROWS_WITH(site.build(), Catch::Contains("another build-database"));
 }
 

@@ -1,5 +1,5 @@
-#include <catch2/catch.hpp>
 #include <algorithm>
+#include <catch2/catch.hpp>
 #include <set>
 
 #include "core/symmetry.h"
@@ -48,11 +48,13 @@ TEST_CASE("Every wanted scene is recorded exactly once, with and without mirror 
 TEST_CASE("Mirror symmetry halves what is solved, but for scenes that are their own image") {
   REQUIRE(small_bridge().symmetry.has_value());
   const auto scenes = all_scenes(small_bridge().layout.size(), 2);
-  const auto own_image = static_cast<std::size_t>(std::count_if(scenes.begin(), scenes.end(), [](const Scene& scene) {
-    return mirrored(scene, *small_bridge().symmetry) == scene;
-  }));
+  const auto own_image =
+      static_cast<std::size_t>(std::count_if(scenes.begin(), scenes.end(), [](const Scene& scene) {
+        return mirrored(scene, *small_bridge().symmetry) == scene;
+      }));
   CHECK(solved(plan_build(scenes, small_bridge(), UseMirror::no, nothing)) == scenes.size());
-  CHECK(solved(plan_build(scenes, small_bridge(), UseMirror::yes, nothing)) == (scenes.size() + own_image) / 2);
+  CHECK(solved(plan_build(scenes, small_bridge(), UseMirror::yes, nothing)) ==
+        (scenes.size() + own_image) / 2);
 }
 
 TEST_CASE("A bridge without symmetry has every scene solved") {
