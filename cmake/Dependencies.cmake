@@ -18,10 +18,12 @@ target_include_directories(SuiteSparse::KLU SYSTEM INTERFACE ${KLU_INCLUDE})
 target_link_libraries(SuiteSparse::KLU INTERFACE ${KLU_LIBRARY})
 
 find_path(HDF5_INCLUDE hdf5.h PATH_SUFFIXES hdf5/serial REQUIRED)
-find_library(HDF5_LIBRARY hdf5 PATH_SUFFIXES hdf5/serial REQUIRED)
+# Static: the shared library brings some thirty others along (for reading over the network), 5 ms at every start.
+find_library(HDF5_LIBRARY libhdf5.a PATH_SUFFIXES hdf5/serial REQUIRED)
+find_library(SZIP_LIBRARY sz REQUIRED)
 add_library(HDF5::hdf5 INTERFACE IMPORTED)
 target_include_directories(HDF5::hdf5 SYSTEM INTERFACE ${HDF5_INCLUDE})
-target_link_libraries(HDF5::hdf5 INTERFACE ${HDF5_LIBRARY})
+target_link_libraries(HDF5::hdf5 INTERFACE ${HDF5_LIBRARY} ${SZIP_LIBRARY} ZLIB::ZLIB ${CMAKE_DL_LIBS} m)
 
 find_path(FLANN_INCLUDE flann/flann.hpp REQUIRED)
 find_library(LZ4_LIBRARY lz4 REQUIRED)
