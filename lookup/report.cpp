@@ -14,7 +14,7 @@ std::string report(const Answer& answer, const LookupSettings& settings, const L
     case ReportFormat::csv:
       return csv_report(answer, library);
     default:
-      return text_report(answer, settings, library, source);
+      return text_report(answer, library, source);
   }
 }
 

@@ -21,8 +21,7 @@ std::string report(const Answer& answer, const LookupSettings& settings, const L
                    const Source& source, ReportFormat format);
 
 /// What is missing, how sure that is, what else could be, which sensor disagrees.
-std::string text_report(const Answer& answer, const LookupSettings& settings, const Library& library,
-                        const Source& source);
+std::string text_report(const Answer& answer, const Library& library, const Source& source);
 
 /// {"candidates": [{"scene": "10,4+6,4", "misfit": .., "posterior": ..}, ..], settings, database, judgement}.
 std::string json_report(const Answer& answer, const LookupSettings& settings, const Library& library,

@@ -72,12 +72,13 @@ void write_table(Text& text, const Answer& answer, const Library& library) {
     width = std::max(width, to_string(candidate.scene, library.layout).size());
   text.line("{:>4}  {:<{}}  {:>11}  {:>10}  {:>11}  {}", "rank", "scene", width, "probability", "misfit", "behind",
             "where");
-  int rank = 0;
-  for (const Candidate& candidate : answer.candidates)
-    text.line("{:>4}  {:<{}}  {:>11}  {:>10.4f}  {:>11}  {}", ++rank, to_string(candidate.scene, library.layout),
-              width, candidate.posterior ? percent(*candidate.posterior) : "-", candidate.misfit,
-              rank == 1 ? "-" : behind(candidate, answer.candidates.front()),
+  for (std::size_t i = 0; i < answer.candidates.size(); ++i) {
+    const Candidate& candidate = answer.candidates[i];
+    text.line("{:>4}  {:<{}}  {:>11}  {:>10.4f}  {:>11}  {}", i + 1, to_string(candidate.scene, library.layout), width,
+              candidate.posterior ? percent(*candidate.posterior) : "-", candidate.misfit,
+              i == 0 ? "-" : behind(candidate, answer.candidates.front()),
               place_in_words(candidate.scene, library.layout));
+  }
 }
 
 void write_groups(Text& text, const Answer& answer, const Library& library) {
@@ -133,8 +134,7 @@ void write_genetic(Text& text, const Answer& answer) {
 
 }  // namespace
 
-std::string text_report(const Answer& answer, const LookupSettings& /*settings*/, const Library& library,
-                        const Source& source) {
+std::string text_report(const Answer& answer, const Library& library, const Source& source) {
   Text text;
   write_heading(text, answer, library, source);
   write_genetic(text, answer);
@@ -149,7 +149,7 @@ std::string text_report(const Answer& answer, const LookupSettings& /*settings*/
   write_table(text, answer, library);
   text.line("");
   write_groups(text, answer, library);
-  if (answer.posterior) write_probabilities(text, answer, library);
+  if (answer.posterior && !answer.posterior->credible.empty()) write_probabilities(text, answer, library);
   if (answer.posterior) write_sensors(text, answer, library);
   return text.take();
 }
