@@ -16,7 +16,8 @@ constexpr int value(BlockId id) {
   return static_cast<int>(id);
 }
 
-/// The paper's (x1, x2): course (0 for the arch) and position from the left, counted through the opening, from 1.
+/// The paper's (x1, x2): course (0 for the arch) and position from the left, counted through the opening,
+/// from 1.
 struct BlockIndex {
   int course = 0;
   int position = 0;
@@ -28,17 +29,17 @@ std::string to_string(BlockIndex index);
 
 /// What part a block plays; the mesh rule and the control points depend on it.
 enum class BlockKind {
-  leg,      ///< straight arch block below the springing
-  voussoir, ///< arch block of the semicircle
-  plain,    ///< whole course rectangle
-  cut       ///< course rectangle cut by an arch ring
+  leg,       ///< straight arch block below the springing
+  voussoir,  ///< arch block of the semicircle
+  plain,     ///< whole course rectangle
+  cut        ///< course rectangle cut by an arch ring
 };
 
 struct Block {
   BlockIndex index;
   BlockKind kind = BlockKind::plain;
-  Polygon polygon;            ///< [m], counter-clockwise
-  bool top_course = false;    ///< belongs to the highest course
+  Polygon polygon;          ///< [m], counter-clockwise
+  bool top_course = false;  ///< belongs to the highest course
 };
 
 }  // namespace voussoir

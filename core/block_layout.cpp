@@ -9,8 +9,8 @@
 namespace voussoir {
 namespace {
 
-/// Joint j of a ring with n voussoirs (j = 0 at the left springing) at the given radius. Written so that joints j
-/// and n - j are exact mirror images.
+/// Joint j of a ring with n voussoirs (j = 0 at the left springing) at the given radius. Written so that
+/// joints j and n - j are exact mirror images.
 Point ring_point(const SpanDescription& span, double radius, int j) {
   const int n = span.voussoirs;
   const bool right = 2 * j > n;
@@ -98,7 +98,8 @@ std::string to_string(BlockIndex index) {
 }
 
 std::optional<BlockId> BlockLayout::find(BlockIndex index) const {
-  const auto found = std::find_if(blocks.begin(), blocks.end(), [&](const Block& b) { return b.index == index; });
+  const auto found =
+      std::find_if(blocks.begin(), blocks.end(), [&](const Block& b) { return b.index == index; });
   if (found == blocks.end()) return std::nullopt;
   return BlockId{static_cast<std::int32_t>(found - blocks.begin())};
 }
@@ -114,8 +115,10 @@ BlockLayout lay_blocks(const BridgeDescription& description) {
   std::stable_sort(layout.blocks.begin(), layout.blocks.end(), [](const Block& a, const Block& b) {
     return centroid(a.polygon).x() < centroid(b.polygon).x();
   });
-  for (std::size_t i = 0; i < layout.blocks.size(); ++i) layout.blocks[i].index = {0, static_cast<int>(i) + 1};
-  for (int course = 1; course <= description.wall.courses; ++course) add_course(description, course, layout.blocks);
+  for (std::size_t i = 0; i < layout.blocks.size(); ++i)
+    layout.blocks[i].index = {0, static_cast<int>(i) + 1};
+  for (int course = 1; course <= description.wall.courses; ++course)
+    add_course(description, course, layout.blocks);
   if (layout.blocks.empty()) throw InputError("the bridge has no blocks: give it courses or spans");
   return layout;
 }

@@ -23,9 +23,9 @@ struct BlockLayout {
   int count_in_course(int course) const;
 };
 
-/// Lays the bridge's blocks (paper, Fig. 1): ring blocks of every span, and the course rectangles minus what the
-/// rings' extrados chords and legs enclose. A rectangle cut in two gives two blocks.
-/// Throws InputError if no block is left.
+/// Lays the bridge's blocks (paper, Fig. 1): ring blocks of every span, and the course rectangles minus what
+/// the rings' extrados chords and legs enclose. A rectangle cut in two gives two blocks. Throws InputError if
+/// no block is left.
 BlockLayout lay_blocks(const BridgeDescription& description);
 
 }  // namespace voussoir

@@ -13,7 +13,8 @@ Bridge make_bridge(const BridgeDescription& description) {
   bridge.joints = find_joints(bridge.mesh, description.joint_tolerance);
   bridge.control_points = find_control_points(bridge.layout, bridge.mesh, description);
   bridge.symmetry = find_mirror_symmetry(bridge.layout, bridge.mesh, axis_x);
-  if (bridge.control_points.empty()) throw InputError("the bridge has no control points: switch on top or arch");
+  if (bridge.control_points.empty())
+    throw InputError("the bridge has no control points: switch on top or arch");
   return bridge;
 }
 

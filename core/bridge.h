@@ -25,7 +25,8 @@ struct Bridge {
 };
 
 /// bridge description -> blocks -> mesh -> joints, control points, symmetry.
-/// Throws InputError if the description gives no bridge (no blocks, no control points, a block without support...).
+/// Throws InputError if the description gives no bridge (no blocks, no control points, a block without
+/// support...).
 Bridge make_bridge(const BridgeDescription& description);
 
 }  // namespace voussoir

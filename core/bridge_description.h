@@ -27,11 +27,11 @@ struct WallDescription {
 
 /// A stilted semicircular arch ring; below its centre it goes straight down to the ground (y = 0).
 struct SpanDescription {
-  double centre_x = 10.0;         ///< [m]
-  double centre_y = 1.05;         ///< [m] height of the springing, also the height of the leg blocks
-  double intrados_radius = 3.5;   ///< [m]
-  double ring_thickness = 0.5;    ///< [m]
-  int voussoirs = 17;             ///< of equal angle
+  double centre_x = 10.0;        ///< [m]
+  double centre_y = 1.05;        ///< [m] height of the springing, also the height of the leg blocks
+  double intrados_radius = 3.5;  ///< [m]
+  double ring_thickness = 0.5;   ///< [m]
+  int voussoirs = 17;            ///< of equal angle
 
   double extrados_radius() const { return intrados_radius + ring_thickness; }
 };
@@ -49,8 +49,8 @@ struct Material {
 
 /// Dry joints: no tension, no cohesion (paper, Table 1).
 struct JointMaterial {
-  double normal_stiffness = 1e9;      ///< [Pa/m] per unit joint area
-  double tangential_stiffness = 1e8;  ///< [Pa/m] per unit joint area
+  double normal_stiffness = 1e9;                            ///< [Pa/m] per unit joint area
+  double tangential_stiffness = 1e8;                        ///< [Pa/m] per unit joint area
   double friction_angle = 35.0 * std::numbers::pi / 180.0;  ///< [rad]
 };
 
@@ -65,8 +65,8 @@ struct SupportDescription {
   Support sides = Support::roller;  ///< nodes at x = 0 and x = length
 };
 
-/// Which sets of points are measured. T1.. are the upper corners of the top course's blocks, A1.. the intrados
-/// corners of the arch blocks, both from left to right.
+/// Which sets of points are measured. T1.. are the upper corners of the top course's blocks, A1.. the
+/// intrados corners of the arch blocks, both from left to right.
 struct ControlPointDescription {
   bool top = true;
   bool arch = true;
@@ -74,8 +74,8 @@ struct ControlPointDescription {
 
 /// How blocks are cut into triangles; the defaults are the paper's Fig. 2 as far as one rule can follow it.
 struct MeshDescription {
-  int refinement = 0;             ///< each level cuts every triangle into four
-  bool split_at_corners = false;  ///< also put nodes where neighbours' corners touch an edge
+  int refinement = 0;            ///< each level cuts every triangle into four
+  bool split_at_corners = true;  ///< also put nodes where neighbours' corners touch an edge
 };
 
 /// Everything that defines a bridge. The default value is the reference bridge.
@@ -88,8 +88,8 @@ struct BridgeDescription {
   SupportDescription supports;
   ControlPointDescription control_points;
   MeshDescription mesh;
-  double gravity = 9.81;           ///< [m/s2] downwards
-  double joint_tolerance = 1e-6;   ///< [m] edges closer than this form a joint
+  double gravity = 9.81;          ///< [m/s2] downwards
+  double joint_tolerance = 1e-6;  ///< [m] edges closer than this form a joint
 };
 
 }  // namespace voussoir

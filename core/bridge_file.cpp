@@ -1,5 +1,6 @@
 #include "core/bridge_file.h"
 
+#include <toml++/toml.h>
 #include <cmath>
 #include <fstream>
 #include <initializer_list>
@@ -7,7 +8,6 @@
 #include <limits>
 #include <numbers>
 #include <set>
-#include <toml++/toml.h>
 #include <utility>
 
 #include "core/error.h"
@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::uintmax_t kLargestFile = 1 << 20;  ///< [bytes] a bridge file is a page or two
 constexpr double kDegree = std::numbers::pi / 180.0;
-constexpr double kMost = 1e15;                    ///< largest value of any setting
+constexpr double kMost = 1e15;  ///< largest value of any setting
 constexpr int kMostCourses = 1000;
 constexpr int kMostVoussoirs = 1000;
 constexpr double kMostBlocks = 20000;
@@ -35,8 +35,9 @@ class Section {
     const auto number = node->value<double>();
     if (!number || !node->is_number()) fail(*node, key, "expected a number");
     if (!std::isfinite(*number) || *number > most || *number < least || (*number == least && !least_allowed))
-      fail(*node, key, fmt::format("is {}: expected a number {} {:g} and at most {:g}", *number,
-                                   least_allowed ? "of at least" : "greater than", least, most));
+      fail(*node, key,
+           fmt::format("is {}: expected a number {} {:g} and at most {:g}", *number,
+                       least_allowed ? "of at least" : "greater than", least, most));
     target = *number;
   }
   void positive(const char* key, double& target) { number(key, target, 0.0, kMost, false); }
@@ -67,7 +68,8 @@ class Section {
   }
 
   template <typename Choice>
-  void choice(const char* key, Choice& target, std::initializer_list<std::pair<const char*, Choice>> choices) {
+  void choice(const char* key, Choice& target,
+              std::initializer_list<std::pair<const char*, Choice>> choices) {
     const toml::node* node = take(key);
     if (node == nullptr) return;
     std::string names;
@@ -84,7 +86,8 @@ class Section {
   /// A sub-table, or nothing; not-a-table is an error.
   const toml::table* table(const char* key) {
     const toml::node* node = take(key);
-    if (node != nullptr && !node->is_table()) fail(*node, key, fmt::format("expected a table: write [{}]", key));
+    if (node != nullptr && !node->is_table())
+      fail(*node, key, fmt::format("expected a table: write [{}]", key));
     return node == nullptr ? nullptr : node->as_table();
   }
 
@@ -92,7 +95,8 @@ class Section {
   const toml::array* tables(const char* key) {
     const toml::node* node = take(key);
     if (node == nullptr) return nullptr;
-    if (!node->is_array() || (!node->as_array()->empty() && !node->as_array()->is_homogeneous(toml::node_type::table)))
+    if (!node->is_array() ||
+        (!node->as_array()->empty() && !node->as_array()->is_homogeneous(toml::node_type::table)))
       fail(*node, key, fmt::format("expected tables: write [[{}]]", key));
     return node->as_array();
   }
@@ -103,8 +107,9 @@ class Section {
       if (!known_.contains(std::string(key.str()))) {
         std::string names;
         for (const std::string& known : known_) names += (names.empty() ? "" : ", ") + known;
-        throw InputError(at_line(file_, key.source().begin.line,
-                                 fmt::format("unknown key '{}'{}: expected one of {}", key.str(), title_, names)));
+        throw InputError(
+            at_line(file_, key.source().begin.line,
+                    fmt::format("unknown key '{}'{}: expected one of {}", key.str(), title_, names)));
       }
   }
 
@@ -120,7 +125,8 @@ class Section {
     return table_ == nullptr ? nullptr : table_->get(key);
   }
   [[noreturn]] void fail(const toml::node& node, const char* key, const std::string& expected) const {
-    throw InputError(at_line(file_, node.source().begin.line, fmt::format("{}{}: {}", key, title_, expected)));
+    throw InputError(
+        at_line(file_, node.source().begin.line, fmt::format("{}{}: {}", key, title_, expected)));
   }
 
   const std::string& file_;
@@ -190,31 +196,37 @@ void read_mesh(Section section, MeshDescription& mesh) {
 }
 
 /// Spans must lie in the wall and beside each other; the wall must not have absurdly many blocks.
-void check_geometry(const BridgeDescription& description, const std::vector<long>& span_lines, const std::string& file,
-                    long wall_line) {
+void check_geometry(const BridgeDescription& description, const std::vector<long>& span_lines,
+                    const std::string& file, long wall_line) {
   const WallDescription& wall = description.wall;
   const double blocks = wall.courses * (wall.length / wall.block_length + 1.0);
   if (blocks > kMostBlocks)
-    throw InputError(at_line(file, wall_line, fmt::format("the wall would have {:.0f} blocks: expected at most {:.0f}",
-                                                          blocks, kMostBlocks)));
+    throw InputError(at_line(
+        file, wall_line,
+        fmt::format("the wall would have {:.0f} blocks: expected at most {:.0f}", blocks, kMostBlocks)));
   for (std::size_t i = 0; i < description.spans.size(); ++i) {
     const SpanDescription& span = description.spans[i];
     const double left = span.centre_x - span.extrados_radius();
     const double right = span.centre_x + span.extrados_radius();
     if (left < -1e-9 || right > wall.length + 1e-9)
-      throw InputError(at_line(file, span_lines[i],
-                               fmt::format("the ring reaches from x = {:g} to {:g} m: expected it between 0 and the "
-                                           "wall's length {:g} m", left, right, wall.length)));
+      throw InputError(
+          at_line(file, span_lines[i],
+                  fmt::format("the ring reaches from x = {:g} to {:g} m: expected it between 0 and the "
+                              "wall's length {:g} m",
+                              left, right, wall.length)));
     if (i > 0 && left < description.spans[i - 1].centre_x + description.spans[i - 1].extrados_radius() - 1e-9)
-      throw InputError(at_line(file, span_lines[i],
-                               "the ring overlaps the one before: expected spans from left to right, side by side"));
+      throw InputError(
+          at_line(file, span_lines[i],
+                  "the ring overlaps the one before: expected spans from left to right, side by side"));
   }
 }
 
 BridgeDescription interpret(const toml::table& root, const std::string& file) {
   BridgeDescription description;
   Section top(file, &root, "");
-  const auto section = [&](const char* key) { return Section(file, top.table(key), fmt::format(" in [{}]", key)); };
+  const auto section = [&](const char* key) {
+    return Section(file, top.table(key), fmt::format(" in [{}]", key));
+  };
   top.text("name", description.name);
   top.not_negative("gravity_m_s2", description.gravity);
   read_wall(section("wall"), description.wall);
@@ -257,7 +269,8 @@ BridgeFile read_bridge_file(const std::filesystem::path& path) {
   file.read(text.data(), static_cast<std::streamsize>(text.size()));
   text.resize(static_cast<std::size_t>(file.gcount()));
   if (text.size() > kLargestFile)
-    throw InputError(fmt::format("{}: larger than {} bytes: expected a bridge file (TOML)", path.string(), kLargestFile));
+    throw InputError(
+        fmt::format("{}: larger than {} bytes: expected a bridge file (TOML)", path.string(), kLargestFile));
   return parse_bridge_file(text, path.string());
 }
 

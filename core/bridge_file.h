@@ -16,8 +16,8 @@ struct BridgeFile {
   BridgeDescription description;
 };
 
-/// Reads a bridge file. Every key is optional and defaults to the reference bridge's value; unknown keys, wrong types
-/// and impossible values throw InputError "file:line: message".
+/// Reads a bridge file. Every key is optional and defaults to the reference bridge's value; unknown keys,
+/// wrong types and impossible values throw InputError "file:line: message".
 BridgeFile read_bridge_file(const std::filesystem::path& path);
 
 /// The same for a text already in memory (`name` is used in messages).

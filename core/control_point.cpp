@@ -30,12 +30,13 @@ std::pair<Point, Point> upper_corners(const Polygon& polygon) {
   Polygon upper;
   for (const Point& p : polygon)
     if (p.y() > top - kSamePlace) upper.push_back(p);
-  const auto [left, right] = std::minmax_element(upper.begin(), upper.end(),
-                                                 [](const Point& a, const Point& b) { return a.x() < b.x(); });
+  const auto [left, right] = std::minmax_element(
+      upper.begin(), upper.end(), [](const Point& a, const Point& b) { return a.x() < b.x(); });
   return {*left, *right};
 }
 
-/// The two corners nearest to the centre line of the span: on the intrados. Order: along the ring from the left.
+/// The two corners nearest to the centre line of the span: on the intrados. Order: along the ring from the
+/// left.
 std::pair<Point, Point> intrados_corners(const Block& block, const std::vector<SpanDescription>& spans) {
   const auto& p = block.polygon;
   if (block.kind == BlockKind::voussoir) return {p[1], p[2]};
@@ -43,7 +44,8 @@ std::pair<Point, Point> intrados_corners(const Block& block, const std::vector<S
   const auto span = std::min_element(spans.begin(), spans.end(), [&](const auto& a, const auto& b) {
     return std::abs(a.centre_x - x) < std::abs(b.centre_x - x);
   });
-  return x < span->centre_x ? std::pair{p[1], p[2]} : std::pair{p[3], p[0]};  // up on the left, down on the right
+  return x < span->centre_x ? std::pair{p[1], p[2]}
+                            : std::pair{p[3], p[0]};  // up on the left, down on the right
 }
 
 }  // namespace

@@ -12,10 +12,11 @@ struct ControlPoint {
   std::string name;  ///< T1.. on top, A1.. on the intrados, from left to right
   NodeId node;
   BlockId block;
-  Point position;    ///< [m] in the reference configuration
+  Point position;  ///< [m] in the reference configuration
 };
 
-/// T1..: upper corners of each block of the top course; A1..: intrados corners of each arch block; left to right.
+/// T1..: upper corners of each block of the top course; A1..: intrados corners of each arch block; left to
+/// right.
 std::vector<ControlPoint> find_control_points(const BlockLayout& layout, const Mesh& mesh,
                                               const BridgeDescription& description);
 

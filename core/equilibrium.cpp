@@ -22,15 +22,18 @@ std::array<int, 2 * N> components(const std::array<NodeId, N>& nodes) {
 }
 
 template <std::size_t N>
-Eigen::Matrix<double, static_cast<int>(2 * N), 1> gathered(const Field& field, const std::array<NodeId, N>& nodes) {
+Eigen::Matrix<double, static_cast<int>(2 * N), 1> gathered(const Field& field,
+                                                           const std::array<NodeId, N>& nodes) {
   Eigen::Matrix<double, static_cast<int>(2 * N), 1> local;
-  for (std::size_t i = 0; i < N; ++i) local.template segment<2>(static_cast<int>(2 * i)) = field.col(value(nodes[i]));
+  for (std::size_t i = 0; i < N; ++i)
+    local.template segment<2>(static_cast<int>(2 * i)) = field.col(value(nodes[i]));
   return local;
 }
 
 template <std::size_t N, typename Vector>
 void subtract_at(Field& field, const std::array<NodeId, N>& nodes, const Vector& local) {
-  for (std::size_t i = 0; i < N; ++i) field.col(value(nodes[i])) -= local.template segment<2>(static_cast<int>(2 * i));
+  for (std::size_t i = 0; i < N; ++i)
+    field.col(value(nodes[i])) -= local.template segment<2>(static_cast<int>(2 * i));
 }
 
 /// Numbers the displacement components that the supports leave free.
@@ -44,9 +47,11 @@ void number_unknowns(const Bridge& bridge, EquilibriumSystem& system) {
   for (int node = 0; node < bridge.mesh.node_count(); ++node) {
     const Point x = bridge.mesh.nodes.col(node);
     const bool base = std::abs(x.y()) <= tolerance;
-    const bool side = std::abs(x.x()) <= tolerance || std::abs(x.x() - bridge.description.wall.length) <= tolerance;
+    const bool side =
+        std::abs(x.x()) <= tolerance || std::abs(x.x() - bridge.description.wall.length) <= tolerance;
     for (int axis = 0; axis < 2; ++axis) {
-      const bool held = (base && holds(supports.base, axis == 1)) || (side && holds(supports.sides, axis == 0));
+      const bool held =
+          (base && holds(supports.base, axis == 1)) || (side && holds(supports.sides, axis == 0));
       if (held) continue;
       system.unknown[static_cast<std::size_t>(2 * node + axis)] = system.unknown_count();
       system.component.push_back(2 * node + axis);
@@ -55,7 +60,8 @@ void number_unknowns(const Bridge& bridge, EquilibriumSystem& system) {
 }
 
 template <std::size_t N>
-void add_entries(const EquilibriumSystem& system, const std::array<int, N>& local, std::vector<Eigen::Triplet<double>>& entries) {
+void add_entries(const EquilibriumSystem& system, const std::array<int, N>& local,
+                 std::vector<Eigen::Triplet<double>>& entries) {
   for (const int row : local)
     for (const int column : local) {
       const int i = system.unknown[static_cast<std::size_t>(row)];
@@ -86,7 +92,8 @@ std::array<int, N * N> local_slots(const EquilibriumSystem& system, const std::a
 
 void build_pattern(const Bridge& bridge, EquilibriumSystem& system) {
   std::vector<Eigen::Triplet<double>> entries;
-  for (const Triangle& triangle : bridge.mesh.triangles) add_entries(system, components(triangle.nodes), entries);
+  for (const Triangle& triangle : bridge.mesh.triangles)
+    add_entries(system, components(triangle.nodes), entries);
   for (const Joint& joint : bridge.joints) add_entries(system, components(corners(joint)), entries);
   const int n = system.unknown_count();
   for (int i = 0; i < n; ++i) entries.emplace_back(i, i, 0.0);
@@ -96,7 +103,8 @@ void build_pattern(const Bridge& bridge, EquilibriumSystem& system) {
 
   for (const Triangle& triangle : bridge.mesh.triangles)
     system.triangle_slots.push_back(local_slots(system, components(triangle.nodes)));
-  for (const Joint& joint : bridge.joints) system.joint_slots.push_back(local_slots(system, components(corners(joint))));
+  for (const Joint& joint : bridge.joints)
+    system.joint_slots.push_back(local_slots(system, components(corners(joint))));
   for (int i = 0; i < n; ++i) system.diagonal_slots.push_back(slot(system.pattern, i, i));
 }
 
@@ -121,7 +129,8 @@ bool present(const std::vector<bool>& removed, BlockId block) {
 }
 
 /// Gives the unknowns of removed blocks an equation of their own: 1 * change = 0.
-void pin_removed(const EquilibriumSystem& system, const std::vector<bool>& removed, std::vector<double>& values) {
+void pin_removed(const EquilibriumSystem& system, const std::vector<bool>& removed,
+                 std::vector<double>& values) {
   const Mesh& mesh = system.bridge->mesh;
   for (std::size_t block = 0; block < removed.size(); ++block) {
     if (!removed[block]) continue;
@@ -148,7 +157,8 @@ EquilibriumSystem::EquilibriumSystem(const Bridge& bridge_)
   for (std::size_t block = 0; block < bridge->layout.size(); ++block)
     for (int t = mesh.block_triangles[block].begin; t < mesh.block_triangles[block].end; ++t) {
       const auto& nodes = mesh.triangles[static_cast<std::size_t>(t)].nodes;
-      triangles.push_back(triangle_shape(mesh.position(nodes[0]), mesh.position(nodes[1]), mesh.position(nodes[2])));
+      triangles.push_back(
+          triangle_shape(mesh.position(nodes[0]), mesh.position(nodes[1]), mesh.position(nodes[2])));
       triangle_block.push_back(BlockId{static_cast<std::int32_t>(block)});
       for (const NodeId node : nodes) weight[value(node)] += specific * triangles.back().area / 3.0;
     }
@@ -158,19 +168,22 @@ EquilibriumSystem::EquilibriumSystem(const Bridge& bridge_)
   build_pattern(*bridge, *this);
 }
 
-Field unbalanced_forces(const EquilibriumSystem& system, const std::vector<bool>& removed, const Field& displacement) {
+Field unbalanced_forces(const EquilibriumSystem& system, const std::vector<bool>& removed,
+                        const Field& displacement) {
   const Bridge& bridge = *system.bridge;
   const double thickness = bridge.description.material.thickness;
   Field forces = weights_of_present_blocks(system, removed);
   for (std::size_t t = 0; t < system.triangles.size(); ++t) {
     if (!present(removed, system.triangle_block[t])) continue;
     const auto& nodes = bridge.mesh.triangles[t].nodes;
-    subtract_at(forces, nodes, triangle_force(system.triangles[t], system.moduli, thickness, gathered(displacement, nodes)));
+    subtract_at(forces, nodes,
+                triangle_force(system.triangles[t], system.moduli, thickness, gathered(displacement, nodes)));
   }
   for (std::size_t j = 0; j < system.joints.size(); ++j) {
     const Joint& joint = bridge.joints[j];
     if (!present(removed, joint.first) || !present(removed, joint.second)) continue;
-    const JointKinematics kinematics = joint_kinematics(system.joints[j], gathered(displacement, corners(joint)));
+    const JointKinematics kinematics =
+        joint_kinematics(system.joints[j], gathered(displacement, corners(joint)));
     const JointResponse response =
         integrate_joint(bridge.description.joints, joint.length * thickness, kinematics.state);
     subtract_at(forces, corners(joint), (kinematics.gradient.transpose() * response.force).eval());
@@ -180,7 +193,7 @@ Field unbalanced_forces(const EquilibriumSystem& system, const std::vector<bool>
 }
 
 Field assemble(const EquilibriumSystem& system, const std::vector<bool>& removed, const Field& displacement,
-               JointMode mode, std::vector<double>& tangent_values) {
+               double bonding, std::vector<double>& tangent_values) {
   const Bridge& bridge = *system.bridge;
   const double thickness = bridge.description.material.thickness;
   Field forces = weights_of_present_blocks(system, removed);
@@ -198,9 +211,12 @@ Field assemble(const EquilibriumSystem& system, const std::vector<bool>& removed
     if (!present(removed, joint.first) || !present(removed, joint.second)) continue;
     const Vector8d q = gathered(displacement, corners(joint));
     const JointKinematics kinematics = joint_kinematics(system.joints[j], q);
-    const auto law = mode == JointMode::exact ? integrate_joint : bonded_joint;
-    const JointResponse response = law(bridge.description.joints, joint.length * thickness, kinematics.state);
+    JointResponse response =
+        integrate_joint(bridge.description.joints, joint.length * thickness, kinematics.state);
     subtract_at(forces, corners(joint), (kinematics.gradient.transpose() * response.force).eval());
+    if (bonding > 0.0)
+      response.tangent = (1.0 - bonding) * response.tangent +
+                         bonding * bonded_joint_tangent(bridge.description.joints, joint.length * thickness);
     const Matrix8d tangent = kinematics.gradient.transpose() * response.tangent * kinematics.gradient +
                              joint_geometric_stiffness(system.joints[j], q, kinematics, response.force);
     add_local(system.joint_slots[j], tangent, tangent_values);

@@ -1,10 +1,11 @@
 #pragma once
-/// @file The discrete equations of a bridge: which displacements are free, what forces unbalance them, and the tangent.
+/// @file The discrete equations of a bridge: which displacements are free, what forces unbalance them, and
+/// the tangent.
 ///
 ///   r(u) = weight - internal forces of the triangles - forces of the joints,   tangent = - dr/du
 ///
-/// Removed blocks keep their places in the vectors and the matrix (unit diagonal, zero residual), so that all scenes
-/// of a bridge share one sparsity pattern and one symbolic factorisation.
+/// Removed blocks keep their places in the vectors and the matrix (unit diagonal, zero residual), so that all
+/// scenes of a bridge share one sparsity pattern and one symbolic factorisation.
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
@@ -20,16 +21,16 @@ namespace voussoir {
 struct EquilibriumSystem {
   explicit EquilibriumSystem(const Bridge& bridge);
 
-  const Bridge* bridge;                   ///< outlives the system
+  const Bridge* bridge;  ///< outlives the system
   PlaneModuli moduli;
   std::vector<TriangleShape> triangles;
   std::vector<JointFrame> joints;
   std::vector<BlockId> triangle_block;
-  Eigen::VectorXd weight;                 ///< of each node [N], positive
-  double largest_weight;                  ///< [N] the unit of residuals
-  std::vector<int> unknown;               ///< per displacement component 2 node + axis: its unknown, or -1 if held
-  std::vector<int> component;             ///< the inverse: per unknown its displacement component
-  Eigen::SparseMatrix<double> pattern;    ///< of the tangent, all values zero
+  Eigen::VectorXd weight;      ///< of each node [N], positive
+  double largest_weight;       ///< [N] the unit of residuals
+  std::vector<int> unknown;    ///< per displacement component 2 node + axis: its unknown, or -1 if held
+  std::vector<int> component;  ///< the inverse: per unknown its displacement component
+  Eigen::SparseMatrix<double> pattern;              ///< of the tangent, all values zero
   std::vector<std::array<int, 36>> triangle_slots;  ///< position of each entry in the value array, -1 if held
   std::vector<std::array<int, 64>> joint_slots;
   std::vector<int> diagonal_slots;
@@ -37,24 +38,23 @@ struct EquilibriumSystem {
   int unknown_count() const { return static_cast<int>(component.size()); }
 };
 
-/// How joints answer in an assembly.
-enum class JointMode {
-  exact,  ///< the joint law
-  bonded  ///< closed and sticking everywhere: the linear start of a Newton search
-};
+/// Unbalanced force of every displacement component [N] (2 x nodes); zero at removed blocks and held
+/// components.
+Field unbalanced_forces(const EquilibriumSystem& system, const std::vector<bool>& removed,
+                        const Field& displacement);
 
-/// Unbalanced force of every displacement component [N] (2 x nodes); zero at removed blocks and held components.
-Field unbalanced_forces(const EquilibriumSystem& system, const std::vector<bool>& removed, const Field& displacement);
-
-/// The same, and the tangent's values in the order of `system.pattern`.
+/// The same, and the tangent's values in the order of `system.pattern`. `bonding` in [0,1] mixes the tangent
+/// of bonded (closed and sticking) joints into the exact one: 0 is the exact derivative, 1 the linear bridge
+/// without openings; in between, loose blocks are held just enough to make the matrix regular. Forces are
+/// exact always.
 Field assemble(const EquilibriumSystem& system, const std::vector<bool>& removed, const Field& displacement,
-               JointMode mode, std::vector<double>& tangent_values);
+               double bonding, std::vector<double>& tangent_values);
 
 /// Per block: is it missing?
 std::vector<bool> removal_mask(const Scene& scene, std::size_t block_count);
 
-/// Largest unbalanced force component of a field over the largest nodal weight, computed from the field alone (NaN
-/// at nodes of removed blocks is expected and ignored). What a stored field is checked by.
+/// Largest unbalanced force component of a field over the largest nodal weight, computed from the field alone
+/// (NaN at nodes of removed blocks is expected and ignored). What a stored field is checked by.
 double unbalanced_force(const Bridge& bridge, const Scene& scene, const Field& displacement);
 
 }  // namespace voussoir

@@ -1,6 +1,7 @@
 #include "core/geometry.h"
 
-// Boost's default snaps coordinates to an integer grid of about a micrometre; plain doubles keep round-off only.
+// Boost's default snaps coordinates to an integer grid of about a micrometre; plain doubles keep round-off
+// only.
 #define BOOST_GEOMETRY_NO_ROBUSTNESS
 
 #include <algorithm>
@@ -8,6 +9,7 @@
 #include <boost/geometry/geometries/point_xy.hpp>
 #include <boost/geometry/geometries/polygon.hpp>
 #include <cmath>
+#include <limits>
 
 namespace voussoir {
 namespace {
@@ -16,7 +18,8 @@ namespace bg = boost::geometry;
 using BoostPoint = bg::model::d2::point_xy<double>;
 using BoostPolygon = bg::model::polygon<BoostPoint, /*ClockWise=*/false, /*Closed=*/true>;
 
-constexpr double kMergeDistance = 1e-6;  ///< [m] a micrometre: far below masonry tolerances, far above round-off.
+constexpr double kMergeDistance =
+    1e-6;  ///< [m] a micrometre: far below masonry tolerances, far above round-off.
 
 BoostPolygon to_boost(const Polygon& polygon) {
   BoostPolygon result;
@@ -30,7 +33,8 @@ Polygon without_idle_corners(const Polygon& polygon) {
   Polygon distinct;
   for (const Point& p : polygon)
     if (distinct.empty() || (p - distinct.back()).norm() > kMergeDistance) distinct.push_back(p);
-  while (distinct.size() > 1 && (distinct.front() - distinct.back()).norm() <= kMergeDistance) distinct.pop_back();
+  while (distinct.size() > 1 && (distinct.front() - distinct.back()).norm() <= kMergeDistance)
+    distinct.pop_back();
 
   Polygon corners;
   const std::size_t n = distinct.size();
@@ -48,7 +52,8 @@ Polygon without_idle_corners(const Polygon& polygon) {
 double area(const Polygon& polygon) {
   double twice = 0.0;
   const Point& origin = polygon.front();  // differences keep precision far from the coordinate origin
-  for (std::size_t i = 1; i + 1 < polygon.size(); ++i) twice += cross(polygon[i] - origin, polygon[i + 1] - origin);
+  for (std::size_t i = 1; i + 1 < polygon.size(); ++i)
+    twice += cross(polygon[i] - origin, polygon[i + 1] - origin);
   return 0.5 * twice;
 }
 
@@ -65,13 +70,30 @@ Point centroid(const Polygon& polygon) {
   return origin + moment / twice;
 }
 
+double distance_to_segment(const Point& a, const Point& b, const Point& point) {
+  const double t = std::clamp((point - a).dot(b - a) / (b - a).squaredNorm(), 0.0, 1.0);
+  return (a + t * (b - a) - point).norm();
+}
+
+double distance_to_boundary(const Polygon& polygon, const Point& point) {
+  double nearest = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0, j = polygon.size() - 1; i < polygon.size(); j = i++)
+    nearest = std::min(nearest, distance_to_segment(polygon[j], polygon[i], point));
+  return nearest;
+}
+
+double distance_to_corner(const Polygon& polygon, const Point& point) {
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const Point& corner : polygon) nearest = std::min(nearest, (corner - point).norm());
+  return nearest;
+}
+
 bool contains(const Polygon& polygon, const Point& point, double tolerance) {
+  if (distance_to_boundary(polygon, point) <= tolerance) return true;
   bool inside = false;
   for (std::size_t i = 0, j = polygon.size() - 1; i < polygon.size(); j = i++) {
     const Point& a = polygon[j];
     const Point& b = polygon[i];
-    const double t = std::clamp((point - a).dot(b - a) / (b - a).squaredNorm(), 0.0, 1.0);
-    if ((a + t * (b - a) - point).norm() <= tolerance) return true;
     if ((a.y() > point.y()) != (b.y() > point.y()) &&
         point.x() < a.x() + (point.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x()))
       inside = !inside;

@@ -22,12 +22,19 @@ double area(const Polygon& polygon);
 /// Centre of gravity [m]. Precondition: the area is not zero.
 Point centroid(const Polygon& polygon);
 
+/// Distance [m] of a point from the straight line between a and b.
+double distance_to_segment(const Point& a, const Point& b, const Point& point);
+
+/// Distance [m] of a point from the nearest edge, or corner, of a polygon.
+double distance_to_boundary(const Polygon& polygon, const Point& point);
+double distance_to_corner(const Polygon& polygon, const Point& point);
+
 /// True if the point is inside the polygon or on its boundary (tolerance in metres).
 bool contains(const Polygon& polygon, const Point& point, double tolerance = 0.0);
 
-/// The parts of `subject` outside `hole`, each counter-clockwise, from left to right; parts with an area of at
-/// most `smallest_area` [m2] are dropped, corners closer than a micrometre are merged and corners that lie on
-/// the straight line between their neighbours are removed.
+/// The parts of `subject` outside `hole`, each counter-clockwise, from left to right; parts with an area of
+/// at most `smallest_area` [m2] are dropped, corners closer than a micrometre are merged and corners that lie
+/// on the straight line between their neighbours are removed.
 std::vector<Polygon> subtract(const Polygon& subject, const Polygon& hole, double smallest_area);
 
 /// Mirror image across the vertical line at `axis_x`, counter-clockwise again.

@@ -21,9 +21,11 @@ std::vector<PlacedEdge> edges_by_left_end(const Mesh& mesh) {
   for (std::size_t block = 0; block < mesh.block_edges.size(); ++block)
     for (int e = mesh.block_edges[block].begin; e < mesh.block_edges[block].end; ++e) {
       const BoundaryEdge& edge = mesh.edges[static_cast<std::size_t>(e)];
-      edges.push_back({BlockId{static_cast<std::int32_t>(block)}, edge, mesh.position(edge.from), mesh.position(edge.to)});
+      edges.push_back({BlockId{static_cast<std::int32_t>(block)}, edge, mesh.position(edge.from),
+                       mesh.position(edge.to)});
     }
-  std::stable_sort(edges.begin(), edges.end(), [](const auto& a, const auto& b) { return a.left() < b.left(); });
+  std::stable_sort(edges.begin(), edges.end(),
+                   [](const auto& a, const auto& b) { return a.left() < b.left(); });
   return edges;
 }
 
@@ -45,8 +47,13 @@ std::optional<Joint> facing_stretch(const PlacedEdge& a, const PlacedEdge& b, do
   const auto on_b = [&](double s) { return (b_end - s) / (b_end - b_begin); };  // weight of b.to
   for (const double s : {begin, end})
     if (std::abs(distance(b.from + on_b(s) * back)) > tolerance) return std::nullopt;
-  return Joint{.first = a.block, .second = b.block, .first_edge = a.edge, .second_edge = b.edge,
-               .first_at = {begin, end}, .second_at = {on_b(begin), on_b(end)}, .length = (end - begin) * length};
+  return Joint{.first = a.block,
+               .second = b.block,
+               .first_edge = a.edge,
+               .second_edge = b.edge,
+               .first_at = {begin, end},
+               .second_at = {on_b(begin), on_b(end)},
+               .length = (end - begin) * length};
 }
 
 }  // namespace

@@ -16,7 +16,8 @@ struct CurrentEdges {
 };
 
 CurrentEdges current_edges(const JointFrame& frame, const Vector8d& q) {
-  return {frame.first_along + q.segment<2>(2) - q.segment<2>(0), frame.second_along + q.segment<2>(4) - q.segment<2>(6)};
+  return {frame.first_along + q.segment<2>(2) - q.segment<2>(0),
+          frame.second_along + q.segment<2>(4) - q.segment<2>(6)};
 }
 
 double angle_between(const Point& from, const Point& to) {
@@ -92,23 +93,25 @@ JointKinematics joint_kinematics(const JointFrame& frame, const Vector8d& q) {
   return result;
 }
 
-Matrix8d joint_geometric_stiffness(const JointFrame& frame, const Vector8d& q, const JointKinematics& kinematics,
-                                   const Eigen::Vector4d& force) {
+Matrix8d joint_geometric_stiffness(const JointFrame& frame, const Vector8d& q,
+                                   const JointKinematics& kinematics, const Eigen::Vector4d& force) {
   // With total gradients, and dgap/dtheta = slip, dslip/dtheta = -gap:
   //   d2 gap  =  dslip (x) dtheta + dtheta (x) dslip + gap  dtheta (x) dtheta + slip d2theta
   //   d2 slip = -dgap (x) dtheta - dtheta (x) dgap  + slip dtheta (x) dtheta - gap  d2theta
   const Vector8d& turn = kinematics.rotation_gradient;
   Vector8d mixed = Vector8d::Zero();
-  double turning = 0.0;   // coefficient of dtheta (x) dtheta
-  double bending = 0.0;   // coefficient of d2theta
+  double turning = 0.0;  // coefficient of dtheta (x) dtheta
+  double bending = 0.0;  // coefficient of d2theta
   for (int end = 0; end < 2; ++end) {
     const int gap = 2 * end;
     const int slip = gap + 1;
-    mixed += force[gap] * kinematics.gradient.row(slip).transpose() - force[slip] * kinematics.gradient.row(gap).transpose();
+    mixed += force[gap] * kinematics.gradient.row(slip).transpose() -
+             force[slip] * kinematics.gradient.row(gap).transpose();
     turning += force[gap] * kinematics.state[gap] + force[slip] * kinematics.state[slip];
     bending += force[gap] * kinematics.state[slip] - force[slip] * kinematics.state[gap];
   }
-  Matrix8d stiffness = mixed * turn.transpose() + turn * mixed.transpose() + turning * turn * turn.transpose();
+  Matrix8d stiffness =
+      mixed * turn.transpose() + turn * mixed.transpose() + turning * turn * turn.transpose();
 
   const CurrentEdges edges = current_edges(frame, q);
   const Eigen::Matrix2d first = 0.5 * bending * angle_hessian(edges.first);

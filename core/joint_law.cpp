@@ -25,7 +25,8 @@ struct MassOfPart {
         m11((b * b * b - a * a * a) / 3.0) {}
 };
 
-/// Adds coefficient * N_k N_l to the tangent block (force component `row`, state component `column`; 0 gap, 1 slip).
+/// Adds coefficient * N_k N_l to the tangent block (force component `row`, state component `column`; 0 gap, 1
+/// slip).
 void add_part(Eigen::Matrix4d& tangent, const MassOfPart& mass, int row, int column, double coefficient) {
   tangent(row, column) += coefficient * mass.m00;
   tangent(row, column + 2) += coefficient * mass.m01;
@@ -41,8 +42,10 @@ JointResponse integrate_joint(const JointMaterial& material, double area, const 
   const double cap = area * std::tan(material.friction_angle) * material.normal_stiffness;
   const Linear gap{state[0], state[2]};
   // Shear beyond the cap in the positive (negative) direction where this is positive (negative).
-  const Linear beyond_positive{tangential * state[1] + cap * state[0], tangential * state[3] + cap * state[2]};
-  const Linear beyond_negative{tangential * state[1] - cap * state[0], tangential * state[3] - cap * state[2]};
+  const Linear beyond_positive{tangential * state[1] + cap * state[0],
+                               tangential * state[3] + cap * state[2]};
+  const Linear beyond_negative{tangential * state[1] - cap * state[0],
+                               tangential * state[3] - cap * state[2]};
 
   std::array<double, 5> ends = {0.0, gap.root(), beyond_positive.root(), beyond_negative.root(), 1.0};
   std::sort(ends.begin(), ends.end());
@@ -67,14 +70,12 @@ JointResponse integrate_joint(const JointMaterial& material, double area, const 
   return response;
 }
 
-JointResponse bonded_joint(const JointMaterial& material, double area, const JointState& state) {
+Eigen::Matrix4d bonded_joint_tangent(const JointMaterial& material, double area) {
   const MassOfPart whole(0.0, 1.0);
-  JointResponse response;
-  response.tangent.setZero();
-  add_part(response.tangent, whole, 0, 0, area * material.normal_stiffness);
-  add_part(response.tangent, whole, 1, 1, area * material.tangential_stiffness);
-  response.force = response.tangent * state;
-  return response;
+  Eigen::Matrix4d tangent = Eigen::Matrix4d::Zero();
+  add_part(tangent, whole, 0, 0, area * material.normal_stiffness);
+  add_part(tangent, whole, 1, 1, area * material.tangential_stiffness);
+  return tangent;
 }
 
 }  // namespace voussoir

@@ -22,13 +22,13 @@ struct JointResponse {
   Eigen::Matrix4d tangent;  ///< d force / d state [N/m]; not symmetric where the joint slips
 };
 
-/// Integrates the law over a stretch exactly: gap and slip are linear, so the stretch falls into at most four parts
-/// that are open, sticking or slipping as a whole, and the stresses are linear in each. The stresses are continuous at
-/// the parts' ends, so the tangent is the exact derivative.
-/// `area` is length times thickness [m2].
+/// Integrates the law over a stretch exactly: gap and slip are linear, so the stretch falls into at most four
+/// parts that are open, sticking or slipping as a whole, and the stresses are linear in each. The stresses
+/// are continuous at the parts' ends, so the tangent is the exact derivative. `area` is length times
+/// thickness [m2].
 JointResponse integrate_joint(const JointMaterial& material, double area, const JointState& state);
 
-/// The response if the whole stretch were closed and sticking, whatever the state: the linear start of a Newton search.
-JointResponse bonded_joint(const JointMaterial& material, double area, const JointState& state);
+/// The tangent if the whole stretch were closed and sticking.
+Eigen::Matrix4d bonded_joint_tangent(const JointMaterial& material, double area);
 
 }  // namespace voussoir

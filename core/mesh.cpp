@@ -8,35 +8,27 @@
 namespace voussoir {
 namespace {
 
-constexpr double kOnAxis = 1e-9;     ///< [m] a centre of gravity this close to the axis lies on it
-constexpr double kTouching = 1e-6;   ///< [m] a corner this close to an edge touches it
+constexpr double kOnAxis = 1e-9;    ///< [m] a centre of gravity this close to the axis lies on it
+constexpr double kTouching = 1e-6;  ///< [m] a corner this close to an edge touches it
 
-/// The polygon with a corner inserted wherever a corner of another block touches one of its edges.
-Polygon split_at_touching_corners(const Polygon& polygon, const std::vector<Block>& blocks) {
-  Polygon result;
-  for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const Point& a = polygon[i];
-    const Point along = polygon[(i + 1) % polygon.size()] - a;
-    std::vector<double> cuts = {0.0};
-    for (const Block& block : blocks)
-      for (const Point& p : block.polygon) {
-        const double t = (p - a).dot(along) / along.squaredNorm();
-        const bool inside = t * along.norm() > kTouching && (1.0 - t) * along.norm() > kTouching;
-        if (inside && std::abs(cross(along, p - a)) / along.norm() < kTouching) cuts.push_back(t);
-      }
-    std::sort(cuts.begin(), cuts.end());
-    for (std::size_t c = 0; c < cuts.size(); ++c)
-      if (c == 0 || (cuts[c] - cuts[c - 1]) * along.norm() > kTouching) result.push_back(a + cuts[c] * along);
-  }
-  return result;
+/// Corners of other blocks that touch the block's boundary away from its own corners.
+std::vector<Point> touching_corners(const Polygon& polygon, const std::vector<Block>& blocks) {
+  std::vector<Point> touching;
+  for (const Block& block : blocks)
+    for (const Point& p : block.polygon)
+      if (distance_to_boundary(polygon, p) < kTouching && distance_to_corner(polygon, p) > kTouching)
+        touching.push_back(p);
+  return touching;
 }
 
-/// Cuts the mirror image instead and maps the corners back, so that blocks on the right are cut like those on the left.
+/// Cuts the mirror image instead and maps the corners back, so that blocks on the right are cut like those on
+/// the left.
 Triangulation cut_as_mirror_image(const Polygon& polygon, double axis) {
   const int n = static_cast<int>(polygon.size());
   Triangulation result = cut_between_corners(mirrored(polygon, axis));
   result.points = polygon;
-  for (auto& triangle : result.triangles) triangle = {n - 1 - triangle[2], n - 1 - triangle[1], n - 1 - triangle[0]};
+  for (auto& triangle : result.triangles)
+    triangle = {n - 1 - triangle[2], n - 1 - triangle[1], n - 1 - triangle[0]};
   return result;
 }
 
@@ -49,10 +41,12 @@ Triangulation cut(const Block& block, double axis) {
   return from_axis < 0.0 ? cut_between_corners(block.polygon) : cut_as_mirror_image(block.polygon, axis);
 }
 
-Triangulation triangulate(const Block& block, const BlockLayout& layout, const MeshDescription& rule, double axis) {
-  Triangulation result = rule.split_at_corners
-                             ? fan_about_centre(split_at_touching_corners(block.polygon, layout.blocks))
-                             : cut(block, axis);
+Triangulation triangulate(const Block& block, const BlockLayout& layout, const MeshDescription& rule,
+                          double axis) {
+  Triangulation result = cut(block, axis);
+  if (rule.split_at_corners)
+    for (const Point& corner : touching_corners(block.polygon, layout.blocks))
+      split_boundary_at(result, corner, kTouching);
   for (int level = 0; level < rule.refinement; ++level) result = refined(result);
   return result;
 }
@@ -60,7 +54,9 @@ Triangulation triangulate(const Block& block, const BlockLayout& layout, const M
 void append(const Triangulation& part, std::vector<Point>& points, Mesh& mesh) {
   const int first_node = static_cast<int>(points.size());
   const auto node = [&](int local) { return NodeId{first_node + local}; };
-  const auto range_since = [](int begin, std::size_t end) { return IndexRange{begin, static_cast<int>(end)}; };
+  const auto range_since = [](int begin, std::size_t end) {
+    return IndexRange{begin, static_cast<int>(end)};
+  };
   const int first_triangle = static_cast<int>(mesh.triangles.size());
   const int first_edge = static_cast<int>(mesh.edges.size());
 
@@ -77,7 +73,8 @@ void append(const Triangulation& part, std::vector<Point>& points, Mesh& mesh) {
 Mesh make_mesh(const BlockLayout& layout, const MeshDescription& rule, double mirror_axis) {
   Mesh mesh;
   std::vector<Point> points;
-  for (const Block& block : layout.blocks) append(triangulate(block, layout, rule, mirror_axis), points, mesh);
+  for (const Block& block : layout.blocks)
+    append(triangulate(block, layout, rule, mirror_axis), points, mesh);
   mesh.nodes.resize(2, static_cast<Eigen::Index>(points.size()));
   for (std::size_t i = 0; i < points.size(); ++i) mesh.nodes.col(static_cast<Eigen::Index>(i)) = points[i];
   return mesh;

@@ -38,9 +38,9 @@ struct IndexRange {
 };
 
 struct Mesh {
-  Eigen::Matrix2Xd nodes;           ///< reference positions [m], block after block
-  std::vector<Triangle> triangles;  ///< block after block
-  std::vector<BoundaryEdge> edges;  ///< block after block, counter-clockwise round each
+  Eigen::Matrix2Xd nodes;                   ///< reference positions [m], block after block
+  std::vector<Triangle> triangles;          ///< block after block
+  std::vector<BoundaryEdge> edges;          ///< block after block, counter-clockwise round each
   std::vector<IndexRange> block_nodes;      ///< per block: its columns in `nodes`
   std::vector<IndexRange> block_triangles;  ///< per block: its range in `triangles`
   std::vector<IndexRange> block_edges;      ///< per block: its range in `edges`
@@ -49,9 +49,10 @@ struct Mesh {
   Point position(NodeId id) const { return nodes.col(value(id)); }
 };
 
-/// Cuts the blocks into triangles: two to a plain block, three to a voussoir, four about the centre to a leg and to
-/// a block of the top course, and as few as its corners allow to a block cut by the arch; a block astride
-/// `mirror_axis` is fanned about its centre, so that the mesh of a symmetric bridge is its own mirror image.
+/// Cuts the blocks into triangles: two to a plain block, three to a voussoir, four about the centre to a leg
+/// and to a block of the top course, and as few as its corners allow to a block cut by the arch; a block
+/// astride `mirror_axis` is fanned about its centre, so that the mesh of a symmetric bridge is its own mirror
+/// image.
 Mesh make_mesh(const BlockLayout& layout, const MeshDescription& rule, double mirror_axis);
 
 }  // namespace voussoir

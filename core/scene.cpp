@@ -29,10 +29,11 @@ BlockId parse_block(std::string_view text, const BlockLayout& layout) {
     throw InputError(fmt::format("'{}' names no block: expected COURSE,POSITION such as 10,4", text));
   const auto id = layout.find({course, position});
   if (!id && layout.count_in_course(course) == 0)
-    throw InputError(fmt::format("there is no block {},{}: this bridge has no course {}", course, position, course));
+    throw InputError(
+        fmt::format("there is no block {},{}: this bridge has no course {}", course, position, course));
   if (!id)
-    throw InputError(fmt::format("there is no block {},{}: course {} has positions 1 to {}", course, position, course,
-                                 layout.count_in_course(course)));
+    throw InputError(fmt::format("there is no block {},{}: course {} has positions 1 to {}", course, position,
+                                 course, layout.count_in_course(course)));
   return *id;
 }
 
@@ -41,7 +42,8 @@ void append_scenes(std::size_t block_count, int missing, Scene& prefix, std::vec
     scenes.push_back(prefix);
     return;
   }
-  const std::size_t first = prefix.removed.empty() ? 0 : static_cast<std::size_t>(value(prefix.removed.back())) + 1;
+  const std::size_t first =
+      prefix.removed.empty() ? 0 : static_cast<std::size_t>(value(prefix.removed.back())) + 1;
   for (std::size_t block = first; block < block_count; ++block) {
     prefix.removed.push_back(BlockId{static_cast<std::int32_t>(block)});
     append_scenes(block_count, missing, prefix, scenes);
@@ -66,7 +68,8 @@ Scene parse_scene(std::string_view text, const BlockLayout& layout) {
   std::sort(scene.removed.begin(), scene.removed.end());
   const auto repeated = std::adjacent_find(scene.removed.begin(), scene.removed.end());
   if (repeated != scene.removed.end())
-    throw InputError(fmt::format("scene '{}' names block {} twice", text, to_string(layout[*repeated].index)));
+    throw InputError(
+        fmt::format("scene '{}' names block {} twice", text, to_string(layout[*repeated].index)));
   return scene;
 }
 
@@ -82,7 +85,8 @@ std::string to_string(const Scene& scene, const BlockLayout& layout) {
 std::vector<Scene> all_scenes(std::size_t block_count, int most_missing) {
   std::vector<Scene> scenes;
   Scene prefix;
-  for (int missing = 0; missing <= most_missing; ++missing) append_scenes(block_count, missing, prefix, scenes);
+  for (int missing = 0; missing <= most_missing; ++missing)
+    append_scenes(block_count, missing, prefix, scenes);
   return scenes;
 }
 

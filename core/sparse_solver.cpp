@@ -7,7 +7,8 @@
 namespace voussoir {
 namespace {
 
-/// Smallest over largest pivot below which a factorisation with the reference pivots is done again with its own.
+/// Smallest over largest pivot below which a factorisation with the reference pivots is done again with its
+/// own.
 constexpr double kPoorPivots = 1e-13;
 /// The same for own pivots: below it the matrix counts as singular.
 constexpr double kSingular = 1e-17;
@@ -53,7 +54,8 @@ bool SparseSolver::factorise(std::vector<double>& values) {
   Factors& f = *factors_;
   f.current = f.reference;
   if (klu_refactor(f.columns(), f.rows(), values.data(), f.symbolic, f.reference, &f.common) != 0 &&
-      f.common.status == KLU_OK && klu_rcond(f.symbolic, f.reference, &f.common) != 0 && f.common.rcond > kPoorPivots)
+      f.common.status == KLU_OK && klu_rcond(f.symbolic, f.reference, &f.common) != 0 &&
+      f.common.rcond > kPoorPivots)
     return true;
   if (f.own != nullptr) klu_free_numeric(&f.own, &f.common);
   f.own = klu_factor(f.columns(), f.rows(), values.data(), f.symbolic, &f.common);

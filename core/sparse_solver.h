@@ -7,12 +7,13 @@
 
 namespace voussoir {
 
-/// Orders once and chooses pivots once, on a reference matrix; then factorises any number of matrices of that pattern
-/// with those pivots, or with new ones where they are no good. The result depends on the matrix alone, not on those
-/// factorised before.
+/// Orders once and chooses pivots once, on a reference matrix; then factorises any number of matrices of that
+/// pattern with those pivots, or with new ones where they are no good. The result depends on the matrix
+/// alone, not on those factorised before.
 class SparseSolver {
  public:
-  /// `values` of the reference matrix, in the order of the compressed pattern. Throws Failure if it is singular.
+  /// `values` of the reference matrix, in the order of the compressed pattern. Throws Failure if it is
+  /// singular.
   SparseSolver(const Eigen::SparseMatrix<double>& pattern, std::vector<double> values);
   ~SparseSolver();
   SparseSolver(SparseSolver&&) noexcept;

@@ -18,7 +18,8 @@ class PointIndex {
     points_ = &points;
   }
   std::optional<int> find(const Point& p, double tolerance) const {
-    for (auto it = by_x_.lower_bound(p.x() - tolerance); it != by_x_.end() && it->first <= p.x() + tolerance; ++it)
+    for (auto it = by_x_.lower_bound(p.x() - tolerance); it != by_x_.end() && it->first <= p.x() + tolerance;
+         ++it)
       if (std::abs((*points_)(1, it->second) - p.y()) <= tolerance) return it->second;
     return std::nullopt;
   }
@@ -49,8 +50,8 @@ std::optional<std::vector<BlockId>> block_images(const BlockLayout& layout, doub
   return images;
 }
 
-std::optional<std::vector<NodeId>> node_images(const Mesh& mesh, const std::vector<BlockId>& block_image, double axis_x,
-                                               double tolerance) {
+std::optional<std::vector<NodeId>> node_images(const Mesh& mesh, const std::vector<BlockId>& block_image,
+                                               double axis_x, double tolerance) {
   std::vector<NodeId> images(static_cast<std::size_t>(mesh.node_count()));
   for (std::size_t block = 0; block < block_image.size(); ++block) {
     const PointIndex index(mesh.nodes, mesh.block_nodes[static_cast<std::size_t>(value(block_image[block]))]);
@@ -78,7 +79,8 @@ std::set<std::array<NodeId, 3>> triangle_set(const Mesh& mesh, const std::vector
 
 }  // namespace
 
-std::optional<MirrorSymmetry> find_mirror_symmetry(const BlockLayout& layout, const Mesh& mesh, double axis_x) {
+std::optional<MirrorSymmetry> find_mirror_symmetry(const BlockLayout& layout, const Mesh& mesh,
+                                                   double axis_x) {
   const double size = (mesh.nodes.rowwise().maxCoeff() - mesh.nodes.rowwise().minCoeff()).norm();
   const double tolerance = kRelativeTolerance * size;
   auto blocks = block_images(layout, axis_x, tolerance);

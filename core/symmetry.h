@@ -14,9 +14,10 @@ struct MirrorSymmetry {
   std::vector<NodeId> node_image;
 };
 
-/// The symmetry if every block and every node has a mirror image within a nanometre times the bridge's size, and
-/// every triangle and boundary edge one between the image nodes; otherwise nothing.
-std::optional<MirrorSymmetry> find_mirror_symmetry(const BlockLayout& layout, const Mesh& mesh, double axis_x);
+/// The symmetry if every block and every node has a mirror image within a nanometre times the bridge's size,
+/// and every triangle and boundary edge one between the image nodes; otherwise nothing.
+std::optional<MirrorSymmetry> find_mirror_symmetry(const BlockLayout& layout, const Mesh& mesh,
+                                                   double axis_x);
 
 Scene mirrored(const Scene& scene, const MirrorSymmetry& symmetry);
 

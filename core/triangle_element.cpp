@@ -48,11 +48,13 @@ Eigen::Vector3d triangle_stress(const TriangleShape& shape, const PlaneModuli& m
   return stress_of(displacement_gradient(shape, q), moduli);
 }
 
-Vector6d triangle_force(const TriangleShape& shape, const PlaneModuli& moduli, double thickness, const Vector6d& q) {
+Vector6d triangle_force(const TriangleShape& shape, const PlaneModuli& moduli, double thickness,
+                        const Vector6d& q) {
   const Eigen::Matrix2d h = displacement_gradient(shape, q);
   const Eigen::Matrix2d first_piola = (Eigen::Matrix2d::Identity() + h) * tensor(stress_of(h, moduli));
   Vector6d force;
-  Eigen::Map<Eigen::Matrix<double, 2, 3>>(force.data()) = (shape.area * thickness) * first_piola * shape.gradient;
+  Eigen::Map<Eigen::Matrix<double, 2, 3>>(force.data()) =
+      (shape.area * thickness) * first_piola * shape.gradient;
   return force;
 }
 

@@ -40,7 +40,8 @@ struct TriangleResponse {
 Eigen::Vector3d triangle_stress(const TriangleShape& shape, const PlaneModuli& moduli, const Vector6d& q);
 
 /// Internal forces only.
-Vector6d triangle_force(const TriangleShape& shape, const PlaneModuli& moduli, double thickness, const Vector6d& q);
+Vector6d triangle_force(const TriangleShape& shape, const PlaneModuli& moduli, double thickness,
+                        const Vector6d& q);
 
 /// Internal forces and their derivative.
 TriangleResponse triangle_response(const TriangleShape& shape, const PlaneModuli& moduli, double thickness,

@@ -9,7 +9,8 @@ namespace {
 
 constexpr double kTieMargin = 1e-9;  ///< relative: shapes that differ by round-off count as equal
 
-/// Area over the sum of squared sides: 0.144 for an equilateral triangle, 0 or less for a flat or inverted one.
+/// Area over the sum of squared sides: 0.144 for an equilateral triangle, 0 or less for a flat or inverted
+/// one.
 double shape_quality(const Point& a, const Point& b, const Point& c) {
   return 0.5 * cross(b - a, c - a) / ((b - a).squaredNorm() + (c - b).squaredNorm() + (a - c).squaredNorm());
 }
@@ -24,7 +25,8 @@ int lowest_leftmost(const Polygon& polygon) {
   return best;
 }
 
-/// Best worst quality of the sub-polygons i..j, and the apex that achieves it (dynamic programming over diagonals).
+/// Best worst quality of the sub-polygons i..j, and the apex that achieves it (dynamic programming over
+/// diagonals).
 struct BestApex {
   double quality = std::numeric_limits<double>::infinity();
   int apex = -1;
@@ -32,7 +34,8 @@ struct BestApex {
 
 class ApexTable {
  public:
-  explicit ApexTable(const Polygon& corners) : n_(static_cast<int>(corners.size())), table_(corners.size() * corners.size()) {
+  explicit ApexTable(const Polygon& corners)
+      : n_(static_cast<int>(corners.size())), table_(corners.size() * corners.size()) {
     for (int span = 2; span < n_; ++span)
       for (int i = 0; i + span < n_; ++i) fill(corners, i, i + span);
   }
@@ -52,7 +55,8 @@ class ApexTable {
   std::vector<BestApex> table_;
 };
 
-void collect(const ApexTable& table, int i, int j, int rotation, int n, std::vector<std::array<int, 3>>& triangles) {
+void collect(const ApexTable& table, int i, int j, int rotation, int n,
+             std::vector<std::array<int, 3>>& triangles) {
   if (j - i < 2) return;
   const int k = table.at(i, j).apex;
   triangles.push_back({(i + rotation) % n, (k + rotation) % n, (j + rotation) % n});
@@ -89,13 +93,33 @@ Triangulation fan_about_edge(const Polygon& polygon, int edge) {
   return result;
 }
 
+void split_boundary_at(Triangulation& triangulation, const Point& point, double tolerance) {
+  const auto at = [&](int i) -> const Point& { return triangulation.points[static_cast<std::size_t>(i)]; };
+  for (const auto& [a, b] : boundary(triangulation)) {
+    if (distance_to_segment(at(a), at(b), point) > tolerance) continue;
+    if ((at(a) - point).norm() <= tolerance || (at(b) - point).norm() <= tolerance) return;
+    const int middle = static_cast<int>(triangulation.points.size());
+    triangulation.points.push_back(point);
+    for (auto& t : triangulation.triangles)
+      for (std::size_t k = 0; k < 3; ++k)
+        if (t[k] == a && t[(k + 1) % 3] == b) {
+          const int apex = t[(k + 2) % 3];
+          t = {a, middle, apex};
+          triangulation.triangles.push_back({middle, b, apex});
+          return;
+        }
+  }
+}
+
 Triangulation refined(const Triangulation& coarse) {
   Triangulation fine{coarse.points, {}};
   std::map<std::array<int, 2>, int> midpoints;
   const auto midpoint = [&](int a, int b) {
-    const auto [entry, is_new] = midpoints.try_emplace({std::min(a, b), std::max(a, b)}, static_cast<int>(fine.points.size()));
+    const auto [entry, is_new] =
+        midpoints.try_emplace({std::min(a, b), std::max(a, b)}, static_cast<int>(fine.points.size()));
     if (is_new)
-      fine.points.push_back(0.5 * (coarse.points[static_cast<std::size_t>(a)] + coarse.points[static_cast<std::size_t>(b)]));
+      fine.points.push_back(
+          0.5 * (coarse.points[static_cast<std::size_t>(a)] + coarse.points[static_cast<std::size_t>(b)]));
     return entry->second;
   };
   for (const auto& [a, b, c] : coarse.triangles) {

@@ -14,8 +14,8 @@ struct Triangulation {
   std::vector<std::array<int, 3>> triangles;
 };
 
-/// As few triangles as the corners allow (n - 2), with the best worst shape among all such triangulations; ties go to
-/// the diagonal from the lowest, then leftmost corner.
+/// As few triangles as the corners allow (n - 2), with the best worst shape among all such triangulations;
+/// ties go to the diagonal from the lowest, then leftmost corner.
 Triangulation cut_between_corners(const Polygon& polygon);
 
 /// Triangles from the centre of gravity to every edge. Precondition: the centre sees all corners.
@@ -23,6 +23,10 @@ Triangulation fan_about_centre(const Polygon& polygon);
 
 /// Triangles from the middle of edge `edge` (corner `edge` to the next) to every other edge.
 Triangulation fan_about_edge(const Polygon& polygon, int edge);
+
+/// Puts a point on the boundary edge that passes it within `tolerance` [m] and cuts that edge's triangle in
+/// two; does nothing where a point is already.
+void split_boundary_at(Triangulation& triangulation, const Point& point, double tolerance);
 
 /// Every triangle cut into four at the middles of its edges; midpoints are shared.
 Triangulation refined(const Triangulation& coarse);

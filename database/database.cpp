@@ -64,7 +64,7 @@ SceneTable read_table(const Hdf5File& file, std::size_t points) {
   table.points = points;
   table.most_missing = columns_of_removed(file);
   table.removed = file.numbers<std::int32_t>(dataset::kRemoved, ElementType::int32, table.most_missing);
-  table.outcome = file.numbers<std::uint8_t>(dataset::kOutcome, ElementType::uint8, 1);
+  table.outcome = file.numbers<std::uint8_t>(dataset::kOutcome, ElementType::uint8, kFlat);
   table.vertical = file.numbers<double>(dataset::kVertical, ElementType::float64, points);
   table.rows = table.outcome.size();
   file.require(table.removed.size() == table.rows * table.most_missing &&
@@ -113,11 +113,11 @@ struct SceneColumns {
 /// The columns of a dataset with one row for each scene.
 template <class T>
 std::span<const T> read_column(const Hdf5File& file, const char* path, ElementType type, std::size_t rows,
-                               std::uint64_t columns = 1) {
+                               std::uint64_t columns = kFlat) {
   const auto numbers = file.numbers<T>(path, type, columns);
-  file.require(
-      numbers.size() == rows * columns,
-      fmt::format("dataset '{}' has {} rows where {} were expected", path, numbers.size() / columns, rows));
+  const std::uint64_t found = columns == kFlat ? numbers.size() : numbers.size() / columns;
+  file.require(found == rows,
+               fmt::format("dataset '{}' has {} rows where {} were expected", path, found, rows));
   return numbers;
 }
 
@@ -288,6 +288,11 @@ Record Database::record(std::size_t row) const {
   const auto checksum = columns.checksum.subspan(row * sizeof(Sha256), sizeof(Sha256));
   std::copy(checksum.begin(), checksum.end(), record.checksum.begin());
   return record;
+}
+
+double Database::residual(std::size_t row) const {
+  implementation_->check_row(row);
+  return implementation_->scene_columns().residual[row];
 }
 
 std::uint32_t Database::chunk_crc(std::size_t row) const {

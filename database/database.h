@@ -68,6 +68,7 @@ class Database {
 
   Provenance provenance() const;
   Record record(std::size_t row) const;            ///< as it stands in the file, its checksum not verified
+  double residual(std::size_t row) const;          ///< as in Solution
   std::uint32_t chunk_crc(std::size_t row) const;  ///< stored CRC-32 of the record's packed field
   std::int32_t variant(std::size_t row) const;     ///< kOnlyVariant in every file of schema version 1
   ByteView dataset_bytes(const char* path) const;  ///< a contiguous dataset (database/schema.h) as it stands
@@ -77,5 +78,8 @@ class Database {
   explicit Database(std::unique_ptr<Implementation> implementation);
   std::unique_ptr<Implementation> implementation_;
 };
+
+/// True if the file begins as every HDF5 file does, whole or not.
+bool begins_like_hdf5(const std::filesystem::path& path);
 
 }  // namespace voussoir

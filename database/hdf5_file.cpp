@@ -1,6 +1,9 @@
 #include "database/hdf5_file.h"
 
 #include <algorithm>
+#include <array>
+
+#include "database/database.h"
 
 namespace voussoir {
 namespace {
@@ -8,11 +11,14 @@ namespace {
 constexpr std::size_t kLongestAttribute = 4096;  ///< bytes; those written are far shorter
 constexpr std::array<unsigned char, 8> kSignature = {0x89, 'H', 'D', 'F', '\r', '\n', 0x1a, '\n'};
 
+bool has_signature(ByteView bytes) {
+  return bytes.size() > kSignature.size() &&
+         std::memcmp(bytes.data(), kSignature.data(), kSignature.size()) == 0;
+}
+
 /// True for the superblock versions whose metadata is protected by checksums throughout.
 bool is_checksummed_hdf5(ByteView bytes) {
-  if (bytes.size() <= kSignature.size() ||
-      std::memcmp(bytes.data(), kSignature.data(), kSignature.size()) != 0)
-    return false;
+  if (!has_signature(bytes)) return false;
   const int version = std::to_integer<int>(bytes[kSignature.size()]);
   return version == 2 || version == 3;
 }
@@ -84,6 +90,10 @@ std::string without_padding(const char* text, std::size_t width) {
 }
 
 }  // namespace
+
+bool begins_like_hdf5(const std::filesystem::path& path) {
+  return has_signature(MappedFile(path).bytes());
+}
 
 Hdf5File::Hdf5File(const std::filesystem::path& path) : path_(path), mapped_(path) {
   if (!is_checksummed_hdf5(mapped_.bytes()))
@@ -180,7 +190,7 @@ DatasetView Hdf5File::view(const char* dataset_path) const {
 
 void Hdf5File::check_numbers(const DatasetView& found, ElementType type, std::uint64_t columns) const {
   const bool fits =
-      columns == 1 ? found.shape.size() == 1 : found.shape.size() == 2 && found.shape[1] == columns;
+      columns == kFlat ? found.shape.size() == 1 : found.shape.size() == 2 && found.shape[1] == columns;
   require(found.type == type && fits,
           fmt::format("dataset '{}' has not the expected type and shape", found.path));
   const auto address = reinterpret_cast<std::uintptr_t>(found.bytes.data());

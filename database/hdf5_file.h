@@ -30,6 +30,8 @@ struct ChunkedDataset {
   Hdf5Handle handle;
 };
 
+inline constexpr std::uint64_t kFlat = 0;
+
 /// All throwing members throw InputError naming the file, what is wrong and what was expected.
 class Hdf5File {
  public:
@@ -48,7 +50,7 @@ class Hdf5File {
   bool has(const char* dataset_path) const;
   DatasetView view(const char* dataset_path) const;
 
-  /// The numbers of a dataset with this many columns (rank 2), or of rank 1 for one column.
+  /// The numbers of a dataset of rank 2 with this many columns, or of rank 1 for kFlat.
   template <class T>
   std::span<const T> numbers(const char* dataset_path, ElementType type, std::uint64_t columns) const {
     const DatasetView found = view(dataset_path);

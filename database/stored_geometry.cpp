@@ -51,7 +51,7 @@ std::span<const std::int32_t> read_indices(const Hdf5File& file, const char* pat
 
 std::span<const std::uint8_t> read_flags(const Hdf5File& file, const char* path, std::size_t size,
                                          std::uint8_t highest) {
-  const auto flags = file.numbers<std::uint8_t>(path, ElementType::uint8, 1);
+  const auto flags = file.numbers<std::uint8_t>(path, ElementType::uint8, kFlat);
   require_size(file, path, flags.size(), size);
   file.require(
       std::all_of(flags.begin(), flags.end(), [highest](std::uint8_t flag) { return flag <= highest; }),
@@ -102,7 +102,7 @@ std::vector<StoredPoint> read_control_points(const Hdf5File& file) {
       names.type == ElementType::text && names.shape.size() == 1 && names.text_width == kPointNameWidth,
       "dataset 'control/point_name' has not the expected type and shape");
   const auto positions = read_points(file, dataset::kPointPosition);
-  const auto blocks = read_ints(file, dataset::kPointBlock, 1);
+  const auto blocks = read_ints(file, dataset::kPointBlock, kFlat);
   require_size(file, dataset::kPointPosition, positions.size() / 2, names.shape[0]);
   require_size(file, dataset::kPointBlock, blocks.size(), names.shape[0]);
   std::vector<StoredPoint> points;

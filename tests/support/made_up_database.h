@@ -7,6 +7,7 @@
 #include "core/bridge.h"
 #include "core/bridge_file.h"
 #include "core/control_point.h"
+#include "core/error.h"
 #include "database/field_codec.h"
 #include "database/provenance.h"
 #include "database/writer.h"

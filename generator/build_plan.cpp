@@ -1,0 +1,78 @@
+#include "generator/build_plan.h"
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "core/symmetry.h"
+#include "generator/scene_list.h"
+
+namespace voussoir {
+namespace {
+
+constexpr int kStages = 3;  // intact; singles; the rest
+
+int stage_of(const Scene& scene) {
+  return std::min(scene.missing(), kStages - 1);
+}
+
+const MirrorSymmetry* symmetry_in_use(const Bridge& bridge, UseMirror mirror) {
+  return mirror == UseMirror::yes && bridge.symmetry ? &*bridge.symmetry : nullptr;
+}
+
+Scene representative(const Scene& scene, const MirrorSymmetry* symmetry) {
+  return symmetry ? std::min(scene, mirrored(scene, *symmetry)) : scene;
+}
+
+/// The scenes whose fields the solving of this one starts from.
+std::vector<Scene> starting_scenes(const Scene& solved) {
+  std::vector<Scene> scenes;
+  if (!solved.removed.empty()) scenes.push_back(Scene{});
+  if (solved.missing() > 1)
+    for (const BlockId block : solved.removed) scenes.push_back(Scene{{block}});
+  return scenes;
+}
+
+/// The scenes that need a record and have none: those wanted that are unknown and what they start from.
+std::set<Scene> missing_records(const std::vector<Scene>& wanted, const MirrorSymmetry* symmetry,
+                                const std::function<bool(const Scene&)>& is_known) {
+  std::set<Scene> missing;
+  for (auto scene = wanted.rbegin(); scene != wanted.rend(); ++scene)
+    if (!is_known(*scene)) missing.insert(*scene);
+  for (int pass = 1; pass < kStages; ++pass)  // pairs start from singles, singles from the intact bridge
+    for (const Scene& scene : std::vector<Scene>(missing.begin(), missing.end()))
+      for (const Scene& start : starting_scenes(representative(scene, symmetry)))
+        if (!is_known(start)) missing.insert(start);
+  return missing;
+}
+
+}  // namespace
+
+std::size_t BuildPlan::records() const {
+  std::size_t count = 0;
+  for (const auto& stage : stages)
+    for (const SolvingTask& task : stage) count += (task.records_solved ? 1 : 0) + (task.image ? 1 : 0);
+  return count;
+}
+
+BuildPlan plan_build(const std::vector<Scene>& wanted, const Bridge& bridge, UseMirror mirror,
+                     const std::function<bool(const Scene&)>& is_known) {
+  const MirrorSymmetry* symmetry = symmetry_in_use(bridge, mirror);
+  std::map<Scene, SolvingTask> tasks;
+  for (const Scene& scene : missing_records(wanted, symmetry, is_known)) {
+    const Scene solved = representative(scene, symmetry);
+    SolvingTask& task = tasks[solved];
+    task.solved = solved;
+    if (scene == solved)
+      task.records_solved = true;
+    else
+      task.image = scene;
+  }
+  BuildPlan plan;
+  plan.stages.resize(kStages);
+  for (auto& [solved, task] : tasks)
+    plan.stages[static_cast<std::size_t>(stage_of(solved))].push_back(std::move(task));
+  return plan;
+}
+
+}  // namespace voussoir
