@@ -139,7 +139,13 @@ void run(const Build& build, std::optional<Database> old, BuildSummary& summary)
   build.progress.start(summary.resumed + summary.reused + summary.computed, summary.resumed + summary.reused);
   run_plan(build, plan, known);
   build.progress.finish();
-  write(build, known, summary);
+  try {
+    write(build, known, summary);
+  } catch (const Failure& failure) {
+    throw Failure(
+        fmt::format("{}; all scenes are kept in {}: put things right and run the same command again",
+                    failure.what(), known.journal().path().string()));
+  }
   known.journal().remove();
 }
 

@@ -20,8 +20,11 @@ VerifyOptions parse_verify_options(int argc, char** argv) {
   const std::map<std::string, bool> format_names = {{"text", false}, {"json", true}};
   app.add_option("database", options.request.database, "file written by build-database")->required();
   app.add_option("--recompute", options.request.recompute, "solve this many scenes anew and compare")
+      ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
-  app.add_option("--seed", options.request.seed, "of the choice of these scenes")->capture_default_str();
+  app.add_option("--seed", options.request.seed, "of the choice of these scenes")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
   app.add_option("--threads", options.request.threads, "threads, 0: one for each core")
       ->check(CLI::Range(0, kMostThreads))
       ->capture_default_str();
