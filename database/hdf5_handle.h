@@ -39,7 +39,7 @@ class Hdf5Handle {
 
 /// HDF5 as Debian builds it is not thread-safe: whoever calls it holds this lock (which one thread may
 /// take several times: a database may be read while another is written). Taking it for the first time turns
-/// off HDF5's own error messages and its loading of plug-ins.
+/// off HDF5's own error messages, its loading of plug-ins and its work at exit.
 std::unique_lock<std::recursive_mutex> lock_hdf5();
 
 /// The most specific message of HDF5's last error, or an empty text. Clears the error.

@@ -9,8 +9,8 @@
 #include <algorithm>
 
 #include "core/error.h"
-#include "database/field_codec.h"
 #include "database/writer.h"
+#include "generator/build_settings.h"
 #include "generator/existing_database.h"
 #include "generator/known_records.h"
 #include "generator/results_key.h"
@@ -30,16 +30,10 @@ struct Build {
   Provenance provenance;
 };
 
-std::string all_settings(const BuildRequest& request, const SolverChoice& solver, const Bridge& bridge) {
-  const bool mirror = request.mirror == UseMirror::yes && bridge.symmetry.has_value();
-  return solver.settings +
-         fmt::format("mirror_images = {}\nstorage_step_m = {}\n", mirror ? "used" : "not used", kStorageStep);
-}
-
 Build prepare(const BuildRequest& request, const SolverChoice& solver, Progress& progress) {
   Bridge bridge = make_bridge(request.bridge.description);
   auto wanted = parse_scene_list(request.scenes, bridge.layout);
-  const std::string settings = all_settings(request, solver, bridge);
+  const std::string settings = build_settings(solver, bridge, request.mirror);
   Provenance provenance =
       make_provenance(request.bridge, settings, results_key(request.bridge.description, settings));
   return {request, solver, progress, std::move(bridge), std::move(wanted), std::move(provenance)};
@@ -82,11 +76,8 @@ void run_task(const Build& build, const SolvingTask& task, const SceneSolver& so
 /// long ago.
 StartingFields read_starts(const std::vector<SolvingTask>& stage, const KnownRecords& known) {
   std::set<Scene> scenes;
-  for (const SolvingTask& task : stage) {
-    if (!task.solved.removed.empty()) scenes.insert(Scene{});
-    if (task.solved.missing() > 1)
-      for (const BlockId block : task.solved.removed) scenes.insert(Scene{{block}});
-  }
+  for (const SolvingTask& task : stage)
+    for (const Scene& start : starting_scenes(task.solved)) scenes.insert(start);
   StartingFields starts;
   for (const Scene& scene : scenes) {
     const Solution solution = known.read_solution(scene);
@@ -148,7 +139,13 @@ void run(const Build& build, std::optional<Database> old, BuildSummary& summary)
   build.progress.start(summary.resumed + summary.reused + summary.computed, summary.resumed + summary.reused);
   run_plan(build, plan, known);
   build.progress.finish();
-  write(build, known, summary);
+  try {
+    write(build, known, summary);
+  } catch (const Failure& failure) {
+    throw Failure(
+        fmt::format("{}; all scenes are kept in {}: put things right and run the same command again",
+                    failure.what(), known.journal().path().string()));
+  }
   known.journal().remove();
 }
 

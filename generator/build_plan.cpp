@@ -16,15 +16,26 @@ int stage_of(const Scene& scene) {
   return std::min(scene.missing(), kStages - 1);
 }
 
-const MirrorSymmetry* symmetry_in_use(const Bridge& bridge, UseMirror mirror) {
-  return mirror == UseMirror::yes && bridge.symmetry ? &*bridge.symmetry : nullptr;
+/// The scenes that need a record and have none: those wanted that are unknown and what they start from.
+std::set<Scene> missing_records(const std::vector<Scene>& wanted, const Bridge& bridge, UseMirror mirror,
+                                const std::function<bool(const Scene&)>& is_known) {
+  std::set<Scene> missing;
+  for (auto scene = wanted.rbegin(); scene != wanted.rend(); ++scene)
+    if (!is_known(*scene)) missing.insert(*scene);
+  for (int pass = 1; pass < kStages; ++pass)  // pairs start from singles, singles from the intact bridge
+    for (const Scene& scene : std::vector<Scene>(missing.begin(), missing.end()))
+      for (const Scene& start : starting_scenes(representative(scene, bridge, mirror)))
+        if (!is_known(start)) missing.insert(start);
+  return missing;
 }
 
-Scene representative(const Scene& scene, const MirrorSymmetry* symmetry) {
-  return symmetry ? std::min(scene, mirrored(scene, *symmetry)) : scene;
+}  // namespace
+
+Scene representative(const Scene& scene, const Bridge& bridge, UseMirror mirror) {
+  const bool mirrors = mirror == UseMirror::yes && bridge.symmetry;
+  return mirrors ? std::min(scene, mirrored(scene, *bridge.symmetry)) : scene;
 }
 
-/// The scenes whose fields the solving of this one starts from.
 std::vector<Scene> starting_scenes(const Scene& solved) {
   std::vector<Scene> scenes;
   if (!solved.removed.empty()) scenes.push_back(Scene{});
@@ -32,21 +43,6 @@ std::vector<Scene> starting_scenes(const Scene& solved) {
     for (const BlockId block : solved.removed) scenes.push_back(Scene{{block}});
   return scenes;
 }
-
-/// The scenes that need a record and have none: those wanted that are unknown and what they start from.
-std::set<Scene> missing_records(const std::vector<Scene>& wanted, const MirrorSymmetry* symmetry,
-                                const std::function<bool(const Scene&)>& is_known) {
-  std::set<Scene> missing;
-  for (auto scene = wanted.rbegin(); scene != wanted.rend(); ++scene)
-    if (!is_known(*scene)) missing.insert(*scene);
-  for (int pass = 1; pass < kStages; ++pass)  // pairs start from singles, singles from the intact bridge
-    for (const Scene& scene : std::vector<Scene>(missing.begin(), missing.end()))
-      for (const Scene& start : starting_scenes(representative(scene, symmetry)))
-        if (!is_known(start)) missing.insert(start);
-  return missing;
-}
-
-}  // namespace
 
 std::size_t BuildPlan::records() const {
   std::size_t count = 0;
@@ -57,10 +53,9 @@ std::size_t BuildPlan::records() const {
 
 BuildPlan plan_build(const std::vector<Scene>& wanted, const Bridge& bridge, UseMirror mirror,
                      const std::function<bool(const Scene&)>& is_known) {
-  const MirrorSymmetry* symmetry = symmetry_in_use(bridge, mirror);
   std::map<Scene, SolvingTask> tasks;
-  for (const Scene& scene : missing_records(wanted, symmetry, is_known)) {
-    const Scene solved = representative(scene, symmetry);
+  for (const Scene& scene : missing_records(wanted, bridge, mirror, is_known)) {
+    const Scene solved = representative(scene, bridge, mirror);
     SolvingTask& task = tasks[solved];
     task.solved = solved;
     if (scene == solved)

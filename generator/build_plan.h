@@ -25,6 +25,13 @@ struct BuildPlan {
 
 enum class UseMirror { no, yes };
 
+/// The scene that is solved to answer for this one: the lexicographically smaller of the scene and its mirror
+/// image, or the scene itself if mirror images are not used or the bridge has no symmetry.
+Scene representative(const Scene& scene, const Bridge& bridge, UseMirror mirror);
+
+/// The scenes whose fields the solving of this one starts from (see StartingFields).
+std::vector<Scene> starting_scenes(const Scene& solved);
+
 /// A task for every wanted scene and for the intact bridge and the singles that wanted scenes start from,
 /// except for scenes that `is_known` already. With a mirror symmetry the lexicographically smaller of a scene
 /// and its image is solved, whatever scenes are wanted, so that a scene's record does not depend on the rest
