@@ -7,6 +7,7 @@
 #include <oneapi/tbb/task_arena.h>
 
 #include <algorithm>
+#include <span>
 
 #include "core/error.h"
 #include "database/writer.h"
@@ -58,18 +59,28 @@ KnownRecords open_records(const Build& build) {
   return known;
 }
 
-/// Solves one task and keeps its records.
-void run_task(const Build& build, const SolvingTask& task, const SceneSolver& solver,
-              const StartingFields& starts, KnownRecords& known) {
+/// Solves some tasks side by side and keeps their records.
+void run_tasks(const Build& build, std::span<const SolvingTask> tasks, const SceneSolver& solver,
+               const StartingFields& starts, KnownRecords& known) {
   const auto keep = [&](const Scene& scene, const Solution& solution) {
     const KeepField field = starts_others(scene) ? KeepField::yes : build.request.fields;
     known.journal().append(
         make_record(scene, solution, build.bridge.control_points, field, build.request.fields));
     build.progress.advance(1);
   };
-  const Solution solution = solve_for_storage(solver, task.solved, starts.start_for(task.solved));
-  if (task.records_solved) keep(task.solved, solution);
-  if (task.image) keep(*task.image, mirrored_solution(solution, *build.bridge.symmetry));
+  std::vector<Scene> scenes;
+  for (const SolvingTask& task : tasks) scenes.push_back(task.solved);
+  const std::vector<Solution> solutions = solve_for_storage(solver, scenes, starts);
+  for (std::size_t i = 0; i < tasks.size(); ++i) {
+    if (tasks[i].records_solved) keep(tasks[i].solved, solutions[i]);
+    if (tasks[i].image) keep(*tasks[i].image, mirrored_solution(solutions[i], *build.bridge.symmetry));
+  }
+}
+
+/// Tasks that one thread takes at a time: enough to keep the solver's lanes full, few enough to share a stage
+/// out and to lose little if the build is killed.
+std::size_t batch_size(std::size_t tasks, int threads) {
+  return std::clamp<std::size_t>(tasks / (8 * static_cast<std::size_t>(threads)), 4, 32);
 }
 
 /// The fields that a stage starts from. They come out of the records, whether these were made just now or
@@ -96,9 +107,12 @@ void run_plan(const Build& build, const BuildPlan& plan, KnownRecords& known) {
       [&] { return build.solver.make_solver(build.bridge); });
   for (const auto& stage : plan.stages) {
     const StartingFields starts = read_starts(stage, known);
+    const std::size_t batch = batch_size(stage.size(), threads);
     arena.execute([&] {
-      tbb::parallel_for(std::size_t{0}, stage.size(),
-                        [&](std::size_t i) { run_task(build, stage[i], solvers.local(), starts, known); });
+      tbb::parallel_for(std::size_t{0}, (stage.size() + batch - 1) / batch, [&](std::size_t i) {
+        const auto tasks = std::span(stage).subspan(i * batch, std::min(batch, stage.size() - i * batch));
+        run_tasks(build, tasks, solvers.local(), starts, known);
+      });
     });
   }
 }

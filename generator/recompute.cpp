@@ -41,7 +41,7 @@ Solution recompute(const Scene& scene, const Database& database, const Bridge& b
         row ? database.solution(*row) : recompute(start, database, bridge, mirror, solver);
     starts.add(start, solution.outcome, solution.displacement);
   }
-  const Solution solution = solve_for_storage(solver, solved, starts.start_for(solved));
+  const Solution solution = solve_for_storage(solver, {&solved, 1}, starts).front();
   return solved == scene ? solution : mirrored_solution(solution, *bridge.symmetry);
 }
 

@@ -2,17 +2,20 @@
 /// @file The solvers as the generator sees them, and the one way in which a scene is solved for the database.
 
 #include <functional>
-#include <optional>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "core/bridge.h"
 #include "core/quasi_static_solver.h"
 #include "core/solution.h"
+#include "generator/start_field.h"
 
 namespace voussoir {
 
-/// Solves scenes of one bridge, from a start field or from zero; used by one thread at a time.
-using SceneSolver = std::function<Solution(const Scene&, const std::optional<Field>& start)>;
+/// Solves scenes of one bridge, each from its start field or from zero; used by one thread at a time. A
+/// solution does not depend on the scenes that are solved with it.
+using SceneSolver = std::function<std::vector<Solution>(std::span<const SceneStart>)>;
 
 struct SolverChoice {
   std::string settings;  ///< "key = value" lines: everything that the solver's answers depend on
@@ -21,8 +24,9 @@ struct SolverChoice {
 
 SolverChoice quasi_static(const QuasiStaticSettings& settings = {});
 
-/// Solves the scene and rounds its field to the storage precision.
-Solution solve_for_storage(const SceneSolver& solver, const Scene& scene, const std::optional<Field>& start);
+/// Solves the scenes and rounds their fields to the storage precision.
+std::vector<Solution> solve_for_storage(const SceneSolver& solver, std::span<const Scene> scenes,
+                                        const StartingFields& starts);
 
 /// The mirror image of a solution, in the same storage precision.
 Solution mirrored_solution(const Solution& solution, const MirrorSymmetry& symmetry);

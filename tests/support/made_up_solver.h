@@ -10,16 +10,18 @@
 namespace voussoir::test {
 
 /// Answers are those of made_up_solution plus a tenth of the start, so that a wrong start shows.
-inline Solution answer_from(const Bridge& bridge, const Scene& scene, const std::optional<Field>& start) {
-  Solution solution = made_up_solution(bridge, scene);
-  if (start) solution.displacement += 0.1 * *start;
+inline Solution answer_from(const Bridge& bridge, const SceneStart& task) {
+  Solution solution = made_up_solution(bridge, task.scene);
+  if (task.start != nullptr) solution.displacement += 0.1 * *task.start;
   return solution;
 }
 
 inline SolverChoice made_up_solver() {
   return {"solver = made up\n", [](const Bridge& bridge) -> SceneSolver {
-            return [&bridge](const Scene& scene, const std::optional<Field>& start) {
-              return answer_from(bridge, scene, start);
+            return [&bridge](std::span<const SceneStart> scenes) {
+              std::vector<Solution> answers;
+              for (const SceneStart& task : scenes) answers.push_back(answer_from(bridge, task));
+              return answers;
             };
           }};
 }
@@ -28,9 +30,13 @@ inline SolverChoice made_up_solver() {
 inline SolverChoice failing_solver(int scenes) {
   const auto left = std::make_shared<std::atomic<int>>(scenes);
   return {"solver = made up\n", [left](const Bridge& bridge) -> SceneSolver {
-            return [&bridge, left](const Scene& scene, const std::optional<Field>& start) {
-              if (--*left <= 0) throw Failure("interrupted");
-              return answer_from(bridge, scene, start);
+            return [&bridge, left](std::span<const SceneStart> scenes) {
+              std::vector<Solution> answers;
+              for (const SceneStart& task : scenes) {
+                if (--*left <= 0) throw Failure("interrupted");
+                answers.push_back(answer_from(bridge, task));
+              }
+              return answers;
             };
           }};
 }
