@@ -11,11 +11,11 @@ find_package(nlohmann_json REQUIRED)
 find_package(tomlplusplus REQUIRED)
 find_package(Catch2 2.13 REQUIRED)
 
-find_path(KLU_INCLUDE klu.h PATH_SUFFIXES suitesparse REQUIRED)
-find_library(KLU_LIBRARY klu REQUIRED)
-add_library(SuiteSparse::KLU INTERFACE IMPORTED)
-target_include_directories(SuiteSparse::KLU SYSTEM INTERFACE ${KLU_INCLUDE})
-target_link_libraries(SuiteSparse::KLU INTERFACE ${KLU_LIBRARY})
+find_path(AMD_INCLUDE amd.h PATH_SUFFIXES suitesparse REQUIRED)
+find_library(AMD_LIBRARY amd REQUIRED)
+add_library(SuiteSparse::AMD INTERFACE IMPORTED)
+target_include_directories(SuiteSparse::AMD SYSTEM INTERFACE ${AMD_INCLUDE})
+target_link_libraries(SuiteSparse::AMD INTERFACE ${AMD_LIBRARY})
 
 find_path(HDF5_INCLUDE hdf5.h PATH_SUFFIXES hdf5/serial REQUIRED)
 # Static: the shared library brings some thirty others along (for reading over the network), 5 ms at every start.
