@@ -39,13 +39,14 @@ double draw_error(NoiseShape shape, double degrees_of_freedom, Random& random) {
 }
 
 Measurements simulate_readings(std::span<const double> displacements, const NoiseModel& noise, Random& random) {
-  Measurements result{{displacements.begin(), displacements.end()},
-                      std::vector<double>(displacements.size(), std::numeric_limits<double>::quiet_NaN())};
-  for (double& value : result.displacement)
-    if (!std::isnan(value))
-      value += (*noise.relative * std::abs(value) + noise.floor) *
-               draw_error(noise.shape, noise.degrees_of_freedom, random);
-  return result;
+  std::vector<double> readings(displacements.begin(), displacements.end());
+  for (double& value : readings) {
+    if (std::isnan(value)) continue;
+    value += (*noise.relative * std::abs(value) + noise.floor) *
+             draw_error(noise.shape, noise.degrees_of_freedom, random);
+    if (random.uniform() < noise.silence) value = std::numeric_limits<double>::quiet_NaN();
+  }
+  return as_measurements(readings);
 }
 
 }  // namespace voussoir

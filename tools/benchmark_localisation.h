@@ -54,8 +54,8 @@ struct Calibration {
   std::vector<ReliabilityBin> bins;   ///< ten, of equal width
 };
 
-/// Random scenes (numbers of missing blocks equally often) with noise levels even in 1..20 %, looked up among all
-/// scenes; `stated`: the noise level is told to the lookup.
+/// Random scenes (numbers of missing blocks equally often) with noise levels even in 1..20 % and sensors that fail as
+/// often as the lookup supposes, looked up among all scenes; `stated`: the noise level is told to the lookup.
 Calibration calibrate(const Library& library, NoiseShape drawn, NoiseShape assumed, bool stated, int trials,
                       std::uint64_t seed);
 

@@ -16,6 +16,7 @@ struct Options {
   std::string noise_level = "5%";
   std::string noise_model = "uniform";
   double floor_mm = 0.0;
+  std::string silence = "0%";
   std::uint64_t seed = 1;
   bool hide = false;
   std::string output;
@@ -34,15 +35,16 @@ std::string make_measurements(const Options& options) {
   const auto database = voussoir::Database::open(voussoir::find_database(options.database));
   const auto row = database.table().row(voussoir::find_row(database, options.scene));
   const voussoir::NoiseModel noise{voussoir::parse_noise_shape(options.noise_model),
-                                   voussoir::parse_noise_level(options.noise_level), 1e-3 * options.floor_mm};
+                                   voussoir::parse_noise_level(options.noise_level), 1e-3 * options.floor_mm, 0.0, 4.0,
+                                   voussoir::parse_noise_level(options.silence)};
   if (noise.shape == voussoir::NoiseShape::automatic)
     throw voussoir::InputError("--noise-model auto cannot be simulated, expected uniform, gaussian, laplace or student");
   voussoir::Random random(options.seed);
   const auto readings = voussoir::simulate_readings(row, noise, random);
   std::string text = heading(options, database);
   for (std::size_t i = 0; i < row.size(); ++i)
-    if (!std::isnan(readings.displacement[i]))
-      text += fmt::format("{},{:.4f}\n", database.control_points()[i].name, 1e3 * readings.displacement[i]);
+    text += fmt::format("{},{}\n", database.control_points()[i].name,
+                        readings.silent[i] ? "" : fmt::format("{:.4f}", 1e3 * readings.displacement[i]));
   if (options.output.empty()) return text;
   if (!(std::ofstream(options.output) << text << std::flush))
     throw voussoir::Failure(fmt::format("{}: cannot be written", options.output));
@@ -63,6 +65,8 @@ int main(int argc, char** argv) {
   app.add_option("--noise-model", options.noise_model, "uniform (default), gaussian, laplace or student")
       ->check(voussoir::checked_by(voussoir::parse_noise_shape, "NAME"));
   app.add_option("--floor", options.floor_mm, "absolute part [mm], default 0")->check(CLI::NonNegativeNumber);
+  app.add_option("--silent-sensors", options.silence, "chance that a sensor gives no reading, default 0%")
+      ->check(voussoir::checked_by(voussoir::parse_noise_level, "LEVEL"));
   app.add_option("--seed", options.seed, "of the random numbers, default 1");
   app.add_flag("--hide", options.hide, "do not name the scene in the file");
   app.add_option("-o,--output", options.output, "default: the standard output");
