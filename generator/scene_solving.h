@@ -12,8 +12,8 @@
 
 namespace voussoir {
 
-/// Solves scenes of one bridge, one solution a scene in their order; used by one thread at a time. A solution depends on
-/// its scene and start only, not on the others.
+/// Solves scenes of one bridge, one solution a scene in their order; used by one thread at a time. A solution
+/// depends on its scene and start only, not on the others.
 using SceneSolver = std::function<std::vector<Solution>(std::span<const SceneStart>)>;
 
 struct SolverChoice {
