@@ -22,13 +22,14 @@
 
 #include <array>
 
-#include "core/lanes.h"
+#include "core/lane_number.h"
 
 namespace voussoir {
 
 /// Edges whose directions differ by more than 60 degrees do not face each other; from 45 degrees on, the contact
 /// fades (squared length of t before it is made a unit vector: 2 + 2 cos(angle)).
 inline constexpr double kNotFacing = 3.0;
+inline constexpr double kFullyFacing = 3.4142135623730951;
 inline constexpr double kNotFacingLength = 1.7320508075688772;
 inline constexpr double kFullyFacingLength = 1.8477590650225735;
 
@@ -49,7 +50,7 @@ struct ContactMaterial {
 
 /// Elastic part of the slip at s_0 and s_1 [m].
 template <class T>
-struct ContactShear {
+struct alignas(sizeof(T)) ContactShear {
   T at_0;
   T at_1;
 };
@@ -103,26 +104,35 @@ VOUSSOIR_INLINE bool contact_forces(const EdgeContact& contact, const ContactMat
   const double per_a = contact.per_length[0];
   const double per_b = contact.per_length[1];
 
-  // The frame and the stretch that both edges cover.
+  // Do both edges cover a stretch? Most candidates do not, so roots and quotients come later.
   const Pair<T> along_a = a1 - a0;
   const Pair<T> along_b = b0 - b1;
+  const Pair<T> to_b1 = b1 - a0;
   const Pair<T> direction = along_a * per_a + along_b * per_b;
   const T squared = dot(direction, direction);
-  const auto facing = (squared > kNotFacing) & (present > 0.0);
-  const T length_of_direction = square_root(larger(squared, one));
-  const T per_direction = 1.0 / length_of_direction;
+  const T rough_a = dot(direction, along_a);
+  const T rough_b1 = dot(direction, to_b1);
+  const T rough_b0 = rough_b1 + dot(direction, along_b);
+  const auto b_begins = rough_b1 > 0.0;
+  const auto b_ends = rough_b0 < rough_a;
+  const auto covering = (squared > kNotFacing) & (present > 0.0) & (rough_a > 0.0) & (rough_b0 > 0.0) &
+                        (rough_b1 < rough_a) & (rough_b1 < rough_b0);
+  if (!any(covering)) {
+    shear.at_0 = zero;
+    shear.at_1 = zero;
+    return false;
+  }
+
+  // The frame and the stretch.
+  const T per_direction = inverse_root_near_four(squared);
   const Pair<T> t = direction * per_direction;
   const Pair<T> n = {t.y, -t.x};
-  const Pair<T> to_b1 = b1 - a0;
-  const T reach_a = facing ? dot(t, along_a) : one;
-  const T reach_b = facing ? dot(t, along_b) : one;
-  const T s_b1 = dot(t, to_b1);
+  const T reach_a = covering ? rough_a * per_direction : one;
+  const T reach_b = covering ? dot(t, along_b) : one;
+  const T s_b1 = rough_b1 * per_direction;
   const T s_b0 = s_b1 + reach_b;
-  const auto b_begins = s_b1 > 0.0;
-  const auto b_ends = s_b0 < reach_a;
   const T s_0 = b_begins ? s_b1 : zero;
   const T s_1 = b_ends ? s_b0 : reach_a;
-  const auto covering = facing & (s_1 > s_0);
 
   // The gap.
   const T h_a1 = dot(n, along_a);
@@ -135,7 +145,7 @@ VOUSSOIR_INLINE bool contact_forces(const EdgeContact& contact, const ContactMat
   const T gap_at_a0 = h_b1 - slope_b * s_b1;
   const T gap_0 = gap_at_a0 + slope * s_0;
   const T gap_1 = gap_at_a0 + slope * s_1;
-  const auto touching = covering & ((gap_0 < 0.0) | (gap_1 < 0.0));
+  const auto touching = covering & (s_1 > s_0) & ((gap_0 < 0.0) | (gap_1 < 0.0));
   if (!any(touching)) {
     shear.at_0 = zero;
     shear.at_1 = zero;
@@ -180,7 +190,7 @@ VOUSSOIR_INLINE bool contact_forces(const EdgeContact& contact, const ContactMat
   const T xi_0 = shear.at_0 + slip_at_a0 + slip_slope * s_0;
   const T xi_1 = shear.at_1 + slip_at_a0 + slip_slope * s_1;
   const T s_first = s_begin + pressure.begin;
-  const T xi_slope = (xi_1 - xi_0) / (covering ? s_1 - s_0 : one);
+  const T xi_slope = (xi_1 - xi_0) / (touching ? s_1 - s_0 : one);
   const T tau_0 = material.tangential * (xi_0 + xi_slope * (s_first - s_0));
   const T tau_1 = tau_0 + material.tangential * xi_slope * pressure.length;
   const T cap_0 = material.friction * p_0;
@@ -221,7 +231,8 @@ VOUSSOIR_INLINE bool contact_forces(const EdgeContact& contact, const ContactMat
   T across_b1 = normal_b1 - per_b * turning;
 
   // Edges that hardly face each other.
-  if (any(closed & (length_of_direction < kFullyFacingLength))) {
+  if (any(closed & (squared < kFullyFacing))) {
+    const T length_of_direction = squared * per_direction;
     const T x = smaller(one, larger(zero, (length_of_direction - kNotFacingLength) /
                                               (kFullyFacingLength - kNotFacingLength)));
     const T weight = x * x * (3.0 - 2.0 * x);

@@ -48,6 +48,13 @@ std::vector<std::pair<int, int>> near_blocks(const std::vector<Box>& boxes, cons
   return pairs;
 }
 
+/// Contact ends at 60 degrees; the rest is for rotations until the next search.
+bool may_face(const Point& along_a, const Point& along_b) {
+  constexpr double kCosine = 0.25881904510252074;  // of 75 degrees
+  const double cosine = along_a.dot(along_b);
+  return cosine < 0.0 && cosine * cosine > kCosine * kCosine * along_a.squaredNorm() * along_b.squaredNorm();
+}
+
 /// 1 / tan(half the interior angle) at the node between two edges; 0 at straight and re-entrant angles.
 double corner_share(const Point& before, const Point& after) {
   const double turn = std::atan2(cross(before, after), before.dot(after));  // pi minus the interior angle
@@ -88,7 +95,7 @@ std::vector<EdgePair> ContactSearch::candidates(const Eigen::Matrix2Xd& places, 
       if (!near(box_a, block_boxes[static_cast<std::size_t>(second)], margin)) continue;
       for (int b = second_edges.begin; b < second_edges.end; ++b) {
         const BoundaryEdge& edge_b = mesh_->edges[static_cast<std::size_t>(b)];
-        if (along(edge_a).dot(along(edge_b)) < 0.0 && near(box_a, box_of(places, edge_b), margin))
+        if (may_face(along(edge_a), along(edge_b)) && near(box_a, box_of(places, edge_b), margin))
           pairs.emplace_back(a, b);
       }
     }

@@ -16,7 +16,7 @@ class ContactSearch {
  public:
   explicit ContactSearch(const Mesh& mesh);
 
-  /// Pairs of edges of different blocks that face each other roughly (within a right angle) and whose bounding boxes
+  /// Pairs of edges of different blocks that face each other roughly (within 75 degrees) and whose bounding boxes
   /// are at most `margin` [m] apart at these places of the nodes [m], in ascending order. Blocks in `absent` are left
   /// out.
   std::vector<EdgePair> candidates(const Eigen::Matrix2Xd& places, const std::vector<bool>& absent,

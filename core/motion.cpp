@@ -27,7 +27,7 @@ Eigen::Matrix2Xd places_in_lane(const Motion<T>& motion, int lane_index) {
 template <class T>
 std::vector<bool> absent_in_lane(const Motion<T>& motion, int lane_index) {
   std::vector<bool> absent;
-  for (const T& present : motion.present) absent.push_back(lane(present, lane_index) == 0.0);
+  for (const Cell<T>& present : motion.present) absent.push_back(lane(present.value, lane_index) == 0.0);
   return absent;
 }
 
@@ -39,10 +39,12 @@ void set_pair(Pair<T>& pair, int i, double x, double y) {
 
 }  // namespace
 
-MotionModel::MotionModel(const Bridge& bridge_, double step_, double damping_)
+MotionModel::MotionModel(const Bridge& bridge_, double step_, double damping_, double contact_damping_)
     : bridge(&bridge_),
       step(step_),
       damping(damping_),
+      contact_damping(contact_damping_),
+      gravity(bridge_.description.gravity),
       material(contact_material(bridge_)),
       search(bridge_.mesh),
       bodies(make_block_bodies(bridge_)),
@@ -53,7 +55,8 @@ MotionModel::MotionModel(const Bridge& bridge_, double step_, double damping_)
     const Eigen::MatrixXd response = deformation_response(body, step);  // symmetric: rows are columns
     responses.insert(responses.end(), response.data(), response.data() + response.size());
   }
-  weight = masses.sum() * bridge->description.gravity;
+  weight = masses.sum() * gravity;
+  for (const BlockBody& body : bodies) per_weight.push_back(gravity > 0.0 ? 1.0 / (body.mass * gravity) : 0.0);
 }
 
 template <class T>
@@ -93,7 +96,7 @@ void place_scene(const MotionModel& model, const std::vector<bool>& removed, int
     set_pair(frame.velocity, i, 0.0, 0.0);
     set_pair(frame.rotation, i, 1.0, 0.0);
     set_lane(frame.spin, i, 0.0);
-    set_lane(motion.present[b], i, removed[b] ? 0.0 : 1.0);
+    set_lane(motion.present[b].value, i, removed[b] ? 0.0 : 1.0);
   }
   for (ContactShear<T>& shear : motion.shear) {
     set_lane(shear.at_0, i, 0.0);

@@ -7,17 +7,19 @@
 #include "core/block_dynamics.h"
 #include "core/contact.h"
 #include "core/contact_search.h"
-#include "core/lanes.h"
+#include "core/lane_number.h"
 
 namespace voussoir {
 
 /// What all scenes of a bridge share at one time step.
 struct MotionModel {
-  MotionModel(const Bridge& bridge, double step, double damping);
+  MotionModel(const Bridge& bridge, double step, double damping, double contact_damping);
 
   const Bridge* bridge;  ///< outlives the model
   double step;           ///< dt [s]
   double damping;        ///< force on a mass per mass and velocity [1/s]
+  double contact_damping;  ///< joints resist the gap and slip that they would have this much later [s]
+  double gravity;          ///< [m/s2]
   ContactMaterial material;
   ContactSearch search;
   std::vector<BlockBody> bodies;
@@ -26,6 +28,7 @@ struct MotionModel {
   Eigen::VectorXd masses;                     ///< of the nodes [kg]
   std::vector<bool> held;                     ///< per displacement component
   double weight = 0.0;                        ///< of the whole bridge [N]
+  std::vector<double> per_weight;             ///< per block: 1 / its weight [1/N]
 };
 
 /// The frame of a block: its centre, how far it has turned, and their rates.
@@ -46,15 +49,15 @@ struct Motion {
   std::vector<Pair<T>> deformed;   ///< u of the nodes in their block's frame [m]
   std::vector<Pair<T>> rates;      ///< du/dt [m/s]; with explicit steps the nodes' velocities
   std::vector<BlockFrame<T>> frames;
-  std::vector<T> present;  ///< per block: 1, or 0 where it is removed
+  std::vector<Cell<T>> present;  ///< per block: 1, or 0 where it is removed
   std::vector<EdgePair> pairs;
   std::vector<EdgeContact> contacts;     ///< of `pairs`
   std::vector<ContactShear<T>> shear;    ///< of `pairs`
   std::vector<Pair<T>> scratch;          ///< as long as the largest block
-  T load{};                              ///< share of gravity that acts
-  T travel{};                            ///< bound of any node's way since the last contact search [m]
-  T unbalanced{};                        ///< sum over blocks of the resultant forces [N]
-  T largest_unbalanced{};                ///< largest resultant force of a block over its weight
+  alignas(sizeof(T)) T load{};                              ///< share of gravity that acts
+  alignas(sizeof(T)) T travel{};                            ///< bound of any node's way since the last contact search [m]
+  alignas(sizeof(T)) T unbalanced{};                        ///< sum over blocks of the resultant forces [N]
+  alignas(sizeof(T)) T largest_unbalanced{};                ///< largest resultant force of a block over its weight
 };
 
 /// Everything at rest; all lanes hold the intact bridge.

@@ -14,23 +14,40 @@ struct MotionView {
   Pair<T>* deformed;
   Pair<T>* rates;
   BlockFrame<T>* frames;
-  const T* present;
+  const Cell<T>* present;
   const EdgeContact* contacts;
   ContactShear<T>* shear;
   std::size_t contact_count;
+  std::size_t node_count;
   Pair<T>* scratch;
 };
 
-/// forces += contact.
 template <class T>
-VOUSSOIR_INLINE void add_contact_forces(const ContactMaterial& material, const MotionView<T>& view) {
+MotionView<T> view_of(Motion<T>& motion) {
+  return {.places = motion.places.data(),
+          .moved = motion.moved.data(),
+          .forces = motion.forces.data(),
+          .deformed = motion.deformed.data(),
+          .rates = motion.rates.data(),
+          .frames = motion.frames.data(),
+          .present = motion.present.data(),
+          .contacts = motion.contacts.data(),
+          .shear = motion.shear.data(),
+          .contact_count = motion.contacts.size(),
+          .node_count = motion.places.size(),
+          .scratch = motion.scratch.data()};
+}
+
+/// forces += contact, at the places that the nodes will have `ahead` steps later: contact damping.
+template <class T>
+VOUSSOIR_INLINE void add_contact_forces(const ContactMaterial& material, double ahead, const MotionView<T>& view) {
   for (std::size_t c = 0; c < view.contact_count; ++c) {
     const EdgeContact& contact = view.contacts[c];
-    const T present = view.present[contact.blocks[0]] * view.present[contact.blocks[1]];
+    const T present = view.present[contact.blocks[0]].value * view.present[contact.blocks[1]].value;
     EdgePlaces<T> edges;
     for (std::size_t i = 0; i < 4; ++i) {
-      edges.now[i] = view.places[contact.nodes[i]];
       edges.moved[i] = view.moved[contact.nodes[i]];
+      edges.now[i] = view.places[contact.nodes[i]] + edges.moved[i] * ahead;
     }
     EdgeForces<T> forces;
     if (contact_forces<T>(contact, material, present, edges, view.shear[c], forces))
@@ -110,14 +127,6 @@ VOUSSOIR_INLINE void deform(const BlockBody& body, const double* response, doubl
   }
 }
 
-/// Monitors of a step.
-template <class T>
-struct StepReport {
-  T unbalanced;
-  T largest_unbalanced;
-  T travel;
-};
-
 /// Places of a block's nodes from its frame and deformation; returns the square of the longest way of a node.
 template <class T>
 VOUSSOIR_INLINE T place_nodes(const BlockBody& body, const BlockFrame<T>& frame, const MotionView<T>& view) {
@@ -134,39 +143,56 @@ VOUSSOIR_INLINE T place_nodes(const BlockBody& body, const BlockFrame<T>& frame,
   return longest;
 }
 
-/// One implicit step of all blocks under `forces` and their weight.
+/// Adds a block's weight to the forces on its nodes.
 template <class T>
-VOUSSOIR_INLINE StepReport<T> step_blocks(const MotionModel& model, const BlockBody* bodies, std::size_t count,
-                                          const double* responses, const std::size_t* response_of_block, T load,
-                                          double gravity, const MotionView<T>& view) {
-  const double step = model.step;
-  const double kept = (1.0 - 0.5 * model.damping * step) / (1.0 + 0.5 * model.damping * step);
-  const double gained = step / (1.0 + 0.5 * model.damping * step);
-  StepReport<T> report = {T{}, T{}, T{}};
+VOUSSOIR_INLINE void add_weight(const BlockBody& body, T pull, const MotionView<T>& view) {
+  const double* masses = body.masses.data();
+  for (int i = 0; i < body.nodes.size(); ++i) {
+    T& force = view.forces[body.nodes.begin + i].y;
+    force = force - pull * masses[2 * i];
+  }
+}
+
+/// Central differences for a free block's frame. Damping acts on the mean of the velocities before and after, so that
+/// `kept` of the old one is left and the force acts for the time `gained`.
+template <class T>
+VOUSSOIR_INLINE void move_frame(const BlockBody& body, const Resultant<T>& sum, double step, double kept, double gained,
+                                BlockFrame<T>& frame) {
+  frame.velocity = frame.velocity * kept + sum.force * (gained / body.mass);
+  frame.spin = frame.spin * kept + sum.moment * (gained / body.inertia);
+  frame.centre = frame.centre + frame.velocity * step;
+  frame.rotation = turned_by<T>(frame.rotation, frame.spin * step);
+}
+
+/// One implicit step in all lanes.
+template <class T>
+VOUSSOIR_INLINE void implicit_step(const MotionModel& model, Motion<T>& motion) {
+  const MotionView<T> view = view_of(motion);
+  const double half_damping = 0.5 * model.damping * model.step;
+  const double kept = (1.0 - half_damping) / (1.0 + half_damping);
+  const double gained = model.step / (1.0 + half_damping);
+  for (std::size_t i = 0; i < view.node_count; ++i) view.forces[i] = {T{}, T{}};
+  add_contact_forces(model.material, model.contact_damping / model.step, view);
+  T unbalanced{};
+  T largest_unbalanced{};
   T longest{};
-  for (std::size_t b = 0; b < count; ++b) {
+  const BlockBody* bodies = model.bodies.data();
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const BlockBody& body = bodies[b];
     BlockFrame<T>& frame = view.frames[b];
-    const T pull = load * view.present[b] * gravity;
-    for (int i = 0; i < body.nodes.size(); ++i) {
-      T& force = view.forces[body.nodes.begin + i].y;
-      force = force - pull * body.masses.data()[2 * i];
-    }
+    add_weight<T>(body, motion.load * view.present[b].value * model.gravity, view);
     const Resultant<T> sum = resultant(body, frame.centre, view);
-    const T unbalanced = (body.free_x ? magnitude(sum.force.x) : T{}) + (body.free_y ? magnitude(sum.force.y) : T{});
-    report.unbalanced += unbalanced;
-    report.largest_unbalanced = larger(report.largest_unbalanced, unbalanced * (1.0 / (body.mass * gravity)));
-    deform(body, responses + response_of_block[b], step, kept, frame.rotation, view);
-    if (!body.held) {
-      frame.velocity = frame.velocity * kept + sum.force * (gained / body.mass);
-      frame.spin = frame.spin * kept + sum.moment * (gained / body.inertia);
-      frame.centre = frame.centre + frame.velocity * step;
-      frame.rotation = turned_by<T>(frame.rotation, frame.spin * step);
-    }
+    const T left =
+        (body.free_x ? magnitude(sum.force.x) : T{}) + (body.free_y ? magnitude(sum.force.y) : T{});
+    unbalanced += left;
+    largest_unbalanced = larger(largest_unbalanced, left * model.per_weight[b]);
+    deform(body, model.responses.data() + model.response_of_block[b], model.step, kept, frame.rotation, view);
+    if (!body.held) move_frame(body, sum, model.step, kept, gained, frame);
     longest = larger(longest, place_nodes(body, frame, view));
   }
-  report.travel = square_root(longest);
-  return report;
+  motion.unbalanced = unbalanced;
+  motion.largest_unbalanced = largest_unbalanced;
+  motion.travel += square_root(longest);
 }
 
 }  // namespace voussoir

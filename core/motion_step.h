@@ -1,0 +1,13 @@
+#pragma once
+/// @file One implicit time step, compiled for several instruction sets and chosen by the processor at run time.
+
+#include "core/motion.h"
+
+namespace voussoir {
+
+/// Forces at the present places, then the step that they cause (see block_dynamics.h), in every lane. Precondition:
+/// motion.pairs holds all edges that may touch. All instruction sets, and all numbers of lanes, give the same bits.
+void take_implicit_step(const MotionModel& model, Motion<Lanes<1>>& motion);
+void take_implicit_step(const MotionModel& model, Motion<Lanes<4>>& motion);
+
+}  // namespace voussoir
