@@ -1,6 +1,7 @@
 #pragma once
 /// @file What a bridge file says: geometry, material, joints, supports, control points. SI units throughout.
 
+#include <cmath>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -52,6 +53,8 @@ struct JointMaterial {
   double normal_stiffness = 1e9;                            ///< [Pa/m] per unit joint area
   double tangential_stiffness = 1e8;                        ///< [Pa/m] per unit joint area
   double friction_angle = 35.0 * std::numbers::pi / 180.0;  ///< [rad]
+
+  double friction_coefficient() const { return std::tan(friction_angle); }
 };
 
 enum class Support {

@@ -109,9 +109,9 @@ void build_pattern(const Bridge& bridge, EquilibriumSystem& system) {
 }
 
 template <std::size_t N, typename Matrix>
-void add_local(const std::array<int, N>& slots, const Matrix& local, std::vector<double>& values) {
+void add_local(const std::array<int, N>& slots, const Matrix& local, TangentTarget tangent) {
   for (std::size_t k = 0; k < N; ++k)
-    if (slots[k] >= 0) values[static_cast<std::size_t>(slots[k])] += local.data()[k];
+    if (slots[k] >= 0) tangent.first[static_cast<std::size_t>(slots[k]) * tangent.stride] += local.data()[k];
 }
 
 Field weights_of_present_blocks(const EquilibriumSystem& system, const std::vector<bool>& removed) {
@@ -129,14 +129,15 @@ bool present(const std::vector<bool>& removed, BlockId block) {
 }
 
 /// Gives the unknowns of removed blocks an equation of their own: 1 * change = 0.
-void pin_removed(const EquilibriumSystem& system, const std::vector<bool>& removed,
-                 std::vector<double>& values) {
+void pin_removed(const EquilibriumSystem& system, const std::vector<bool>& removed, TangentTarget tangent) {
   const Mesh& mesh = system.bridge->mesh;
   for (std::size_t block = 0; block < removed.size(); ++block) {
     if (!removed[block]) continue;
     for (int c = 2 * mesh.block_nodes[block].begin; c < 2 * mesh.block_nodes[block].end; ++c) {
       const int i = system.unknown[static_cast<std::size_t>(c)];
-      if (i >= 0) values[static_cast<std::size_t>(system.diagonal_slots[static_cast<std::size_t>(i)])] = 1.0;
+      if (i >= 0)
+        tangent.first[static_cast<std::size_t>(system.diagonal_slots[static_cast<std::size_t>(i)]) *
+                      tangent.stride] = 1.0;
     }
   }
 }
@@ -186,25 +187,26 @@ Field unbalanced_forces(const EquilibriumSystem& system, const std::vector<bool>
         joint_kinematics(system.joints[j], gathered(displacement, corners(joint)));
     const JointResponse response =
         integrate_joint(bridge.description.joints, joint.length * thickness, kinematics.state);
-    subtract_at(forces, corners(joint), (kinematics.gradient.transpose() * response.force).eval());
+    subtract_at(forces, corners(joint), kinematics.gradient.transpose().lazyProduct(response.force).eval());
   }
   clear_held(system, forces);
   return forces;
 }
 
 Field assemble(const EquilibriumSystem& system, const std::vector<bool>& removed, const Field& displacement,
-               double bonding, std::vector<double>& tangent_values) {
+               double bonding, TangentTarget tangent) {
   const Bridge& bridge = *system.bridge;
   const double thickness = bridge.description.material.thickness;
   Field forces = weights_of_present_blocks(system, removed);
-  tangent_values.assign(static_cast<std::size_t>(system.pattern.nonZeros()), 0.0);
+  for (std::size_t i = 0; i < static_cast<std::size_t>(system.pattern.nonZeros()); ++i)
+    tangent.first[i * tangent.stride] = 0.0;
   for (std::size_t t = 0; t < system.triangles.size(); ++t) {
     if (!present(removed, system.triangle_block[t])) continue;
     const auto& nodes = bridge.mesh.triangles[t].nodes;
     const TriangleResponse response =
         triangle_response(system.triangles[t], system.moduli, thickness, gathered(displacement, nodes));
     subtract_at(forces, nodes, response.force);
-    add_local(system.triangle_slots[t], response.tangent, tangent_values);
+    add_local(system.triangle_slots[t], response.tangent, tangent);
   }
   for (std::size_t j = 0; j < system.joints.size(); ++j) {
     const Joint& joint = bridge.joints[j];
@@ -213,15 +215,16 @@ Field assemble(const EquilibriumSystem& system, const std::vector<bool>& removed
     const JointKinematics kinematics = joint_kinematics(system.joints[j], q);
     JointResponse response =
         integrate_joint(bridge.description.joints, joint.length * thickness, kinematics.state);
-    subtract_at(forces, corners(joint), (kinematics.gradient.transpose() * response.force).eval());
+    subtract_at(forces, corners(joint), kinematics.gradient.transpose().lazyProduct(response.force).eval());
     if (bonding > 0.0)
       response.tangent = (1.0 - bonding) * response.tangent +
                          bonding * bonded_joint_tangent(bridge.description.joints, joint.length * thickness);
-    const Matrix8d tangent = kinematics.gradient.transpose() * response.tangent * kinematics.gradient +
-                             joint_geometric_stiffness(system.joints[j], q, kinematics, response.force);
-    add_local(system.joint_slots[j], tangent, tangent_values);
+    Matrix8d stiffness = joint_geometric_stiffness(system.joints[j], q, kinematics, response.force);
+    const Eigen::Matrix<double, 4, 8> turned = response.tangent.lazyProduct(kinematics.gradient);
+    stiffness += kinematics.gradient.transpose().lazyProduct(turned);
+    add_local(system.joint_slots[j], stiffness, tangent);
   }
-  pin_removed(system, removed, tangent_values);
+  pin_removed(system, removed, tangent);
   clear_held(system, forces);
   return forces;
 }

@@ -43,12 +43,19 @@ struct EquilibriumSystem {
 Field unbalanced_forces(const EquilibriumSystem& system, const std::vector<bool>& removed,
                         const Field& displacement);
 
+/// Where an assembly writes a matrix: value i of the pattern at first[i * stride]. A stride lets matrices lie
+/// side by side.
+struct TangentTarget {
+  double* first;
+  std::size_t stride = 1;
+};
+
 /// The same, and the tangent's values in the order of `system.pattern`. `bonding` in [0,1] mixes the tangent
 /// of bonded (closed and sticking) joints into the exact one: 0 is the exact derivative, 1 the linear bridge
 /// without openings; in between, loose blocks are held just enough to make the matrix regular. Forces are
 /// exact always.
 Field assemble(const EquilibriumSystem& system, const std::vector<bool>& removed, const Field& displacement,
-               double bonding, std::vector<double>& tangent_values);
+               double bonding, TangentTarget tangent);
 
 /// Per block: is it missing?
 std::vector<bool> removal_mask(const Scene& scene, std::size_t block_count);

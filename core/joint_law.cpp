@@ -19,10 +19,13 @@ struct Linear {
 /// Integrals of N_k N_l over [a,b] with N_0 = 1 - s, N_1 = s.
 struct MassOfPart {
   double m00, m01, m11;
-  MassOfPart(double a, double b)
-      : m00((std::pow(1.0 - a, 3) - std::pow(1.0 - b, 3)) / 3.0),
-        m01((b * b - a * a) / 2.0 - (b * b * b - a * a * a) / 3.0),
-        m11((b * b * b - a * a * a) / 3.0) {}
+  MassOfPart(double a, double b) {
+    const double squares = b * b - a * a;
+    const double cubes = b * b * b - a * a * a;
+    m00 = (b - a) - squares + cubes / 3.0;
+    m01 = squares / 2.0 - cubes / 3.0;
+    m11 = cubes / 3.0;
+  }
 };
 
 /// Adds coefficient * N_k N_l to the tangent block (force component `row`, state component `column`; 0 gap, 1
@@ -39,7 +42,7 @@ void add_part(Eigen::Matrix4d& tangent, const MassOfPart& mass, int row, int col
 JointResponse integrate_joint(const JointMaterial& material, double area, const JointState& state) {
   const double normal = area * material.normal_stiffness;
   const double tangential = area * material.tangential_stiffness;
-  const double cap = area * std::tan(material.friction_angle) * material.normal_stiffness;
+  const double cap = area * material.friction_coefficient() * material.normal_stiffness;
   const Linear gap{state[0], state[2]};
   // Shear beyond the cap in the positive (negative) direction where this is positive (negative).
   const Linear beyond_positive{tangential * state[1] + cap * state[0],

@@ -2,6 +2,8 @@
 /// @file Equilibrium of a scene by Newton's method.
 
 #include <memory>
+#include <span>
+#include <vector>
 
 #include "core/bridge.h"
 #include "core/solution.h"
@@ -15,15 +17,20 @@ struct QuasiStaticSettings {
   double loose_tolerance = 1e-5;  ///< the residual is at most this (fine meshes cannot reach `tolerance`)
   int most_warm_iterations =
       12;                    ///< factorisations from a given start before the search starts again from zero
-  int most_iterations = 30;  ///< factorisations from zero before the bridge is let fall
-  int most_falling_iterations = 40;    ///< factorisations of the fall before the scene is `unresolved`
+  int most_iterations = 30;  ///< factorisations of a search from zero
+  int most_falling_iterations = 40;    ///< factorisations of a fall
   double collapse_displacement = 0.1;  ///< [m] a standing bridge moves less; beyond it blocks are falling
 };
 
-/// Solves scenes of one bridge one after the other; keeps the symbolic factorisation and all work arrays.
-/// Not thread-safe: one solver a thread. The result depends on the scene and the start only, not on earlier
-/// calls. The bridge must outlive the solver. The constructor throws Failure if the bridge's stiffness is
-/// singular.
+/// A scene and where to look for its equilibrium.
+struct SceneStart {
+  Scene scene;
+  const Field* start = nullptr;  ///< 2 x nodes, near the answer, NaN counts as zero; null: from rest
+};
+
+/// Solves scenes of one bridge, several side by side in SIMD lanes. Not thread-safe: one solver a thread. A
+/// solution depends on its scene and start only, to the last bit: not on the other lanes, nor on earlier
+/// calls. The bridge must outlive the solver.
 class QuasiStaticSolver {
  public:
   explicit QuasiStaticSolver(const Bridge& bridge, QuasiStaticSettings settings = {});
@@ -31,13 +38,18 @@ class QuasiStaticSolver {
   QuasiStaticSolver(QuasiStaticSolver&&) noexcept;
   QuasiStaticSolver& operator=(QuasiStaticSolver&&) noexcept;
 
-  /// Equilibrium under full gravity with the scene's blocks absent, from zero displacement. A search that
-  /// fails goes on as a fall: `collapsed` with the field at the moment when a displacement passes the limit,
-  /// or `unresolved`.
+  /// Equilibria under full gravity with the scenes' blocks absent; one solution a scene, in their order. A
+  /// lane that finishes early takes the next scene.
+  ///
+  /// A search from a given start that fails begins again from rest. One without hope goes on as a fall with
+  /// bolder steps: `collapsed`, with the field at the moment when a displacement passes the limit. If nothing
+  /// falls either, a patient search from rest has the last word: `standing` or `unresolved`.
+  std::vector<Solution> solve(std::span<const SceneStart> scenes);
+
+  /// One scene, from rest.
   Solution solve(const Scene& scene);
 
-  /// The same from a start field near the answer (2 x nodes; NaN entries count as zero); should the search
-  /// fail from there, it starts again from zero.
+  /// One scene, from a start.
   Solution solve(const Scene& scene, const Field& start);
 
  private:

@@ -78,8 +78,9 @@ TriangleResponse triangle_response(const TriangleShape& shape, const PlaneModuli
 
   const double volume = shape.area * thickness;
   TriangleResponse response;
-  response.force.noalias() = volume * strain_gradient.transpose() * s;
-  response.tangent.noalias() = (volume * strain_gradient.transpose()) * (elasticity * strain_gradient);
+  const Eigen::Matrix<double, 3, 6> stress_gradient = (volume * elasticity).lazyProduct(strain_gradient);
+  response.force = volume * strain_gradient.transpose().lazyProduct(s);
+  response.tangent = strain_gradient.transpose().lazyProduct(stress_gradient);
   const Eigen::Matrix3d initial = volume * shape.gradient.transpose() * stress * shape.gradient;
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j)

@@ -1,6 +1,6 @@
 #pragma once
-/// @file Reading a database file. Opening is cheap: scene records and control displacements are mapped into memory
-/// and everything else is read when it is asked for.
+/// @file Reading a database file. Opening is cheap: scene records and control displacements are mapped into
+/// memory and everything else is read when it is asked for.
 
 #include <cstdint>
 #include <filesystem>
@@ -14,6 +14,8 @@
 #include "core/mesh.h"
 #include "core/scene.h"
 #include "core/solution.h"
+#include "database/provenance.h"
+#include "database/record.h"
 
 namespace voussoir {
 
@@ -24,13 +26,14 @@ struct StoredPoint {
   BlockId block;   ///< the block it belongs to; without that block the point has no displacement
 };
 
-/// One row for each scene: what a search over the whole database needs, as views into the database's memory.
-/// Views live as long as the Database they come from.
+/// One row for each scene, rows in the order of all_scenes (few removed blocks first, then lexicographic):
+/// what a search over the whole database needs, as views into the database's memory. Views live as long as
+/// the Database they come from.
 struct SceneTable {
-  std::size_t rows = 0;    ///< scenes
-  std::size_t points = 0;  ///< control points
-  std::size_t most_missing = 0;         ///< columns of `removed`
-  std::span<const double> vertical;     ///< rows x points [m], up is positive, NaN where the block is gone
+  std::size_t rows = 0;                   ///< scenes
+  std::size_t points = 0;                 ///< control points
+  std::size_t most_missing = 0;           ///< columns of `removed`
+  std::span<const double> vertical;       ///< rows x points [m], up is positive, NaN where the block is gone
   std::span<const std::int32_t> removed;  ///< rows x most_missing, block ids in ascending order, then -1
   std::span<const std::uint8_t> outcome;  ///< values of Outcome
 
@@ -38,34 +41,45 @@ struct SceneTable {
   Scene scene(std::size_t row) const;
 };
 
+/// What is read on first use is safe to ask for from several threads.
 class Database {
  public:
-  /// Throws Failure if the file is missing or cannot be read, InputError if it is no (whole) database of a schema
-  /// version that this program reads; the message names the file and what was expected.
+  /// Throws Failure if the file is missing or cannot be read, InputError if it is no (whole) database of a
+  /// schema version that this program reads; the message names the file and what was expected.
   static Database open(const std::filesystem::path& path);
   ~Database();
   Database(Database&&) noexcept;
   Database& operator=(Database&&) noexcept;
 
   const std::filesystem::path& path() const;
-  const std::string& digest() const;       ///< SHA-256 of the content, hexadecimal
+  const std::string& digest() const;  ///< SHA-256 of the content, hexadecimal
   const std::string& bridge_name() const;
   const SceneTable& table() const;
   const std::vector<StoredPoint>& control_points() const;
 
-  const BlockLayout& layout() const;       ///< read on first use
-  const Mesh& mesh() const;                ///< read on first use
-  std::string bridge_text() const;         ///< the bridge file as it was given to build-database
+  const BlockLayout& layout() const;  ///< read on first use
+  const Mesh& mesh() const;           ///< read on first use
+  std::string bridge_text() const;    ///< the bridge file as it was given to build-database
   bool has_fields() const;
-  Field field(std::size_t row) const;      ///< displacement of all nodes [m]; throws Failure without fields
+  Field field(std::size_t row) const;  ///< displacement of all nodes [m]; throws Failure without fields
   Solution solution(std::size_t row) const;
 
   std::optional<std::size_t> find(const Scene& scene) const;  ///< row of a scene, or nothing
+
+  Provenance provenance() const;
+  Record record(std::size_t row) const;            ///< as it stands in the file, its checksum not verified
+  double residual(std::size_t row) const;          ///< as in Solution
+  std::uint32_t chunk_crc(std::size_t row) const;  ///< stored CRC-32 of the record's packed field
+  std::int32_t variant(std::size_t row) const;     ///< kOnlyVariant in every file of schema version 1
+  ByteView dataset_bytes(const char* path) const;  ///< a contiguous dataset (database/schema.h) as it stands
 
  private:
   struct Implementation;
   explicit Database(std::unique_ptr<Implementation> implementation);
   std::unique_ptr<Implementation> implementation_;
 };
+
+/// True if the file begins as every HDF5 file does, whole or not.
+bool begins_like_hdf5(const std::filesystem::path& path);
 
 }  // namespace voussoir

@@ -1,0 +1,12 @@
+#pragma once
+/// @file Steps that make a finished file take the place of an old one in a single moment.
+
+#include <filesystem>
+
+namespace voussoir {
+
+/// Waits until the file's content is on the disk, then gives it the name `target`, replacing a file of that
+/// name. Whoever opens `target` finds the old file or the new one, whole. Throws Failure.
+void put_in_place(const std::filesystem::path& finished, const std::filesystem::path& target);
+
+}  // namespace voussoir

@@ -1,0 +1,83 @@
+#pragma once
+/// @file Reading HDF5 files that may hold anything: every type, rank, size and place is checked before it is
+/// used.
+
+#include <filesystem>
+#include <optional>
+
+#include "core/error.h"
+#include "database/hdf5_handle.h"
+#include "database/mapped_file.h"
+#include "database/schema.h"
+
+namespace voussoir {
+
+/// A contiguous dataset, in place in the mapped file.
+struct DatasetView {
+  std::string path;
+  ElementType type;
+  std::vector<std::uint64_t> shape;
+  std::size_t text_width = 0;
+  ByteView bytes;
+};
+
+/// One chunk a row, shuffled and deflated: fields/displacement.
+struct ChunkedDataset {
+  ChunkedDataset(Hdf5Handle opened) : handle(std::move(opened)) {}
+  ~ChunkedDataset();
+  ChunkedDataset(ChunkedDataset&&) noexcept = default;
+  ChunkedDataset& operator=(ChunkedDataset&&) noexcept = default;
+  Hdf5Handle handle;
+};
+
+inline constexpr std::uint64_t kFlat = 0;
+
+/// All throwing members throw InputError naming the file, what is wrong and what was expected.
+class Hdf5File {
+ public:
+  /// Throws Failure if the file cannot be read, InputError if it is no whole HDF5 file of the kind that
+  /// build-database writes (superblock version 2 or 3, all of whose structures carry checksums).
+  explicit Hdf5File(const std::filesystem::path& path);
+  ~Hdf5File();
+  Hdf5File(Hdf5File&&) noexcept = default;
+  Hdf5File& operator=(Hdf5File&&) = delete;
+
+  const std::filesystem::path& path() const { return path_; }
+
+  std::string text_attribute(const char* name) const;
+  int int_attribute(const char* name) const;
+
+  bool has(const char* dataset_path) const;
+  DatasetView view(const char* dataset_path) const;
+
+  /// The numbers of a dataset of rank 2 with this many columns, or of rank 1 for kFlat.
+  template <class T>
+  std::span<const T> numbers(const char* dataset_path, ElementType type, std::uint64_t columns) const {
+    const DatasetView found = view(dataset_path);
+    check_numbers(found, type, columns);
+    return {reinterpret_cast<const T*>(found.bytes.data()), found.bytes.size() / sizeof(T)};
+  }
+
+  /// A scalar text without its padding.
+  std::string text(const char* dataset_path) const;
+
+  ChunkedDataset open_chunked(const char* dataset_path, std::uint64_t rows, std::uint64_t nodes) const;
+  /// The stored bytes of a row's chunk, at most `most_bytes`.
+  Bytes chunk(const ChunkedDataset& dataset, std::uint64_t row, std::size_t most_bytes) const;
+
+  [[noreturn]] void refuse(const std::string& why) const;
+  void require(bool condition, const std::string& why) const {
+    if (!condition) refuse(why);
+  }
+
+ private:
+  void check_numbers(const DatasetView& found, ElementType type, std::uint64_t columns) const;
+  Hdf5Handle open_dataset(const char* dataset_path) const;
+  bool has_hard_link(const std::string& link_path) const;
+
+  std::filesystem::path path_;
+  MappedFile mapped_;
+  Hdf5Handle file_;
+};
+
+}  // namespace voussoir

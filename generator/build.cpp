@@ -1,0 +1,174 @@
+#include "generator/build.h"
+
+#include <oneapi/tbb/enumerable_thread_specific.h>
+#include <oneapi/tbb/global_control.h>
+#include <oneapi/tbb/info.h>
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/task_arena.h>
+
+#include <algorithm>
+
+#include "core/error.h"
+#include "database/writer.h"
+#include "generator/build_settings.h"
+#include "generator/existing_database.h"
+#include "generator/known_records.h"
+#include "generator/results_key.h"
+#include "generator/scene_list.h"
+#include "generator/start_field.h"
+
+namespace voussoir {
+namespace {
+
+/// What all steps of one build share.
+struct Build {
+  const BuildRequest& request;
+  const SolverChoice& solver;
+  Progress& progress;
+  Bridge bridge;
+  std::vector<Scene> wanted;
+  Provenance provenance;
+};
+
+Build prepare(const BuildRequest& request, const SolverChoice& solver, Progress& progress) {
+  Bridge bridge = make_bridge(request.bridge.description);
+  auto wanted = parse_scene_list(request.scenes, bridge.layout);
+  const std::string settings = build_settings(solver, bridge, request.mirror);
+  Provenance provenance =
+      make_provenance(request.bridge, settings, results_key(request.bridge.description, settings));
+  return {request, solver, progress, std::move(bridge), std::move(wanted), std::move(provenance)};
+}
+
+/// Records fit into the same journal if results, control points and the choice of fields are the same.
+std::string journal_key(const Build& build) {
+  std::string key = build.provenance.results_key;
+  for (const ControlPoint& point : build.bridge.control_points) key += fmt::format(" {}", value(point.node));
+  return key + (build.request.fields == KeepField::yes ? " with fields" : " without fields");
+}
+
+KnownRecords open_records(const Build& build) {
+  KnownRecords known(Journal::open(build.request.output, build.provenance, journal_key(build)), build.bridge,
+                     build.request.fields);
+  if (const auto& discarded = known.journal().discarded()) {
+    const auto changes = differences(build.provenance, *discarded);
+    build.progress.say(fmt::format(
+        "{}: its records are of another build and are dropped ({})", known.journal().path().string(),
+        changes.empty() ? "other control points or --fields" : fmt::format("{}", fmt::join(changes, "; "))));
+  }
+  return known;
+}
+
+/// Solves one task and keeps its records.
+void run_task(const Build& build, const SolvingTask& task, const SceneSolver& solver,
+              const StartingFields& starts, KnownRecords& known) {
+  const auto keep = [&](const Scene& scene, const Solution& solution) {
+    const KeepField field = starts_others(scene) ? KeepField::yes : build.request.fields;
+    known.journal().append(
+        make_record(scene, solution, build.bridge.control_points, field, build.request.fields));
+    build.progress.advance(1);
+  };
+  const Solution solution = solve_for_storage(solver, task.solved, starts.start_for(task.solved));
+  if (task.records_solved) keep(task.solved, solution);
+  if (task.image) keep(*task.image, mirrored_solution(solution, *build.bridge.symmetry));
+}
+
+/// The fields that a stage starts from. They come out of the records, whether these were made just now or
+/// long ago.
+StartingFields read_starts(const std::vector<SolvingTask>& stage, const KnownRecords& known) {
+  std::set<Scene> scenes;
+  for (const SolvingTask& task : stage)
+    for (const Scene& start : starting_scenes(task.solved)) scenes.insert(start);
+  StartingFields starts;
+  for (const Scene& scene : scenes) {
+    const Solution solution = known.read_solution(scene);
+    starts.add(scene, solution.outcome, solution.displacement);
+  }
+  return starts;
+}
+
+void run_plan(const Build& build, const BuildPlan& plan, KnownRecords& known) {
+  using namespace oneapi;
+  const int threads = build.request.threads > 0 ? build.request.threads : tbb::info::default_concurrency();
+  const tbb::global_control allowed(tbb::global_control::max_allowed_parallelism,
+                                    static_cast<std::size_t>(threads));
+  tbb::task_arena arena(threads);
+  tbb::enumerable_thread_specific<SceneSolver> solvers(
+      [&] { return build.solver.make_solver(build.bridge); });
+  for (const auto& stage : plan.stages) {
+    const StartingFields starts = read_starts(stage, known);
+    arena.execute([&] {
+      tbb::parallel_for(std::size_t{0}, stage.size(),
+                        [&](std::size_t i) { run_task(build, stage[i], solvers.local(), starts, known); });
+    });
+  }
+}
+
+void count(const Record& record, const BlockLayout& layout, BuildSummary& summary) {
+  ++summary.scenes;
+  if (record.outcome == Outcome::standing) ++summary.standing;
+  if (record.outcome == Outcome::collapsed) ++summary.collapsed;
+  if (record.outcome == Outcome::unresolved)
+    summary.unresolved.push_back({to_string(record.scene, layout), record.residual});
+}
+
+void write(const Build& build, const KnownRecords& known, BuildSummary& summary) {
+  const DatabaseContent content{build.provenance, build.bridge, build.wanted, build.request.fields};
+  const WrittenDatabase written = write_database(build.request.output, content, [&](std::size_t row) {
+    Record record = known.read(build.wanted[row]);
+    if (build.request.fields == KeepField::no) record.packed_field.clear();
+    count(record, build.bridge.layout, summary);
+    return record;
+  });
+  summary.digest = written.digest;
+  summary.bytes = written.bytes;
+}
+
+/// Computes what is not known and writes the file.
+void run(const Build& build, std::optional<Database> old, BuildSummary& summary) {
+  KnownRecords known = open_records(build);
+  summary.resumed = known.journal().size();
+  if (summary.resumed > 0)
+    build.progress.say(
+        fmt::format("going on with an interrupted build: {} scenes are done", summary.resumed));
+  if (old) summary.reused = known.reuse(std::move(*old), build.wanted);
+  if (summary.reused > 0)
+    build.progress.say(fmt::format("{} scenes of the old file are still valid and are kept", summary.reused));
+  const BuildPlan plan = plan_build(build.wanted, build.bridge, build.request.mirror,
+                                    [&](const Scene& scene) { return known.contains(scene); });
+  summary.computed = plan.records();
+  build.progress.start(summary.resumed + summary.reused + summary.computed, summary.resumed + summary.reused);
+  run_plan(build, plan, known);
+  build.progress.finish();
+  try {
+    write(build, known, summary);
+  } catch (const Failure& failure) {
+    throw Failure(
+        fmt::format("{}; all scenes are kept in {}: put things right and run the same command again",
+                    failure.what(), known.journal().path().string()));
+  }
+  known.journal().remove();
+}
+
+}  // namespace
+
+BuildSummary build_database(const BuildRequest& request, const SolverChoice& solver, Progress& progress) {
+  const auto started = std::chrono::steady_clock::now();
+  const Build build = prepare(request, solver, progress);
+  BuildSummary summary;
+  summary.output = request.output;
+  ExistingDatabase existing =
+      examine_existing(request.output, build.provenance, build.wanted, request.fields, request.force);
+  summary.changes = existing.changes;
+  if (existing.up_to_date) {
+    summary.up_to_date = true;
+    summarise_existing(*existing.database, summary);
+  } else {
+    for (const std::string& change : existing.changes)
+      progress.say(fmt::format("{} is built anew: {}", request.output.string(), change));
+    run(build, existing.reusable ? std::move(existing.database) : std::nullopt, summary);
+  }
+  summary.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
+  return summary;
+}
+
+}  // namespace voussoir

@@ -1,0 +1,50 @@
+#pragma once
+/// @file Building a database.
+
+#include <filesystem>
+
+#include "core/bridge_file.h"
+#include "database/record.h"
+#include "generator/build_plan.h"
+#include "generator/progress.h"
+#include "generator/scene_solving.h"
+
+namespace voussoir {
+
+struct BuildRequest {
+  BridgeFile bridge;
+  std::filesystem::path output = "bridge.h5";
+  std::string scenes = "all";  ///< as parse_scene_list reads it
+  int threads = 0;             ///< 0: one for each core
+  KeepField fields = KeepField::yes;
+  UseMirror mirror = UseMirror::yes;
+  bool force = false;  ///< build anew even if the file is up to date
+};
+
+struct UnresolvedScene {
+  std::string scene;
+  double residual = 0.0;  ///< as in Solution
+};
+
+struct BuildSummary {
+  std::filesystem::path output;
+  bool up_to_date = false;  ///< nothing had to be done
+  std::size_t scenes = 0;
+  std::size_t standing = 0;
+  std::size_t collapsed = 0;
+  std::vector<UnresolvedScene> unresolved;
+  std::size_t computed = 0;          ///< records made by this run (with those that only start others)
+  std::size_t resumed = 0;           ///< records kept from an interrupted build
+  std::size_t reused = 0;            ///< records taken over from the file that was replaced
+  std::vector<std::string> changes;  ///< what differs from that file
+  double seconds = 0.0;
+  std::uintmax_t bytes = 0;
+  std::string digest;
+};
+
+/// Builds the database of a bridge. The content does not depend on threads, interruptions or what the file
+/// held before. Throws InputError for a bad list of scenes and Failure if files cannot be written; every
+/// scene computed until then is kept in the journal and the same call goes on from there.
+BuildSummary build_database(const BuildRequest& request, const SolverChoice& solver, Progress& progress);
+
+}  // namespace voussoir

@@ -1,0 +1,69 @@
+#include "generator/build_options.h"
+
+#include <CLI/CLI.hpp>
+
+#include "database/provenance.h"
+
+namespace voussoir {
+namespace {
+
+constexpr int kMostThreads = 4096;
+constexpr int kBadUsage = 2;
+
+constexpr const char* kFooter =
+    "--scenes takes all, singles, pairs, or items separated by ';': intact, a scene (10,4 or 10,4+6,4), or a "
+    "scene with\n"
+    "ranges (10,1..20  0,*  10,4+2..4,*). An interrupted build goes on when the same command is run again; a "
+    "file that is\n"
+    "up to date is left alone. Exit codes: 0 done, 1 could not be done, 2 bad usage or bad bridge file.";
+
+std::string check_solver(const std::string& name) {
+  if (name == "quasi-static") return {};
+  if (name == "dynamic") return "the dynamic solver is not available in this version (expected quasi-static)";
+  return "unknown solver '" + name + "' (expected quasi-static)";
+}
+
+}  // namespace
+
+BuildOptions parse_build_options(int argc, char** argv) {
+  BuildOptions options;
+  CLI::App app("Computes the database of a bridge: the displacements of every scene with missing blocks.",
+               "build-database");
+  app.footer(kFooter);
+  app.set_version_flag("--version", version_text("build-database"));
+  std::string solver = "quasi-static";
+  bool fields = true;
+  bool no_mirror = false;
+  const std::map<std::string, bool> field_names = {{"all", true}, {"none", false}};
+  const std::map<std::string, bool> format_names = {{"text", false}, {"json", true}};
+  app.add_option("bridge", options.bridge, "bridge file (TOML); default: the reference bridge");
+  app.add_option("-o,--output", options.request.output, "database to write")->capture_default_str();
+  app.add_option("--scenes", options.request.scenes, "which scenes, see below")->capture_default_str();
+  app.add_option("--threads", options.request.threads, "threads, 0: one for each core")
+      ->check(CLI::Range(0, kMostThreads))
+      ->capture_default_str();
+  app.add_option("--solver", solver, "quasi-static")
+      ->check(CLI::Validator(check_solver, ""))
+      ->capture_default_str();
+  app.add_option("--fields", fields, "displacements of all nodes are kept of all scenes or of none")
+      ->transform(CLI::Transformer(field_names))
+      ->default_str("all")
+      ->option_text("all|none");
+  app.add_option("--format", options.json, "of the summary")
+      ->transform(CLI::Transformer(format_names))
+      ->default_str("text")
+      ->option_text("text|json");
+  app.add_flag("--no-mirror", no_mirror, "solve every scene, even if its mirror image is solved");
+  app.add_flag("--force", options.request.force, "build anew even if the file is up to date");
+  app.add_flag("--quiet", options.quiet, "no progress and no messages");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    options.exit_code = app.exit(error) == 0 ? 0 : kBadUsage;
+  }
+  options.request.fields = fields ? KeepField::yes : KeepField::no;
+  options.request.mirror = no_mirror ? UseMirror::no : UseMirror::yes;
+  return options;
+}
+
+}  // namespace voussoir

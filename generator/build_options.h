@@ -1,0 +1,21 @@
+#pragma once
+/// @file The command line of build-database.
+
+#include <optional>
+
+#include "generator/build.h"
+
+namespace voussoir {
+
+struct BuildOptions {
+  std::optional<std::filesystem::path> bridge;  ///< nothing: the reference bridge
+  BuildRequest request;                         ///< all but the bridge
+  bool quiet = false;
+  bool json = false;
+  std::optional<int> exit_code;  ///< set if the program is to end at once (--help, --version, bad usage)
+};
+
+/// Prints help, version or what is wrong with the command line itself.
+BuildOptions parse_build_options(int argc, char** argv);
+
+}  // namespace voussoir

@@ -1,0 +1,73 @@
+#include "generator/build_plan.h"
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "core/symmetry.h"
+#include "generator/scene_list.h"
+
+namespace voussoir {
+namespace {
+
+constexpr int kStages = 3;  // intact; singles; the rest
+
+int stage_of(const Scene& scene) {
+  return std::min(scene.missing(), kStages - 1);
+}
+
+/// The scenes that need a record and have none: those wanted that are unknown and what they start from.
+std::set<Scene> missing_records(const std::vector<Scene>& wanted, const Bridge& bridge, UseMirror mirror,
+                                const std::function<bool(const Scene&)>& is_known) {
+  std::set<Scene> missing;
+  for (auto scene = wanted.rbegin(); scene != wanted.rend(); ++scene)
+    if (!is_known(*scene)) missing.insert(*scene);
+  for (int pass = 1; pass < kStages; ++pass)  // pairs start from singles, singles from the intact bridge
+    for (const Scene& scene : std::vector<Scene>(missing.begin(), missing.end()))
+      for (const Scene& start : starting_scenes(representative(scene, bridge, mirror)))
+        if (!is_known(start)) missing.insert(start);
+  return missing;
+}
+
+}  // namespace
+
+Scene representative(const Scene& scene, const Bridge& bridge, UseMirror mirror) {
+  const bool mirrors = mirror == UseMirror::yes && bridge.symmetry;
+  return mirrors ? std::min(scene, mirrored(scene, *bridge.symmetry)) : scene;
+}
+
+std::vector<Scene> starting_scenes(const Scene& solved) {
+  std::vector<Scene> scenes;
+  if (!solved.removed.empty()) scenes.push_back(Scene{});
+  if (solved.missing() > 1)
+    for (const BlockId block : solved.removed) scenes.push_back(Scene{{block}});
+  return scenes;
+}
+
+std::size_t BuildPlan::records() const {
+  std::size_t count = 0;
+  for (const auto& stage : stages)
+    for (const SolvingTask& task : stage) count += (task.records_solved ? 1 : 0) + (task.image ? 1 : 0);
+  return count;
+}
+
+BuildPlan plan_build(const std::vector<Scene>& wanted, const Bridge& bridge, UseMirror mirror,
+                     const std::function<bool(const Scene&)>& is_known) {
+  std::map<Scene, SolvingTask> tasks;
+  for (const Scene& scene : missing_records(wanted, bridge, mirror, is_known)) {
+    const Scene solved = representative(scene, bridge, mirror);
+    SolvingTask& task = tasks[solved];
+    task.solved = solved;
+    if (scene == solved)
+      task.records_solved = true;
+    else
+      task.image = scene;
+  }
+  BuildPlan plan;
+  plan.stages.resize(kStages);
+  for (auto& [solved, task] : tasks)
+    plan.stages[static_cast<std::size_t>(stage_of(solved))].push_back(std::move(task));
+  return plan;
+}
+
+}  // namespace voussoir

@@ -1,0 +1,42 @@
+#pragma once
+/// @file Which scenes are solved, in which order.
+
+#include <functional>
+#include <vector>
+
+#include "core/bridge.h"
+
+namespace voussoir {
+
+/// One equilibrium search and the scenes that it answers for: the scene itself, its mirror image or both.
+struct SolvingTask {
+  Scene solved;
+  bool records_solved = false;
+  std::optional<Scene> image;  ///< the mirror image, if it is wanted and is another scene
+};
+
+struct BuildPlan {
+  /// Stages follow each other: intact, then singles, then everything else, which starts from their fields.
+  /// Tasks of a stage do not depend on each other.
+  std::vector<std::vector<SolvingTask>> stages;
+
+  std::size_t records() const;  ///< that the tasks of all stages give
+};
+
+enum class UseMirror { no, yes };
+
+/// The scene that is solved to answer for this one: the lexicographically smaller of the scene and its mirror
+/// image, or the scene itself if mirror images are not used or the bridge has no symmetry.
+Scene representative(const Scene& scene, const Bridge& bridge, UseMirror mirror);
+
+/// The scenes whose fields the solving of this one starts from (see StartingFields).
+std::vector<Scene> starting_scenes(const Scene& solved);
+
+/// A task for every wanted scene and for the intact bridge and the singles that wanted scenes start from,
+/// except for scenes that `is_known` already. With a mirror symmetry the lexicographically smaller of a scene
+/// and its image is solved, whatever scenes are wanted, so that a scene's record does not depend on the rest
+/// of the list.
+BuildPlan plan_build(const std::vector<Scene>& wanted, const Bridge& bridge, UseMirror mirror,
+                     const std::function<bool(const Scene&)>& is_known);
+
+}  // namespace voussoir

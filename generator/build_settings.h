@@ -1,0 +1,17 @@
+#pragma once
+/// @file The settings that a database states: the solver's and the generator's own.
+
+#include <string>
+
+#include "generator/build_plan.h"
+#include "generator/scene_solving.h"
+
+namespace voussoir {
+
+/// "key = value" lines: everything beside the bridge that a database's content depends on.
+std::string build_settings(const SolverChoice& solver, const Bridge& bridge, UseMirror mirror);
+
+/// What build_settings says about mirror images.
+UseMirror mirror_use_in(const std::string& settings);
+
+}  // namespace voussoir

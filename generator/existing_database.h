@@ -1,0 +1,26 @@
+#pragma once
+/// @file What stands under the output's name before a build.
+
+#include <optional>
+
+#include "database/database.h"
+#include "generator/build.h"
+
+namespace voussoir {
+
+struct ExistingDatabase {
+  std::optional<Database> database;  ///< if there is a file and it can be read
+  bool up_to_date = false;           ///< it holds exactly what is to be built
+  bool reusable = false;             ///< its records can be taken over
+  std::vector<std::string> changes;  ///< why it is not up to date, in words
+};
+
+/// Looks at the file; `force` makes any file out of date and its records worthless. Throws Failure for a file
+/// that is no HDF5 file (unless forced): a build should not replace what is none of its own.
+ExistingDatabase examine_existing(const std::filesystem::path& output, const Provenance& provenance,
+                                  const std::vector<Scene>& wanted, KeepField fields, bool force);
+
+/// Fills in the summary's scenes, size and digest from a file that is up to date.
+void summarise_existing(const Database& database, BuildSummary& summary);
+
+}  // namespace voussoir

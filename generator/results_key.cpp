@@ -1,0 +1,69 @@
+#include "generator/results_key.h"
+
+#include <fmt/format.h>
+
+#include "build_information.h"
+#include "database/sha256.h"
+#include "solver_revision.h"
+
+namespace voussoir {
+namespace {
+
+/// Numbers by their bits, so that no two values look alike. The structured bindings below fail to compile
+/// when a description gains a member, which then has to be added here.
+template <class... Numbers>
+std::string row(const char* name, const Numbers&... numbers) {
+  std::string text = name;
+  ((text += fmt::format(" {:a}", static_cast<double>(numbers))), ...);
+  return text + "\n";
+}
+
+std::string wall_text(const WallDescription& wall) {
+  const auto& [length, courses, course_height, block_length, bond, smallest_piece] = wall;
+  return row("wall", length, courses, course_height, block_length, bond, smallest_piece);
+}
+
+std::string span_text(const SpanDescription& span) {
+  const auto& [centre_x, centre_y, intrados_radius, ring_thickness, voussoirs] = span;
+  return row("span", centre_x, centre_y, intrados_radius, ring_thickness, voussoirs);
+}
+
+std::string material_text(const Material& material) {
+  const auto& [young_modulus, poisson_ratio, density, thickness, plane] = material;
+  return row("material", young_modulus, poisson_ratio, density, thickness, plane);
+}
+
+std::string joint_text(const JointMaterial& joints) {
+  const auto& [normal_stiffness, tangential_stiffness, friction_angle] = joints;
+  return row("joints", normal_stiffness, tangential_stiffness, friction_angle);
+}
+
+std::string mesh_text(const MeshDescription& mesh) {
+  const auto& [refinement, split_at_corners] = mesh;
+  return row("mesh", refinement, split_at_corners);
+}
+
+std::string support_text(const SupportDescription& supports) {
+  const auto& [base, sides] = supports;
+  return row("supports", base, sides);
+}
+
+std::string physics_text(const BridgeDescription& description) {
+  const auto& [name, wall, spans, material, joints, supports, control_points, mesh, gravity,
+               joint_tolerance] = description;
+  static_cast<void>(name);
+  static_cast<void>(control_points);
+  std::string text = wall_text(wall);
+  for (const SpanDescription& span : spans) text += span_text(span);
+  return text + material_text(material) + joint_text(joints) + support_text(supports) + mesh_text(mesh) +
+         row("load", gravity) + row("tolerance", joint_tolerance);
+}
+
+}  // namespace
+
+std::string results_key(const BridgeDescription& description, const std::string& solver_settings) {
+  return to_hexadecimal(sha256(fmt::format("{}\n{}\n{}\n{}\n{}", physics_text(description), solver_settings,
+                                           kSolverRevision, kCompiler, kCompileFlags)));
+}
+
+}  // namespace voussoir

@@ -1,0 +1,15 @@
+#pragma once
+/// @file When two builds give the same displacement fields.
+
+#include <string>
+
+#include "core/bridge_description.h"
+
+namespace voussoir {
+
+/// A hash over everything that displacement fields depend on: the description of the bridge (not its name,
+/// nor which points are measured, nor remarks in the bridge file), the settings of solver and generator, the
+/// solver's source, compiler and flags. Records of equal keys can be used for each other.
+std::string results_key(const BridgeDescription& description, const std::string& solver_settings);
+
+}  // namespace voussoir

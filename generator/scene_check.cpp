@@ -1,0 +1,146 @@
+#include "generator/scene_check.h"
+
+#include <cmath>
+
+#include "core/error.h"
+#include "core/quasi_static_solver.h"
+#include "core/symmetry.h"
+#include "database/field_codec.h"
+#include "generator/verify.h"
+
+namespace voussoir {
+namespace {
+
+/// One scene under examination.
+class Examination {
+ public:
+  Examination(const CheckedDatabase& checked, std::size_t row)
+      : checked_(checked), row_(row), scene_(checked.database.table().scene(row)) {}
+
+  SceneCheck run() {
+    try {
+      const Record record = checked_.database.record(row_);
+      check_variant();
+      const auto field = take_field(record);
+      check_checksum(record, field);
+      if (field) check_field(record, *field);
+    } catch (const InputError& error) {
+      report(error.what());
+    }
+    return std::move(check_);
+  }
+
+ private:
+  void report(const std::string& what) {
+    check_.problems.push_back(fmt::format("scene {}: {}", to_string(scene_, checked_.bridge.layout), what));
+  }
+
+  void check_variant() {
+    if (checked_.database.variant(row_) != kOnlyVariant)
+      report("belongs to a variant that this version does not know");
+  }
+
+  /// The record's field if the database has fields and this one can be decoded.
+  std::optional<Field> take_field(const Record& record) {
+    if (!checked_.database.has_fields()) return std::nullopt;
+    if (crc32_of(record.packed_field) != checked_.database.chunk_crc(row_))
+      report("the stored bytes of its field do not have the stored CRC-32");
+    auto field = unpack_field(record.packed_field, checked_.bridge.mesh.node_count());
+    if (!field) report("its field cannot be decompressed");
+    return field;
+  }
+
+  void check_checksum(const Record& record, const std::optional<Field>& field) {
+    if (checked_.database.has_fields() && !field) return;
+    const std::span<const double> numbers =
+        field ? std::span(field->data(), static_cast<std::size_t>(field->size())) : std::span<const double>{};
+    if (scene_checksum(record, numbers) != record.checksum)
+      report("its data do not have the stored checksum");
+  }
+
+  void check_field(const Record& record, const Field& field) {
+    check_.field_checked = true;
+    check_presence(field);
+    check_control_points(record, field);
+    if (record.outcome == Outcome::standing) check_equilibrium(field);
+    if (checked_.bridge.symmetry) check_mirror_image(record, field);
+  }
+
+  /// Numbers at the nodes of all blocks but the removed ones.
+  void check_presence(const Field& field) {
+    const auto removed = removal_mask(scene_, checked_.bridge.layout.size());
+    for (std::size_t block = 0; block < removed.size(); ++block) {
+      const IndexRange nodes = checked_.bridge.mesh.block_nodes[block];
+      const auto numbers = field.middleCols(nodes.begin, nodes.size()).array();
+      const bool right = removed[block] ? numbers.isNaN().all() : numbers.isFinite().all();
+      if (!right)
+        report(fmt::format("the displacements of block {} are {}",
+                           to_string(checked_.bridge.layout.blocks[block].index),
+                           removed[block] ? "there although it is removed" : "no numbers"));
+    }
+  }
+
+  void check_control_points(const Record& record, const Field& field) {
+    const Eigen::VectorXd expected = vertical_displacements(field, checked_.bridge.control_points);
+    const auto same = [](double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); };
+    if (!std::equal(expected.begin(), expected.end(), record.vertical.begin(), record.vertical.end(), same))
+      report("its control displacements are not those of its field");
+  }
+
+  void check_equilibrium(const Field& field) {
+    const Field clean = field.array().isNaN().select(0.0, field);
+    const auto removed = removal_mask(scene_, checked_.bridge.layout.size());
+    check_.unbalance = unbalanced_forces(checked_.system, removed, clean).cwiseAbs().maxCoeff() /
+                       checked_.system.largest_weight;
+    if (!(check_.unbalance <= checked_.most_unbalance))
+      report(fmt::format("stands, but its field is out of equilibrium by {:.1e} of the largest nodal weight",
+                         check_.unbalance));
+  }
+
+  /// Each pair of images is compared once, by the earlier of the two.
+  void check_mirror_image(const Record& record, const Field& field) {
+    const Scene image = mirrored(scene_, *checked_.bridge.symmetry);
+    const auto image_row = checked_.database.find(image);
+    if (!image_row || *image_row <= row_) return;
+    check_.mirror_compared = true;
+    const Solution other = checked_.database.solution(*image_row);
+    const std::string name = to_string(image, checked_.bridge.layout);
+    if (other.outcome != record.outcome) report(fmt::format("its mirror image {} has another outcome", name));
+    if (record.outcome != Outcome::standing && !checked_.mirror_images_used) return;
+    const Field expected = mirrored(field, *checked_.bridge.symmetry);
+    const double difference = (other.displacement - expected)
+                                  .array()
+                                  .isNaN()
+                                  .select(0.0, other.displacement - expected)
+                                  .cwiseAbs()
+                                  .maxCoeff();
+    if (!(difference <= (checked_.mirror_images_used ? 0.0 : kSameDisplacement)))
+      report(fmt::format("differs from its mirror image {} by {:.1e} m", name, difference));
+  }
+
+  const CheckedDatabase& checked_;
+  std::size_t row_;
+  Scene scene_;
+  SceneCheck check_;
+};
+
+}  // namespace
+
+double most_stored_unbalance(const EquilibriumSystem& system) {
+  constexpr double kBonded = 1.0;
+  const Field zero = Field::Zero(2, system.bridge->mesh.node_count());
+  const std::vector<bool> none_removed(system.bridge->layout.size(), false);
+  Eigen::SparseMatrix<double> tangent = system.pattern;
+  std::vector<double> values;
+  assemble(system, none_removed, zero, kBonded, values);
+  std::copy(values.begin(), values.end(), tangent.valuePtr());
+  const Eigen::VectorXd row_sums = tangent.cwiseAbs() * Eigen::VectorXd::Ones(tangent.cols());
+  return QuasiStaticSettings{}.loose_tolerance +
+         0.5 * kStorageStep * row_sums.maxCoeff() / system.largest_weight;
+}
+
+SceneCheck check_scene(const CheckedDatabase& checked, std::size_t row) {
+  return Examination(checked, row).run();
+}
+
+}  // namespace voussoir

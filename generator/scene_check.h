@@ -1,0 +1,35 @@
+#pragma once
+/// @file Checks of one stored scene.
+
+#include <optional>
+
+#include "core/equilibrium.h"
+#include "database/database.h"
+
+namespace voussoir {
+
+/// What the checks of a scene need to know of its database.
+struct CheckedDatabase {
+  const Database& database;
+  const Bridge& bridge;             ///< bridge_of(database)
+  const EquilibriumSystem& system;  ///< of that bridge
+  double most_unbalance = 0.0;      ///< most_stored_unbalance(system)
+  bool mirror_images_used = false;  ///< images are then equal bit by bit
+};
+
+struct SceneCheck {
+  std::vector<std::string> problems;
+  bool field_checked = false;
+  bool mirror_compared = false;
+  double unbalance = 0.0;  ///< of a standing scene's stored field
+};
+
+/// How far from equilibrium a correctly solved and stored field can be [largest unbalanced nodal force over
+/// largest nodal weight]: the solver's own limit, and half a storage step at every node against the stiffness
+/// of the bridge with all joints closed (the largest sum of absolute values in a row of the tangent).
+double most_stored_unbalance(const EquilibriumSystem& system);
+
+/// Never throws for what is wrong with the scene's data.
+SceneCheck check_scene(const CheckedDatabase& checked, std::size_t row);
+
+}  // namespace voussoir

@@ -1,0 +1,42 @@
+#include "generator/stored_bridge.h"
+
+#include "core/bridge_file.h"
+#include "core/error.h"
+#include "database/schema.h"
+
+namespace voussoir {
+namespace {
+
+std::vector<ControlPoint> stored_points(const Database& database) {
+  const ByteView bytes = database.dataset_bytes(dataset::kPointNode);
+  std::vector<std::int32_t> nodes(bytes.size() / sizeof(std::int32_t));
+  std::memcpy(nodes.data(), bytes.data(), nodes.size() * sizeof(std::int32_t));
+  const auto& stored = database.control_points();
+  if (nodes.size() != stored.size())
+    throw InputError(fmt::format("{}: dataset '{}' has {} rows where {} were expected",
+                                 database.path().string(), dataset::kPointNode, nodes.size(), stored.size()));
+  std::vector<ControlPoint> points;
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    if (nodes[i] < 0 || nodes[i] >= database.mesh().node_count())
+      throw InputError(fmt::format("{}: control point {} has a node that does not exist",
+                                   database.path().string(), stored[i].name));
+    points.push_back({stored[i].name, NodeId{nodes[i]}, stored[i].block, stored[i].position});
+  }
+  return points;
+}
+
+}  // namespace
+
+Bridge bridge_of(const Database& database) {
+  Bridge bridge;
+  bridge.description =
+      parse_bridge_file(database.bridge_text(), database.path().string() + " (bridge text)").description;
+  bridge.layout = database.layout();
+  bridge.mesh = database.mesh();
+  bridge.joints = find_joints(bridge.mesh, bridge.description.joint_tolerance);
+  bridge.control_points = stored_points(database);
+  bridge.symmetry = find_mirror_symmetry(bridge.layout, bridge.mesh, 0.5 * bridge.description.wall.length);
+  return bridge;
+}
+
+}  // namespace voussoir

@@ -1,0 +1,135 @@
+#include "generator/verify.h"
+
+#include <oneapi/tbb/enumerable_thread_specific.h>
+#include <oneapi/tbb/global_control.h>
+#include <oneapi/tbb/info.h>
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/task_arena.h>
+
+#include <algorithm>
+
+#include "core/error.h"
+#include "database/content_digest.h"
+#include "generator/build_settings.h"
+#include "generator/recompute.h"
+#include "generator/scene_check.h"
+#include "generator/stored_bridge.h"
+
+namespace voussoir {
+namespace {
+
+/// Calls `work(i)` for i = 0..count-1 on the wanted number of threads.
+template <class Work>
+void in_parallel(std::size_t count, int threads, const Work& work) {
+  using namespace oneapi;
+  if (threads <= 0) threads = tbb::info::default_concurrency();
+  const tbb::global_control allowed(tbb::global_control::max_allowed_parallelism,
+                                    static_cast<std::size_t>(threads));
+  tbb::task_arena(threads).execute([&] { tbb::parallel_for(std::size_t{0}, count, work); });
+}
+
+void check_digest(const Database& database, const std::vector<DatasetValue>& expected, VerifyReport& report) {
+  std::vector<DigestPart> parts;
+  for (const DatasetValue& value : expected)
+    parts.push_back({value.path, database.dataset_bytes(value.path.c_str())});
+  parts.push_back({dataset::kChecksum, database.dataset_bytes(dataset::kChecksum)});
+  if (to_hexadecimal(content_digest(parts)) != database.digest())
+    report.problems.push_back("content digest: the content does not have the digest that the file states");
+}
+
+/// Geometry and control points are compared with what the bridge text gives, but only if the same program
+/// made them: another version may mesh blocks in another way.
+void check_geometry(const Database& database, const Bridge& stored, VerifyReport& report) {
+  const Provenance provenance = database.provenance();
+  const Provenance own = make_provenance({provenance.bridge_name, provenance.bridge_text, stored.description},
+                                         provenance.solver_settings, provenance.results_key);
+  const bool same_program = differences(own, provenance).empty();
+  const Bridge bridge = same_program ? make_bridge(stored.description) : stored;
+  const auto expected = shared_datasets(provenance, bridge.layout, bridge.mesh, bridge.control_points);
+  for (const DatasetValue& value : expected)
+    if (!std::ranges::equal(value.bytes, database.dataset_bytes(value.path.c_str())))
+      report.problems.push_back(fmt::format("dataset '{}': is not what the bridge text gives", value.path));
+  check_digest(database, expected, report);
+}
+
+void count_outcomes(const Database& database, VerifyReport& report) {
+  report.digest = database.digest();
+  report.scenes = database.table().rows;
+  for (const std::uint8_t outcome : database.table().outcome) {
+    if (outcome == static_cast<std::uint8_t>(Outcome::standing)) ++report.standing;
+    if (outcome == static_cast<std::uint8_t>(Outcome::collapsed)) ++report.collapsed;
+    if (outcome == static_cast<std::uint8_t>(Outcome::unresolved)) ++report.unresolved;
+  }
+}
+
+void check_scenes(const CheckedDatabase& checked, int threads, VerifyReport& report) {
+  std::vector<SceneCheck> checks(checked.database.table().rows);
+  in_parallel(checks.size(), threads, [&](std::size_t row) { checks[row] = check_scene(checked, row); });
+  for (const SceneCheck& check : checks) {
+    report.fields += check.field_checked ? 1 : 0;
+    report.mirror_pairs += check.mirror_compared ? 1 : 0;
+    report.largest_unbalance = std::max(report.largest_unbalance, check.unbalance);
+    report.problems.insert(report.problems.end(), check.problems.begin(), check.problems.end());
+  }
+}
+
+struct Recomputed {
+  double difference = 0.0;
+  std::string problem;
+};
+
+Recomputed recompute_row(const Database& database, const Bridge& bridge, std::size_t row,
+                         const SceneSolver& solver) {
+  const Scene scene = database.table().scene(row);
+  const UseMirror mirror = mirror_use_in(database.provenance().solver_settings);
+  const Solution solution = recompute(scene, database, bridge, mirror, solver);
+  const auto stored = static_cast<Outcome>(database.table().outcome[row]);
+  const std::string name = to_string(scene, bridge.layout);
+  if (solution.outcome != stored)
+    return {0.0, fmt::format("scene {}: solved anew it is {}, not {}", name, to_string(solution.outcome),
+                             to_string(stored))};
+  const double difference = largest_difference(solution, database, row, bridge.control_points);
+  if (stored == Outcome::standing && !(difference <= kSameDisplacement))
+    return {difference, fmt::format("scene {}: solved anew it differs by {:.1e} m", name, difference)};
+  return {difference, {}};
+}
+
+void check_recomputed(const VerifyRequest& request, const Database& database, const Bridge& bridge,
+                      const SolverChoice& solver, VerifyReport& report) {
+  const auto rows = choose_rows(database.table().rows, request.recompute, request.seed);
+  std::vector<Recomputed> results(rows.size());
+  oneapi::tbb::enumerable_thread_specific<SceneSolver> solvers([&] { return solver.make_solver(bridge); });
+  in_parallel(rows.size(), request.threads,
+              [&](std::size_t i) { results[i] = recompute_row(database, bridge, rows[i], solvers.local()); });
+  report.recomputed = rows.size();
+  for (const Recomputed& result : results) {
+    report.largest_recomputed_difference = std::max(report.largest_recomputed_difference, result.difference);
+    if (!result.problem.empty()) report.problems.push_back(result.problem);
+  }
+}
+
+void check_content(const VerifyRequest& request, const SolverChoice& solver, VerifyReport& report) {
+  const Database database = Database::open(request.database);
+  count_outcomes(database, report);
+  const Bridge bridge = bridge_of(database);
+  check_geometry(database, bridge, report);
+  const EquilibriumSystem system(bridge);
+  const bool mirrors = mirror_use_in(database.provenance().solver_settings) == UseMirror::yes;
+  report.most_unbalance = most_stored_unbalance(system);
+  check_scenes({database, bridge, system, report.most_unbalance, mirrors}, request.threads, report);
+  if (request.recompute > 0) check_recomputed(request, database, bridge, solver, report);
+}
+
+}  // namespace
+
+VerifyReport verify_database(const VerifyRequest& request, const SolverChoice& solver) {
+  VerifyReport report;
+  try {
+    check_content(request, solver, report);
+  } catch (const InputError& error) {
+    report.problems.push_back(error.what());
+  }
+  return report;
+}
+
+}  // namespace voussoir

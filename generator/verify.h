@@ -1,0 +1,55 @@
+#pragma once
+/// @file Checking that a database is whole and right.
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "generator/scene_solving.h"
+
+namespace voussoir {
+
+/// Two separate solutions of the same scene may differ by this much [m]: the solver stops at a residual of
+/// 1e-8 of a block's weight, which the softest motions of a bridge turn into less than a nanometre.
+inline constexpr double kSameDisplacement = 1e-9;
+
+struct VerifyRequest {
+  std::filesystem::path database;
+  std::size_t recompute = 0;  ///< how many scenes to solve anew
+  std::uint64_t seed = 1;     ///< of their choice
+  int threads = 0;            ///< 0: one for each core
+};
+
+struct VerifyReport {
+  std::string digest;  ///< as the file states it
+  std::size_t scenes = 0;
+  std::size_t standing = 0;
+  std::size_t collapsed = 0;
+  std::size_t unresolved = 0;
+  std::size_t fields = 0;          ///< stored fields that were checked
+  double largest_unbalance = 0.0;  ///< of the standing scenes' stored fields, over the largest nodal weight
+  double most_unbalance = 0.0;     ///< that rounding and the solver's tolerance explain
+  std::size_t mirror_pairs = 0;    ///< pairs of scenes that were compared
+  std::size_t recomputed = 0;
+  double largest_recomputed_difference = 0.0;  ///< [m] between stored and recomputed displacements
+  std::vector<std::string> problems;           ///< each names the scene or dataset; empty if all is well
+  bool ok() const { return problems.empty(); }
+};
+
+/// Checks the schema, the content digest, that geometry and control points are those of the bridge text (when
+/// this very program built the file), and for every scene: checksums, that the field is decodable and missing
+/// just where blocks are, that the control table repeats the field, equilibrium of standing scenes from the
+/// stored field alone, and that mirror images have mirrored fields. Solves some scenes anew if asked for.
+/// Throws Failure if the file cannot be read at all; whatever is wrong with its content is a problem in the
+/// report.
+VerifyReport verify_database(const VerifyRequest& request, const SolverChoice& solver);
+
+/// Lines for people; at most twenty problems.
+std::string to_text(const VerifyReport& report, const std::filesystem::path& database);
+
+/// One line: {"ok", "digest", "scenes", "standing", "collapsed", "unresolved", "fields", "largest_unbalance",
+/// "most_unbalance", "mirror_pairs", "recomputed", "largest_recomputed_difference_m", "problems"}.
+std::string to_json(const VerifyReport& report);
+
+}  // namespace voussoir

@@ -1,0 +1,28 @@
+/// @file verify-database: is a database whole and right?
+
+#include <iostream>
+
+#include "core/error.h"
+#include "generator/verify_options.h"
+
+using namespace voussoir;
+
+namespace {
+
+int run(const VerifyOptions& options) {
+  const VerifyReport report = verify_database(options.request, quasi_static());
+  std::cout << (options.json ? to_json(report) : to_text(report, options.request.database)) << std::flush;
+  return report.ok() && std::cout ? 0 : 1;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    const VerifyOptions options = parse_verify_options(argc, argv);
+    return options.exit_code ? *options.exit_code : run(options);
+  } catch (const std::exception& error) {
+    std::cerr << "verify-database: " << error.what() << '\n';
+    return 1;
+  }
+}

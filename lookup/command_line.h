@@ -1,0 +1,48 @@
+#pragma once
+/// @file What the lookup programs' command lines have in common.
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+
+#include "database/database.h"
+
+namespace voussoir {
+
+/// The database to open: the given one, else $VOUSSOIR_DATABASE, else ./bridge.h5.
+/// Throws Failure naming the command that builds one if there is none.
+std::filesystem::path find_database(const std::optional<std::string>& given);
+
+/// Parses the command line, runs the program and turns exceptions into messages on the standard error and exit codes:
+/// 0 done, 1 could not be done, 2 bad usage or bad input. An answer goes to the standard output only when it is whole.
+int run_program(CLI::App& app, int argc, char** argv, const std::function<std::string()>& program);
+
+/// An option with one of a few named values.
+template <typename Value>
+CLI::Option* add_choice(CLI::App& app, const std::string& names, Value& value,
+                        const std::map<std::string, Value>& choices, const std::string& description) {
+  return app
+      .add_option_function<std::string>(
+          names, [&value, choices](const std::string& text) { value = choices.at(text); }, description)
+      ->check(CLI::IsMember(choices))
+      ->option_text("NAME");
+}
+
+/// An option's check: the text must be acceptable to `parse`, whose InputError becomes the message.
+template <typename Parse>
+CLI::Validator checked_by(Parse parse, const std::string& name) {
+  return {[parse](std::string& text) {
+            try {
+              parse(text);
+            } catch (const std::exception& error) {
+              return std::string(error.what());
+            }
+            return std::string();
+          },
+          name};
+}
+
+}  // namespace voussoir

@@ -1,0 +1,184 @@
+#include "lookup/likelihood.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "core/error.h"
+#include "lookup/evidence.h"
+#include "lookup/row_statistics.h"
+
+namespace voussoir {
+namespace {
+
+constexpr double kImpossible = -std::numeric_limits<double>::infinity();
+constexpr double kHopeless = 50.0;    // log of the factor beyond which a scene's probability is taken for zero
+constexpr double kBoundSlack = 15.0;  // a mean over levels is never further below its peak (for the likeliest rows)
+constexpr std::array<NoiseShape, 3> kAutomaticShapes = {NoiseShape::uniform, NoiseShape::gaussian,
+                                                        NoiseShape::laplace};
+constexpr int kLevelsPerOctave = 8;  // of the grid, where the marginal over levels has no closed form
+
+std::span<const NoiseShape> shapes_of(const NoiseModel& noise) {
+  if (noise.shape == NoiseShape::automatic) return kAutomaticShapes;
+  return {&noise.shape, 1};
+}
+
+/// True if an unknown level multiplies all scales, so that the statistics for one level serve all.
+bool is_proportional(const NoiseModel& noise, const Measurements& measurements) {
+  const bool own = std::any_of(measurements.sigma.begin(), measurements.sigma.end(),
+                               [](double sigma) { return !std::isnan(sigma); });
+  return noise.floor == 0.0 && noise.model_error == 0.0 && !own && noise.shape != NoiseShape::student;
+}
+
+/// Mean over the shapes of a function that gives a logarithm.
+template <typename Function>
+double log_mean_over_shapes(const NoiseModel& noise, Function log_of_shape) {
+  double sum = kImpossible;
+  for (const NoiseShape shape : shapes_of(noise)) sum = log_sum(sum, log_of_shape(shape));
+  return sum - std::log(static_cast<double>(shapes_of(noise).size()));
+}
+
+/// Student's t has no short statistics: one pass over the row.
+double log_student_likelihood(const Observation& observation, std::span<const double> prediction, double nu,
+                              double sum_log_scale) {
+  double sum = -sum_log_scale;
+  for (const double z : standard_errors(observation, prediction))
+    if (!std::isnan(z)) sum += log_density(NoiseShape::student, z, nu);
+  return sum;
+}
+
+/// What stays the same for all noise levels.
+struct Problem {
+  const Measurements& measurements;
+  const SceneTable& table;
+  std::span<const std::size_t> rows;  // those that count; all others get -infinity
+  std::span<const double> intact;
+  const NoiseModel& noise;
+};
+
+std::vector<double> at_level(const Problem& problem, double level) {
+  const Observation observation = observe(problem.measurements, problem.intact, problem.noise, level);
+  const std::vector<RowStatistics> statistics = row_statistics(observation, problem.table);
+  std::vector<double> result(problem.table.rows, kImpossible);
+  for (const std::size_t row : problem.rows)
+    result[row] = log_mean_over_shapes(problem.noise, [&](NoiseShape shape) {
+      if (shape == NoiseShape::student && !std::isnan(statistics[row].sum_absolute))
+        return log_student_likelihood(observation, problem.table.row(row), problem.noise.degrees_of_freedom,
+                                      statistics[row].sum_log_scale);
+      return log_likelihood(shape, statistics[row], observation.count);
+    });
+  return result;
+}
+
+/// Makes -infinity of everything that is far below the largest value.
+void drop_hopeless(std::vector<double>& logs, double distance) {
+  const double best = *std::max_element(logs.begin(), logs.end());
+  for (double& value : logs)
+    if (value < best - distance) value = kImpossible;
+}
+
+std::vector<double> over_levels_in_closed_form(const Problem& problem) {
+  const Observation observation = observe(problem.measurements, problem.intact, problem.noise, 1.0);
+  const std::vector<RowStatistics> statistics = row_statistics(observation, problem.table);
+  std::vector<double> result(problem.table.rows, kImpossible);
+  for (const std::size_t row : problem.rows)
+    result[row] = log_mean_over_shapes(problem.noise, [&](NoiseShape shape) {
+      return log_evidence_bound(shape, statistics[row], observation.count);
+    });
+  drop_hopeless(result, kHopeless + kBoundSlack);
+  for (const std::size_t row : problem.rows)
+    if (result[row] != kImpossible)
+      result[row] = log_mean_over_shapes(problem.noise, [&](NoiseShape shape) {
+        return log_evidence(shape, statistics[row], observation.count);
+      });
+  return result;
+}
+
+/// Levels from the smallest to the largest, evenly spaced in their logarithm.
+std::vector<double> level_grid() {
+  const double octaves = std::log2(kLargestLevel / kSmallestLevel);
+  const int steps = static_cast<int>(std::ceil(octaves * kLevelsPerOctave));
+  std::vector<double> levels(static_cast<std::size_t>(steps) + 1);
+  for (std::size_t i = 0; i < levels.size(); ++i)
+    levels[i] = kSmallestLevel * std::exp2(octaves * static_cast<double>(i) / steps);
+  return levels;
+}
+
+std::vector<double> over_level_grid(const Problem& problem) {
+  std::vector<double> result(problem.table.rows, kImpossible);
+  const std::vector<double> levels = level_grid();
+  for (const double level : levels) {
+    const std::vector<double> logs = at_level(problem, level);
+    for (const std::size_t row : problem.rows) result[row] = log_sum(result[row], logs[row]);
+  }
+  for (double& value : result) value -= std::log(static_cast<double>(levels.size()));
+  return result;
+}
+
+std::vector<double> log_evidence(const Problem& problem) {
+  if (problem.noise.relative) return at_level(problem, std::max(*problem.noise.relative, kSmallestLevel));
+  if (is_proportional(problem.noise, problem.measurements)) return over_levels_in_closed_form(problem);
+  return over_level_grid(problem);
+}
+
+SceneTable table_of_one_row(std::span<const double> prediction) {
+  SceneTable table;
+  table.rows = 1;
+  table.points = prediction.size();
+  table.vertical = prediction;
+  return table;
+}
+
+NoiseShape likeliest_shape(const Problem& problem) {
+  NoiseShape best = shapes_of(problem.noise).front();
+  double best_log = kImpossible;
+  for (const NoiseShape shape : shapes_of(problem.noise)) {
+    NoiseModel single = problem.noise;
+    single.shape = shape;
+    const double value =
+        log_evidence({problem.measurements, problem.table, problem.rows, problem.intact, single}).front();
+    if (value > best_log) best = shape;
+    best_log = std::max(best_log, value);
+  }
+  return best;
+}
+
+double likeliest_grid_level(const Problem& problem) {
+  double best = kSmallestLevel;
+  double best_log = kImpossible;
+  for (const double level : level_grid()) {
+    const double value = at_level(problem, level).front();
+    if (value > best_log) best = level;
+    best_log = std::max(best_log, value);
+  }
+  return best;
+}
+
+}  // namespace
+
+std::vector<double> log_evidence_of_rows(const Measurements& measurements, const SceneTable& table,
+                                         std::span<const std::size_t> rows, std::span<const double> intact,
+                                         const NoiseModel& noise) {
+  if (observe(measurements, intact, noise, 1.0).count == 0)
+    throw InputError("no reading at a control point that can move, expected at least one");
+  std::vector<double> result = log_evidence({measurements, table, rows, intact, noise});
+  drop_hopeless(result, kHopeless);
+  return result;
+}
+
+NoiseEstimate estimate_noise(const Measurements& measurements, std::span<const double> prediction,
+                             std::span<const double> intact, const NoiseModel& noise) {
+  const SceneTable table = table_of_one_row(prediction);
+  const std::array<std::size_t, 1> rows = {0};
+  NoiseModel single = noise;
+  single.shape = likeliest_shape({measurements, table, rows, intact, noise});
+  if (noise.relative) return {single.shape, *noise.relative, false};
+  if (!is_proportional(single, measurements))
+    return {single.shape, likeliest_grid_level({measurements, table, rows, intact, single}), true};
+  const Observation observation = observe(measurements, intact, single, 1.0);
+  const RowStatistics statistics = row_statistics(observation, table).front();
+  return {single.shape, likeliest_level(single.shape, statistics, observation.count), true};
+}
+
+}  // namespace voussoir

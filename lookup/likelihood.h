@@ -1,0 +1,31 @@
+#pragma once
+/// @file The evidence of every scene of a table.
+
+#include <cstddef>
+#include <vector>
+
+#include "database/database.h"
+#include "lookup/measurements.h"
+#include "lookup/noise_model.h"
+
+namespace voussoir {
+
+/// log p(readings | scene) of the given rows, with an unknown noise level and an automatic noise shape marginalised.
+/// -infinity for impossible scenes (a reading on a block that the scene lacks, or an error beyond a uniform noise's
+/// bound), for scenes that are less likely than the likeliest by a factor of exp(50) or more, and for all other rows.
+/// `intact` are the displacements of the intact bridge. The result has a value for each row of the table.
+/// Throws InputError if no reading is at a point that can move.
+std::vector<double> log_evidence_of_rows(const Measurements& measurements, const SceneTable& table,
+                                         std::span<const std::size_t> rows, std::span<const double> intact,
+                                         const NoiseModel& noise);
+
+/// What the readings say of the noise if one scene is the truth.
+struct NoiseEstimate {
+  NoiseShape shape = NoiseShape::uniform;  ///< the likeliest of the model's shapes
+  double level = 0.0;                      ///< [-] as stated, or the likeliest
+  bool estimated = false;                  ///< the level was unknown
+};
+NoiseEstimate estimate_noise(const Measurements& measurements, std::span<const double> prediction,
+                             std::span<const double> intact, const NoiseModel& noise);
+
+}  // namespace voussoir

@@ -1,0 +1,32 @@
+/// @file locate-damage: which blocks are missing, from measured displacements.
+
+#include "core/error.h"
+#include "lookup/command_line.h"
+#include "lookup/locate_damage_options.h"
+#include "lookup/lookup.h"
+#include "lookup/report.h"
+
+namespace {
+
+std::string locate(const voussoir::LocateDamageOptions& options) {
+  const voussoir::LookupSettings settings = finish(options);
+  const auto database = voussoir::Database::open(voussoir::find_database(options.database));
+  const auto measurements = voussoir::read_measurements(options.measurements, database.control_points());
+  const voussoir::Library library{database.table(), database.control_points(), database.layout()};
+  const voussoir::Answer answer = voussoir::locate_damage(library, measurements, settings);
+  const voussoir::Source source{options.measurements, database.path().string(), database.bridge_name(),
+                                database.digest()};
+  return voussoir::report(answer, settings, library, source, options.format);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("Finds the missing blocks of a masonry arch bridge from measured vertical displacements.",
+               "locate-damage");
+  app.footer("Example: locate-damage readings.csv -d bridge.h5 --noise 5%");
+  app.set_version_flag("--version", voussoir::version_text("locate-damage"));
+  voussoir::LocateDamageOptions options;
+  voussoir::add_options(app, options);
+  return voussoir::run_program(app, argc, argv, [&] { return locate(options); });
+}

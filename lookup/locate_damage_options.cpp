@@ -1,0 +1,122 @@
+#include "lookup/locate_damage_options.h"
+
+#include <algorithm>
+
+#include "core/error.h"
+#include "lookup/command_line.h"
+
+namespace voussoir {
+namespace {
+
+constexpr double kMetresPerMillimetre = 1e-3;
+constexpr std::size_t kMostCandidates = 100000;
+constexpr int kMostMissing = 2;
+
+void add_search_options(CLI::App& app, LocateDamageOptions& options) {
+  LookupSettings& settings = options.settings;
+  add_choice<Search>(app, "--search", settings.search,
+                     {{"exhaustive", Search::exhaustive}, {"genetic", Search::genetic}, {"nearest", Search::nearest}},
+                     "exhaustive (default), genetic or nearest");
+  add_choice<Objective>(
+      app, "--objective", settings.objective,
+      {{"posterior", Objective::posterior}, {"paper", Objective::paper}},
+      "posterior (default): probability given the noise; paper: the misfit log(sum |d_measured - d_scene|)");
+  app.add_option("--missing", settings.prior.missing, "numbers of missing blocks to consider, default 0,1,2")
+      ->delimiter(',')
+      ->check(CLI::Range(0, kMostMissing))
+      ->option_text("LIST");
+  app.add_option("--prior", settings.prior.weight, "weights of these numbers, default equal")
+      ->delimiter(',')
+      ->check(CLI::NonNegativeNumber)
+      ->option_text("LIST");
+  app.add_option("--top", settings.top, "how many candidates to list, default 10")
+      ->check(CLI::Range(std::size_t{1}, kMostCandidates))
+      ->option_text("N");
+  app.add_flag("--approximate", options.approximate, "nearest search by k-d trees, which may miss a scene");
+}
+
+void add_noise_options(CLI::App& app, LocateDamageOptions& options) {
+  app.add_option("--noise", options.noise_level,
+                 "errors as a share of the displacement, such as 5% (the bound for uniform noise, else the standard "
+                 "deviation); default: estimated from the measurements")
+      ->check(checked_by(parse_noise_level, "LEVEL"))
+      ->option_text("LEVEL");
+  app.add_option("--noise-model", options.noise_model,
+                 "auto (default: the measurements decide among the next three), uniform, gaussian, laplace, student")
+      ->check(checked_by(parse_noise_shape, "NAME"))
+      ->option_text("NAME");
+  app.add_option("--floor", options.floor_mm, "absolute part of the errors [mm], default 0")
+      ->check(CLI::NonNegativeNumber)
+      ->option_text("MM");
+  app.add_option("--model-error", options.model_error,
+                 "the model's own error as a share of the change that a missing block makes, default 0")
+      ->check(checked_by(parse_noise_level, "LEVEL"))
+      ->option_text("LEVEL");
+  app.add_option("--degrees-of-freedom", options.settings.noise.degrees_of_freedom, "of student noise, default 4")
+      ->check(CLI::Range(2.1, 1000.0))
+      ->option_text("NU");
+  app.add_option("--unknown-scale", options.unknown_scale,
+                 "how far all displacements may be too large or small by one factor, such as 20%; gaussian noise only")
+      ->check(checked_by(parse_noise_level, "LEVEL"))
+      ->option_text("LEVEL");
+  app.add_option("--unknown-datum", options.unknown_datum_mm, "how far all readings may be shifted [mm]; gaussian only")
+      ->check(CLI::NonNegativeNumber)
+      ->option_text("MM");
+  app.add_option("--unknown-tilt", options.unknown_tilt_mm_per_m,
+                 "how far the levelling may be tilted [mm per m]; gaussian only")
+      ->check(CLI::NonNegativeNumber)
+      ->option_text("MM/M");
+}
+
+void add_genetic_options(CLI::App& app, GeneticSettings& genetic) {
+  app.add_option("--seed", genetic.seed, "of the genetic search, default 1")->option_text("N");
+  app.add_option("--generations", genetic.most_generations, "of the genetic search")
+      ->check(CLI::Range(1, 1000000))
+      ->option_text("N");
+  app.add_option("--population", genetic.population, "of the genetic search, default 50")
+      ->check(CLI::Range(2, 100000))
+      ->option_text("N");
+  app.add_option("--crossover", genetic.crossover, "probability, default 0.8")
+      ->check(CLI::Range(0.0, 1.0))
+      ->option_text("P");
+  app.add_option("--mutation", genetic.mutation, "probability, default 0.7")
+      ->check(CLI::Range(0.0, 1.0))
+      ->option_text("P");
+}
+
+}  // namespace
+
+void add_options(CLI::App& app, LocateDamageOptions& options) {
+  app.add_option("MEASUREMENTS", options.measurements,
+                 "CSV with a header: point (or x_m,y_m) and uy_mm, uy_m or settlement_mm, optionally sigma_mm; "
+                 "- reads the standard input")
+      ->required()
+      ->option_text("FILE");
+  app.add_option("-d,--database", options.database, "default: $VOUSSOIR_DATABASE, else ./bridge.h5")
+      ->option_text("FILE");
+  add_choice<ReportFormat>(
+      app, "--format", options.format,
+      {{"text", ReportFormat::text}, {"json", ReportFormat::json}, {"csv", ReportFormat::csv}},
+      "text (default), json or csv");
+  add_search_options(app, options);
+  add_noise_options(app, options);
+  add_genetic_options(app, options.settings.genetic);
+}
+
+LookupSettings finish(const LocateDamageOptions& options) {
+  LookupSettings settings = options.settings;
+  std::vector<int> numbers = settings.prior.missing;
+  std::sort(numbers.begin(), numbers.end());
+  if (std::adjacent_find(numbers.begin(), numbers.end()) != numbers.end())
+    throw InputError("--missing names a number twice, expected each once");
+  settings.noise.shape = parse_noise_shape(options.noise_model);
+  if (!options.noise_level.empty()) settings.noise.relative = parse_noise_level(options.noise_level);
+  settings.noise.floor = kMetresPerMillimetre * options.floor_mm;
+  settings.noise.model_error = parse_noise_level(options.model_error);
+  settings.nuisance = {parse_noise_level(options.unknown_scale), kMetresPerMillimetre * options.unknown_datum_mm,
+                       kMetresPerMillimetre * options.unknown_tilt_mm_per_m};
+  if (options.approximate) settings.nearest.mode = NearestMode::approximate;
+  return settings;
+}
+
+}  // namespace voussoir

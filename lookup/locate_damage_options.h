@@ -1,0 +1,35 @@
+#pragma once
+/// @file The command line of locate-damage.
+
+#include <CLI/CLI.hpp>
+#include <optional>
+#include <string>
+
+#include "lookup/lookup.h"
+#include "lookup/report.h"
+
+namespace voussoir {
+
+struct LocateDamageOptions {
+  std::string measurements;
+  std::optional<std::string> database;
+  LookupSettings settings;
+  ReportFormat format = ReportFormat::text;
+  // Texts and units of the command line, which finish() turns into settings.
+  std::string noise_level;
+  std::string noise_model = "auto";
+  double floor_mm = 0.0;
+  std::string model_error = "0";
+  std::string unknown_scale = "0";
+  double unknown_datum_mm = 0.0;
+  double unknown_tilt_mm_per_m = 0.0;
+  bool approximate = false;
+};
+
+/// Adds the options to the program.
+void add_options(CLI::App& app, LocateDamageOptions& options);
+
+/// The settings that the parsed options stand for. Throws InputError for what does not go together.
+LookupSettings finish(const LocateDamageOptions& options);
+
+}  // namespace voussoir

@@ -1,0 +1,71 @@
+#pragma once
+/// @file From measurements to an answer: the flow of locate-damage.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "database/database.h"
+#include "lookup/fit.h"
+#include "lookup/genetic_search.h"
+#include "lookup/likelihood.h"
+#include "lookup/measurements.h"
+#include "lookup/nearest_search.h"
+#include "lookup/noise_model.h"
+#include "lookup/nuisance.h"
+#include "lookup/posterior.h"
+
+namespace voussoir {
+
+enum class Objective {
+  posterior,  ///< probability given the readings, the noise model and the prior
+  paper       ///< Eq. 1
+};
+enum class Search { exhaustive, genetic, nearest };
+
+struct LookupSettings {
+  Objective objective = Objective::posterior;
+  Search search = Search::exhaustive;
+  Prior prior;
+  NoiseModel noise;
+  Nuisance nuisance;
+  std::size_t top = 10;  ///< candidates wanted
+  GeneticSettings genetic;
+  NearestSettings nearest;
+};
+
+/// What a lookup needs of a database; references into it.
+struct Library {
+  const SceneTable& table;
+  const std::vector<StoredPoint>& points;
+  const BlockLayout& layout;
+};
+
+/// A scene that may explain the readings.
+struct Candidate {
+  std::size_t row = 0;
+  Scene scene;
+  Outcome outcome = Outcome::standing;
+  double misfit = 0.0;                  ///< Eq. 1
+  std::optional<double> posterior;      ///< with Objective::posterior
+  std::vector<Scene> same_readings;     ///< scenes that these sensors cannot tell from this one under this noise
+};
+
+struct Answer {
+  std::vector<Candidate> candidates;    ///< best first
+  std::optional<Posterior> posterior;   ///< with Objective::posterior
+  std::optional<NoiseEstimate> noise;   ///< if the best candidate is the truth; with Objective::posterior
+  std::optional<Fit> fit;               ///< of the best candidate; with Objective::posterior
+  std::vector<SensorResidual> residuals;  ///< of the best candidate, a value for each reading
+  std::size_t readings = 0;
+  std::size_t searched = 0;             ///< scenes
+  std::size_t unresolved = 0;           ///< scenes left out because the solver gave no answer
+  std::vector<GeneticResult> genetic;   ///< with Search::genetic: for one and for two missing blocks
+};
+
+/// Scores the scenes of the library and ranks the best.
+/// Throws Failure if the library has no scene with the wanted numbers of missing blocks, InputError if no reading can
+/// tell scenes apart.
+Answer locate_damage(const Library& library, const Measurements& measurements, const LookupSettings& settings);
+
+}  // namespace voussoir

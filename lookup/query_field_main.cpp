@@ -1,0 +1,50 @@
+/// @file query-field: the displacement field of a scene.
+
+#include "core/error.h"
+#include "lookup/command_line.h"
+#include "lookup/field_query.h"
+#include "lookup/field_report.h"
+
+using voussoir::FieldFormat;
+
+namespace {
+
+struct Options {
+  std::string scene;
+  std::optional<std::string> database;
+  std::optional<std::string> at;
+  FieldFormat format = FieldFormat::csv;
+};
+
+std::string query(const Options& options) {
+  if (options.at && options.format == FieldFormat::vtu)
+    throw voussoir::InputError("--format vtu is of the whole field, expected no --at beside it");
+  const auto database = voussoir::Database::open(voussoir::find_database(options.database));
+  const std::size_t row = voussoir::find_row(database, options.scene);
+  const auto outcome = static_cast<voussoir::Outcome>(database.table().outcome[row]);
+  if (outcome != voussoir::Outcome::standing)
+    fmt::print(stderr, "query-field: note: scene {} is {}, its field is no equilibrium\n", options.scene,
+               voussoir::to_string(outcome));
+  if (!options.at) return voussoir::field_report(database, row, options.format);
+  const auto places = voussoir::displacements_at(database, row, *options.at);
+  return options.format == FieldFormat::json ? voussoir::places_json(places) : voussoir::places_csv(places);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("Prints the displacements of a scene: all nodes, or chosen places.", "query-field");
+  app.footer("Example: query-field 10,4+6,4 -d bridge.h5 --at T12,A3 --format json");
+  app.set_version_flag("--version", voussoir::version_text("query-field"));
+  Options options;
+  app.add_option("SCENE", options.scene, "missing blocks: intact, 10,4 or 10,4+6,4")->required()->option_text("SCENE");
+  app.add_option("-d,--database", options.database, "default: $VOUSSOIR_DATABASE, else ./bridge.h5")
+      ->option_text("FILE");
+  app.add_option("--at", options.at, "control points such as T12,A3, coordinates X,Y in metres, or control for all")
+      ->option_text("PLACES");
+  voussoir::add_choice<FieldFormat>(
+      app, "--format", options.format,
+      {{"csv", FieldFormat::csv}, {"json", FieldFormat::json}, {"vtu", FieldFormat::vtu}},
+      "csv (default), json, or vtu for ParaView");
+  return voussoir::run_program(app, argc, argv, [&] { return query(options); });
+}

@@ -1,0 +1,37 @@
+#pragma once
+/// @file Answers as text for people, and as JSON and CSV for programs.
+
+#include <string>
+
+#include "lookup/lookup.h"
+
+namespace voussoir {
+
+/// Where the answer comes from.
+struct Source {
+  std::string measurements;  ///< file
+  std::string database;      ///< file
+  std::string bridge;        ///< name
+  std::string digest;        ///< of the database's content
+};
+
+enum class ReportFormat { text, json, csv };
+
+std::string report(const Answer& answer, const LookupSettings& settings, const Library& library,
+                   const Source& source, ReportFormat format);
+
+/// What is missing, how sure that is, what else could be, which sensor disagrees.
+std::string text_report(const Answer& answer, const Library& library, const Source& source);
+
+/// {"candidates": [{"scene": "10,4+6,4", "misfit": .., "posterior": ..}, ..], settings, database, judgement}.
+std::string json_report(const Answer& answer, const LookupSettings& settings, const Library& library,
+                        const Source& source);
+
+/// rank,scene,misfit,posterior,outcome,place
+std::string csv_report(const Answer& answer, const Library& library);
+
+/// Names of settings as the command line has them.
+std::string_view to_string(Objective objective);
+std::string_view to_string(Search search);
+
+}  // namespace voussoir

@@ -1,0 +1,214 @@
+#include <catch2/catch.hpp>
+#include <chrono>
+#include <nlohmann/json.hpp>
+#include <random>
+#include <thread>
+
+#include "database/database.h"
+#include "database/journal.h"
+#include "tests/support/bridges.h"
+#include "tests/support/made_up_database.h"
+#include "tests/support/program.h"
+
+namespace voussoir {
+namespace {
+
+using test::ProgramResult;
+
+/// A folder in which the small bridge is built.
+struct Site {
+  test::TemporaryFolder folder;
+  std::filesystem::path output = folder / "small.h5";
+  std::vector<std::string> arguments = {test::example_bridge("small").string(), "-o", output.string(),
+                                        "--format", "json"};
+
+  ProgramResult build(const test::Program::Prepare& prepare = {}) const {
+    return test::run("build-database", arguments, prepare);
+  }
+  ProgramResult build_with(std::vector<std::string> more) const {
+    more.insert(more.begin(), arguments.begin(), arguments.end());
+    return test::run("build-database", more);
+  }
+};
+
+nlohmann::json json_of(const ProgramResult& result) {
+  INFO(result.err);
+  REQUIRE(result.exit_code == 0);
+  return nlohmann::json::parse(result.out);
+}
+
+/// Digest of the small bridge's database, built once without any interruption.
+std::string undisturbed_digest() {
+  static const std::string digest = json_of(Site().build()).at("digest");
+  return digest;
+}
+
+bool is_one_line(const std::string& text) {
+  return !text.empty() && text.find('\n') == text.size() - 1;
+}
+
+}  // namespace
+
+TEST_CASE("build-database reports a whole build in one line of JSON and leaves only the database") {
+  const Site site;
+  const ProgramResult result = site.build();
+  const auto json = json_of(result);
+  CHECK(is_one_line(result.out));
+  CHECK(json.at("ok") == true);
+  CHECK(json.at("scenes") == 742);
+  CHECK(json.at("standing").get<int>() + json.at("collapsed").get<int>() + json.at("unresolved").get<int>() ==
+        742);
+  CHECK(json.at("digest") == Database::open(site.output).digest());
+  CHECK(std::distance(std::filesystem::directory_iterator(site.folder.path()), {}) == 1);
+}
+
+TEST_CASE("build-database run again says that the file is up to date and ends with 0") {
+  const Site site;
+  json_of(site.build_with({"--scenes", "intact;5,1"}));
+  const auto again = json_of(site.build_with({"--scenes", "5,1;intact"}));
+  CHECK(again.at("up_to_date") == true);
+  CHECK(again.at("computed") == 0);
+}
+
+TEST_CASE("The digest of real scenes is the same for 1, 2 and 5 threads") {
+  for (const char* threads : {"1", "2", "5"})
+    CHECK(json_of(Site().build_with({"--threads", threads})).at("digest") == undisturbed_digest());
+}
+
+TEST_CASE("A build killed at random moments at least 20 times ends with the digest of an undisturbed one") {
+  const std::string expected = undisturbed_digest();
+  const Site site;
+  std::mt19937 random(20);
+  std::size_t kills = 0;
+  std::size_t resumed = 0;
+  for (std::size_t finished = 0; kills < 20;) {
+    REQUIRE(finished < 20);
+    test::Program build("build-database", site.arguments);
+    std::this_thread::sleep_for(std::chrono::milliseconds(5 + random() % 200));
+    build.kill();
+    const ProgramResult result = build.wait();
+    if (result.signal == SIGKILL) ++kills;
+    if (result.exit_code == 0) {  // it was quicker than the kill: that must be right, too; begin again
+      ++finished;
+      const auto json = nlohmann::json::parse(result.out);
+      CHECK(json.at("digest") == expected);
+      resumed += json.at("resumed").get<std::size_t>();
+      std::filesystem::remove(site.output);
+    }
+  }
+  const auto last = json_of(site.build());
+  CHECK(last.at("digest") == expected);
+  CHECK(resumed + last.at("resumed").get<std::size_t>() > 0);
+  CHECK(test::run("verify-database", {site.output.string()}).exit_code == 0);
+}
+
+TEST_CASE("When the disk is full the build says so, keeps what is done and goes on later") {
+  const Site site;
+  const ProgramResult full = site.build(test::file_size_limit(500'000));
+  CHECK(full.exit_code == 1);
+  CHECK_THAT(full.err, Catch::Contains("small.h5.partial: cannot be written: File too large"));
+  CHECK_THAT(full.err, Catch::Contains("run the same command again"));
+  CHECK_FALSE(std::filesystem::exists(site.output));
+  const auto json = json_of(site.build());
+  CHECK(json.at("resumed") > 20);
+  CHECK(json.at("digest") == undisturbed_digest());
+}
+
+TEST_CASE("When only the finished file does not fit on the disk every scene is kept") {
+  const Site site;
+  json_of(site.build());
+  const std::uintmax_t size = std::filesystem::file_size(site.output);
+  std::filesystem::remove(site.output);
+  const ProgramResult full = site.build(test::file_size_limit(size - 1));
+  CHECK(full.exit_code == 1);
+  CHECK_THAT(full.err, Catch::Contains("cannot be written: File too large; all scenes are kept"));
+  CHECK_FALSE(std::filesystem::exists(site.output));
+  CHECK_FALSE(std::filesystem::exists(unfinished_path(site.output)));
+  const auto json = json_of(site.build());
+  CHECK(json.at("resumed") == 742);
+  CHECK(json.at("computed") == 0);
+  CHECK(json.at("digest") == undisturbed_digest());
+}
+
+TEST_CASE("A full disk leaves the old database as it was") {
+  const Site site;
+  json_of(site.build_with({"--scenes", "singles"}));
+  const std::string before = Database::open(site.output).digest();
+  CHECK(site.build(test::file_size_limit(500'000)).exit_code == 1);
+  CHECK(Database::open(site.output).digest() == before);
+}
+
+TEST_CASE("In a folder that cannot be written to the build says so and ends with 1") {
+  const Site site;
+  std::filesystem::permissions(site.folder.path(), std::filesystem::perms(0555));
+  const ProgramResult result = site.build(test::obey_permissions);
+  std::filesystem::permissions(site.folder.path(), std::filesystem::perms(0755));
+  CHECK(result.exit_code == 1);
+  CHECK(is_one_line(result.err));
+  CHECK_THAT(result.err, Catch::Contains("small.h5.partial: cannot be written: Permission denied"));
+}
+
+TEST_CASE("Of two builders of one file the second is told and the first is not disturbed") {
+  const Site site;
+  {
+    const Journal held =
+        Journal::open(site.output, test::made_up_provenance(test::small_bridge_file()), "key");
+    const ProgramResult result = site.build();
+    CHECK(result.exit_code == 1);
+    CHECK_THAT(result.err, Catch::Contains("another build-database is working on this database"));
+  }
+  test::Program first("build-database", site.arguments);
+  test::Program second("build-database", site.arguments);
+  const ProgramResult one = first.wait();
+  const ProgramResult other = second.wait();
+  CHECK(one.exit_code + other.exit_code <= 1);  // the second may come when all is done
+  CHECK(Database::open(site.output).digest() == undisturbed_digest());
+}
+
+TEST_CASE("Bad usage of build-database is told in words and ends with 2") {
+  const Site site;
+  const auto refused = [&](std::vector<std::string> arguments, const std::string& words) {
+    const ProgramResult result = site.build_with(std::move(arguments));
+    CHECK(result.exit_code == 2);
+    CHECK_THAT(result.err, Catch::Contains(words));
+  };
+  refused({"--solver", "dynamic"}, "not available in this version");
+  refused({"--solver", "magic"}, "unknown solver 'magic'");
+  refused({"--threads", "many"}, "--threads");
+  refused({"--threads", "-1"}, "--threads");
+  refused({"--fields", "some"}, "--fields");
+  refused({"--scenes", "9,1"}, "no course 9");
+  refused({"--scenes", "5,1..x"}, "cannot read '5,1..x'");
+  refused({"--tolerance", "1"}, "--tolerance");
+}
+
+TEST_CASE("A bridge file that is missing or bad is named") {
+  const test::TemporaryFolder folder;
+  const ProgramResult missing = test::run("build-database", {(folder / "none.toml").string()});
+  CHECK(missing.exit_code != 0);
+  CHECK_THAT(missing.err, Catch::Contains("none.toml"));
+  CHECK(is_one_line(missing.err));
+  std::ofstream(folder / "bad.toml") << "[wall]\nlength_m = -20\n";
+  const ProgramResult bad = test::run("build-database", {(folder / "bad.toml").string()});
+  CHECK(bad.exit_code == 2);
+  CHECK_THAT(bad.err, Catch::Contains("bad.toml:2"));
+}
+
+TEST_CASE("build-database --help and --version end with 0 and say what they should") {
+  const ProgramResult help = test::run("build-database", {"--help"});
+  CHECK(help.exit_code == 0);
+  CHECK_THAT(help.out, Catch::Contains("--scenes") && Catch::Contains("Exit codes"));
+  const ProgramResult version = test::run("build-database", {"--version"});
+  CHECK(version.exit_code == 0);
+  CHECK_THAT(version.out, Catch::Contains("compiler:") && Catch::Contains("solver revision:"));
+}
+
+TEST_CASE("Progress is told in plain lines when stderr is no terminal and not at all when quiet") {
+  const Site site;
+  const ProgramResult told = site.build_with({"--scenes", "intact;5,1"});
+  CHECK_THAT(told.err, Catch::Contains("2 of 2 scenes"));
+  CHECK(told.err.find('\r') == std::string::npos);
+  CHECK(site.build_with({"--scenes", "intact;5,2", "--quiet"}).err.empty());
+}
+
+}  // namespace voussoir

@@ -1,0 +1,65 @@
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <limits>
+
+#include "generator/start_field.h"
+
+namespace voussoir {
+namespace {
+
+constexpr double kGone = std::numeric_limits<double>::quiet_NaN();
+
+Field row(double a, double b) {
+  Field field(2, 2);
+  field << a, b, 2.0 * a, 2.0 * b;
+  return field;
+}
+
+Scene without(std::initializer_list<int> blocks) {
+  Scene scene;
+  for (const int block : blocks) scene.removed.push_back(BlockId{block});
+  return scene;
+}
+
+}  // namespace
+
+TEST_CASE("The intact bridge starts from zero and a single from the intact field") {
+  StartingFields starts;
+  CHECK_FALSE(starts.start_for(Scene{}).has_value());
+  CHECK_FALSE(starts.start_for(without({1})).has_value());
+  starts.add(Scene{}, Outcome::standing, row(1.0, 2.0));
+  CHECK_FALSE(starts.start_for(Scene{}).has_value());
+  CHECK(*starts.start_for(without({1})) == row(1.0, 2.0));
+}
+
+TEST_CASE("A pair starts from the superposition of its singles, written out by hand") {
+  StartingFields starts;
+  starts.add(Scene{}, Outcome::standing, row(1.0, 2.0));
+  starts.add(without({0}), Outcome::standing, row(1.5, 2.5));
+  starts.add(without({1}), Outcome::standing, row(1.25, 3.0));
+  CHECK(*starts.start_for(without({0, 1})) == row(1.5 + 1.25 - 1.0, 2.5 + 3.0 - 2.0));
+}
+
+TEST_CASE("Where a removed block has no displacement the start is zero") {
+  StartingFields starts;
+  starts.add(Scene{}, Outcome::standing, row(1.0, 2.0));
+  starts.add(without({0}), Outcome::standing, row(kGone, 2.5));
+  CHECK(*starts.start_for(without({0, 1})) == row(0.0, 2.5));
+}
+
+TEST_CASE("Singles that do not stand take no part in the start") {
+  StartingFields starts;
+  starts.add(Scene{}, Outcome::standing, row(1.0, 2.0));
+  starts.add(without({0}), Outcome::collapsed, row(1000.0, 1000.0));
+  starts.add(without({1}), Outcome::standing, row(1.25, 3.0));
+  CHECK(*starts.start_for(without({0, 1})) == row(1.25, 3.0));
+  CHECK(*starts.start_for(without({0, 2})) == row(1.0, 2.0));
+}
+
+TEST_CASE("Nothing starts from an intact bridge that does not stand") {
+  StartingFields starts;
+  starts.add(Scene{}, Outcome::collapsed, row(1000.0, 1000.0));
+  CHECK_FALSE(starts.start_for(without({1})).has_value());
+}
+
+}  // namespace voussoir

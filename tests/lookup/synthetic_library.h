@@ -1,0 +1,93 @@
+#pragma once
+/// @file A made-up library of scenes, quick to make: a wall of blocks in courses, smooth settlements, a dent below each
+/// missing block.
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "lookup/lookup.h"
+#include "lookup/random.h"
+
+namespace voussoir::test {
+
+struct SyntheticLibrary {
+  std::size_t blocks = 0;
+  std::vector<double> vertical;
+  std::vector<std::int32_t> removed;
+  std::vector<std::uint8_t> outcome;
+  std::vector<StoredPoint> points;
+  BlockLayout layout;
+  SceneTable table;
+
+  SyntheticLibrary(const SyntheticLibrary&) = delete;  // the table looks into the vectors
+  SyntheticLibrary& operator=(const SyntheticLibrary&) = delete;
+
+  /// `courses` courses of `length` unit blocks, two points on each block of the highest course; intact, all singles and
+  /// all pairs. Removing a whole column's foot is said to make a scene collapse (large displacements).
+  SyntheticLibrary(int courses, int length) : blocks(static_cast<std::size_t>(courses * length)) {
+    for (int course = 1; course <= courses; ++course)
+      for (int position = 1; position <= length; ++position) add_block(course, position);
+    for (int i = 0; i < 2 * length; ++i)
+      points.push_back({"T" + std::to_string(i + 1), Point((i + 1) / 2, courses),
+                        BlockId{static_cast<std::int32_t>((courses - 1) * length + i / 2)}});
+    for (const Scene& scene : all_scenes(blocks, 2)) add_scene(scene);
+    table = {outcome.size(), points.size(), 2, vertical, removed, outcome};
+  }
+
+  Library library() const { return {table, points, layout}; }
+  std::span<const double> intact() const { return table.row(0); }
+  std::size_t row_of(const Scene& scene) const {
+    for (std::size_t row = 0; row < table.rows; ++row)
+      if (table.scene(row) == scene) return row;
+    return table.rows;
+  }
+
+  /// Readings of a row with noise of the given level and shape, everywhere that the scene has a point.
+  Measurements measure(std::size_t row, double level, NoiseShape shape, Random& random) const {
+    Measurements result{{table.row(row).begin(), table.row(row).end()},
+                        std::vector<double>(table.points, std::numeric_limits<double>::quiet_NaN())};
+    for (double& value : result.displacement)
+      value *= 1.0 + level * (shape == NoiseShape::uniform ? 2.0 * random.uniform() - 1.0 : random.gaussian());
+    return result;
+  }
+
+ private:
+  void add_block(int course, int position) {
+    Block block{{course, position}, BlockKind::plain, {}, false};
+    const double x = position - 1, y = course - 1;
+    block.polygon = {Point(x, y), Point(x + 1, y), Point(x + 1, y + 1), Point(x, y + 1)};
+    layout.blocks.push_back(block);
+  }
+
+  double settlement(const Scene& scene, const Point& at) const {
+    double value = 1e-3 * (1.5 + std::sin(0.4 * at.x()));
+    for (const BlockId id : scene.removed) {
+      const BlockIndex index = layout[id].index;
+      const double distance = at.x() - (index.position - 0.5 + 0.05 * index.course);
+      const double size = index.course == 1 && index.position == 2 ? 40.0 : 0.15;
+      value += 1e-3 * size * std::exp(-distance * distance / (1.0 + 0.5 * (at.y() - index.course)));
+    }
+    return value;
+  }
+
+  void add_scene(const Scene& scene) {
+    for (const StoredPoint& point : points)
+      vertical.push_back(scene.lacks(point.block) ? std::numeric_limits<double>::quiet_NaN()
+                                                  : -settlement(scene, point.position));
+    std::array<std::int32_t, 2> ids = {-1, -1};
+    for (std::size_t i = 0; i < scene.removed.size(); ++i) ids.at(i) = value(scene.removed[i]);
+    removed.insert(removed.end(), ids.begin(), ids.end());
+    outcome.push_back(static_cast<std::uint8_t>(scene.lacks(BlockId{1}) ? Outcome::collapsed : Outcome::standing));
+  }
+};
+
+/// All rows of a table.
+inline std::vector<std::size_t> all_rows(const SceneTable& table) {
+  std::vector<std::size_t> rows(table.rows);
+  for (std::size_t row = 0; row < rows.size(); ++row) rows[row] = row;
+  return rows;
+}
+
+}  // namespace voussoir::test

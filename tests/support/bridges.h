@@ -1,0 +1,26 @@
+#pragma once
+/// @file Bridges that tests share.
+
+#include "core/bridge.h"
+#include "core/bridge_file.h"
+
+namespace voussoir::test {
+
+inline std::filesystem::path example_bridge(const std::string& name) {
+  return std::filesystem::path(VOUSSOIR_SOURCE_DIR) / "examples" / "bridges" / (name + ".toml");
+}
+
+inline Bridge small_bridge() {
+  return make_bridge(read_bridge_file(example_bridge("small")).description);
+}
+
+inline Bridge reference_bridge() {
+  return make_bridge(reference_bridge_file().description);
+}
+
+/// NaN (nodes of removed blocks) becomes zero, so that fields can be compared and added.
+inline Field without_nan(const Field& field) {
+  return field.array().isNaN().select(0.0, field);
+}
+
+}  // namespace voussoir::test
