@@ -1,9 +1,9 @@
 #include "core/critical_step.h"
 
+#include <Eigen/SparseCholesky>
 #include <cmath>
 
 #include "core/equilibrium.h"
-#include "core/sparse_solver.h"
 
 namespace voussoir {
 namespace {
@@ -93,14 +93,12 @@ double critical_step(const Bridge& bridge, const std::vector<BlockBody>& bodies,
 NaturalMotion natural_motion(const Bridge& bridge) {
   const EquilibriumSystem system(bridge);
   const std::vector<bool> removed(bridge.layout.size(), false);
-  std::vector<double> stiffness;
-  const Field forces = assemble(system, removed, Field::Zero(2, bridge.mesh.node_count()), 1.0, stiffness);
-  SparseSolver linear(system.pattern, stiffness);
-  Eigen::VectorXd u(system.unknown_count());
-  for (int i = 0; i < u.size(); ++i) u[i] = forces.data()[system.component[static_cast<std::size_t>(i)]];
-  const Eigen::VectorXd load = u;
-  linear.factorise(stiffness);
-  linear.solve(u);
+  Eigen::SparseMatrix<double> stiffness = system.pattern;
+  const Field forces = assemble(system, removed, Field::Zero(2, bridge.mesh.node_count()), 1.0,
+                                {.first = stiffness.valuePtr(), .stride = 1});
+  Eigen::VectorXd load(system.unknown_count());
+  for (int i = 0; i < load.size(); ++i) load[i] = forces.data()[system.component[static_cast<std::size_t>(i)]];
+  const Eigen::VectorXd u = Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>(stiffness).solve(load);
   const Eigen::VectorXd masses = lumped_masses(bridge);
   double inertia = 0.0;
   for (int i = 0; i < u.size(); ++i) inertia += masses[system.component[static_cast<std::size_t>(i)] / 2] * u[i] * u[i];

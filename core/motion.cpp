@@ -49,7 +49,12 @@ MotionModel::MotionModel(const Bridge& bridge_, double step_, double damping_, d
       search(bridge_.mesh),
       bodies(make_block_bodies(bridge_)),
       masses(lumped_masses(bridge_)),
-      held(held_components(bridge_)) {
+      held(held_components(bridge_)),
+      moduli(plane_moduli(bridge_.description.material)) {
+  const Mesh& mesh = bridge->mesh;
+  for (const Triangle& triangle : mesh.triangles)
+    triangles.push_back(triangle_shape(mesh.position(triangle.nodes[0]), mesh.position(triangle.nodes[1]),
+                                       mesh.position(triangle.nodes[2])));
   for (const BlockBody& body : bodies) {
     response_of_block.push_back(responses.size());
     const Eigen::MatrixXd response = deformation_response(body, step);  // symmetric: rows are columns

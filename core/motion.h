@@ -8,6 +8,7 @@
 #include "core/contact.h"
 #include "core/contact_search.h"
 #include "core/lane_number.h"
+#include "core/triangle_element.h"
 
 namespace voussoir {
 
@@ -27,6 +28,8 @@ struct MotionModel {
   std::vector<std::size_t> response_of_block;  ///< where each block's begins
   Eigen::VectorXd masses;                     ///< of the nodes [kg]
   std::vector<bool> held;                     ///< per displacement component
+  PlaneModuli moduli;
+  std::vector<TriangleShape> triangles;
   double weight = 0.0;                        ///< of the whole bridge [N]
   std::vector<double> per_weight;             ///< per block: 1 / its weight [1/N]
 };

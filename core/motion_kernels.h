@@ -164,6 +164,22 @@ VOUSSOIR_INLINE void move_frame(const BlockBody& body, const Resultant<T>& sum, 
   frame.rotation = turned_by<T>(frame.rotation, frame.spin * step);
 }
 
+/// Notes how far a block's forces are from balance, in the directions in which it is free.
+template <class T>
+VOUSSOIR_INLINE void report_balance(const BlockBody& body, const Resultant<T>& sum, double per_weight,
+                                    Motion<T>& motion) {
+  const T left = (body.free_x ? magnitude(sum.force.x) : T{}) + (body.free_y ? magnitude(sum.force.y) : T{});
+  motion.unbalanced += left;
+  motion.largest_unbalanced = larger(motion.largest_unbalanced, left * per_weight);
+}
+
+/// forces = contact.
+template <class T>
+VOUSSOIR_INLINE void start_forces(const MotionModel& model, const MotionView<T>& view) {
+  for (std::size_t i = 0; i < view.node_count; ++i) view.forces[i] = {T{}, T{}};
+  add_contact_forces(model.material, model.contact_damping / model.step, view);
+}
+
 /// One implicit step in all lanes.
 template <class T>
 VOUSSOIR_INLINE void implicit_step(const MotionModel& model, Motion<T>& motion) {
@@ -171,10 +187,9 @@ VOUSSOIR_INLINE void implicit_step(const MotionModel& model, Motion<T>& motion) 
   const double half_damping = 0.5 * model.damping * model.step;
   const double kept = (1.0 - half_damping) / (1.0 + half_damping);
   const double gained = model.step / (1.0 + half_damping);
-  for (std::size_t i = 0; i < view.node_count; ++i) view.forces[i] = {T{}, T{}};
-  add_contact_forces(model.material, model.contact_damping / model.step, view);
-  T unbalanced{};
-  T largest_unbalanced{};
+  start_forces(model, view);
+  motion.unbalanced = T{};
+  motion.largest_unbalanced = T{};
   T longest{};
   const BlockBody* bodies = model.bodies.data();
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
@@ -182,16 +197,11 @@ VOUSSOIR_INLINE void implicit_step(const MotionModel& model, Motion<T>& motion) 
     BlockFrame<T>& frame = view.frames[b];
     add_weight<T>(body, motion.load * view.present[b].value * model.gravity, view);
     const Resultant<T> sum = resultant(body, frame.centre, view);
-    const T left =
-        (body.free_x ? magnitude(sum.force.x) : T{}) + (body.free_y ? magnitude(sum.force.y) : T{});
-    unbalanced += left;
-    largest_unbalanced = larger(largest_unbalanced, left * model.per_weight[b]);
+    report_balance(body, sum, model.per_weight[b], motion);
     deform(body, model.responses.data() + model.response_of_block[b], model.step, kept, frame.rotation, view);
     if (!body.held) move_frame(body, sum, model.step, kept, gained, frame);
     longest = larger(longest, place_nodes(body, frame, view));
   }
-  motion.unbalanced = unbalanced;
-  motion.largest_unbalanced = largest_unbalanced;
   motion.travel += square_root(longest);
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-/// @file One implicit time step, compiled for several instruction sets and chosen by the processor at run time.
+/// @file One time step.
 
 #include "core/motion.h"
 
@@ -9,5 +9,8 @@ namespace voussoir {
 /// motion.pairs holds all edges that may touch. All instruction sets, and all numbers of lanes, give the same bits.
 void take_implicit_step(const MotionModel& model, Motion<Lanes<1>>& motion);
 void take_implicit_step(const MotionModel& model, Motion<Lanes<4>>& motion);
+
+/// Central differences with lumped masses, every triangle by itself (triangle_element.h). The frames stay at rest.
+void take_explicit_step(const MotionModel& model, Motion<Lanes<1>>& motion);
 
 }  // namespace voussoir
