@@ -9,7 +9,8 @@
 /// The faces that meet at a corner share out what has penetrated there: a face owns the points nearer to it than to
 /// the other face. So the stretch in contact begins where the depth is the distance from the corner times the tangent
 /// of half the corner's angle. Without this the underside of a block that slides down along another one would be
-/// caught by a sliver of the other's upper face.
+/// caught by a sliver of the other's upper face. (Faces that form a joint at rest own all of it: where ring blocks press
+/// each other hard, the corners' shares would count.)
 ///
 /// Without friction the forces are the exact derivatives of the energy  p_n / 2 integral <-gap>^2 ds  with respect to
 /// the four nodes, including how the stretch's ends and the frame (t, n) move, so contact conserves energy, momentum

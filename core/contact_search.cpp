@@ -61,9 +61,17 @@ double corner_share(const Point& before, const Point& after) {
   return turn > kStraight ? std::tan(0.5 * turn) : 0.0;
 }
 
+/// Per node: the boundary edge that begins there.
+std::vector<int> edges_by_first_node(const Mesh& mesh) {
+  std::vector<int> edge_from(static_cast<std::size_t>(mesh.node_count()), -1);
+  for (std::size_t e = 0; e < mesh.edges.size(); ++e)
+    edge_from[static_cast<std::size_t>(value(mesh.edges[e].from))] = static_cast<int>(e);
+  return edge_from;
+}
+
 }  // namespace
 
-ContactSearch::ContactSearch(const Mesh& mesh)
+ContactSearch::ContactSearch(const Mesh& mesh, const std::vector<Joint>& joints)
     : mesh_(&mesh), edge_block_(mesh.edges.size()), corner_share_(static_cast<std::size_t>(mesh.node_count())) {
   const auto along = [&](const BoundaryEdge& e) -> Point { return mesh.position(e.to) - mesh.position(e.from); };
   for (std::size_t block = 0; block < mesh.block_edges.size(); ++block) {
@@ -76,6 +84,10 @@ ContactSearch::ContactSearch(const Mesh& mesh)
       corner_share_[static_cast<std::size_t>(value(edge->to))] = corner_share(along(*edge), along(*next));
     }
   }
+  const std::vector<int> edge_from = edges_by_first_node(mesh);
+  const auto edge = [&](const BoundaryEdge& e) { return edge_from[static_cast<std::size_t>(value(e.from))]; };
+  for (const Joint& joint : joints) joined_.emplace_back(edge(joint.first_edge), edge(joint.second_edge));
+  std::sort(joined_.begin(), joined_.end());
 }
 
 std::vector<EdgePair> ContactSearch::candidates(const Eigen::Matrix2Xd& places, const std::vector<bool>& absent,
@@ -109,7 +121,10 @@ EdgeContact ContactSearch::contact(const EdgePair& pair) const {
   const auto b = static_cast<std::size_t>(pair.second);
   const BoundaryEdge& edge_a = mesh_->edges[a];
   const BoundaryEdge& edge_b = mesh_->edges[b];
-  const auto share = [&](NodeId node) { return corner_share_[static_cast<std::size_t>(value(node))]; };
+  const bool joined = std::binary_search(joined_.begin(), joined_.end(), pair);
+  const auto share = [&](NodeId node) {
+    return joined ? 0.0 : corner_share_[static_cast<std::size_t>(value(node))];
+  };
   const auto per_length = [&](const BoundaryEdge& e) {
     return 1.0 / (mesh_->position(e.to) - mesh_->position(e.from)).norm();
   };

@@ -18,7 +18,7 @@ struct DynamicSettings {
   std::optional<double> step;     ///< empty: 0.9 times the critical step
   double ramp = 0.3;              ///< gravity grows from 0 as 3 x^2 - 2 x^3, x = time / ramp; 0: at once
   std::optional<double> damping;  ///< force per mass and velocity [1/s]; empty: half-critical of the lowest frequency
-  double contact_damping = 5e-5;  ///< joints resist what they will see this much later
+  double contact_damping = 1e-4;  ///< joints resist what they will see this much later
   double moment = 0.3;            ///< of the field of a scene that collapses
   double earliest_decision = 0.4;
   double latest_decision = 1.0;

@@ -46,7 +46,7 @@ MotionModel::MotionModel(const Bridge& bridge_, double step_, double damping_, d
       contact_damping(contact_damping_),
       gravity(bridge_.description.gravity),
       material(contact_material(bridge_)),
-      search(bridge_.mesh),
+      search(bridge_.mesh, bridge_.joints),
       bodies(make_block_bodies(bridge_)),
       masses(lumped_masses(bridge_)),
       held(held_components(bridge_)),
