@@ -9,6 +9,7 @@ namespace voussoir {
 namespace {
 
 constexpr int kPowerIterations = 200;
+constexpr int kInverseIterations = 30;
 
 /// A bonded joint as a spring between eight displacement components.
 struct JointSpring {
@@ -78,6 +79,13 @@ double highest_frequency(const Bridge& bridge, const std::vector<BlockBody>& bod
   return std::sqrt(squared);
 }
 
+Eigen::VectorXd masses_of_unknowns(const Bridge& bridge, const EquilibriumSystem& system) {
+  const Eigen::VectorXd masses = lumped_masses(bridge);
+  Eigen::VectorXd result(system.unknown_count());
+  for (int i = 0; i < result.size(); ++i) result[i] = masses[system.component[static_cast<std::size_t>(i)] / 2];
+  return result;
+}
+
 }  // namespace
 
 double critical_step(const Bridge& bridge, const std::vector<BlockBody>& bodies, Integrator integrator,
@@ -98,13 +106,18 @@ NaturalMotion natural_motion(const Bridge& bridge) {
                                 {.first = stiffness.valuePtr(), .stride = 1});
   Eigen::VectorXd load(system.unknown_count());
   for (int i = 0; i < load.size(); ++i) load[i] = forces.data()[system.component[static_cast<std::size_t>(i)]];
-  const Eigen::VectorXd u = Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>(stiffness).solve(load);
-  const Eigen::VectorXd masses = lumped_masses(bridge);
-  double inertia = 0.0;
-  for (int i = 0; i < u.size(); ++i) inertia += masses[system.component[static_cast<std::size_t>(i)] / 2] * u[i] * u[i];
-  return {.frequency = std::sqrt(load.dot(u) / inertia),
-          .sag = u.cwiseAbs().maxCoeff(),
-          .work = 0.5 * load.dot(u)};
+  const Eigen::VectorXd masses = masses_of_unknowns(bridge, system);
+  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> linear(stiffness);
+  const Eigen::VectorXd sag = linear.solve(load);
+  Eigen::VectorXd mode = start_vector(load.size());
+  double squared = 0.0;
+  for (int iteration = 0; iteration < kInverseIterations; ++iteration) {
+    const Eigen::VectorXd inertia = masses.cwiseProduct(mode);
+    mode = linear.solve(inertia);
+    squared = mode.dot(inertia) / mode.dot(masses.cwiseProduct(mode));
+    mode.normalize();
+  }
+  return {.frequency = std::sqrt(squared), .sag = sag.cwiseAbs().maxCoeff(), .work = 0.5 * load.dot(sag)};
 }
 
 }  // namespace voussoir

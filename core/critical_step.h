@@ -19,7 +19,7 @@ double critical_step(const Bridge& bridge, const std::vector<BlockBody>& bodies,
 
 /// The linear bridge, all joints closed and sticking, under its weight.
 struct NaturalMotion {
-  double frequency;  ///< Rayleigh's estimate of the lowest [rad/s]
+  double frequency;  ///< the lowest, by inverse iteration [rad/s]
   double sag;        ///< largest displacement under the weight [m]
   double work;       ///< half the work of the weight on the displacement [J]
 };

@@ -133,7 +133,7 @@ class Procession {
       run.solution.time = time;
     }
     const long between = std::max(1L, shared_.steps_until(kTimeBetweenLooks));
-    if (run.steps % between != 0 || time < settings.earliest_decision) return;
+    if (run.steps % between != 0 || time < settings.moment) return;
     if (!decided(lane_index, time, run.solution)) return;
     run.solution.solution.iterations = static_cast<int>(run.steps);
     solutions_[run.scene] = std::move(run.solution);
@@ -145,12 +145,14 @@ class Procession {
     const DynamicSettings& settings = shared_.settings;
     const double unbalanced = lane(motion_.unbalanced, i) / model_.weight;
     const double kinetic = kinetic_energy(model_, motion_, i);
-    const bool quiet = unbalanced <= settings.standing_unbalance && kinetic <= unbalanced * shared_.natural.work &&
+    const bool early = time < settings.earliest_decision;
+    const bool quiet = !early && unbalanced <= settings.standing_unbalance && kinetic <= unbalanced * shared_.natural.work &&
                        lane(motion_.largest_unbalanced, i) <= settings.largest_standing_unbalance;
     const bool last = time >= settings.latest_decision;
     const Field now = displacement(model_, motion_, i);
     result.moving = quiet ? std::vector<BlockId>{} : moving_blocks(now);
-    const bool falling = !result.moving.empty() && unbalanced >= settings.collapsing_unbalance;
+    const bool falling = !result.moving.empty() &&
+                         unbalanced >= (early ? settings.plain_unbalance : settings.collapsing_unbalance);
     if (!quiet && !falling && !last) return false;
     result.kinetic_energy = kinetic;
     result.solution.residual = unbalanced;

@@ -20,10 +20,11 @@ struct DynamicSettings {
   std::optional<double> damping;  ///< force per mass and velocity [1/s]; empty: half-critical of the lowest frequency
   double contact_damping = 1e-4;  ///< joints resist what they will see this much later
   double moment = 0.3;            ///< of the field of a scene that collapses
-  double earliest_decision = 0.4;
+  double earliest_decision = 0.4;  ///< but for collapses that are plain at `moment`
   double latest_decision = 1.0;
   double standing_unbalance = 2.3e-4;   ///< sum of the blocks' resultant forces over the bridge's weight [-], at most
   double collapsing_unbalance = 1e-3;   ///< the same, at least, with blocks that move away
+  double plain_unbalance = 1e-2;        ///< the same for a decision at `moment`
   double largest_standing_unbalance = 1e-2;  ///< resultant force on a block over its weight, at most
   double moving_sags = 2.0;  ///< blocks that move further than this many sags of the bonded bridge move away
   int side_by_side = 4;      ///< scenes at a time: 1 or 4; the answers have the same bits
