@@ -25,9 +25,7 @@ std::string settings_text(const QuasiStaticSettings& settings) {
 SolverChoice quasi_static(const QuasiStaticSettings& settings) {
   return {settings_text(settings), [settings](const Bridge& bridge) -> SceneSolver {
             const auto solver = std::make_shared<QuasiStaticSolver>(bridge, settings);
-            return [solver](const Scene& scene, const std::optional<Field>& start) {
-              return start ? solver->solve(scene, *start) : solver->solve(scene);
-            };
+            return [solver](std::span<const SceneStart> scenes) { return solver->solve(scenes); };
           }};
 }
 

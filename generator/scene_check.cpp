@@ -131,9 +131,7 @@ double most_stored_unbalance(const EquilibriumSystem& system) {
   const Field zero = Field::Zero(2, system.bridge->mesh.node_count());
   const std::vector<bool> none_removed(system.bridge->layout.size(), false);
   Eigen::SparseMatrix<double> tangent = system.pattern;
-  std::vector<double> values;
-  assemble(system, none_removed, zero, kBonded, values);
-  std::copy(values.begin(), values.end(), tangent.valuePtr());
+  assemble(system, none_removed, zero, kBonded, {tangent.valuePtr()});
   const Eigen::VectorXd row_sums = tangent.cwiseAbs() * Eigen::VectorXd::Ones(tangent.cols());
   return QuasiStaticSettings{}.loose_tolerance +
          0.5 * kStorageStep * row_sums.maxCoeff() / system.largest_weight;

@@ -4,10 +4,10 @@
 
 namespace voussoir {
 
-Solution solve_for_storage(const SceneSolver& solver, const Scene& scene, const std::optional<Field>& start) {
-  Solution solution = solver(scene, start);
-  solution.displacement = to_storage_precision(solution.displacement);
-  return solution;
+std::vector<Solution> solve_for_storage(const SceneSolver& solver, std::span<const SceneStart> scenes) {
+  std::vector<Solution> solutions = solver(scenes);
+  for (Solution& solution : solutions) solution.displacement = to_storage_precision(solution.displacement);
+  return solutions;
 }
 
 Solution mirrored_solution(const Solution& solution, const MirrorSymmetry& symmetry) {

@@ -2,8 +2,9 @@
 /// @file The solvers as the generator sees them, and the one way in which a scene is solved for the database.
 
 #include <functional>
-#include <optional>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "core/bridge.h"
 #include "core/quasi_static_solver.h"
@@ -11,8 +12,9 @@
 
 namespace voussoir {
 
-/// Solves scenes of one bridge, from a start field or from zero; used by one thread at a time.
-using SceneSolver = std::function<Solution(const Scene&, const std::optional<Field>& start)>;
+/// Solves scenes of one bridge, one solution a scene in their order; used by one thread at a time. A solution depends on
+/// its scene and start only, not on the others.
+using SceneSolver = std::function<std::vector<Solution>(std::span<const SceneStart>)>;
 
 struct SolverChoice {
   std::string settings;  ///< "key = value" lines: everything that the solver's answers depend on
@@ -21,8 +23,8 @@ struct SolverChoice {
 
 SolverChoice quasi_static(const QuasiStaticSettings& settings = {});
 
-/// Solves the scene and rounds its field to the storage precision.
-Solution solve_for_storage(const SceneSolver& solver, const Scene& scene, const std::optional<Field>& start);
+/// Solves the scenes and rounds their fields to the storage precision.
+std::vector<Solution> solve_for_storage(const SceneSolver& solver, std::span<const SceneStart> scenes);
 
 /// The mirror image of a solution, in the same storage precision.
 Solution mirrored_solution(const Solution& solution, const MirrorSymmetry& symmetry);

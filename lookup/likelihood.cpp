@@ -55,6 +55,7 @@ struct Problem {
   std::span<const std::size_t> rows;  // those that count; all others get -infinity
   std::span<const double> intact;
   const NoiseModel& noise;
+  std::vector<double> log_silence;  // of each row: that the silent sensors are silent
 };
 
 std::vector<double> at_level(const Problem& problem, double level) {
@@ -62,7 +63,7 @@ std::vector<double> at_level(const Problem& problem, double level) {
   const std::vector<RowStatistics> statistics = row_statistics(observation, problem.table);
   std::vector<double> result(problem.table.rows, kImpossible);
   for (const std::size_t row : problem.rows)
-    result[row] = log_mean_over_shapes(problem.noise, [&](NoiseShape shape) {
+    result[row] = problem.log_silence[row] + log_mean_over_shapes(problem.noise, [&](NoiseShape shape) {
       if (shape == NoiseShape::student && !std::isnan(statistics[row].sum_absolute))
         return log_student_likelihood(observation, problem.table.row(row), problem.noise.degrees_of_freedom,
                                       statistics[row].sum_log_scale);
@@ -83,13 +84,13 @@ std::vector<double> over_levels_in_closed_form(const Problem& problem) {
   const std::vector<RowStatistics> statistics = row_statistics(observation, problem.table);
   std::vector<double> result(problem.table.rows, kImpossible);
   for (const std::size_t row : problem.rows)
-    result[row] = log_mean_over_shapes(problem.noise, [&](NoiseShape shape) {
+    result[row] = problem.log_silence[row] + log_mean_over_shapes(problem.noise, [&](NoiseShape shape) {
       return log_evidence_bound(shape, statistics[row], observation.count);
     });
   drop_hopeless(result, kHopeless + kBoundSlack);
   for (const std::size_t row : problem.rows)
     if (result[row] != kImpossible)
-      result[row] = log_mean_over_shapes(problem.noise, [&](NoiseShape shape) {
+      result[row] = problem.log_silence[row] + log_mean_over_shapes(problem.noise, [&](NoiseShape shape) {
         return log_evidence(shape, statistics[row], observation.count);
       });
   return result;
@@ -136,8 +137,9 @@ NoiseShape likeliest_shape(const Problem& problem) {
   for (const NoiseShape shape : shapes_of(problem.noise)) {
     NoiseModel single = problem.noise;
     single.shape = shape;
-    const double value =
-        log_evidence({problem.measurements, problem.table, problem.rows, problem.intact, single}).front();
+    const Problem one_shape{problem.measurements, problem.table, problem.rows, problem.intact, single,
+                            problem.log_silence};
+    const double value = log_evidence(one_shape).front();
     if (value > best_log) best = shape;
     best_log = std::max(best_log, value);
   }
@@ -157,12 +159,24 @@ double likeliest_grid_level(const Problem& problem) {
 
 }  // namespace
 
+std::vector<double> log_chance_of_silence(const Measurements& measurements, const SceneTable& table,
+                                          std::span<const std::size_t> rows, double silence) {
+  std::vector<double> result(table.rows, 0.0);
+  for (std::size_t point = 0; point < table.points; ++point) {
+    if (!measurements.silent[point]) continue;
+    for (const std::size_t row : rows)
+      if (!std::isnan(table.row(row)[point])) result[row] += std::log(silence);
+  }
+  return result;
+}
+
 std::vector<double> log_evidence_of_rows(const Measurements& measurements, const SceneTable& table,
                                          std::span<const std::size_t> rows, std::span<const double> intact,
                                          const NoiseModel& noise) {
   if (observe(measurements, intact, noise, 1.0).count == 0)
     throw InputError("no reading at a control point that can move, expected at least one");
-  std::vector<double> result = log_evidence({measurements, table, rows, intact, noise});
+  std::vector<double> result = log_evidence(
+      {measurements, table, rows, intact, noise, log_chance_of_silence(measurements, table, rows, noise.silence)});
   drop_hopeless(result, kHopeless);
   return result;
 }
@@ -172,10 +186,11 @@ NoiseEstimate estimate_noise(const Measurements& measurements, std::span<const d
   const SceneTable table = table_of_one_row(prediction);
   const std::array<std::size_t, 1> rows = {0};
   NoiseModel single = noise;
-  single.shape = likeliest_shape({measurements, table, rows, intact, noise});
+  const std::vector<double> no_matter = {0.0};  // silence says nothing of the noise
+  single.shape = likeliest_shape({measurements, table, rows, intact, noise, no_matter});
   if (noise.relative) return {single.shape, *noise.relative, false};
   if (!is_proportional(single, measurements))
-    return {single.shape, likeliest_grid_level({measurements, table, rows, intact, single}), true};
+    return {single.shape, likeliest_grid_level({measurements, table, rows, intact, single, no_matter}), true};
   const Observation observation = observe(measurements, intact, single, 1.0);
   const RowStatistics statistics = row_statistics(observation, table).front();
   return {single.shape, likeliest_level(single.shape, statistics, observation.count), true};

@@ -52,6 +52,11 @@ void add_noise_options(CLI::App& app, LocateDamageOptions& options) {
                  "the model's own error as a share of the change that a missing block makes, default 0")
       ->check(checked_by(parse_noise_level, "LEVEL"))
       ->option_text("LEVEL");
+  app.add_option("--silent-sensors", options.silence,
+                 "chance that a sensor on a standing block gives no reading, default 10%; a listed sensor without "
+                 "reading speaks for the loss of its block")
+      ->check(checked_by(parse_noise_level, "LEVEL"))
+      ->option_text("LEVEL");
   app.add_option("--degrees-of-freedom", options.settings.noise.degrees_of_freedom, "of student noise, default 4")
       ->check(CLI::Range(2.1, 1000.0))
       ->option_text("NU");
@@ -113,6 +118,7 @@ LookupSettings finish(const LocateDamageOptions& options) {
   if (!options.noise_level.empty()) settings.noise.relative = parse_noise_level(options.noise_level);
   settings.noise.floor = kMetresPerMillimetre * options.floor_mm;
   settings.noise.model_error = parse_noise_level(options.model_error);
+  settings.noise.silence = parse_noise_level(options.silence);
   settings.nuisance = {parse_noise_level(options.unknown_scale), kMetresPerMillimetre * options.unknown_datum_mm,
                        kMetresPerMillimetre * options.unknown_tilt_mm_per_m};
   if (options.approximate) settings.nearest.mode = NearestMode::approximate;

@@ -46,6 +46,7 @@ class Reader {
   Reader(std::string name, const std::vector<StoredPoint>& points) : name_(std::move(name)), points_(points) {
     result_.displacement.assign(points.size(), kNan);
     result_.sigma.assign(points.size(), kNan);
+    result_.silent.assign(points.size(), false);
     line_of_point_.assign(points.size(), 0);
   }
 
@@ -117,6 +118,7 @@ class Reader {
                                     points_[point].name, line_of_point_[point]));
     line_of_point_[point] = line.number;
     result_.displacement[point] = displacement(line);
+    result_.silent[point] = std::isnan(result_.displacement[point]);
     if (columns_.sigma != kAbsent) result_.sigma[point] = sigma(line);
   }
 
@@ -210,6 +212,12 @@ std::string read_text(const std::filesystem::path& path, const std::string& name
 std::size_t Measurements::count() const {
   return static_cast<std::size_t>(
       std::count_if(displacement.begin(), displacement.end(), [](double value) { return !std::isnan(value); }));
+}
+
+Measurements as_measurements(std::span<const double> displacements) {
+  Measurements result{{displacements.begin(), displacements.end()}, std::vector<double>(displacements.size(), kNan), {}};
+  for (const double value : displacements) result.silent.push_back(std::isnan(value));
+  return result;
 }
 
 Measurements parse_measurements(std::string_view text, const std::string& name,

@@ -2,6 +2,7 @@
 /// @file What was measured: vertical displacements at some of the control points.
 
 #include <filesystem>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -14,9 +15,13 @@ namespace voussoir {
 struct Measurements {
   std::vector<double> displacement;  ///< [m] up is positive; NaN where there is no reading
   std::vector<double> sigma;         ///< [m] the sensor's own standard deviation; NaN where none is stated
+  std::vector<bool> silent;          ///< there is a sensor, but it gave no reading
 
   std::size_t count() const;  ///< readings
 };
+
+/// Displacements [m] as readings of sensors at all points, those that are NaN being silent.
+Measurements as_measurements(std::span<const double> displacements);
 
 /// Coordinates in a measurements file may be off by this much [m] from the control point that they mean.
 inline constexpr double kPointTolerance = 0.05;

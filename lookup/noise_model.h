@@ -5,6 +5,9 @@
 ///     sigma_i = relative * |d_i| + floor,
 /// or the sensor's own sigma where the measurements state one, plus an allowance for the model's own error,
 /// model_error * |d_i - d_i(intact)|. The paper's noise d_i (1 + p U(-1, 1)) is `uniform` with relative = p.
+///
+/// A sensor on a missing block cannot read anything; one on a standing block may fail by itself. So a sensor that is
+/// there and silent speaks for the loss of its block, the more so the more reliable sensors are.
 
 #include <optional>
 #include <string>
@@ -26,6 +29,7 @@ struct NoiseModel {
   double floor = 0.0;               ///< [m] absolute part
   double model_error = 0.0;         ///< [-] of the change against the intact bridge
   double degrees_of_freedom = 4.0;  ///< of Student's t, more than 2
+  double silence = 0.1;             ///< chance that a sensor on a standing block gives no reading
 };
 
 /// An unknown level has a prior uniform in its logarithm between these two [-].

@@ -9,6 +9,7 @@
 
 #include "core/error.h"
 #include "lookup/evidence.h"
+#include "lookup/likelihood.h"
 #include "lookup/row_statistics.h"
 
 namespace voussoir {
@@ -126,11 +127,12 @@ std::vector<double> log_evidence_with_nuisance(const Measurements& measurements,
   const Observation observation = observe(measurements, intact, noise, level);
   if (observation.count == 0) throw InputError("no reading at a control point that can move, expected at least one");
   const NuisanceModel model(observation, points, nuisance);
+  const std::vector<double> log_silence = log_chance_of_silence(measurements, table, rows, noise.silence);
   std::vector<double> result(table.rows, kImpossible);
   for (const std::size_t row : rows) {
     const Reduced reduced = model.reduce(table.row(row));
     if (std::isnan(reduced.square)) continue;
-    result[row] = noise.relative ? reduced.log_likelihood(1.0) : log_evidence(reduced);
+    result[row] = log_silence[row] + (noise.relative ? reduced.log_likelihood(1.0) : log_evidence(reduced));
   }
   return result;
 }

@@ -36,7 +36,8 @@ ordered_json settings_json(const LookupSettings& settings) {
   ordered_json noise = {{"model", to_string(settings.noise.shape)},
                         {"relative", nullptr},
                         {"floor_m", settings.noise.floor},
-                        {"model_error", settings.noise.model_error}};
+                        {"model_error", settings.noise.model_error},
+                        {"silent_sensors", settings.noise.silence}};
   if (settings.noise.relative) noise["relative"] = *settings.noise.relative;
   if (settings.noise.shape == NoiseShape::student) noise["degrees_of_freedom"] = settings.noise.degrees_of_freedom;
   result["noise"] = std::move(noise);

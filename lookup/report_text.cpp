@@ -61,7 +61,7 @@ void write_verdict(Text& text, const Answer& answer, const Library& library) {
 
 std::string behind(const Candidate& candidate, const Candidate& best) {
   if (!best.posterior) return fmt::format("{:+.4f}", candidate.misfit - best.misfit);
-  if (*candidate.posterior == 0.0) return "impossible";
+  if (*candidate.posterior == 0.0) return "negligible";
   const double odds = *best.posterior / *candidate.posterior;
   return odds < 1e6 ? fmt::format("1 : {:.4g}", odds) : "1 : > 10^6";
 }

@@ -24,10 +24,10 @@ TEST_CASE("Blocks that the paper describes are where it describes them", "[layou
   const auto centre = [&](int course, int position) {
     return centroid(layout[layout.find({course, position}).value()].polygon);
   };
-  CHECK(centre(0, 10).x() == Approx(10.0));                        // keystone
-  CHECK(centre(2, 6).x() == Approx(5.5));                          // at the arch, under nodes T10 to T15
-  CHECK(centre(4, 10).x() == Approx(20.0 - centre(4, 5).x()));     // mirror neighbour, one block further out
-  CHECK(std::abs(centre(6, 4).x() - centre(10, 4).x()) < 1e-12);   // on one vertical
+  CHECK(centre(0, 10).x() == Approx(10.0));                       // keystone
+  CHECK(centre(2, 6).x() == Approx(5.5));                         // at the arch, under nodes T10 to T15
+  CHECK(centre(4, 10).x() == Approx(20.0 - centre(4, 5).x()));    // mirror neighbour, one block further out
+  CHECK(std::abs(centre(6, 4).x() - centre(10, 4).x()) < 1e-12);  // on one vertical
   CHECK(layout[layout.find({10, 12}).value()].kind == BlockKind::cut);  // beside the keystone
 }
 

@@ -43,13 +43,16 @@ TEST_CASE("Bad bridge files are refused with file, line and what was expected", 
     }
     return std::string("accepted");
   };
-  CHECK_THAT(message("[wall]\nlength_m = \"long\"\n"), Contains("b.toml:2:") && Contains("expected a number"));
+  CHECK_THAT(message("[wall]\nlength_m = \"long\"\n"),
+             Contains("b.toml:2:") && Contains("expected a number"));
   CHECK_THAT(message("[wall]\nlength_m = -1\n"), Contains("b.toml:2:") && Contains("greater than 0"));
   CHECK_THAT(message("[wall]\n\ncourses = 2.5\n"), Contains("b.toml:3:") && Contains("whole number"));
-  CHECK_THAT(message("[wall]\nlenght_m = 3\n"), Contains("b.toml:2:") && Contains("lenght_m") && Contains("length_m"));
+  CHECK_THAT(message("[wall]\nlenght_m = 3\n"),
+             Contains("b.toml:2:") && Contains("lenght_m") && Contains("length_m"));
   CHECK_THAT(message("[wal]\n"), Contains("b.toml:1:") && Contains("unknown key 'wal'"));
   CHECK_THAT(message("name = \"a\"\nname = \"b\"\n"), Contains("b.toml:2:"));
-  CHECK_THAT(message("[wall]\nbond = \"flemish\"\n"), Contains("b.toml:2:") && Contains("\"running\", \"stack\""));
+  CHECK_THAT(message("[wall]\nbond = \"flemish\"\n"),
+             Contains("b.toml:2:") && Contains("\"running\", \"stack\""));
   CHECK_THAT(message("spans = 3\n"), Contains("b.toml:1:") && Contains("[[spans]]"));
   CHECK_THAT(message("[[spans]]\ncentre_x_m = 1.0\n"), Contains("b.toml:1:") && Contains("ring reaches"));
   CHECK_THAT(message("[joints]\nnormal_stiffness_Pa_per_m = nan\n"), Contains("b.toml:2:"));

@@ -50,7 +50,9 @@ TEST_CASE("The joint tangent is the derivative of the joint force", "[joint]") {
     Eigen::Matrix4d difference;
     for (int k = 0; k < 4; ++k) {
       const JointState dx = h * JointState::Unit(k);
-      difference.col(k) = (integrate_joint(material, 0.7, state + dx).force - integrate_joint(material, 0.7, state - dx).force) / (2 * h);
+      difference.col(k) = (integrate_joint(material, 0.7, state + dx).force -
+                           integrate_joint(material, 0.7, state - dx).force) /
+                          (2 * h);
     }
     CHECK((difference - integrate_joint(material, 0.7, state).tangent).norm() < 1e-4 * 0.7e9);
     ++checked;

@@ -12,7 +12,8 @@ using namespace voussoir;
 namespace {
 
 Polygon corners(const Mesh& mesh, const Triangle& triangle) {
-  return {mesh.position(triangle.nodes[0]), mesh.position(triangle.nodes[1]), mesh.position(triangle.nodes[2])};
+  return {mesh.position(triangle.nodes[0]), mesh.position(triangle.nodes[1]),
+          mesh.position(triangle.nodes[2])};
 }
 
 Bridge bridge_with(bool split, int refinement) {
@@ -29,7 +30,8 @@ TEST_CASE("Triangles are counter-clockwise and fill every block exactly", "[mesh
       const Bridge bridge = bridge_with(split, refinement);
       for (std::size_t block = 0; block < bridge.layout.size(); ++block) {
         double total = 0.0;
-        for (int t = bridge.mesh.block_triangles[block].begin; t < bridge.mesh.block_triangles[block].end; ++t) {
+        for (int t = bridge.mesh.block_triangles[block].begin; t < bridge.mesh.block_triangles[block].end;
+             ++t) {
           const double part = area(corners(bridge.mesh, bridge.mesh.triangles[static_cast<std::size_t>(t)]));
           REQUIRE(part > 0.0);
           total += part;
@@ -47,7 +49,8 @@ TEST_CASE("Without splitting the reference mesh comes near the paper's 529 trian
     const Block& b = bridge.layout.blocks[block];
     if (b.kind == BlockKind::leg || b.top_course) CHECK(count == 4);
     if (b.kind == BlockKind::voussoir) CHECK(count == 3);
-    if (b.kind == BlockKind::plain && !b.top_course) CHECK((count == 2 || std::abs(centroid(b.polygon).x() - 10) < 1e-9));
+    if (b.kind == BlockKind::plain && !b.top_course)
+      CHECK((count == 2 || std::abs(centroid(b.polygon).x() - 10) < 1e-9));
   }
 }
 
@@ -73,7 +76,8 @@ TEST_CASE("Splitting puts a node of a block wherever a neighbour's corner touche
 }
 
 TEST_CASE("Joints cover the whole length over which blocks touch", "[mesh]") {
-  // Oracle: perimeter of all blocks = 2 x joints + outer boundary (base, sides, top, intrados chords and legs).
+  // Oracle: perimeter of all blocks = 2 x joints + outer boundary (base, sides, top, intrados chords and
+  // legs).
   const Bridge bridge = bridge_with(true, 0);
   double perimeter = 0.0;
   for (const BoundaryEdge& edge : bridge.mesh.edges)
@@ -90,8 +94,9 @@ TEST_CASE("Cutting between corners gives n - 2 triangles also round a reflex cor
   REQUIRE(cut.triangles.size() == 3);
   double total = 0.0;
   for (const auto& t : cut.triangles) {
-    const double part = area({notched[static_cast<std::size_t>(t[0])], notched[static_cast<std::size_t>(t[1])],
-                              notched[static_cast<std::size_t>(t[2])]});
+    const double part =
+        area({notched[static_cast<std::size_t>(t[0])], notched[static_cast<std::size_t>(t[1])],
+              notched[static_cast<std::size_t>(t[2])]});
     CHECK(part > 0.0);
     total += part;
   }

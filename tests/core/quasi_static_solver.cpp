@@ -15,7 +15,8 @@ double vertical_mm(const Bridge& bridge, const Solution& solution, const std::st
   throw std::runtime_error("no point " + point);
 }
 
-Eigen::VectorXd control_displacements(const Bridge& bridge, QuasiStaticSolver& solver, const std::string& scene) {
+Eigen::VectorXd control_displacements(const Bridge& bridge, QuasiStaticSolver& solver,
+                                      const std::string& scene) {
   const Solution solution = solver.solve(parse_scene(scene, bridge.layout));
   REQUIRE(solution.outcome == Outcome::standing);
   const Eigen::VectorXd d = vertical_displacements(solution.displacement, bridge.control_points);
@@ -26,7 +27,8 @@ Eigen::VectorXd control_displacements(const Bridge& bridge, QuasiStaticSolver& s
 Bridge column(int courses) {
   BridgeDescription description;
   description.spans.clear();
-  description.wall = {.length = 1.0, .courses = courses, .course_height = 0.5, .block_length = 1.0, .bond = Bond::stack};
+  description.wall = {
+      .length = 1.0, .courses = courses, .course_height = 0.5, .block_length = 1.0, .bond = Bond::stack};
   description.supports.sides = Support::free;
   description.control_points.arch = false;
   description.material.young_modulus = 1e16;
@@ -38,7 +40,7 @@ Bridge column(int courses) {
 TEST_CASE("A column settles by the weight above each joint over the joint's stiffness", "[solver]") {
   const int courses = 6;
   const Bridge bridge = column(courses);
-  const Solution solution = QuasiStaticSolver(bridge).solve({});
+  const Solution solution = QuasiStaticSolver(bridge).solve(Scene{});
   REQUIRE(solution.outcome == Outcome::standing);
   double settlement = 0.0;  // joint r carries the courses above it: closed form
   for (int joint = 1; joint < courses; ++joint) settlement += (courses - joint) * 0.5 * 2400.0 * 9.81 / 1e9;
@@ -47,13 +49,14 @@ TEST_CASE("A column settles by the weight above each joint over the joint's stif
 
 TEST_CASE("The intact reference bridge has the published displacements within half a per cent", "[solver]") {
   const Bridge bridge = test::reference_bridge();
-  const Solution solution = QuasiStaticSolver(bridge).solve({});
+  const Solution solution = QuasiStaticSolver(bridge).solve(Scene{});
   REQUIRE(solution.outcome == Outcome::standing);
   CHECK(solution.iterations <= 8);
   // Oracle: an independent refined finite element contact model.
   CHECK(vertical_mm(bridge, solution, "T20") == Approx(-3.621).epsilon(0.005));
   CHECK(vertical_mm(bridge, solution, "T21") == Approx(-3.621).epsilon(0.005));
-  for (const char* end : {"T1", "T2", "T3", "T4", "T5"}) CHECK(vertical_mm(bridge, solution, end) == Approx(-0.78).margin(0.005));
+  for (const char* end : {"T1", "T2", "T3", "T4", "T5"})
+    CHECK(vertical_mm(bridge, solution, end) == Approx(-0.78).margin(0.005));
 }
 
 TEST_CASE("Displacements are nearly proportional to the joints' compliance", "[solver]") {
@@ -61,7 +64,7 @@ TEST_CASE("Displacements are nearly proportional to the joints' compliance", "[s
   soft.joints.normal_stiffness = 1e8;
   soft.joints.tangential_stiffness = 1e7;
   const Bridge bridge = make_bridge(soft);
-  const Solution solution = QuasiStaticSolver(bridge).solve({});
+  const Solution solution = QuasiStaticSolver(bridge).solve(Scene{});
   // Published for p_n = 1e8: 7.7 mm at the ends and 36 mm at the centre.
   CHECK(vertical_mm(bridge, solution, "T1") == Approx(-7.7).epsilon(0.01));
   CHECK(vertical_mm(bridge, solution, "T20") == Approx(-36.0).epsilon(0.02));
@@ -82,13 +85,14 @@ TEST_CASE("A mirrored scene has the mirrored field", "[solver]") {
 TEST_CASE("Every wall single of the reference bridge stands, no arch single does", "[solver]") {
   const Bridge bridge = test::reference_bridge();
   QuasiStaticSolver solver(bridge);
-  const Solution intact = solver.solve({});
+  const Solution intact = solver.solve(Scene{});
   for (const Scene& scene : all_scenes(bridge.layout.size(), 1)) {
     INFO(to_string(scene, bridge.layout));
     const bool lacks_arch_block = scene.missing() == 1 && bridge.layout[scene.removed[0]].index.course == 0;
     const Solution solution = solver.solve(scene, intact.displacement);
     CHECK((solution.outcome == Outcome::standing) == !lacks_arch_block);
-    if (solution.outcome == Outcome::standing) CHECK(unbalanced_force(bridge, scene, solution.displacement) < 1e-7);
+    if (solution.outcome == Outcome::standing)
+      CHECK(unbalanced_force(bridge, scene, solution.displacement) < 1e-7);
   }
 }
 
@@ -104,7 +108,7 @@ TEST_CASE("The answer depends on the scene, not on the start or on earlier scene
   QuasiStaticSolver solver(bridge);
   const Scene scene = parse_scene("4,2", bridge.layout);
   const Field first = test::without_nan(solver.solve(scene).displacement);
-  const Field intact = solver.solve({}).displacement;
+  const Field intact = solver.solve(Scene{}).displacement;
   solver.solve(parse_scene("0,5", bridge.layout));
   CHECK((test::without_nan(solver.solve(scene).displacement) - first).norm() == 0.0);
   const Field warm = test::without_nan(solver.solve(scene, intact).displacement);
@@ -136,5 +140,21 @@ TEST_CASE("The signal of a removal is within two per cent of the converged answe
     const Eigen::VectorXd signal = control_displacements(usual, usual_solver, scene) - usual_intact;
     INFO(scene);
     CHECK((signal - exact).lpNorm<1>() < 0.02 * exact.lpNorm<1>());
+  }
+}
+
+TEST_CASE("Scenes solved side by side have the very bits of scenes solved alone", "[solver]") {
+  const Bridge bridge = test::small_bridge();
+  QuasiStaticSolver solver(bridge);
+  const Field intact = solver.solve(Scene{}).displacement;
+  std::vector<SceneStart> tasks;
+  for (const Scene& scene : all_scenes(bridge.layout.size(), 1)) tasks.push_back({scene, &intact});
+  const std::vector<Solution> together = solver.solve(tasks);
+  for (std::size_t i = 0; i < tasks.size(); ++i) {
+    const Solution alone = solver.solve(tasks[i].scene, intact);
+    INFO(to_string(tasks[i].scene, bridge.layout));
+    CHECK(alone.outcome == together[i].outcome);
+    CHECK(alone.iterations == together[i].iterations);
+    CHECK(test::without_nan(alone.displacement) == test::without_nan(together[i].displacement));
   }
 }

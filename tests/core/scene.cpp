@@ -9,7 +9,8 @@ using Catch::Matchers::Contains;
 
 TEST_CASE("Scenes read back what they write", "[scene]") {
   const BlockLayout layout = lay_blocks({});
-  for (const Scene& scene : all_scenes(layout.size(), 1)) CHECK(parse_scene(to_string(scene, layout), layout) == scene);
+  for (const Scene& scene : all_scenes(layout.size(), 1))
+    CHECK(parse_scene(to_string(scene, layout), layout) == scene);
   CHECK(to_string(parse_scene(" 10,4 + 6,4 ", layout), layout) == "6,4+10,4");
   CHECK(to_string(parse_scene("intact", layout), layout) == "intact");
 }

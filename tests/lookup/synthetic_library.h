@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "lookup/lookup.h"
-#include "lookup/random.h"
+#include "lookup/simulate.h"
 
 namespace voussoir::test {
 
@@ -46,11 +46,9 @@ struct SyntheticLibrary {
 
   /// Readings of a row with noise of the given level and shape, everywhere that the scene has a point.
   Measurements measure(std::size_t row, double level, NoiseShape shape, Random& random) const {
-    Measurements result{{table.row(row).begin(), table.row(row).end()},
-                        std::vector<double>(table.points, std::numeric_limits<double>::quiet_NaN())};
-    for (double& value : result.displacement)
-      value *= 1.0 + level * (shape == NoiseShape::uniform ? 2.0 * random.uniform() - 1.0 : random.gaussian());
-    return result;
+    NoiseModel noise{shape, level};
+    noise.silence = 0.0;
+    return simulate_readings(table.row(row), noise, random);
   }
 
  private:

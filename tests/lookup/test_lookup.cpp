@@ -34,8 +34,7 @@ TEST_CASE("Noise-free readings of every scene name that scene first, by both obj
     settings.objective = objective;
     settings.top = 1;
     for (std::size_t row = 0; row < library.table.rows; ++row) {
-      const Measurements measured = {{library.table.row(row).begin(), library.table.row(row).end()},
-                                     std::vector<double>(library.table.points, std::nan(""))};
+      const Measurements measured = as_measurements(library.table.row(row));
       const Answer answer = locate_damage(library.library(), measured, settings);
       REQUIRE(answer.candidates.front().row == row);
       REQUIRE(answer.candidates.front().misfit == Approx(std::log(1e-16)));

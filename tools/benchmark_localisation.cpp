@@ -1,0 +1,172 @@
+#include "tools/benchmark_localisation.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.h"
+#include "lookup/exhaustive_search.h"
+#include "lookup/simulate.h"
+
+namespace voussoir {
+namespace {
+
+constexpr std::size_t kBins = 10;
+constexpr double kLowestLevel = 0.01;   // of the noise in calibration and false alarms
+constexpr double kHighestLevel = 0.20;
+constexpr double kWorthCounting = 1e-3;  // probabilities below it do not enter the reliability table
+
+std::size_t row_of(const Library& library, const std::string& text) {
+  const Scene scene = parse_scene(text, library.layout);
+  for (std::size_t row = 0; row < library.table.rows; ++row)
+    if (library.table.scene(row) == scene) return row;
+  throw Failure(fmt::format("the database has no scene {}", text));
+}
+
+Posterior posterior_of(const Library& library, const Measurements& measured, const Eligible& eligible,
+                       const NoiseModel& noise, const Prior& prior) {
+  return posterior(library.table, eligible,
+                   log_evidence_of_rows(measured, library.table, eligible.rows, library.table.row(0), noise), prior,
+                   library.layout.size());
+}
+
+/// The place of the truth in the order of probabilities, from 0 (equal ones count half behind it).
+std::size_t place_of(std::size_t truth, const Posterior& posterior) {
+  std::size_t ahead = 0;
+  for (std::size_t row = 0; row < posterior.probability.size(); ++row)
+    if (posterior.probability[row] > posterior.probability[truth]) ++ahead;
+  return posterior.probability[truth] > 0.0 ? ahead : posterior.probability.size();
+}
+
+void count_place(std::size_t place, Success& success) {
+  ++success.trials;
+  success.first += place == 0 ? 1 : 0;
+  success.in_five += place < 5 ? 1 : 0;
+}
+
+void count_posterior(std::size_t truth, const Posterior& posterior, Success& success) {
+  count_place(place_of(truth, posterior), success);
+  const auto& set = posterior.credible;
+  success.in_credible += std::find(set.begin(), set.end(), truth) != set.end() ? 1 : 0;
+}
+
+void count_genetic(const Library& library, const GeneSpace& space, const Measurements& measured, std::size_t truth,
+                   const ScoredRow& minimum, std::uint64_t seed, CaseResult& result) {
+  GeneticSettings settings;
+  settings.seed = seed;
+  const GeneticResult run = genetic_search(measured.displacement, library.table, space,
+                                           missing_blocks(library.table, truth), settings, 1);
+  result.genetic_minimum += run.best.front() == minimum ? 1 : 0;
+  if (run.best.front().row != truth) return;
+  ++result.genetic_found;
+  result.generations.push_back(run.converged);
+}
+
+double draw_level(Random& random) {
+  return kLowestLevel + (kHighestLevel - kLowestLevel) * random.uniform();
+}
+
+/// A scene whose number of missing blocks is 0, 1 or 2 with equal chances.
+std::size_t draw_scene(const std::vector<Eligible>& by_missing, Random& random) {
+  const auto& rows = by_missing[random.below(static_cast<std::uint32_t>(by_missing.size()))].rows;
+  return rows[random.below(static_cast<std::uint32_t>(rows.size()))];
+}
+
+void add_to_bins(const Posterior& posterior, const Eligible& eligible, std::size_t truth,
+                 std::vector<ReliabilityBin>& bins) {
+  for (const std::size_t row : eligible.rows) {
+    const double p = posterior.probability[row];
+    if (p < kWorthCounting) continue;
+    ReliabilityBin& bin = bins[std::min(kBins - 1, static_cast<std::size_t>(p * kBins))];
+    ++bin.scenes;
+    bin.mean_probability += p;
+    bin.frequency += row == truth ? 1.0 : 0.0;
+    bin.standard_error += p * (1.0 - p);
+  }
+}
+
+void finish_bins(std::vector<ReliabilityBin>& bins) {
+  for (ReliabilityBin& bin : bins) {
+    const auto n = static_cast<double>(std::max<std::size_t>(1, bin.scenes));
+    bin.mean_probability /= n;
+    bin.frequency /= n;
+    bin.standard_error = std::sqrt(bin.standard_error) / n;
+  }
+}
+
+}  // namespace
+
+const std::vector<PaperCase>& paper_table_2() {
+  static const std::vector<PaperCase> cases = {
+      {"0,15", 0.10, "8"},  {"6,4", 0.05, "9"},    {"6,4", 0.10, "-"},  {"2,6", 0.05, "27"},
+      {"2,6", 0.10, "65"},  {"4,10", 0.05, "35"},  {"4,10", 0.10, "-"}, {"8,12", 0.05, "127"},
+      {"8,12", 0.10, "-"},  {"10,4", 0.10, "67"},  {"10,12", 0.10, "32"}};
+  return cases;
+}
+
+const std::vector<PaperCase>& paper_table_3() {
+  static const std::vector<PaperCase> cases = {
+      {"0,15+7,10", 0.01, "27 and -"}, {"0,15+7,10", 0.05, "32 and -"}, {"4,2+11,3", 0.05, "90"},
+      {"4,10+2,6", 0.02, "157"},       {"4,10+2,6", 0.05, "-"},         {"11,4+11,3", 0.05, "196"},
+      {"6,4+8,1", 0.02, "214"},        {"6,4+8,1", 0.05, "239"},        {"10,12+10,4", 0.05, "213"}};
+  return cases;
+}
+
+CaseResult run_case(const Library& library, const PaperCase& paper_case, int trials, std::uint64_t seed) {
+  const std::size_t truth = row_of(library, paper_case.scene);
+  const Prior prior{{missing_blocks(library.table, truth)}, {}};
+  const Eligible eligible = eligible_rows(library.table, prior.missing);
+  const GeneSpace space(library.layout, library.table);
+  NoiseModel noise{NoiseShape::uniform, paper_case.noise};
+  noise.silence = 0.0;  // in the paper every sensor reads
+  CaseResult result;
+  result.paper_case = paper_case;
+  Random random(seed);
+  for (int trial = 0; trial < trials; ++trial) {
+    const Measurements measured = simulate_readings(library.table.row(truth), noise, random);
+    const auto found = exhaustive_search(measured.displacement, library.table, eligible.rows, 5);
+    const auto place = std::find_if(found.begin(), found.end(), [&](const ScoredRow& row) { return row.row == truth; });
+    count_place(static_cast<std::size_t>(place - found.begin()), result.paper_objective);
+    count_posterior(truth, posterior_of(library, measured, eligible, noise, prior), result.right_model);
+    count_posterior(truth, posterior_of(library, measured, eligible, {}, prior), result.default_model);
+    count_genetic(library, space, measured, truth, found.front(), static_cast<std::uint64_t>(trial) + 1, result);
+  }
+  std::sort(result.generations.begin(), result.generations.end());
+  return result;
+}
+
+Calibration calibrate(const Library& library, NoiseShape drawn, NoiseShape assumed, bool stated, int trials,
+                      std::uint64_t seed) {
+  const Eligible all = eligible_rows(library.table, {0, 1, 2});
+  const std::vector<Eligible> by_missing = {eligible_rows(library.table, {0}), eligible_rows(library.table, {1}),
+                                            eligible_rows(library.table, {2})};
+  Calibration result{{}, 0.0, std::vector<ReliabilityBin>(kBins)};
+  Random random(seed);
+  for (int trial = 0; trial < trials; ++trial) {
+    const std::size_t truth = draw_scene(by_missing, random);
+    NoiseModel noise{drawn, draw_level(random)};
+    const Measurements measured = simulate_readings(library.table.row(truth), noise, random);
+    noise.shape = assumed;
+    if (!stated) noise.relative.reset();
+    const Posterior answer = posterior_of(library, measured, all, noise, {});
+    count_posterior(truth, answer, result.success);
+    result.mean_set_size += static_cast<double>(answer.credible.size()) / trials;
+    add_to_bins(answer, all, truth, result.bins);
+  }
+  finish_bins(result.bins);
+  return result;
+}
+
+int false_alarms(const Library& library, bool known_noise, int trials, std::uint64_t seed) {
+  const Eligible all = eligible_rows(library.table, {0, 1, 2});
+  Random random(seed);
+  int alarms = 0;
+  for (int trial = 0; trial < trials; ++trial) {
+    const NoiseModel noise{NoiseShape::uniform, draw_level(random)};
+    const Measurements measured = simulate_readings(library.table.row(0), noise, random);
+    const Posterior answer = posterior_of(library, measured, all, known_noise ? noise : NoiseModel{}, {});
+    alarms += place_of(0, answer) > 0 ? 1 : 0;
+  }
+  return alarms;
+}
+
+}  // namespace voussoir
