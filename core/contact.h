@@ -96,8 +96,8 @@ VOUSSOIR_INLINE PositivePart<T> positive_part(T length, T at_0, T at_1) {
 /// Forces of the contact, and the shear carried over to the next evaluation. False, with the shear forgotten and no
 /// forces, if the edges touch in no lane. Lanes in which `present` is 0 have no contact.
 template <class T>
-VOUSSOIR_INLINE bool contact_forces(const EdgeContact& contact, const ContactMaterial& material, T present,
-                                    const EdgePlaces<T>& edges, ContactShear<T>& shear, EdgeForces<T>& forces) {
+VOUSSOIR_INLINE bool contact_forces(const EdgeContact& contact, const ContactMaterial& material,
+                                    const T& present, const EdgePlaces<T>& edges, ContactShear<T>& shear, EdgeForces<T>& forces) {
   const T zero = T{};
   const T one = zero + 1.0;
   const auto& [a0, a1, b0, b1] = edges.now;
