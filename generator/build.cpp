@@ -7,7 +7,6 @@
 #include <oneapi/tbb/task_arena.h>
 
 #include <algorithm>
-#include <span>
 
 #include "core/error.h"
 #include "database/writer.h"
@@ -59,28 +58,29 @@ KnownRecords open_records(const Build& build) {
   return known;
 }
 
-/// Solves some tasks side by side and keeps their records.
-void run_tasks(const Build& build, std::span<const SolvingTask> tasks, const SceneSolver& solver,
-               const StartingFields& starts, KnownRecords& known) {
-  const auto keep = [&](const Scene& scene, const Solution& solution) {
+/// Keeps the records that a task's solution gives.
+void keep_records(const Build& build, const SolvingTask& task, const Solution& solution,
+                  KnownRecords& known) {
+  const auto keep = [&](const Scene& scene, const Solution& answer) {
     const KeepField field = starts_others(scene) ? KeepField::yes : build.request.fields;
     known.journal().append(
-        make_record(scene, solution, build.bridge.control_points, field, build.request.fields));
+        make_record(scene, answer, build.bridge.control_points, field, build.request.fields));
     build.progress.advance(1);
   };
-  std::vector<Scene> scenes;
-  for (const SolvingTask& task : tasks) scenes.push_back(task.solved);
-  const std::vector<Solution> solutions = solve_for_storage(solver, scenes, starts);
-  for (std::size_t i = 0; i < tasks.size(); ++i) {
-    if (tasks[i].records_solved) keep(tasks[i].solved, solutions[i]);
-    if (tasks[i].image) keep(*tasks[i].image, mirrored_solution(solutions[i], *build.bridge.symmetry));
-  }
+  if (task.records_solved) keep(task.solved, solution);
+  if (task.image) keep(*task.image, mirrored_solution(solution, *build.bridge.symmetry));
 }
 
-/// Tasks that one thread takes at a time: enough to keep the solver's lanes full, few enough to share a stage
-/// out and to lose little if the build is killed.
-std::size_t batch_size(std::size_t tasks, int threads) {
-  return std::clamp<std::size_t>(tasks / (8 * static_cast<std::size_t>(threads)), 4, 32);
+/// Solves some tasks side by side and keeps their records.
+void run_batch(const Build& build, std::span<const SolvingTask> batch, const SceneSolver& solver,
+               const StartingFields& starts, KnownRecords& known) {
+  std::vector<std::optional<Field>> fields;
+  for (const SolvingTask& task : batch) fields.push_back(starts.start_for(task.solved));
+  std::vector<SceneStart> scenes;
+  for (std::size_t i = 0; i < batch.size(); ++i)
+    scenes.push_back({batch[i].solved, fields[i] ? &*fields[i] : nullptr});
+  const std::vector<Solution> solutions = solve_for_storage(solver, scenes);
+  for (std::size_t i = 0; i < batch.size(); ++i) keep_records(build, batch[i], solutions[i], known);
 }
 
 /// The fields that a stage starts from. They come out of the records, whether these were made just now or
@@ -97,6 +97,14 @@ StartingFields read_starts(const std::vector<SolvingTask>& stage, const KnownRec
   return starts;
 }
 
+/// Large enough to keep the solver's lanes busy, small enough to share a stage among the threads, and never
+/// so large that much is lost when the program is killed.
+std::size_t batch_size(std::size_t tasks, int threads) {
+  constexpr std::size_t kBatchesPerThread = 4;
+  return std::clamp<std::size_t>(tasks / (kBatchesPerThread * static_cast<std::size_t>(threads)), 1,
+                                 kLargestBatch);
+}
+
 void run_plan(const Build& build, const BuildPlan& plan, KnownRecords& known) {
   using namespace oneapi;
   const int threads = build.request.threads > 0 ? build.request.threads : tbb::info::default_concurrency();
@@ -107,11 +115,11 @@ void run_plan(const Build& build, const BuildPlan& plan, KnownRecords& known) {
       [&] { return build.solver.make_solver(build.bridge); });
   for (const auto& stage : plan.stages) {
     const StartingFields starts = read_starts(stage, known);
-    const std::size_t batch = batch_size(stage.size(), threads);
+    const std::size_t size = batch_size(stage.size(), threads);
     arena.execute([&] {
-      tbb::parallel_for(std::size_t{0}, (stage.size() + batch - 1) / batch, [&](std::size_t i) {
-        const auto tasks = std::span(stage).subspan(i * batch, std::min(batch, stage.size() - i * batch));
-        run_tasks(build, tasks, solvers.local(), starts, known);
+      tbb::parallel_for(std::size_t{0}, (stage.size() + size - 1) / size, [&](std::size_t i) {
+        const std::span batch = std::span(stage).subspan(i * size, std::min(size, stage.size() - i * size));
+        run_batch(build, batch, solvers.local(), starts, known);
       });
     });
   }

@@ -41,7 +41,9 @@ Solution recompute(const Scene& scene, const Database& database, const Bridge& b
         row ? database.solution(*row) : recompute(start, database, bridge, mirror, solver);
     starts.add(start, solution.outcome, solution.displacement);
   }
-  const Solution solution = solve_for_storage(solver, {&solved, 1}, starts).front();
+  const auto start = starts.start_for(solved);
+  const SceneStart task{solved, start ? &*start : nullptr};
+  const Solution solution = solve_for_storage(solver, std::span(&task, 1)).front();
   return solved == scene ? solution : mirrored_solution(solution, *bridge.symmetry);
 }
 

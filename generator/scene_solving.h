@@ -9,12 +9,11 @@
 #include "core/bridge.h"
 #include "core/quasi_static_solver.h"
 #include "core/solution.h"
-#include "generator/start_field.h"
 
 namespace voussoir {
 
-/// Solves scenes of one bridge, each from its start field or from zero; used by one thread at a time. A
-/// solution does not depend on the scenes that are solved with it.
+/// Solves scenes of one bridge, one solution a scene in their order; used by one thread at a time. A solution depends on
+/// its scene and start only, not on the others.
 using SceneSolver = std::function<std::vector<Solution>(std::span<const SceneStart>)>;
 
 struct SolverChoice {
@@ -25,8 +24,7 @@ struct SolverChoice {
 SolverChoice quasi_static(const QuasiStaticSettings& settings = {});
 
 /// Solves the scenes and rounds their fields to the storage precision.
-std::vector<Solution> solve_for_storage(const SceneSolver& solver, std::span<const Scene> scenes,
-                                        const StartingFields& starts);
+std::vector<Solution> solve_for_storage(const SceneSolver& solver, std::span<const SceneStart> scenes);
 
 /// The mirror image of a solution, in the same storage precision.
 Solution mirrored_solution(const Solution& solution, const MirrorSymmetry& symmetry);

@@ -68,7 +68,7 @@ TEST_CASE("A build interrupted at any scene goes on where it stopped and ends wi
     CHECK_FALSE(std::filesystem::exists(site.request.output));
     const BuildSummary summary = site.build();
     CHECK(summary.resumed + summary.computed == summary.scenes);
-    CHECK(summary.resumed + 2 >= static_cast<std::size_t>(scenes));
+    CHECK(summary.resumed + 2 * 2 * kLargestBatch >= static_cast<std::size_t>(scenes));
     CHECK(summary.digest == digest_of_reference());
   }
 }
@@ -77,11 +77,11 @@ TEST_CASE("A build interrupted again and again ends with the same digest") {
   const Site site;
   int interruptions = 0;
   for (bool done = false; !done; ++interruptions) try {
-      site.build(test::failing_solver(60));
+      site.build(test::failing_solver(4 * static_cast<int>(kLargestBatch)));
       done = true;
     } catch (const Failure&) {
     }
-  CHECK(interruptions > 4);
+  CHECK(interruptions > 2);
   CHECK(site.open().digest() == digest_of_reference());
 }
 
@@ -247,7 +247,7 @@ TEST_CASE("A damaged database is replaced and the reason is told") {
 
 TEST_CASE("An interrupted build of another bridge is not mixed in") {
   Site site;
-  REQUIRE_THROWS_AS(site.build(test::failing_solver(50)), Failure);
+  REQUIRE_THROWS_AS(site.build(test::failing_solver(150)), Failure);
   site.request.bridge.description.material.density = 2500.0;
   site.request.bridge.text += "[material]\ndensity_kg_m3 = 2500\n";
   const BuildSummary summary = site.build();

@@ -52,14 +52,16 @@ struct Stretch {
 
 std::size_t place_of(const std::string& bytes, ByteView part) {
   const auto* begin = reinterpret_cast<const char*>(part.data());
-  return static_cast<std::size_t>(std::search(bytes.begin(), bytes.end(), begin, begin + part.size()) - bytes.begin());
+  return static_cast<std::size_t>(std::search(bytes.begin(), bytes.end(), begin, begin + part.size()) -
+                                  bytes.begin());
 }
 
-/// Datasets are views into one mapping of the file; the control table, whose content is found nowhere else, tells where
-/// the mapping begins.
+/// Datasets are views into one mapping of the file; the control table, whose content is found nowhere else,
+/// tells where the mapping begins.
 std::size_t place_of(const std::string& bytes, const Database& database, const char* path) {
   const ByteView anchor = database.dataset_bytes(dataset::kVertical);
-  return place_of(bytes, anchor) + static_cast<std::size_t>(database.dataset_bytes(path).data() - anchor.data());
+  return place_of(bytes, anchor) +
+         static_cast<std::size_t>(database.dataset_bytes(path).data() - anchor.data());
 }
 
 /// Rows of the scenes' datasets and stored chunks, one stretch a scene each.

@@ -10,34 +10,39 @@
 namespace voussoir::test {
 
 /// Answers are those of made_up_solution plus a tenth of the start, so that a wrong start shows.
-inline Solution answer_from(const Bridge& bridge, const SceneStart& task) {
-  Solution solution = made_up_solution(bridge, task.scene);
-  if (task.start != nullptr) solution.displacement += 0.1 * *task.start;
+inline Solution answer_from(const Bridge& bridge, const Scene& scene, const std::optional<Field>& start) {
+  Solution solution = made_up_solution(bridge, scene);
+  if (start) solution.displacement += 0.1 * *start;
   return solution;
 }
 
+/// What every solver does with its scenes, one after the other.
+template <class Answer>
+SceneSolver one_by_one(const Answer& answer) {
+  return [answer](std::span<const SceneStart> scenes) {
+    std::vector<Solution> solutions;
+    for (const SceneStart& task : scenes)
+      solutions.push_back(answer(task.scene, task.start ? std::optional(*task.start) : std::nullopt));
+    return solutions;
+  };
+}
+
 inline SolverChoice made_up_solver() {
-  return {"solver = made up\n", [](const Bridge& bridge) -> SceneSolver {
-            return [&bridge](std::span<const SceneStart> scenes) {
-              std::vector<Solution> answers;
-              for (const SceneStart& task : scenes) answers.push_back(answer_from(bridge, task));
-              return answers;
-            };
+  return {"solver = made up\n", [](const Bridge& bridge) {
+            return one_by_one([&bridge](const Scene& scene, const std::optional<Field>& start) {
+              return answer_from(bridge, scene, start);
+            });
           }};
 }
 
 /// The same, but throws Failure at its `scenes`-th answer and from then on, like a build that is interrupted.
 inline SolverChoice failing_solver(int scenes) {
   const auto left = std::make_shared<std::atomic<int>>(scenes);
-  return {"solver = made up\n", [left](const Bridge& bridge) -> SceneSolver {
-            return [&bridge, left](std::span<const SceneStart> scenes) {
-              std::vector<Solution> answers;
-              for (const SceneStart& task : scenes) {
-                if (--*left <= 0) throw Failure("interrupted");
-                answers.push_back(answer_from(bridge, task));
-              }
-              return answers;
-            };
+  return {"solver = made up\n", [left](const Bridge& bridge) {
+            return one_by_one([&bridge, left](const Scene& scene, const std::optional<Field>& start) {
+              if (--*left <= 0) throw Failure("interrupted");
+              return answer_from(bridge, scene, start);
+            });
           }};
 }
 

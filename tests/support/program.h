@@ -33,7 +33,8 @@ class Program {
  public:
   using Prepare = std::function<void()>;
 
-  /// `name`: of a program of this build, or the whole path of another. `prepare` runs in the child before the program starts (limits); it must not throw.
+  /// `name`: of a program of this build, or the whole path of another. `prepare` runs in the child before the
+  /// program starts (limits); it must not throw.
   Program(const std::string& name, const std::vector<std::string>& arguments, const Prepare& prepare = {}) {
     const std::string path = std::filesystem::path(VOUSSOIR_BIN_DIR) / name;
     std::vector<char*> argv = {const_cast<char*>(path.c_str())};
