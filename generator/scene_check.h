@@ -24,10 +24,11 @@ struct SceneCheck {
   double unbalance = 0.0;  ///< of a standing scene's stored field
 };
 
-/// How far from equilibrium a correctly solved and stored field can be [largest unbalanced nodal force over
-/// largest nodal weight]: the solver's own limit, and half a storage step at every node against the stiffness
-/// of the bridge with all joints closed (the largest sum of absolute values in a row of the tangent).
-double most_stored_unbalance(const EquilibriumSystem& system);
+/// How far from equilibrium the stored field of a standing scene can be [largest unbalanced nodal force over
+/// largest nodal weight] in a database built with these settings. From Newton's method: the solver's own
+/// limit, and half a storage step at every node against the stiffness of the bridge with all joints closed
+/// (the largest sum of absolute values in a row of the tangent). From a motion: what is taken for rest.
+double most_stored_unbalance(const EquilibriumSystem& system, std::string_view settings);
 
 /// Never throws for what is wrong with the scene's data.
 SceneCheck check_scene(const CheckedDatabase& checked, std::size_t row);

@@ -116,7 +116,7 @@ void check_content(const VerifyRequest& request, VerifyReport& report) {
   check_geometry(database, bridge, report);
   const EquilibriumSystem system(bridge);
   const bool mirrors = mirror_use_in(database.provenance().solver_settings) == UseMirror::yes;
-  report.most_unbalance = most_stored_unbalance(system);
+  report.most_unbalance = most_stored_unbalance(system, database.provenance().solver_settings);
   check_scenes({database, bridge, system, report.most_unbalance, mirrors}, request.threads, report);
   if (request.recompute > 0) check_recomputed(request, database, bridge, report);
 }

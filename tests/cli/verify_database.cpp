@@ -22,8 +22,8 @@ std::filesystem::path build_small(const test::TemporaryFolder& folder,
 }  // namespace
 
 TEST_CASE("verify-database finds nothing wrong with a fresh database and scenes solved anew are the same") {
-  for (const std::vector<std::string>& more :
-       std::vector<std::vector<std::string>>{{}, {"--fields", "none"}, {"--no-mirror"}}) {
+  for (const std::vector<std::string>& more : std::vector<std::vector<std::string>>{
+           {}, {"--fields", "none"}, {"--no-mirror"}, {"--solver", "dynamic"}}) {
     const test::TemporaryFolder folder;
     const auto path = build_small(folder, more);
     const ProgramResult result =
