@@ -59,6 +59,8 @@ BuildOptions parse_build_options(int argc, char** argv) {
       ->transform(CLI::Transformer(format_names))
       ->default_str("text")
       ->option_text("text|json");
+  app.add_option("--xdmf", options.request.xdmf_scenes,
+                 "also write an index (.xdmf, .views.h5) with which ParaView opens these scenes");
   app.add_flag("--no-mirror", no_mirror, "solve every scene, even if its mirror image is solved");
   app.add_flag("--force", options.request.force, "build anew even if the file is up to date");
   app.add_flag("--quiet", options.quiet, "no progress and no messages");

@@ -24,4 +24,24 @@ TEST_CASE(
   }
 }
 
+TEST_CASE(
+    "The XDMF index refers to just the numbers of its scenes, read by Python as its specification says") {
+  const test::TemporaryFolder folder;
+  const std::string database = (folder / "small.h5").string();
+  const std::string bridge = test::example_bridge("small").string();
+  const std::string check = std::string(VOUSSOIR_SOURCE_DIR) + "/tests/cli/build_xdmf.py";
+  REQUIRE(
+      test::run("build-database", {bridge, "-o", database, "--scenes", "singles", "--xdmf", "intact;4,1..3"})
+          .exit_code == 0);
+  const test::ProgramResult result =
+      test::run("/usr/bin/python3", {check, (folder / "small.xdmf").string(), "intact", "4,1", "4,2", "4,3"});
+  INFO(result.out << result.err);
+  CHECK(result.exit_code == 0);
+  CHECK(result.out == "4 grids right\n");
+  const test::ProgramResult unknown =
+      test::run("build-database", {bridge, "-o", database, "--scenes", "singles", "--xdmf", "4,1+4,2"});
+  CHECK(unknown.exit_code == 2);
+  CHECK_THAT(unknown.err, Catch::Contains("does not hold scene 4,1+4,2"));
+}
+
 }  // namespace voussoir
