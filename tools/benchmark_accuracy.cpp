@@ -26,13 +26,14 @@ std::vector<Scene> with_intact(const AccuracyOptions& options, const Bridge& bri
   return scenes;
 }
 
-Readings quasi_static_readings(const Bridge& bridge, const std::vector<Scene>& scenes, const QuasiStaticSettings& settings,
-                               bool from_intact) {
+Readings quasi_static_readings(const Bridge& bridge, const std::vector<Scene>& scenes,
+                               const QuasiStaticSettings& settings, bool from_intact) {
   QuasiStaticSolver solver(bridge, settings);
   Readings readings;
   const Field intact = solver.solve(scenes.front()).displacement;
   std::vector<SceneStart> starts;
-  for (const Scene& scene : scenes) starts.push_back({.scene = scene, .start = from_intact ? &intact : nullptr});
+  for (const Scene& scene : scenes)
+    starts.push_back({.scene = scene, .start = from_intact ? &intact : nullptr});
   const double begin = processor_seconds();
   const std::vector<Solution> solutions = solver.solve(starts);
   readings.seconds = (processor_seconds() - begin) / static_cast<double>(scenes.size());
@@ -41,14 +42,16 @@ Readings quasi_static_readings(const Bridge& bridge, const std::vector<Scene>& s
   return readings;
 }
 
-Readings dynamic_readings(const Bridge& bridge, const std::vector<Scene>& scenes, const DynamicSettings& settings) {
+Readings dynamic_readings(const Bridge& bridge, const std::vector<Scene>& scenes,
+                          const DynamicSettings& settings) {
   DynamicSolver solver(bridge, settings);
   Readings readings;
   const double begin = processor_seconds();
   const std::vector<DynamicSolution> solutions = solver.solve(scenes);
   readings.seconds = (processor_seconds() - begin) / static_cast<double>(scenes.size());
   for (const DynamicSolution& solution : solutions)
-    readings.of_scene.push_back(vertical_displacements(solution.solution.displacement, bridge.control_points));
+    readings.of_scene.push_back(
+        vertical_displacements(solution.solution.displacement, bridge.control_points));
   return readings;
 }
 
@@ -82,17 +85,27 @@ class Bench {
     const Bridge fine = refined_bridge(description, options.reference_refinement);
     reference_ = quasi_static_readings(fine, scenes_, {}, false);
     for (const Eigen::VectorXd& d : reference_.of_scene)
-      if (!d.array().isNaN().select(0.0, d).allFinite()) throw Failure("a scene of the reference does not stand");
-    add({.solver = "quasi-static", .integrator = "-", .step = "1e-08", .ramp = "-",
-         .mesh = fmt::format("refined {}x", options.reference_refinement), .variation = "reference"},
+      if (!d.array().isNaN().select(0.0, d).allFinite())
+        throw Failure("a scene of the reference does not stand");
+    add({.solver = "quasi-static",
+         .integrator = "-",
+         .step = "1e-08",
+         .ramp = "-",
+         .mesh = fmt::format("refined {}x", options.reference_refinement),
+         .variation = "reference"},
         reference_);
   }
 
   void quasi_static(double tolerance, bool from_intact, bool is_default) {
     QuasiStaticSettings settings;
     settings.tolerance = tolerance;
-    add({.solver = "quasi-static", .integrator = "-", .step = fmt::format("{:.0e}", tolerance), .ramp = "-",
-         .mesh = "paper's", .variation = from_intact ? "" : "no warm start", .is_default = is_default},
+    add({.solver = "quasi-static",
+         .integrator = "-",
+         .step = fmt::format("{:.0e}", tolerance),
+         .ramp = "-",
+         .mesh = "paper's",
+         .variation = from_intact ? "" : "no warm start",
+         .is_default = is_default},
         quasi_static_readings(bridge_, scenes_, settings, from_intact));
   }
 
@@ -104,9 +117,11 @@ class Bench {
     settings.step = step;
     settings.standing_unbalance = unbalance;
     settings.side_by_side = side_by_side;
-    add({.solver = "dynamic", .integrator = "implicit blocks",
+    add({.solver = "dynamic",
+         .integrator = "implicit blocks",
          .step = fmt::format("{}, {:.0e}", step ? fmt::format("{:.1e} s", *step) : "0.9 critical", unbalance),
-         .ramp = fmt::format("{} s", ramp), .mesh = "paper's",
+         .ramp = fmt::format("{} s", ramp),
+         .mesh = "paper's",
          .variation = side_by_side == 1 ? "one scene at a time" : ""},
         dynamic_readings(bridge_, scenes_, settings));
   }
@@ -116,8 +131,12 @@ class Bench {
     DynamicSettings settings;
     settings.integrator = Integrator::central_differences;
     const std::vector<Scene> two = {scenes_[0], scenes_[1]};
-    add({.solver = "dynamic", .integrator = "central differences", .step = "0.9 critical", .ramp = "0.3 s",
-         .mesh = "paper's", .variation = "first scene only"},
+    add({.solver = "dynamic",
+         .integrator = "central differences",
+         .step = "0.9 critical",
+         .ramp = "0.3 s",
+         .mesh = "paper's",
+         .variation = "first scene only"},
         dynamic_readings(bridge_, two, settings));
   }
 
@@ -159,7 +178,8 @@ LogAxis axis_over(const std::vector<double>& values, double begin, double end) {
 
 }  // namespace
 
-std::vector<AccuracyRow> measure_accuracy(const BridgeDescription& description, const AccuracyOptions& options) {
+std::vector<AccuracyRow> measure_accuracy(const BridgeDescription& description,
+                                          const AccuracyOptions& options) {
   Bench bench(description, options);
   bench.quasi_static(1e-8, true, true);
   bench.quasi_static(1e-8, false, false);
@@ -174,12 +194,14 @@ std::vector<AccuracyRow> measure_accuracy(const BridgeDescription& description, 
 
 std::string to_markdown(const std::vector<AccuracyRow>& rows) {
   std::string text =
-      "| solver | integrator | step, tolerance | ramp | mesh | variation | s a scene | signal error | largest error [um] |\n"
+      "| solver | integrator | step, tolerance | ramp | mesh | variation | s a scene | signal error | "
+      "largest error [um] |\n"
       "|---|---|---|---|---|---|---|---|---|\n";
   for (const AccuracyRow& row : rows)
-    text += fmt::format("| {} | {} | {} | {} | {} | {}{} | {:.4f} | {:.2f} % | {:.2f} |\n", row.solver, row.integrator,
-                        row.step, row.ramp, row.mesh, row.variation, row.is_default ? "**default**" : "", row.seconds,
-                        100.0 * row.signal_error, 1e6 * row.largest_error);
+    text += fmt::format("| {} | {} | {} | {} | {} | {}{} | {:.4f} | {:.2f} % | {:.2f} |\n", row.solver,
+                        row.integrator, row.step, row.ramp, row.mesh, row.variation,
+                        row.is_default ? "**default**" : "", row.seconds, 100.0 * row.signal_error,
+                        1e6 * row.largest_error);
   return text;
 }
 
@@ -194,24 +216,33 @@ std::string to_svg(const std::vector<AccuracyRow>& rows) {
   const LogAxis x = axis_over(times, 80.0, 760.0);
   const LogAxis y = axis_over(errors, 440.0, 30.0);
   std::string svg =
-      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"800\" height=\"500\" font-family=\"sans-serif\" font-size=\"12\">\n"
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"800\" height=\"500\" font-family=\"sans-serif\" "
+      "font-size=\"12\">\n"
       "<rect width=\"800\" height=\"500\" fill=\"white\"/>\n";
   for (double e = x.lowest; e <= x.highest; ++e)
-    svg += fmt::format("<path d=\"M{0:.1f} 30V440\" stroke=\"#ddd\"/><text x=\"{0:.1f}\" y=\"458\" text-anchor=\"middle\">{1:g} s</text>\n",
-                       x(std::pow(10.0, e)), std::pow(10.0, e));
+    svg += fmt::format(
+        "<path d=\"M{0:.1f} 30V440\" stroke=\"#ddd\"/><text x=\"{0:.1f}\" y=\"458\" "
+        "text-anchor=\"middle\">{1:g} s</text>\n",
+        x(std::pow(10.0, e)), std::pow(10.0, e));
   for (double e = y.lowest; e <= y.highest; ++e)
-    svg += fmt::format("<path d=\"M80 {0:.1f}H760\" stroke=\"#ddd\"/><text x=\"72\" y=\"{0:.1f}\" text-anchor=\"end\">{1:g} %</text>\n",
-                       y(std::pow(10.0, e)), 100.0 * std::pow(10.0, e));
+    svg += fmt::format(
+        "<path d=\"M80 {0:.1f}H760\" stroke=\"#ddd\"/><text x=\"72\" y=\"{0:.1f}\" text-anchor=\"end\">{1:g} "
+        "%</text>\n",
+        y(std::pow(10.0, e)), 100.0 * std::pow(10.0, e));
   for (const AccuracyRow& row : rows) {
     if (row.signal_error <= 0.0) continue;
     const double px = x(std::max(row.seconds, 1e-6));
     const double py = y(row.signal_error);
     const char* colour = row.is_default ? "#c00" : row.solver == "dynamic" ? "#06c" : "#393";
-    svg += fmt::format("<circle cx=\"{0:.1f}\" cy=\"{1:.1f}\" r=\"{2}\" fill=\"{3}\"/><text x=\"{4:.1f}\" y=\"{1:.1f}\">{5} {6} {7} {8}</text>\n",
-                       px, py, row.is_default ? 7 : 4, colour, px + 8.0, row.solver, row.step, row.ramp, row.variation);
+    svg += fmt::format(
+        "<circle cx=\"{0:.1f}\" cy=\"{1:.1f}\" r=\"{2}\" fill=\"{3}\"/><text x=\"{4:.1f}\" y=\"{1:.1f}\">{5} "
+        "{6} {7} {8}</text>\n",
+        px, py, row.is_default ? 7 : 4, colour, px + 8.0, row.solver, row.step, row.ramp, row.variation);
   }
-  svg += "<text x=\"420\" y=\"485\" text-anchor=\"middle\">processor time a scene</text>\n"
-         "<text x=\"20\" y=\"235\" text-anchor=\"middle\" transform=\"rotate(-90 20 235)\">error of the signal</text>\n</svg>\n";
+  svg +=
+      "<text x=\"420\" y=\"485\" text-anchor=\"middle\">processor time a scene</text>\n"
+      "<text x=\"20\" y=\"235\" text-anchor=\"middle\" transform=\"rotate(-90 20 235)\">error of the "
+      "signal</text>\n</svg>\n";
   return svg;
 }
 

@@ -12,12 +12,12 @@ namespace voussoir {
 struct AccuracyRow {
   std::string solver;
   std::string integrator;
-  std::string step;       ///< time step or tolerance
+  std::string step;  ///< time step or tolerance
   std::string ramp;
   std::string mesh;
-  std::string variation;  ///< what is switched off, if anything
-  double seconds = 0.0;       ///< of processor time a scene
-  double signal_error = 0.0;  ///< L1, relative: of the change that the removal makes at the control points
+  std::string variation;       ///< what is switched off, if anything
+  double seconds = 0.0;        ///< of processor time a scene
+  double signal_error = 0.0;   ///< L1, relative: of the change that the removal makes at the control points
   double largest_error = 0.0;  ///< largest error of a control point's displacement [m]
   bool is_default = false;
 };
@@ -29,7 +29,8 @@ struct AccuracyOptions {
 };
 
 /// Measures all rows. Throws InputError for unknown scenes, Failure if the reference does not stand.
-std::vector<AccuracyRow> measure_accuracy(const BridgeDescription& description, const AccuracyOptions& options);
+std::vector<AccuracyRow> measure_accuracy(const BridgeDescription& description,
+                                          const AccuracyOptions& options);
 
 /// As a table in Markdown.
 std::string to_markdown(const std::vector<AccuracyRow>& rows);

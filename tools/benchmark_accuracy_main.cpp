@@ -10,7 +10,8 @@
 
 int main(int argc, char** argv) {
   using namespace voussoir;
-  CLI::App app{"Run time against error of the solvers, as a table (Markdown) and a plot (SVG)", "benchmark-accuracy"};
+  CLI::App app{"Run time against error of the solvers, as a table (Markdown) and a plot (SVG)",
+               "benchmark-accuracy"};
   AccuracyOptions options;
   std::string bridge_file;
   std::string plot;
