@@ -26,9 +26,11 @@ struct DynamicSettings {
   double latest_decision = 1.0;  ///< then blocks that have moved away mean a collapse, however slow they are
   double standing_unbalance =
       2.3e-4;  ///< sum of the blocks' resultant forces over the bridge's weight [-], at most
-  double plain_unbalance = 1e-2;             ///< the same, at least, for a collapse that is plain at `moment`
+  double collapsing_unbalance =
+      0.05;  ///< resultant force on a block over its weight, at least, when blocks have moved away
+  double plain_unbalance =
+      1e-2;  ///< unbalance over the bridge's weight, at least, of a collapse that is plain at `moment`
   double largest_standing_unbalance = 1e-2;  ///< resultant force on a block over its weight, at most
-  double collapsing_unbalance = 0.05;        ///< the same, at least, with blocks that have moved away
   double moving_sags =
       2.0;  ///< blocks that have moved further than this many sags of the bonded bridge have moved away
   int side_by_side = 4;  ///< scenes at a time: 1 or 4; the answers have the same bits

@@ -11,7 +11,8 @@
 
 namespace voussoir {
 
-/// The most scenes that one thread solves before it keeps their records: what a killed build can lose a thread.
+/// The most scenes that one thread solves before it keeps their records: what a killed build can lose a
+/// thread.
 inline constexpr std::size_t kLargestBatch = 32;
 
 struct BuildRequest {

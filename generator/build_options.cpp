@@ -17,12 +17,6 @@ constexpr const char* kFooter =
     "file that is\n"
     "up to date is left alone. Exit codes: 0 done, 1 could not be done, 2 bad usage or bad bridge file.";
 
-std::string check_solver(const std::string& name) {
-  if (name == "quasi-static") return {};
-  if (name == "dynamic") return "the dynamic solver is not available in this version (expected quasi-static)";
-  return "unknown solver '" + name + "' (expected quasi-static)";
-}
-
 }  // namespace
 
 BuildOptions parse_build_options(int argc, char** argv) {
@@ -31,7 +25,10 @@ BuildOptions parse_build_options(int argc, char** argv) {
                "build-database");
   app.footer(kFooter);
   app.set_version_flag("--version", version_text("build-database"));
-  std::string solver = "quasi-static";
+  bool in_motion = false;
+  bool explicit_steps = false;
+  const std::map<std::string, bool> solver_names = {{"quasi-static", false}, {"dynamic", true}};
+  const std::map<std::string, bool> integrator_names = {{"implicit", false}, {"explicit", true}};
   bool fields = true;
   bool no_mirror = false;
   const std::map<std::string, bool> field_names = {{"all", true}, {"none", false}};
@@ -42,9 +39,17 @@ BuildOptions parse_build_options(int argc, char** argv) {
   app.add_option("--threads", options.request.threads, "threads, 0: one for each core")
       ->check(CLI::Range(0, kMostThreads))
       ->capture_default_str();
-  app.add_option("--solver", solver, "quasi-static")
-      ->check(CLI::Validator(check_solver, ""))
-      ->capture_default_str();
+  app.add_option("--solver", in_motion,
+                 "quasi-static: Newton for scenes that stand, motion for the others; dynamic: motion for all")
+      ->transform(CLI::Transformer(solver_names))
+      ->default_str("quasi-static")
+      ->option_text("quasi-static|dynamic");
+  app.add_option(
+         "--integrator", explicit_steps,
+         "with --solver dynamic: implicit in the blocks, or central differences with tiny steps (slow)")
+      ->transform(CLI::Transformer(integrator_names))
+      ->default_str("implicit")
+      ->option_text("implicit|explicit");
   app.add_option("--fields", fields, "displacements of all nodes are kept of all scenes or of none")
       ->transform(CLI::Transformer(field_names))
       ->default_str("all")
@@ -62,6 +67,9 @@ BuildOptions parse_build_options(int argc, char** argv) {
     options.exit_code = app.exit(error) == 0 ? 0 : kBadUsage;
   }
   options.request.fields = fields ? KeepField::yes : KeepField::no;
+  DynamicSettings motion;
+  if (explicit_steps) motion.integrator = Integrator::central_differences;
+  options.solver = in_motion ? dynamic(motion) : quasi_static();
   options.request.mirror = no_mirror ? UseMirror::no : UseMirror::yes;
   return options;
 }

@@ -6,36 +6,14 @@
 #include <limits>
 #include <numbers>
 
+#include "lookup/level_curve.h"
+
 namespace voussoir {
 namespace {
 
 constexpr double kImpossible = -std::numeric_limits<double>::infinity();
-constexpr double kEdge = 1e-9;  // errors may exceed a bound by this share of it: rounding
 /// Parts of the integrand below exp(-kNegligible) of its peak are left out.
 constexpr double kNegligible = 40.0;
-
-/// log of the density at level exp(u), as -count u - a exp(-power u) + constant; the Gaussian has power 2 and
-/// a = sum z^2 / 2, the Laplace power 1 and a = sqrt(2) sum |z|.
-struct LevelCurve {
-  double count;
-  double a;
-  double power;
-  double constant;
-
-  double at(double u) const { return constant - count * u - a * std::exp(-power * u); }
-  double peak() const { return std::log(a * power / count) / power; }
-};
-
-LevelCurve level_curve(NoiseShape shape, const RowStatistics& statistics, std::size_t count) {
-  const double constant = static_cast<double>(count) * log_density(shape, 0.0, 0.0) - statistics.sum_log_scale;
-  if (shape == NoiseShape::laplace)
-    return {static_cast<double>(count), std::numbers::sqrt2 * statistics.sum_absolute, 1.0, constant};
-  return {static_cast<double>(count), 0.5 * statistics.sum_square, 2.0, constant};
-}
-
-double clamp_level(double level) {
-  return std::clamp(level, kSmallestLevel, kLargestLevel);
-}
 
 /// How far from the peak, in u, the curve falls by kNegligible: at most this to the left, where it falls like
 /// exp(u), and this to the right, where it falls linearly in the end.
@@ -46,11 +24,7 @@ double reach_right(const LevelCurve& curve) {
   return reach_left(curve) + (kNegligible + 1.0) / curve.count;
 }
 
-double log_range() {
-  return std::log(kLargestLevel / kSmallestLevel);
-}
-
-double integrate(const LevelCurve& curve) {
+double log_integral(const LevelCurve& curve) {
   const double first = std::log(kSmallestLevel);
   const double last = std::log(kLargestLevel);
   const double peak = std::clamp(curve.a > 0.0 ? curve.peak() : first, first, last);
@@ -64,8 +38,8 @@ double integrate(const LevelCurve& curve) {
   return top + std::log(left + right);
 }
 
-double log_uniform_evidence(const RowStatistics& statistics, std::size_t count) {
-  const double smallest = std::max(statistics.largest * (1.0 - kEdge), kSmallestLevel);
+double log_uniform_integral(const RowStatistics& statistics, std::size_t count) {
+  const double smallest = std::max(statistics.largest * (1.0 - kBoundTolerance), kSmallestLevel);
   if (smallest >= kLargestLevel) return kImpossible;
   const auto n = static_cast<double>(count);
   const double share_left = -std::expm1(-n * std::log(kLargestLevel / smallest));
@@ -76,28 +50,22 @@ double log_uniform_evidence(const RowStatistics& statistics, std::size_t count) 
 
 double log_likelihood(NoiseShape shape, const RowStatistics& statistics, std::size_t count, double level) {
   if (std::isnan(statistics.sum_absolute)) return kImpossible;
-  if (shape == NoiseShape::uniform) {
-    if (statistics.largest > level * (1.0 + kEdge)) return kImpossible;
-    return -static_cast<double>(count) * std::log(2.0 * level) - statistics.sum_log_scale;
-  }
-  return level_curve(shape, statistics, count).at(std::log(level));
+  if (shape != NoiseShape::uniform) return level_curve(shape, statistics, count).at(std::log(level));
+  if (statistics.largest > level * (1.0 + kBoundTolerance)) return kImpossible;
+  return -static_cast<double>(count) * std::log(2.0 * level) - statistics.sum_log_scale;
 }
 
 double log_evidence(NoiseShape shape, const RowStatistics& statistics, std::size_t count) {
   if (std::isnan(statistics.sum_absolute)) return kImpossible;
-  const double sum = shape == NoiseShape::uniform ? log_uniform_evidence(statistics, count)
-                                                  : integrate(level_curve(shape, statistics, count));
-  return sum - std::log(log_range());
-}
-
-double log_evidence_bound(NoiseShape shape, const RowStatistics& statistics, std::size_t count) {
-  return log_likelihood(shape, statistics, count, likeliest_level(shape, statistics, count));
+  const double integral = shape == NoiseShape::uniform ? log_uniform_integral(statistics, count)
+                                                       : log_integral(level_curve(shape, statistics, count));
+  return integral - std::log(log_range());
 }
 
 double likeliest_level(NoiseShape shape, const RowStatistics& statistics, std::size_t count) {
-  if (shape == NoiseShape::uniform) return clamp_level(statistics.largest);
+  if (shape == NoiseShape::uniform) return std::clamp(statistics.largest, kSmallestLevel, kLargestLevel);
   const LevelCurve curve = level_curve(shape, statistics, count);
-  return curve.a > 0.0 ? clamp_level(std::exp(curve.peak())) : kSmallestLevel;
+  return curve.a > 0.0 ? std::clamp(std::exp(curve.peak()), kSmallestLevel, kLargestLevel) : kSmallestLevel;
 }
 
 double log_sum(double a, double b) {

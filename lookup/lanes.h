@@ -28,6 +28,11 @@ VOUSSOIR_INLINE void load_some(const double* from, std::size_t count, Lanes& lan
   for (std::size_t i = 0; i < count; ++i) lanes[i] = from[i];
 }
 
+/// The first `count` (at most kLanes) lanes.
+VOUSSOIR_INLINE void store(const Lanes& lanes, double* to, std::size_t count) {
+  std::memcpy(to, &lanes, count * sizeof(double));
+}
+
 /// lanes = |lanes|
 VOUSSOIR_INLINE void make_absolute(Lanes& lanes) {
   lanes = reinterpret_cast<Lanes>(reinterpret_cast<LaneMask>(lanes) & INT64_MAX);

@@ -8,13 +8,12 @@
 #include "core/error.h"
 #include "lookup/evidence.h"
 #include "lookup/row_statistics.h"
+#include "lookup/table_evidence.h"
 
 namespace voussoir {
 namespace {
 
 constexpr double kImpossible = -std::numeric_limits<double>::infinity();
-constexpr double kHopeless = 50.0;    // log of the factor beyond which a scene's probability is taken for zero
-constexpr double kBoundSlack = 15.0;  // a mean over levels is never further below its peak (for the likeliest rows)
 constexpr std::array<NoiseShape, 3> kAutomaticShapes = {NoiseShape::uniform, NoiseShape::gaussian,
                                                         NoiseShape::laplace};
 constexpr int kLevelsPerOctave = 8;  // of the grid, where the marginal over levels has no closed form
@@ -29,14 +28,6 @@ bool is_proportional(const NoiseModel& noise, const Measurements& measurements) 
   const bool own = std::any_of(measurements.sigma.begin(), measurements.sigma.end(),
                                [](double sigma) { return !std::isnan(sigma); });
   return noise.floor == 0.0 && noise.model_error == 0.0 && !own && noise.shape != NoiseShape::student;
-}
-
-/// Mean over the shapes of a function that gives a logarithm.
-template <typename Function>
-double log_mean_over_shapes(const NoiseModel& noise, Function log_of_shape) {
-  double sum = kImpossible;
-  for (const NoiseShape shape : shapes_of(noise)) sum = log_sum(sum, log_of_shape(shape));
-  return sum - std::log(static_cast<double>(shapes_of(noise).size()));
 }
 
 /// Student's t has no short statistics: one pass over the row.
@@ -58,42 +49,37 @@ struct Problem {
   std::vector<double> log_silence;  // of each row: that the silent sensors are silent
 };
 
-std::vector<double> at_level(const Problem& problem, double level) {
-  const Observation observation = observe(problem.measurements, problem.intact, problem.noise, level);
-  const std::vector<RowStatistics> statistics = row_statistics(observation, problem.table);
-  std::vector<double> result(problem.table.rows, kImpossible);
-  for (const std::size_t row : problem.rows)
-    result[row] = problem.log_silence[row] + log_mean_over_shapes(problem.noise, [&](NoiseShape shape) {
-      if (shape == NoiseShape::student && !std::isnan(statistics[row].sum_absolute))
-        return log_student_likelihood(observation, problem.table.row(row), problem.noise.degrees_of_freedom,
-                                      statistics[row].sum_log_scale);
-      return log_likelihood(shape, statistics[row], observation.count);
-    });
+/// Only the rows that count, with what their silent sensors say; -infinity elsewhere.
+std::vector<double> with_silence(const Problem& problem, const std::vector<double>& logs) {
+  std::vector<double> result(logs.size(), kImpossible);
+  for (const std::size_t row : problem.rows) result[row] = logs[row] + problem.log_silence[row];
   return result;
 }
 
-/// Makes -infinity of everything that is far below the largest value.
-void drop_hopeless(std::vector<double>& logs, double distance) {
-  const double best = *std::max_element(logs.begin(), logs.end());
-  for (double& value : logs)
-    if (value < best - distance) value = kImpossible;
+std::vector<double> student_likelihoods(const Problem& problem, const Observation& observation,
+                                        const TableStatistics& statistics) {
+  std::vector<double> result(problem.table.rows, kImpossible);
+  for (const std::size_t row : problem.rows)
+    if (!std::isnan(statistics.sum_absolute[row]))
+      result[row] = log_student_likelihood(observation, problem.table.row(row), problem.noise.degrees_of_freedom,
+                                           statistics.sum_log_scale[row]);
+  return result;
+}
+
+std::vector<double> at_level(const Problem& problem, double level) {
+  const Observation observation = observe(problem.measurements, problem.intact, problem.noise, level);
+  const TableStatistics statistics = table_statistics(observation, problem.table);
+  std::vector<std::vector<double>> logs;
+  for (const NoiseShape shape : shapes_of(problem.noise))
+    logs.push_back(shape == NoiseShape::student ? student_likelihoods(problem, observation, statistics)
+                                                : log_likelihoods(shape, statistics, observation.count));
+  return with_silence(problem, log_mean(logs));
 }
 
 std::vector<double> over_levels_in_closed_form(const Problem& problem) {
   const Observation observation = observe(problem.measurements, problem.intact, problem.noise, 1.0);
-  const std::vector<RowStatistics> statistics = row_statistics(observation, problem.table);
-  std::vector<double> result(problem.table.rows, kImpossible);
-  for (const std::size_t row : problem.rows)
-    result[row] = problem.log_silence[row] + log_mean_over_shapes(problem.noise, [&](NoiseShape shape) {
-      return log_evidence_bound(shape, statistics[row], observation.count);
-    });
-  drop_hopeless(result, kHopeless + kBoundSlack);
-  for (const std::size_t row : problem.rows)
-    if (result[row] != kImpossible)
-      result[row] = problem.log_silence[row] + log_mean_over_shapes(problem.noise, [&](NoiseShape shape) {
-        return log_evidence(shape, statistics[row], observation.count);
-      });
-  return result;
+  const TableStatistics statistics = table_statistics(observation, problem.table);
+  return with_silence(problem, log_mean_evidences(shapes_of(problem.noise), statistics, problem.rows, observation.count));
 }
 
 /// Levels from the smallest to the largest, evenly spaced in their logarithm.
@@ -175,10 +161,8 @@ std::vector<double> log_evidence_of_rows(const Measurements& measurements, const
                                          const NoiseModel& noise) {
   if (observe(measurements, intact, noise, 1.0).count == 0)
     throw InputError("no reading at a control point that can move, expected at least one");
-  std::vector<double> result = log_evidence(
+  return log_evidence(
       {measurements, table, rows, intact, noise, log_chance_of_silence(measurements, table, rows, noise.silence)});
-  drop_hopeless(result, kHopeless);
-  return result;
 }
 
 NoiseEstimate estimate_noise(const Measurements& measurements, std::span<const double> prediction,
@@ -192,7 +176,7 @@ NoiseEstimate estimate_noise(const Measurements& measurements, std::span<const d
   if (!is_proportional(single, measurements))
     return {single.shape, likeliest_grid_level({measurements, table, rows, intact, single, no_matter}), true};
   const Observation observation = observe(measurements, intact, single, 1.0);
-  const RowStatistics statistics = row_statistics(observation, table).front();
+  const RowStatistics statistics = table_statistics(observation, table).row(0);
   return {single.shape, likeliest_level(single.shape, statistics, observation.count), true};
 }
 

@@ -12,7 +12,7 @@ namespace voussoir {
 
 /// log p(readings | scene) of the given rows, with an unknown noise level and an automatic noise shape marginalised.
 /// -infinity for impossible scenes (a reading on a block that the scene lacks, or an error beyond a uniform noise's
-/// bound), for scenes that are less likely than the likeliest by a factor of exp(50) or more, and for all other rows.
+/// bound) and for all other rows; with an unknown level perhaps for scenes less likely than the likeliest by exp(50).
 /// A silent sensor on a block that the scene has counts with the chance of its failing.
 /// `intact` are the displacements of the intact bridge. The result has a value for each row of the table.
 /// Throws InputError if no reading is at a point that can move.

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "core/error.h"
+#include "lookup/lane_math.h"
 
 namespace voussoir {
 namespace {
@@ -18,7 +19,7 @@ std::vector<double> log_prior_by_missing(const SceneTable& table, const Eligible
     throw InputError(fmt::format("{} prior weights, expected {}: one for each number of missing blocks",
                                  prior.weight.size(), prior.missing.size()));
   std::vector<double> scenes(table.most_missing + 1, 0.0);
-  for (const std::size_t row : eligible.rows) ++scenes[static_cast<std::size_t>(missing_blocks(table, row))];
+  for (const std::uint8_t missing : eligible.missing) ++scenes[missing];
   std::vector<double> result(table.most_missing + 1, kImpossible);
   for (std::size_t i = 0; i < prior.missing.size(); ++i) {
     const auto missing = static_cast<std::size_t>(prior.missing[i]);
@@ -34,16 +35,23 @@ void normalise(std::vector<double>& probability) {
     for (double& value : probability) value /= total;
 }
 
+/// Takes the likeliest rows from a heap until they hold enough. Rows below an even distribution of what may be left out
+/// cannot be needed.
 std::vector<std::size_t> credible_set(const std::vector<double>& probability) {
-  std::vector<std::size_t> rows;
+  const double negligible = (1.0 - kCredibleShare) / static_cast<double>(probability.size());
+  std::vector<std::size_t> heap;
   for (std::size_t row = 0; row < probability.size(); ++row)
-    if (probability[row] > 0.0) rows.push_back(row);
-  std::stable_sort(rows.begin(), rows.end(),
-                   [&](std::size_t a, std::size_t b) { return probability[a] > probability[b]; });
-  double share = 0.0;
-  std::size_t count = 0;
-  while (count < rows.size() && share < kCredibleShare) share += probability[rows[count++]];
-  rows.resize(count);
+    if (probability[row] >= negligible) heap.push_back(row);
+  const auto less_likely = [&](std::size_t a, std::size_t b) {
+    return probability[a] != probability[b] ? probability[a] < probability[b] : a > b;
+  };
+  std::make_heap(heap.begin(), heap.end(), less_likely);
+  std::vector<std::size_t> rows;
+  for (double share = 0.0; share < kCredibleShare && !heap.empty(); heap.pop_back()) {
+    std::pop_heap(heap.begin(), heap.end(), less_likely);
+    rows.push_back(heap.back());
+    share += probability[heap.back()];
+  }
   return rows;
 }
 
@@ -56,12 +64,18 @@ int missing_blocks(const SceneTable& table, std::size_t row) {
 
 Eligible eligible_rows(const SceneTable& table, const std::vector<int>& missing) {
   Eligible result;
+  std::vector<bool> wanted(table.most_missing + 1, false);
+  for (const int number : missing)
+    if (number >= 0 && static_cast<std::size_t>(number) < wanted.size()) wanted[static_cast<std::size_t>(number)] = true;
   for (std::size_t row = 0; row < table.rows; ++row) {
-    if (std::find(missing.begin(), missing.end(), missing_blocks(table, row)) == missing.end()) continue;
-    if (table.outcome[row] == static_cast<std::uint8_t>(Outcome::unresolved))
+    const int lost = missing_blocks(table, row);
+    if (!wanted[static_cast<std::size_t>(lost)]) continue;
+    if (table.outcome[row] == static_cast<std::uint8_t>(Outcome::unresolved)) {
       ++result.unresolved;
-    else
-      result.rows.push_back(row);
+      continue;
+    }
+    result.rows.push_back(row);
+    result.missing.push_back(static_cast<std::uint8_t>(lost));
   }
   return result;
 }
@@ -71,18 +85,22 @@ Posterior posterior(const SceneTable& table, const Eligible& eligible, const std
   const std::vector<double> log_prior = log_prior_by_missing(table, eligible, prior);
   Posterior result{std::vector<double>(table.rows, 0.0), std::vector<double>(block_count, 0.0),
                    std::vector<double>(table.most_missing + 1, 0.0), {}};
-  const auto log_weight = [&](std::size_t row) {
-    return log_prior[static_cast<std::size_t>(missing_blocks(table, row))] + log_evidence[row];
-  };
+  std::vector<double> log_weight(table.rows, kImpossible);
   double best = kImpossible;
-  for (const std::size_t row : eligible.rows) best = std::max(best, log_weight(row));
+  for (std::size_t i = 0; i < eligible.rows.size(); ++i) {
+    const std::size_t row = eligible.rows[i];
+    log_weight[row] = log_prior[eligible.missing[i]] + log_evidence[row];
+    best = std::max(best, log_weight[row]);
+  }
   if (best == kImpossible) return result;
-  for (const std::size_t row : eligible.rows)
-    if (log_evidence[row] != kImpossible) result.probability[row] = std::exp(log_weight(row) - best);
+  for (double& value : log_weight) value -= best;
+  make_exponentials(log_weight);
+  result.probability = std::move(log_weight);
   normalise(result.probability);
-  for (const std::size_t row : eligible.rows) {
+  for (std::size_t i = 0; i < eligible.rows.size(); ++i) {
+    const std::size_t row = eligible.rows[i];
     if (result.probability[row] == 0.0) continue;
-    result.missing_probability[static_cast<std::size_t>(missing_blocks(table, row))] += result.probability[row];
+    result.missing_probability[eligible.missing[i]] += result.probability[row];
     for (const std::int32_t id : table.removed.subspan(row * table.most_missing, table.most_missing))
       if (id >= 0) result.block_probability[static_cast<std::size_t>(id)] += result.probability[row];
   }

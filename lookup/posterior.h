@@ -16,6 +16,7 @@ struct Prior {
 /// Rows that a search may look at: their number of missing blocks is allowed, and their outcome is known.
 struct Eligible {
   std::vector<std::size_t> rows;
+  std::vector<std::uint8_t> missing;  ///< of each of them, how many blocks
   std::size_t unresolved = 0;  ///< rows left out only because the solver gave no answer
 };
 Eligible eligible_rows(const SceneTable& table, const std::vector<int>& missing);

@@ -1,9 +1,11 @@
 #include "lookup/row_statistics.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
-#include "lookup/lanes.h"
+#include "lookup/lane_math.h"
 
 namespace voussoir {
 namespace {
@@ -66,38 +68,56 @@ VOUSSOIR_INLINE void add_errors(const View& view, std::size_t i, std::size_t cou
   statistics.product *= has_reading ? scale * view.inverse_unit : Lanes{} + 1.0;
 }
 
-VOUSSOIR_INLINE double log_product(Lanes& product) {
+/// A positive number as mantissa times two to the power of the exponent: products of any length keep their range.
+struct WideProduct {
   double mantissa = 1.0;
-  int exponent = 0;
-  for (std::size_t lane = 0; lane < kLanes; ++lane) {
-    int part = 0;
-    mantissa *= std::frexp(product[lane], &part);
-    exponent += part;
-  }
+  double exponent = 0.0;
+};
+
+/// Multiplies the lanes' products into the wide one and starts the lanes anew.
+VOUSSOIR_INLINE void flush(Lanes& product, WideProduct& wide) {
+  constexpr std::int64_t kMantissaBits = 0x000FFFFFFFFFFFFF;
+  constexpr std::int64_t kOneBits = 0x3FF0000000000000;
+  const LaneMask bits = reinterpret_cast<LaneMask>(product);
+  const LaneMask exponents = (bits >> 52) - 1023;
+  const Lanes mantissas = reinterpret_cast<Lanes>((bits & kMantissaBits) | kOneBits);
+  wide.mantissa *= (mantissas[0] * mantissas[1]) * (mantissas[2] * mantissas[3]);
+  wide.exponent += static_cast<double>((exponents[0] + exponents[1]) + (exponents[2] + exponents[3]));
   product = Lanes{} + 1.0;
-  return std::log(mantissa) + exponent * 0.693147180559945309417;
 }
 
 VOUSSOIR_INLINE double sum_of(const Lanes& lanes) {
   return (lanes[0] + lanes[1]) + (lanes[2] + lanes[3]);
 }
 
+/// Where the statistics go; the logarithms are taken of all rows at once, later.
+struct Columns {
+  double* sum_absolute;
+  double* sum_square;
+  double* largest;
+  double* mantissa;
+  double* exponent;
+};
+
 VOUSSOIR_VECTORISED
-void collect(const View& view, const double* table, std::size_t rows, RowStatistics* result) {
+void collect(const View& view, const double* table, std::size_t rows, const Columns& columns) {
   for (std::size_t row = 0; row < rows; ++row) {
     const double* const prediction = table + row * view.points;
     LaneStatistics lanes;
-    double sum_log = 0.0;
+    WideProduct product;
     std::size_t i = 0;
     for (std::size_t step = 1; i + kLanes <= view.points; i += kLanes, ++step) {
       add_errors(view, i, kLanes, prediction, lanes);
-      if (step % kSafeProducts == 0) sum_log += log_product(lanes.product);
+      if (step % kSafeProducts == 0) flush(lanes.product, product);
     }
     if (i < view.points) add_errors(view, i, view.points - i, prediction, lanes);
-    sum_log += log_product(lanes.product);
+    flush(lanes.product, product);
     const Lanes& top = lanes.largest;
-    result[row] = {sum_of(lanes.sum_absolute), sum_of(lanes.sum_square),
-                   std::max(std::max(top[0], top[1]), std::max(top[2], top[3])), sum_log};
+    columns.sum_absolute[row] = sum_of(lanes.sum_absolute);
+    columns.sum_square[row] = sum_of(lanes.sum_square);
+    columns.largest[row] = std::max(std::max(top[0], top[1]), std::max(top[2], top[3]));
+    columns.mantissa[row] = product.mantissa;
+    columns.exponent[row] = product.exponent;
   }
 }
 
@@ -122,14 +142,20 @@ Observation observe(const Measurements& measurements, std::span<const double> in
   return result;
 }
 
-std::vector<RowStatistics> row_statistics(const Observation& observation, const SceneTable& table) {
-  std::vector<RowStatistics> result(table.rows);
+TableStatistics table_statistics(const Observation& observation, const SceneTable& table) {
+  const std::vector<double> zeros(table.rows, 0.0);
+  TableStatistics result{zeros, zeros, zeros, zeros};
+  std::vector<double> exponent = zeros;
   const View view{observation.reading.data(), observation.slope.data(),     observation.offset.data(),
                   observation.intact.data(),  observation.model_error,      1.0 / observation.unit,
                   table.points};
-  collect(view, table.vertical.data(), table.rows, result.data());
+  collect(view, table.vertical.data(), table.rows,
+          {result.sum_absolute.data(), result.sum_square.data(), result.largest.data(), result.sum_log_scale.data(),
+           exponent.data()});
+  make_logarithms(result.sum_log_scale);
   const double shift = static_cast<double>(observation.count) * std::log(observation.unit);
-  for (RowStatistics& row : result) row.sum_log_scale += shift;
+  for (std::size_t row = 0; row < table.rows; ++row)
+    result.sum_log_scale[row] += exponent[row] * std::numbers::ln2 + shift;
   return result;
 }
 

@@ -34,8 +34,14 @@ struct RowStatistics {
 Observation observe(const Measurements& measurements, std::span<const double> intact, const NoiseModel& noise,
                     double level);
 
-/// Statistics of every row of the table.
-std::vector<RowStatistics> row_statistics(const Observation& observation, const SceneTable& table);
+/// The statistics of every row of a table, column by column.
+struct TableStatistics {
+  std::vector<double> sum_absolute, sum_square, largest, sum_log_scale;
+
+  std::size_t rows() const { return largest.size(); }
+  RowStatistics row(std::size_t i) const { return {sum_absolute[i], sum_square[i], largest[i], sum_log_scale[i]}; }
+};
+TableStatistics table_statistics(const Observation& observation, const SceneTable& table);
 
 /// z_i of one row; NaN where there is no reading.
 std::vector<double> standard_errors(const Observation& observation, std::span<const double> prediction);
