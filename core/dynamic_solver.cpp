@@ -161,7 +161,7 @@ class Procession {
     result.moving = moving_blocks(now);
     const bool plain =
         early ? unbalanced >= settings.plain_unbalance : largest >= settings.collapsing_unbalance;
-    const bool falling = !quiet && !result.moving.empty() && (plain || last);
+    const bool falling = !quiet && !result.moving.empty() && plain;
     if (!quiet && !falling && !last) return false;
     result.kinetic_energy = kinetic;
     result.solution.residual = unbalanced;

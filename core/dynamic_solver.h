@@ -23,7 +23,7 @@ struct DynamicSettings {
   double contact_damping = 1e-4;   ///< joints resist what they will see this much later
   double moment = 0.3;             ///< of the field of a scene that collapses
   double earliest_decision = 0.4;  ///< but for collapses that are plain at `moment`
-  double latest_decision = 1.0;  ///< then blocks that have moved away mean a collapse, however slow they are
+  double latest_decision = 1.0;    ///< a scene that neither rests nor falls by then is unresolved
   double standing_unbalance =
       2.3e-4;  ///< sum of the blocks' resultant forces over the bridge's weight [-], at most
   double collapsing_unbalance =
