@@ -151,15 +151,17 @@ class Procession {
     const DynamicSettings& settings = shared_.settings;
     const double unbalanced = lane(motion_.unbalanced, i) / model_.weight;
     const double kinetic = kinetic_energy(model_, motion_, i);
+    const double largest = lane(motion_.largest_unbalanced, i);
     const bool early = time < settings.earliest_decision;
+    const bool last = time >= settings.latest_decision;
     const bool quiet = !early && unbalanced <= settings.standing_unbalance &&
                        kinetic <= unbalanced * shared_.natural.work &&
-                       lane(motion_.largest_unbalanced, i) <= settings.largest_standing_unbalance;
-    const bool last = time >= settings.latest_decision;
+                       largest <= settings.largest_standing_unbalance;
     const Field now = displacement(model_, motion_, i);
-    result.moving = quiet ? std::vector<BlockId>{} : moving_blocks(now);
-    const bool falling = !result.moving.empty() &&
-                         unbalanced >= (early ? settings.plain_unbalance : settings.collapsing_unbalance);
+    result.moving = moving_blocks(now);
+    const bool plain =
+        early ? unbalanced >= settings.plain_unbalance : largest >= settings.collapsing_unbalance;
+    const bool falling = !quiet && !result.moving.empty() && plain;
     if (!quiet && !falling && !last) return false;
     result.kinetic_energy = kinetic;
     result.solution.residual = unbalanced;

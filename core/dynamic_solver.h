@@ -23,14 +23,17 @@ struct DynamicSettings {
   double contact_damping = 1e-4;   ///< joints resist what they will see this much later
   double moment = 0.3;             ///< of the field of a scene that collapses
   double earliest_decision = 0.4;  ///< but for collapses that are plain at `moment`
-  double latest_decision = 1.0;
+  double latest_decision = 1.0;    ///< a scene that neither rests nor falls by then is unresolved
   double standing_unbalance =
       2.3e-4;  ///< sum of the blocks' resultant forces over the bridge's weight [-], at most
-  double collapsing_unbalance = 1e-3;        ///< the same, at least, with blocks that move away
-  double plain_unbalance = 1e-2;             ///< the same for a decision at `moment`
+  double collapsing_unbalance =
+      0.05;  ///< resultant force on a block over its weight, at least, when blocks have moved away
+  double plain_unbalance =
+      1e-2;  ///< unbalance over the bridge's weight, at least, of a collapse that is plain at `moment`
   double largest_standing_unbalance = 1e-2;  ///< resultant force on a block over its weight, at most
-  double moving_sags = 2.0;  ///< blocks that move further than this many sags of the bonded bridge move away
-  int side_by_side = 4;      ///< scenes at a time: 1 or 4; the answers have the same bits
+  double moving_sags =
+      2.0;  ///< blocks that have moved further than this many sags of the bonded bridge have moved away
+  int side_by_side = 4;  ///< scenes at a time: 1 or 4; the answers have the same bits
 };
 
 /// What happened to a scene in motion.
@@ -39,7 +42,8 @@ struct DynamicSolution {
                       ///< `iterations` counts time steps; the field of a collapse is the one at `time`
   double time = 0.0;  ///< of the field [s]
   double kinetic_energy = 0.0;  ///< at the decision [J]
-  std::vector<BlockId> moving;  ///< blocks that had moved away at the decision, ascending
+  std::vector<BlockId> moving;  ///< blocks that had moved away at the decision, ascending; of a standing
+                                ///< scene those that have slid and were caught
 };
 
 /// How much of the bridge a collapse takes.

@@ -11,6 +11,7 @@ constexpr int kMostThreads = 4096;
 constexpr int kBadUsage = 2;
 
 constexpr const char* kFooter =
+    "Example: build-database examples/bridges/small.toml -o small.h5 --scenes 'singles;4,2+5,1..3'\n\n"
     "--scenes takes all, singles, pairs, or items separated by ';': intact, a scene (10,4 or 10,4+6,4), or a "
     "scene with\n"
     "ranges (10,1..20  0,*  10,4+2..4,*). An interrupted build goes on when the same command is run again; a "
