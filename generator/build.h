@@ -22,7 +22,8 @@ struct BuildRequest {
   int threads = 0;             ///< 0: one for each core
   KeepField fields = KeepField::yes;
   UseMirror mirror = UseMirror::yes;
-  bool force = false;  ///< build anew even if the file is up to date
+  std::string xdmf_scenes;  ///< scenes of the XDMF index beside the database; empty: no index
+  bool force = false;       ///< build anew even if the file is up to date
 };
 
 struct UnresolvedScene {

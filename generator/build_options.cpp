@@ -11,6 +11,7 @@ constexpr int kMostThreads = 4096;
 constexpr int kBadUsage = 2;
 
 constexpr const char* kFooter =
+    "Example: build-database examples/bridges/small.toml -o small.h5 --scenes 'singles;4,2+5,1..3'\n\n"
     "--scenes takes all, singles, pairs, or items separated by ';': intact, a scene (10,4 or 10,4+6,4), or a "
     "scene with\n"
     "ranges (10,1..20  0,*  10,4+2..4,*). An interrupted build goes on when the same command is run again; a "
@@ -58,6 +59,8 @@ BuildOptions parse_build_options(int argc, char** argv) {
       ->transform(CLI::Transformer(format_names))
       ->default_str("text")
       ->option_text("text|json");
+  app.add_option("--xdmf", options.request.xdmf_scenes,
+                 "also write an index (.xdmf, .views.h5) with which ParaView opens these scenes");
   app.add_flag("--no-mirror", no_mirror, "solve every scene, even if its mirror image is solved");
   app.add_flag("--force", options.request.force, "build anew even if the file is up to date");
   app.add_flag("--quiet", options.quiet, "no progress and no messages");
