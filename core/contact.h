@@ -96,164 +96,274 @@ VOUSSOIR_INLINE PositivePart<T> positive_part(T length, T at_0, T at_1) {
   return part;
 }
 
+/// A condition in every lane.
+template <class T>
+using Mask = decltype((T{} < T{}) & (T{} < T{}));
+
+/// Where both edges lie along the direction before it is made a unit vector: all that most candidates need.
+template <class T>
+struct RoughCover {
+  Pair<T> along_a;    ///< a1 - a0
+  Pair<T> along_b;    ///< b0 - b1
+  Pair<T> to_b1;      ///< b1 - a0
+  Pair<T> direction;  ///< t times its length
+  T squared;          ///< of that length
+  T a1;               ///< coordinates along the direction, from a0
+  T b1;
+  T b0;
+  Mask<T> b_begins;  ///< the stretch begins at b1, otherwise at a0
+  Mask<T> b_ends;    ///< the stretch ends at b0, otherwise at a1
+  Mask<T> covering;  ///< the edges face each other and cover a stretch
+};
+
+template <class T>
+VOUSSOIR_INLINE RoughCover<T> rough_cover(const EdgeContact& contact, const T& present,
+                                          const std::array<Pair<T>, 4>& places) {
+  const auto& [a0, a1, b0, b1] = places;
+  RoughCover<T> c;
+  c.along_a = a1 - a0;
+  c.along_b = b0 - b1;
+  c.to_b1 = b1 - a0;
+  c.direction = c.along_a * contact.per_length[0] + c.along_b * contact.per_length[1];
+  c.squared = dot(c.direction, c.direction);
+  c.a1 = dot(c.direction, c.along_a);
+  c.b1 = dot(c.direction, c.to_b1);
+  c.b0 = c.b1 + dot(c.direction, c.along_b);
+  c.b_begins = c.b1 > 0.0;
+  c.b_ends = c.b0 < c.a1;
+  c.covering = (c.squared > kNotFacing) & (present > 0.0) & (c.a1 > 0.0) & (c.b0 > 0.0) & (c.b1 < c.a1) &
+               (c.b1 < c.b0);
+  return c;
+}
+
+/// The frame (t, n), the stretch in it, and the gap over the stretch.
+template <class T>
+struct Stretch {
+  T per_direction;  ///< 1 / length of the direction
+  Pair<T> t;
+  Pair<T> n;
+  T reach_a;  ///< extents of the edges along t
+  T reach_b;
+  T per_reach_a;
+  T per_reach_b;
+  T s_b1;
+  T s_b0;
+  T s_0;  ///< the stretch
+  T s_1;
+  T h_a1;  ///< coordinates along n, from a0
+  T h_b1;
+  T h_b0;
+  T slope_a;
+  T slope_b;
+  T gap_at_a0;  ///< the gap's line at s = 0
+  T slope;      ///< d gap / d s
+  T gap_0;      ///< at s_0 and s_1
+  T gap_1;
+  Mask<T> touching;
+};
+
+template <class T>
+VOUSSOIR_INLINE Stretch<T> stretch_of(const RoughCover<T>& c) {
+  const T one = T{} + 1.0;
+  Stretch<T> x;
+  x.per_direction = inverse_root_near_four(c.squared);
+  x.t = c.direction * x.per_direction;
+  x.n = {x.t.y, -x.t.x};
+  x.reach_a = c.covering ? c.a1 * x.per_direction : one;
+  x.reach_b = c.covering ? dot(x.t, c.along_b) : one;
+  x.s_b1 = c.b1 * x.per_direction;
+  x.s_b0 = x.s_b1 + x.reach_b;
+  x.s_0 = c.b_begins ? x.s_b1 : T{};
+  x.s_1 = c.b_ends ? x.s_b0 : x.reach_a;
+  const T per_both = 1.0 / (x.reach_a * x.reach_b);
+  x.per_reach_a = per_both * x.reach_b;
+  x.per_reach_b = per_both * x.reach_a;
+  const T rise_b = dot(x.n, c.along_b);
+  x.h_a1 = dot(x.n, c.along_a);
+  x.h_b1 = dot(x.n, c.to_b1);
+  x.h_b0 = x.h_b1 + rise_b;
+  x.slope_a = x.h_a1 * x.per_reach_a;
+  x.slope_b = rise_b * x.per_reach_b;
+  x.slope = x.slope_b - x.slope_a;
+  x.gap_at_a0 = x.h_b1 - x.slope_b * x.s_b1;
+  x.gap_0 = x.gap_at_a0 + x.slope * x.s_0;
+  x.gap_1 = x.gap_at_a0 + x.slope * x.s_1;
+  x.touching = c.covering & (x.s_1 > x.s_0) & ((x.gap_0 < 0.0) | (x.gap_1 < 0.0));
+  return x;
+}
+
+/// A stress along the stretch: integral and first moment about a0.
+template <class T>
+struct Traction {
+  T total;
+  T moment;
+};
+
+/// Pressure over the closed part of the stretch, and the energy's pull on the nodes that bound it.
+template <class T>
+struct Closure {
+  Traction<T> pressure;
+  T begin;  ///< s of the closed part's beginning
+  T length;
+  T p_0;  ///< pressure at its ends [N/m]
+  T p_1;
+  T pull_0;  ///< along t on the node at the stretch's beginning [N]
+  T pull_1;  ///< against t on the node at its end [N]
+  Mask<T> closed;
+};
+
+template <class T>
+VOUSSOIR_INLINE Closure<T> closure_of(const EdgeContact& contact, const ContactMaterial& material,
+                                      const RoughCover<T>& c, const Stretch<T>& x) {
+  constexpr double kSteepest = 0.05;  // beyond, the bisector of the corner never meets the other face
+  const T zero = T{};
+  const T one = zero + 1.0;
+  const auto& share = contact.corner_share;
+  const T share_0 = c.b_begins ? zero + share[3] : zero + share[0];
+  const T share_1 = c.b_ends ? zero + share[2] : zero + share[1];
+  const T steep_0 = 1.0 + share_0 * x.slope;
+  const T steep_1 = 1.0 - share_1 * x.slope;
+  const auto owned = x.touching & (steep_0 > kSteepest) & (steep_1 > kSteepest);
+  const T q_0 = 1.0 / (owned ? steep_0 : one);
+  const T q_1 = 1.0 / (owned ? steep_1 : one);
+  const T s_begin = x.s_0 + share_0 * q_0 * larger(-x.gap_0, zero);
+  const T s_end = x.s_1 - share_1 * q_1 * larger(-x.gap_1, zero);
+
+  Closure<T> r;
+  r.closed = owned & (s_end > s_begin);
+  const T p_begin = r.closed ? -material.normal * (x.gap_at_a0 + x.slope * s_begin) : zero;
+  const T p_end = r.closed ? -material.normal * (x.gap_at_a0 + x.slope * s_end) : zero;
+  const PositivePart<T> part = positive_part<T>(s_end - s_begin, p_begin, p_end);
+  r.p_0 = larger(p_begin, zero);
+  r.p_1 = larger(p_end, zero);
+  const double half_compliance = 0.5 / material.normal;
+  r.pull_0 = half_compliance * r.p_0 * r.p_0 * q_0;
+  r.pull_1 = half_compliance * r.p_1 * r.p_1 * q_1;
+  const T left_out_0 = share_0 * r.pull_0;  // a deeper face owns less: this much of the pressure does no work
+  const T left_out_1 = share_1 * r.pull_1;
+  r.pressure.total = part.integral - left_out_0 - left_out_1;
+  r.pressure.moment = part.moment + s_begin * part.integral - left_out_0 * s_begin - left_out_1 * s_end;
+  r.begin = s_begin + part.begin;
+  r.length = part.length;
+  return r;
+}
+
+/// Shear stress on the closed part, and what the shear is afterwards.
+template <class T>
+VOUSSOIR_INLINE Traction<T> friction_of(const ContactMaterial& material, const std::array<Pair<T>, 4>& moved,
+                                        const Stretch<T>& x, const Closure<T>& closure,
+                                        ContactShear<T>& shear) {
+  const T zero = T{};
+  const T one = zero + 1.0;
+  const auto& [moved_a0, moved_a1, moved_b0, moved_b1] = moved;
+  const T move_a0 = dot(x.t, moved_a0);
+  const T stretch_a = (dot(x.t, moved_a1) - move_a0) * x.per_reach_a;
+  const T move_b1 = dot(x.t, moved_b1);
+  const T stretch_b = (dot(x.t, moved_b0) - move_b1) * x.per_reach_b;
+  const T slip_at_a0 = move_b1 - stretch_b * x.s_b1 - move_a0;
+  const T slip_slope = stretch_b - stretch_a;
+  const T xi_0 = shear.at_0 + slip_at_a0 + slip_slope * x.s_0;
+  const T xi_1 = shear.at_1 + slip_at_a0 + slip_slope * x.s_1;
+
+  const T xi_slope = (xi_1 - xi_0) / (x.touching ? x.s_1 - x.s_0 : one);
+  const T tau_0 = material.tangential * (xi_0 + xi_slope * (closure.begin - x.s_0));
+  const T tau_1 = tau_0 + material.tangential * xi_slope * closure.length;
+  const T cap_0 = material.friction * closure.p_0;
+  const T cap_1 = material.friction * closure.p_1;
+  const PositivePart<T> above = positive_part<T>(closure.length, tau_0 - cap_0, tau_1 - cap_1);
+  const PositivePart<T> below = positive_part<T>(closure.length, -tau_0 - cap_0, -tau_1 - cap_1);
+  Traction<T> drag;
+  drag.total = 0.5 * closure.length * (tau_0 + tau_1) - above.integral + below.integral;
+  drag.moment = closure.length * closure.length * (tau_0 + 2.0 * tau_1) * (1.0 / 6.0) - above.moment +
+                below.moment + closure.begin * drag.total;
+
+  const T common_above = larger(zero, smaller(tau_0 - cap_0, tau_1 - cap_1));
+  const T common_below = larger(zero, smaller(-tau_0 - cap_0, -tau_1 - cap_1));
+  const T plastic = (common_above - common_below) * (1.0 / material.tangential);
+  const auto in_contact = closure.length > 0.0;
+  shear.at_0 = in_contact ? xi_0 - plastic : zero;
+  shear.at_1 = in_contact ? xi_1 - plastic : zero;
+  return drag;
+}
+
+/// A traction's shares of the four nodes, in the order a0, a1, b0, b1; positive on all.
+template <class T>
+VOUSSOIR_INLINE std::array<T, 4> nodal_shares(const Traction<T>& traction, const Stretch<T>& x) {
+  const T a1 = traction.moment * x.per_reach_a;
+  const T b0 = (traction.moment - x.s_b1 * traction.total) * x.per_reach_b;
+  return {traction.total - a1, a1, b0, traction.total - b0};
+}
+
+/// Forces on the nodes along t and n.
+template <class T>
+struct FrameForces {
+  std::array<T, 4> along;
+  std::array<T, 4> across;
+};
+
+/// What pressure, friction and the pulls at the ends do to the nodes, and what the turning of the frame adds.
+template <class T>
+VOUSSOIR_INLINE FrameForces<T> frame_forces(const EdgeContact& contact, const RoughCover<T>& c,
+                                            const Stretch<T>& x, const Closure<T>& closure,
+                                            const Traction<T>& drag) {
+  const T zero = T{};
+  const std::array<T, 4> p = nodal_shares(closure.pressure, x);
+  const std::array<T, 4> d = nodal_shares(drag, x);
+  FrameForces<T> f;
+  f.along[0] = x.slope_a * p[0] + d[0] + (c.b_begins ? zero : closure.pull_0);
+  f.along[1] = x.slope_a * p[1] + d[1] - (c.b_ends ? zero : closure.pull_1);
+  f.along[2] = -x.slope_b * p[2] - d[2] - (c.b_ends ? closure.pull_1 : zero);
+  f.along[3] = -x.slope_b * p[3] - d[3] + (c.b_begins ? closure.pull_0 : zero);
+  const T turning = (p[1] * x.reach_a - p[3] * x.s_b1 - p[2] * x.s_b0 + x.h_a1 * f.along[1] +
+                     x.h_b1 * f.along[3] + x.h_b0 * f.along[2]) *
+                    x.per_direction;
+  f.across[0] = -p[0] - contact.per_length[0] * turning;
+  f.across[1] = -p[1] + contact.per_length[0] * turning;
+  f.across[2] = p[2] + contact.per_length[1] * turning;
+  f.across[3] = p[3] - contact.per_length[1] * turning;
+  return f;
+}
+
+/// Weakens the forces of edges that hardly face each other, and adds the derivative of the weight.
+template <class T>
+VOUSSOIR_INLINE void fade(const EdgeContact& contact, const ContactMaterial& material, const RoughCover<T>& c,
+                          const Stretch<T>& x, const Closure<T>& closure, FrameForces<T>& f) {
+  constexpr double kRange = kFullyFacingLength - kNotFacingLength;
+  const T one = T{} + 1.0;
+  const T share = smaller(one, larger(T{}, (c.squared * x.per_direction - kNotFacingLength) / kRange));
+  const T weight = share * share * (3.0 - 2.0 * share);
+  const T weight_slope = 6.0 * share * (1.0 - share) / kRange;
+  const T squares = closure.p_0 * closure.p_0 + closure.p_0 * closure.p_1 + closure.p_1 * closure.p_1;
+  const T pull = closure.length * squares * (1.0 / (6.0 * material.normal)) * weight_slope;
+  for (std::size_t i = 0; i < 4; ++i) {
+    f.along[i] = f.along[i] * weight;
+    f.across[i] = f.across[i] * weight;
+  }
+  f.along[0] += contact.per_length[0] * pull;
+  f.along[1] -= contact.per_length[0] * pull;
+  f.along[2] -= contact.per_length[1] * pull;
+  f.along[3] += contact.per_length[1] * pull;
+}
+
 /// Forces of the contact, and the shear carried over to the next evaluation. False, with the shear forgotten
 /// and no forces, if the edges touch in no lane. Lanes in which `present` is 0 have no contact.
 template <class T>
 VOUSSOIR_INLINE bool contact_forces(const EdgeContact& contact, const ContactMaterial& material,
                                     const T& present, const EdgePlaces<T>& edges, ContactShear<T>& shear,
                                     EdgeForces<T>& forces) {
-  const T zero = T{};
-  const T one = zero + 1.0;
-  const auto& [a0, a1, b0, b1] = edges.now;
-  const auto& [moved_a0, moved_a1, moved_b0, moved_b1] = edges.moved;
-  const double per_a = contact.per_length[0];
-  const double per_b = contact.per_length[1];
-
-  // Do both edges cover a stretch? Most candidates do not, so roots and quotients come later.
-  const Pair<T> along_a = a1 - a0;
-  const Pair<T> along_b = b0 - b1;
-  const Pair<T> to_b1 = b1 - a0;
-  const Pair<T> direction = along_a * per_a + along_b * per_b;
-  const T squared = dot(direction, direction);
-  const T rough_a = dot(direction, along_a);
-  const T rough_b1 = dot(direction, to_b1);
-  const T rough_b0 = rough_b1 + dot(direction, along_b);
-  const auto b_begins = rough_b1 > 0.0;
-  const auto b_ends = rough_b0 < rough_a;
-  const auto covering = (squared > kNotFacing) & (present > 0.0) & (rough_a > 0.0) & (rough_b0 > 0.0) &
-                        (rough_b1 < rough_a) & (rough_b1 < rough_b0);
-  if (!any(covering)) {
-    shear.at_0 = zero;
-    shear.at_1 = zero;
+  const RoughCover<T> cover = rough_cover<T>(contact, present, edges.now);
+  const bool some_cover = any(cover.covering);
+  const Stretch<T> stretch = some_cover ? stretch_of(cover) : Stretch<T>{};
+  if (!some_cover || !any(stretch.touching)) {
+    shear = {T{}, T{}};
     return false;
   }
-
-  // The frame and the stretch.
-  const T per_direction = inverse_root_near_four(squared);
-  const Pair<T> t = direction * per_direction;
-  const Pair<T> n = {t.y, -t.x};
-  const T reach_a = covering ? rough_a * per_direction : one;
-  const T reach_b = covering ? dot(t, along_b) : one;
-  const T s_b1 = rough_b1 * per_direction;
-  const T s_b0 = s_b1 + reach_b;
-  const T s_0 = b_begins ? s_b1 : zero;
-  const T s_1 = b_ends ? s_b0 : reach_a;
-
-  // The gap.
-  const T h_a1 = dot(n, along_a);
-  const T h_b1 = dot(n, to_b1);
-  const T rise_b = dot(n, along_b);
-  const T both = 1.0 / (reach_a * reach_b);
-  const T slope_a = h_a1 * both * reach_b;
-  const T slope_b = rise_b * both * reach_a;
-  const T slope = slope_b - slope_a;
-  const T gap_at_a0 = h_b1 - slope_b * s_b1;
-  const T gap_0 = gap_at_a0 + slope * s_0;
-  const T gap_1 = gap_at_a0 + slope * s_1;
-  const auto touching = covering & (s_1 > s_0) & ((gap_0 < 0.0) | (gap_1 < 0.0));
-  if (!any(touching)) {
-    shear.at_0 = zero;
-    shear.at_1 = zero;
-    return false;
-  }
-
-  // What the faces beyond the corners own is left out.
-  const T share_0 = b_begins ? zero + contact.corner_share[3] : zero + contact.corner_share[0];
-  const T share_1 = b_ends ? zero + contact.corner_share[2] : zero + contact.corner_share[1];
-  constexpr double kSteepest = 0.05;
-  const T steep_0 = 1.0 + share_0 * slope;
-  const T steep_1 = 1.0 - share_1 * slope;
-  const auto owned = touching & (steep_0 > kSteepest) & (steep_1 > kSteepest);
-  const T q_0 = 1.0 / (owned ? steep_0 : one);
-  const T q_1 = 1.0 / (owned ? steep_1 : one);
-  const T s_begin = s_0 + share_0 * q_0 * larger(-gap_0, zero);
-  const T s_end = s_1 - share_1 * q_1 * larger(-gap_1, zero);
-  const auto closed = owned & (s_end > s_begin);
-
-  // Pressure over the closed part, and the energy per length at the two ends.
-  const T p_begin = closed ? -material.normal * (gap_at_a0 + slope * s_begin) : zero;
-  const T p_end = closed ? -material.normal * (gap_at_a0 + slope * s_end) : zero;
-  const PositivePart<T> pressure = positive_part<T>(s_end - s_begin, p_begin, p_end);
-  const T p_0 = larger(p_begin, zero);
-  const T p_1 = larger(p_end, zero);
-  const double half_compliance = 0.5 / material.normal;
-  const T energy_0 = half_compliance * p_0 * p_0 * q_0;
-  const T energy_1 = half_compliance * p_1 * p_1 * q_1;
-  const T left_out_0 = share_0 * energy_0;
-  const T left_out_1 = share_1 * energy_1;
-  const T total = pressure.integral - left_out_0 - left_out_1;
-  const T moment = pressure.moment + s_begin * pressure.integral - left_out_0 * s_begin - left_out_1 * s_end;
-
-  // Slip and shear.
-  const T move_a0 = dot(t, moved_a0);
-  const T stretch_a = (dot(t, moved_a1) - move_a0) * both * reach_b;
-  const T move_b1 = dot(t, moved_b1);
-  const T stretch_b = (dot(t, moved_b0) - move_b1) * both * reach_a;
-  const T slip_at_a0 = move_b1 - stretch_b * s_b1 - move_a0;
-  const T slip_slope = stretch_b - stretch_a;
-  const T xi_0 = shear.at_0 + slip_at_a0 + slip_slope * s_0;
-  const T xi_1 = shear.at_1 + slip_at_a0 + slip_slope * s_1;
-  const T s_first = s_begin + pressure.begin;
-  const T xi_slope = (xi_1 - xi_0) / (touching ? s_1 - s_0 : one);
-  const T tau_0 = material.tangential * (xi_0 + xi_slope * (s_first - s_0));
-  const T tau_1 = tau_0 + material.tangential * xi_slope * pressure.length;
-  const T cap_0 = material.friction * p_0;
-  const T cap_1 = material.friction * p_1;
-  const PositivePart<T> above = positive_part<T>(pressure.length, tau_0 - cap_0, tau_1 - cap_1);
-  const PositivePart<T> below = positive_part<T>(pressure.length, -tau_0 - cap_0, -tau_1 - cap_1);
-  const T drag = 0.5 * pressure.length * (tau_0 + tau_1) - above.integral + below.integral;
-  const T drag_moment = pressure.length * pressure.length * (tau_0 + 2.0 * tau_1) * (1.0 / 6.0) -
-                        above.moment + below.moment + s_first * drag;
-  const T common_above = larger(zero, smaller(tau_0 - cap_0, tau_1 - cap_1));
-  const T common_below = larger(zero, smaller(-tau_0 - cap_0, -tau_1 - cap_1));
-  const T plastic = (common_above - common_below) * (1.0 / material.tangential);
-  const auto in_contact = pressure.length > 0.0;
-  shear.at_0 = in_contact ? xi_0 - plastic : zero;
-  shear.at_1 = in_contact ? xi_1 - plastic : zero;
-
-  // Along t and n on every node.
-  const T normal_a1 = moment * both * reach_b;
-  const T normal_a0 = total - normal_a1;
-  const T normal_b0 = (moment - s_b1 * total) * both * reach_a;
-  const T normal_b1 = total - normal_b0;
-  const T drag_a1 = drag_moment * both * reach_b;
-  const T drag_a0 = drag - drag_a1;
-  const T drag_b0 = (drag_moment - s_b1 * drag) * both * reach_a;
-  const T drag_b1 = drag - drag_b0;
-  T along_a0 = slope_a * normal_a0 + drag_a0 + (b_begins ? zero : energy_0);
-  T along_a1 = slope_a * normal_a1 + drag_a1 - (b_ends ? zero : energy_1);
-  T along_b0 = -slope_b * normal_b0 - drag_b0 - (b_ends ? energy_1 : zero);
-  T along_b1 = -slope_b * normal_b1 - drag_b1 + (b_begins ? energy_0 : zero);
-
-  // The frame turns with the edges.
-  const T turning = (normal_a1 * reach_a - normal_b1 * s_b1 - normal_b0 * s_b0 + h_a1 * along_a1 +
-                     h_b1 * along_b1 + (h_b1 + rise_b) * along_b0) *
-                    per_direction;
-  T across_a0 = -normal_a0 - per_a * turning;
-  T across_a1 = -normal_a1 + per_a * turning;
-  T across_b0 = normal_b0 + per_b * turning;
-  T across_b1 = normal_b1 - per_b * turning;
-
-  // Edges that hardly face each other.
-  if (any(closed & (squared < kFullyFacing))) {
-    const T length_of_direction = squared * per_direction;
-    const T x = smaller(one, larger(zero, (length_of_direction - kNotFacingLength) /
-                                              (kFullyFacingLength - kNotFacingLength)));
-    const T weight = x * x * (3.0 - 2.0 * x);
-    const T weight_slope = 6.0 * x * (1.0 - x) / (kFullyFacingLength - kNotFacingLength);
-    const T energy = pressure.length * (p_0 * p_0 + p_0 * p_1 + p_1 * p_1) * (half_compliance / 3.0);
-    const T pull = energy * weight_slope;
-    along_a0 = weight * along_a0 + per_a * pull;
-    along_a1 = weight * along_a1 - per_a * pull;
-    along_b0 = weight * along_b0 - per_b * pull;
-    along_b1 = weight * along_b1 + per_b * pull;
-    across_a0 = across_a0 * weight;
-    across_a1 = across_a1 * weight;
-    across_b0 = across_b0 * weight;
-    across_b1 = across_b1 * weight;
-  }
-  forces = {t * along_a0 + n * across_a0, t * along_a1 + n * across_a1, t * along_b0 + n * across_b0,
-            t * along_b1 + n * across_b1};
+  const Closure<T> closure = closure_of(contact, material, cover, stretch);
+  const Traction<T> drag = friction_of(material, edges.moved, stretch, closure, shear);
+  FrameForces<T> f = frame_forces(contact, cover, stretch, closure, drag);
+  if (any(closure.closed & (cover.squared < kFullyFacing)))
+    fade(contact, material, cover, stretch, closure, f);
+  for (std::size_t i = 0; i < 4; ++i) forces[i] = stretch.t * f.along[i] + stretch.n * f.across[i];
   return true;
 }
 

@@ -12,9 +12,9 @@ enum class Integrator {
   central_differences  ///< all forces explicitly: the plain reference, with steps a few hundred times shorter
 };
 
-/// Longest stable step [s]. The highest frequency omega of the bridge with all joints closed and sticking,
-/// found by power iteration, gives 2 / omega for central differences; forces that see the joints a time
-/// `contact_damping` [s] later shorten it to sqrt(contact_damping^2 + 4 / omega^2) - contact_damping.
+/// Longest stable step [s]: 2 / omega with the highest frequency omega of the bridge with all joints closed
+/// and sticking, found by power iteration. Joints that see the places a time `contact_damping` [s] later act
+/// on a step dt like joints 1 + 2 contact_damping / dt times as stiff.
 double critical_step(const Bridge& bridge, const std::vector<BlockBody>& bodies, Integrator integrator,
                      double contact_damping);
 

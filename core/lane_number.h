@@ -8,9 +8,6 @@
 #include <cmath>
 #include <cstdint>
 
-// Several lanes are handed over inside always-inlined functions only, so no calling convention is concerned.
-#pragma GCC diagnostic ignored "-Wpsabi"
-
 namespace voussoir {
 
 #define VOUSSOIR_INLINE inline __attribute__((always_inline))

@@ -1,7 +1,10 @@
 #include "tools/benchmark_accuracy.h"
 
+#include <algorithm>
 #include <cmath>
 #include <ctime>
+#include <limits>
+#include <optional>
 
 #include "core/dynamic_solver.h"
 #include "core/error.h"

@@ -1,5 +1,6 @@
 #include "core/contact.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <random>

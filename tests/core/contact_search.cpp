@@ -1,8 +1,8 @@
 #include "core/contact_search.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <random>
-#include <set>
 
 #include "core/bridge.h"
 

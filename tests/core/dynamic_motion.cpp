@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
@@ -78,8 +80,12 @@ Bridge block_on_wedge(double slope, double friction_angle) {
   description.wall.length = kLength;
   description.joints.friction_angle = friction_angle;
   description.supports.sides = Support::free;
-  Bridge bridge;
-  bridge.description = description;
+  Bridge bridge{.description = description,
+                .layout = {},
+                .mesh = {},
+                .joints = {},
+                .control_points = {},
+                .symmetry = {}};
   Block wedge;
   wedge.index = {1, 1};
   wedge.polygon = {Point(0.0, 0.0), foot, Point(0.0, kLength * std::tan(slope))};

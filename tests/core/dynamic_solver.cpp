@@ -1,5 +1,6 @@
 #include "core/dynamic_solver.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 
