@@ -35,7 +35,8 @@ void set_inertia(const Mesh& mesh, const Eigen::VectorXd& masses, BlockBody& bod
     body.centre += m * mesh.nodes.col(body.nodes.begin + i);
   }
   body.centre /= body.mass;
-  for (int i = 0; i < n; ++i) body.arms.segment<2>(2 * i) = mesh.nodes.col(body.nodes.begin + i) - body.centre;
+  for (int i = 0; i < n; ++i)
+    body.arms.segment<2>(2 * i) = mesh.nodes.col(body.nodes.begin + i) - body.centre;
   body.inertia = body.arms.dot(body.masses.cwiseProduct(body.arms));
 }
 

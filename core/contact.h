@@ -1,25 +1,27 @@
 #pragma once
 /// @file The joint law between two boundary edges of different blocks in their current places.
 ///
-/// Symbols. Edge A runs from a0 to a1 with its block on the left, edge B from b0 to b1 likewise, so that facing edges
-/// run against each other. t is the direction of (a1 - a0) / L_A + (b0 - b1) / L_B with the lengths L at rest, n is t
-/// turned clockwise and points from A to B; s is the coordinate along t from a0, h the one along n. Both edges cover
-/// [s_0, s_1]. Their gap is linear in s; p = p_n <-gap> is the pressure, P_0 and P_1 its integral and first moment.
+/// Symbols. Edge A runs from a0 to a1 with its block on the left, edge B from b0 to b1 likewise, so that
+/// facing edges run against each other. t is the direction of (a1 - a0) / L_A + (b0 - b1) / L_B with the
+/// lengths L at rest, n is t turned clockwise and points from A to B; s is the coordinate along t from a0, h
+/// the one along n. Both edges cover [s_0, s_1]. Their gap is linear in s; p = p_n <-gap> is the pressure,
+/// P_0 and P_1 its integral and first moment.
 ///
-/// The faces that meet at a corner share out what has penetrated there: a face owns the points nearer to it than to
-/// the other face. So the stretch in contact begins where the depth is the distance from the corner times the tangent
-/// of half the corner's angle. Without this the underside of a block that slides down along another one would be
-/// caught by a sliver of the other's upper face. (Faces that form a joint at rest own all of it: where ring blocks press
-/// each other hard, the corners' shares would count.)
+/// The faces that meet at a corner share out what has penetrated there: a face owns the points nearer to it
+/// than to the other face. So the stretch in contact begins where the depth is the distance from the corner
+/// times the tangent of half the corner's angle. Without this the underside of a block that slides down along
+/// another one would be caught by a sliver of the other's upper face. (Faces that form a joint at rest own
+/// all of it: where ring blocks press each other hard, the corners' shares would count.)
 ///
-/// Without friction the forces are the exact derivatives of the energy  p_n / 2 integral <-gap>^2 ds  with respect to
-/// the four nodes, including how the stretch's ends and the frame (t, n) move, so contact conserves energy, momentum
-/// and angular momentum. Friction acts on both edges at the same s; the couple that its lever arm, the gap, would
-/// leave is taken up by the frame's derivative too.
+/// Without friction the forces are the exact derivatives of the energy  p_n / 2 integral <-gap>^2 ds  with
+/// respect to the four nodes, including how the stretch's ends and the frame (t, n) move, so contact
+/// conserves energy, momentum and angular momentum. Friction acts on both edges at the same s; the couple
+/// that its lever arm, the gap, would leave is taken up by the frame's derivative too.
 ///
-/// Shear: xi(s), linear along the stretch, is the elastic part of the slip; tau = p_t xi, limited point by point to
-/// |tau| <= tan(phi) p and integrated exactly. xi grows by the slip of every step. Where the whole closed stretch slips
-/// one way, the slip that is common to all its points is plastic and leaves xi; an open contact forgets xi.
+/// Shear: xi(s), linear along the stretch, is the elastic part of the slip; tau = p_t xi, limited point by
+/// point to |tau| <= tan(phi) p and integrated exactly. xi grows by the slip of every step. Where the whole
+/// closed stretch slips one way, the slip that is common to all its points is plastic and leaves xi; an open
+/// contact forgets xi.
 
 #include <array>
 
@@ -27,8 +29,8 @@
 
 namespace voussoir {
 
-/// Edges whose directions differ by more than 60 degrees do not face each other; from 45 degrees on, the contact
-/// fades (squared length of t before it is made a unit vector: 2 + 2 cos(angle)).
+/// Edges whose directions differ by more than 60 degrees do not face each other; from 45 degrees on, the
+/// contact fades (squared length of t before it is made a unit vector: 2 + 2 cos(angle)).
 inline constexpr double kNotFacing = 3.0;
 inline constexpr double kFullyFacing = 3.4142135623730951;
 inline constexpr double kNotFacingLength = 1.7320508075688772;
@@ -36,10 +38,11 @@ inline constexpr double kFullyFacingLength = 1.8477590650225735;
 
 /// What the contact of two edges needs to know, the same in all scenes.
 struct EdgeContact {
-  std::array<int, 4> nodes;           ///< a0, a1, b0, b1
-  std::array<int, 2> blocks;          ///< of A and B
-  std::array<double, 2> per_length;   ///< 1 / L_A, 1 / L_B [1/m]
-  std::array<double, 4> corner_share;  ///< 1 / tan(half the angle) at the nodes; 0 where the boundary runs on straight
+  std::array<int, 4> nodes;          ///< a0, a1, b0, b1
+  std::array<int, 2> blocks;         ///< of A and B
+  std::array<double, 2> per_length;  ///< 1 / L_A, 1 / L_B [1/m]
+  std::array<double, 4>
+      corner_share;  ///< 1 / tan(half the angle) at the nodes; 0 where the boundary runs on straight
 };
 
 /// Joint material per unit length of joint (times the thickness).
@@ -93,11 +96,12 @@ VOUSSOIR_INLINE PositivePart<T> positive_part(T length, T at_0, T at_1) {
   return part;
 }
 
-/// Forces of the contact, and the shear carried over to the next evaluation. False, with the shear forgotten and no
-/// forces, if the edges touch in no lane. Lanes in which `present` is 0 have no contact.
+/// Forces of the contact, and the shear carried over to the next evaluation. False, with the shear forgotten
+/// and no forces, if the edges touch in no lane. Lanes in which `present` is 0 have no contact.
 template <class T>
 VOUSSOIR_INLINE bool contact_forces(const EdgeContact& contact, const ContactMaterial& material,
-                                    const T& present, const EdgePlaces<T>& edges, ContactShear<T>& shear, EdgeForces<T>& forces) {
+                                    const T& present, const EdgePlaces<T>& edges, ContactShear<T>& shear,
+                                    EdgeForces<T>& forces) {
   const T zero = T{};
   const T one = zero + 1.0;
   const auto& [a0, a1, b0, b1] = edges.now;
@@ -178,8 +182,7 @@ VOUSSOIR_INLINE bool contact_forces(const EdgeContact& contact, const ContactMat
   const T left_out_0 = share_0 * energy_0;
   const T left_out_1 = share_1 * energy_1;
   const T total = pressure.integral - left_out_0 - left_out_1;
-  const T moment =
-      pressure.moment + s_begin * pressure.integral - left_out_0 * s_begin - left_out_1 * s_end;
+  const T moment = pressure.moment + s_begin * pressure.integral - left_out_0 * s_begin - left_out_1 * s_end;
 
   // Slip and shear.
   const T move_a0 = dot(t, moved_a0);

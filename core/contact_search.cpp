@@ -72,8 +72,12 @@ std::vector<int> edges_by_first_node(const Mesh& mesh) {
 }  // namespace
 
 ContactSearch::ContactSearch(const Mesh& mesh, const std::vector<Joint>& joints)
-    : mesh_(&mesh), edge_block_(mesh.edges.size()), corner_share_(static_cast<std::size_t>(mesh.node_count())) {
-  const auto along = [&](const BoundaryEdge& e) -> Point { return mesh.position(e.to) - mesh.position(e.from); };
+    : mesh_(&mesh),
+      edge_block_(mesh.edges.size()),
+      corner_share_(static_cast<std::size_t>(mesh.node_count())) {
+  const auto along = [&](const BoundaryEdge& e) -> Point {
+    return mesh.position(e.to) - mesh.position(e.from);
+  };
   for (std::size_t block = 0; block < mesh.block_edges.size(); ++block) {
     const auto first = mesh.edges.begin() + mesh.block_edges[block].begin;
     const auto last = mesh.edges.begin() + mesh.block_edges[block].end;
@@ -90,8 +94,8 @@ ContactSearch::ContactSearch(const Mesh& mesh, const std::vector<Joint>& joints)
   std::sort(joined_.begin(), joined_.end());
 }
 
-std::vector<EdgePair> ContactSearch::candidates(const Eigen::Matrix2Xd& places, const std::vector<bool>& absent,
-                                                double margin) const {
+std::vector<EdgePair> ContactSearch::candidates(const Eigen::Matrix2Xd& places,
+                                                const std::vector<bool>& absent, double margin) const {
   const auto along = [&](const BoundaryEdge& e) -> Point {
     return places.col(value(e.to)) - places.col(value(e.from));
   };

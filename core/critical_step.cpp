@@ -30,10 +30,12 @@ std::vector<JointSpring> joint_springs(const Bridge& bridge) {
   return springs;
 }
 
-void add_spring_forces(const std::vector<JointSpring>& springs, const Eigen::VectorXd& u, Eigen::VectorXd& forces) {
+void add_spring_forces(const std::vector<JointSpring>& springs, const Eigen::VectorXd& u,
+                       Eigen::VectorXd& forces) {
   for (const JointSpring& spring : springs) {
     Vector8d q;
-    for (int i = 0; i < 4; ++i) q.segment<2>(2 * i) = u.segment<2>(2 * spring.nodes[static_cast<std::size_t>(i)]);
+    for (int i = 0; i < 4; ++i)
+      q.segment<2>(2 * i) = u.segment<2>(2 * spring.nodes[static_cast<std::size_t>(i)]);
     const Vector8d f = spring.stiffness * q;
     for (int i = 0; i < 4; ++i)
       forces.segment<2>(2 * spring.nodes[static_cast<std::size_t>(i)]) += f.segment<2>(2 * i);
@@ -41,7 +43,8 @@ void add_spring_forces(const std::vector<JointSpring>& springs, const Eigen::Vec
 }
 
 /// Per block: what a step makes of forces [1/kg].
-std::vector<Eigen::MatrixXd> mobilities(const std::vector<BlockBody>& bodies, Integrator integrator, double step) {
+std::vector<Eigen::MatrixXd> mobilities(const std::vector<BlockBody>& bodies, Integrator integrator,
+                                        double step) {
   std::vector<Eigen::MatrixXd> result;
   for (const BlockBody& body : bodies)
     result.push_back(step_response(body, integrator == Integrator::implicit_blocks ? step : 0.0));
@@ -71,7 +74,8 @@ double highest_frequency(const Bridge& bridge, const std::vector<BlockBody>& bod
       if (integrator == Integrator::central_differences)
         y.segment(2 * nodes.begin, 2 * nodes.size()) +=
             bodies[b].stiffness * x.segment(2 * nodes.begin, 2 * nodes.size());
-      y.segment(2 * nodes.begin, 2 * nodes.size()) = mobility[b] * y.segment(2 * nodes.begin, 2 * nodes.size());
+      y.segment(2 * nodes.begin, 2 * nodes.size()) =
+          mobility[b] * y.segment(2 * nodes.begin, 2 * nodes.size());
     }
     squared = y.norm();
     x = y;
@@ -82,7 +86,8 @@ double highest_frequency(const Bridge& bridge, const std::vector<BlockBody>& bod
 Eigen::VectorXd masses_of_unknowns(const Bridge& bridge, const EquilibriumSystem& system) {
   const Eigen::VectorXd masses = lumped_masses(bridge);
   Eigen::VectorXd result(system.unknown_count());
-  for (int i = 0; i < result.size(); ++i) result[i] = masses[system.component[static_cast<std::size_t>(i)] / 2];
+  for (int i = 0; i < result.size(); ++i)
+    result[i] = masses[system.component[static_cast<std::size_t>(i)] / 2];
   return result;
 }
 
@@ -94,7 +99,8 @@ double critical_step(const Bridge& bridge, const std::vector<BlockBody>& bodies,
     const double half_period = 2.0 / highest_frequency(bridge, bodies, integrator, step);
     return std::hypot(contact_damping, half_period) - contact_damping;
   };
-  const double for_rigid_blocks = stable(1.0);  // elasticity as soft as a very long step makes it: an upper bound
+  const double for_rigid_blocks =
+      stable(1.0);  // elasticity as soft as a very long step makes it: an upper bound
   return integrator == Integrator::implicit_blocks ? stable(for_rigid_blocks) : for_rigid_blocks;
 }
 
@@ -105,7 +111,8 @@ NaturalMotion natural_motion(const Bridge& bridge) {
   const Field forces = assemble(system, removed, Field::Zero(2, bridge.mesh.node_count()), 1.0,
                                 {.first = stiffness.valuePtr(), .stride = 1});
   Eigen::VectorXd load(system.unknown_count());
-  for (int i = 0; i < load.size(); ++i) load[i] = forces.data()[system.component[static_cast<std::size_t>(i)]];
+  for (int i = 0; i < load.size(); ++i)
+    load[i] = forces.data()[system.component[static_cast<std::size_t>(i)]];
   const Eigen::VectorXd masses = masses_of_unknowns(bridge, system);
   const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> linear(stiffness);
   const Eigen::VectorXd sag = linear.solve(load);

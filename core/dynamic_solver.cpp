@@ -10,9 +10,9 @@
 namespace voussoir {
 namespace {
 
-constexpr double kOfCritical = 0.9;        ///< default step; the power iteration comes from below
-constexpr double kDampingShare = 0.5;      ///< of the critical damping
-constexpr double kSearchMargin = 0.01;     ///< of the mean block size: contacts are searched this far
+constexpr double kOfCritical = 0.9;         ///< default step; the power iteration comes from below
+constexpr double kDampingShare = 0.5;       ///< of the critical damping
+constexpr double kSearchMargin = 0.01;      ///< of the mean block size: contacts are searched this far
 constexpr double kTimeBetweenLooks = 0.01;  ///< [s] between two looks at a scene
 
 double mean_block_size(const Bridge& bridge) {
@@ -24,9 +24,10 @@ double mean_block_size(const Bridge& bridge) {
 double checked_step(const DynamicSettings& settings, double critical) {
   if (!settings.step) return kOfCritical * critical;
   if (!(*settings.step > 0.0) || *settings.step > critical)
-    throw InputError(fmt::format("a time step of {} s is not stable: the joints' stiffness against the blocks' masses "
-                                 "allows steps up to {:.3g} s",
-                                 *settings.step, critical));
+    throw InputError(
+        fmt::format("a time step of {} s is not stable: the joints' stiffness against the blocks' masses "
+                    "allows steps up to {:.3g} s",
+                    *settings.step, critical));
   return *settings.step;
 }
 
@@ -84,7 +85,11 @@ template <class T, class Shared>
 class Procession {
  public:
   Procession(const Shared& shared, std::span<const Scene> scenes)
-      : shared_(shared), model_(shared.model), scenes_(scenes), solutions_(scenes.size()), motion_(at_rest<T>(model_)) {}
+      : shared_(shared),
+        model_(shared.model),
+        scenes_(scenes),
+        solutions_(scenes.size()),
+        motion_(at_rest<T>(model_)) {}
 
   std::vector<DynamicSolution> run() {
     for (int lane = 0; lane < kLaneCount<T>; ++lane) start_next(lane);
@@ -118,7 +123,8 @@ class Procession {
   void prepare_step() {
     for (int i = 0; i < kLaneCount<T>; ++i) {
       const LaneRun& run = runs_[static_cast<std::size_t>(i)];
-      set_lane(motion_.load, i, load_share(static_cast<double>(run.steps + 1) * model_.step, shared_.settings.ramp));
+      set_lane(motion_.load, i,
+               load_share(static_cast<double>(run.steps + 1) * model_.step, shared_.settings.ramp));
     }
     if (any(motion_.travel > 0.5 * shared_.margin)) search_contacts(model_, shared_.margin, motion_);
   }
@@ -145,14 +151,17 @@ class Procession {
     const DynamicSettings& settings = shared_.settings;
     const double unbalanced = lane(motion_.unbalanced, i) / model_.weight;
     const double kinetic = kinetic_energy(model_, motion_, i);
+    const double largest = lane(motion_.largest_unbalanced, i);
     const bool early = time < settings.earliest_decision;
-    const bool quiet = !early && unbalanced <= settings.standing_unbalance && kinetic <= unbalanced * shared_.natural.work &&
-                       lane(motion_.largest_unbalanced, i) <= settings.largest_standing_unbalance;
     const bool last = time >= settings.latest_decision;
+    const bool quiet = !early && unbalanced <= settings.standing_unbalance &&
+                       kinetic <= unbalanced * shared_.natural.work &&
+                       largest <= settings.largest_standing_unbalance;
     const Field now = displacement(model_, motion_, i);
-    result.moving = quiet ? std::vector<BlockId>{} : moving_blocks(now);
-    const bool falling = !result.moving.empty() &&
-                         unbalanced >= (early ? settings.plain_unbalance : settings.collapsing_unbalance);
+    result.moving = moving_blocks(now);
+    const bool plain =
+        early ? unbalanced >= settings.plain_unbalance : largest >= settings.collapsing_unbalance;
+    const bool falling = !quiet && !result.moving.empty() && plain;
     if (!quiet && !falling && !last) return false;
     result.kinetic_energy = kinetic;
     result.solution.residual = unbalanced;
@@ -187,7 +196,8 @@ class Procession {
 
 CollapseExtent collapse_extent(const BlockLayout& layout, const std::vector<BlockId>& moving) {
   if (moving.empty()) return CollapseExtent::none;
-  const bool ring = std::any_of(moving.begin(), moving.end(), [&](BlockId b) { return layout[b].index.course == 0; });
+  const bool ring =
+      std::any_of(moving.begin(), moving.end(), [&](BlockId b) { return layout[b].index.course == 0; });
   return ring ? CollapseExtent::arch : CollapseExtent::local;
 }
 

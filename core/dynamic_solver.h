@@ -1,5 +1,6 @@
 #pragma once
-/// @file Scenes in motion: gravity grows on the bridge without the scene's blocks, and what happens decides the outcome.
+/// @file Scenes in motion: gravity grows on the bridge without the scene's blocks, and what happens decides
+/// the outcome.
 
 #include <memory>
 #include <optional>
@@ -15,28 +16,34 @@ namespace voussoir {
 /// Times in seconds of the bridge's own time.
 struct DynamicSettings {
   Integrator integrator = Integrator::implicit_blocks;
-  std::optional<double> step;     ///< empty: 0.9 times the critical step
-  double ramp = 0.3;              ///< gravity grows from 0 as 3 x^2 - 2 x^3, x = time / ramp; 0: at once
-  std::optional<double> damping;  ///< force per mass and velocity [1/s]; empty: half-critical of the lowest frequency
-  double contact_damping = 1e-4;  ///< joints resist what they will see this much later
-  double moment = 0.3;            ///< of the field of a scene that collapses
+  std::optional<double> step;  ///< empty: 0.9 times the critical step
+  double ramp = 0.3;           ///< gravity grows from 0 as 3 x^2 - 2 x^3, x = time / ramp; 0: at once
+  std::optional<double>
+      damping;  ///< force per mass and velocity [1/s]; empty: half-critical of the lowest frequency
+  double contact_damping = 1e-4;   ///< joints resist what they will see this much later
+  double moment = 0.3;             ///< of the field of a scene that collapses
   double earliest_decision = 0.4;  ///< but for collapses that are plain at `moment`
-  double latest_decision = 1.0;
-  double standing_unbalance = 2.3e-4;   ///< sum of the blocks' resultant forces over the bridge's weight [-], at most
-  double collapsing_unbalance = 1e-3;   ///< the same, at least, with blocks that move away
-  double plain_unbalance = 1e-2;        ///< the same for a decision at `moment`
+  double latest_decision = 1.0;    ///< a scene that neither rests nor falls by then is unresolved
+  double standing_unbalance =
+      2.3e-4;  ///< sum of the blocks' resultant forces over the bridge's weight [-], at most
+  double collapsing_unbalance =
+      0.05;  ///< resultant force on a block over its weight, at least, when blocks have moved away
+  double plain_unbalance =
+      1e-2;  ///< unbalance over the bridge's weight, at least, of a collapse that is plain at `moment`
   double largest_standing_unbalance = 1e-2;  ///< resultant force on a block over its weight, at most
-  double moving_sags = 2.0;  ///< blocks that move further than this many sags of the bonded bridge move away
-  int side_by_side = 4;      ///< scenes at a time: 1 or 4; the answers have the same bits
+  double moving_sags =
+      2.0;  ///< blocks that have moved further than this many sags of the bonded bridge have moved away
+  int side_by_side = 4;  ///< scenes at a time: 1 or 4; the answers have the same bits
 };
 
 /// What happened to a scene in motion.
 struct DynamicSolution {
-  Solution solution;            ///< `residual` is the sum of the blocks' resultant forces over the bridge's weight;
-                                ///< `iterations` counts time steps; the field of a collapse is the one at `time`
-  double time = 0.0;            ///< of the field [s]
+  Solution solution;  ///< `residual` is the sum of the blocks' resultant forces over the bridge's weight;
+                      ///< `iterations` counts time steps; the field of a collapse is the one at `time`
+  double time = 0.0;  ///< of the field [s]
   double kinetic_energy = 0.0;  ///< at the decision [J]
-  std::vector<BlockId> moving;  ///< blocks that had moved away at the decision, ascending
+  std::vector<BlockId> moving;  ///< blocks that had moved away at the decision, ascending; of a standing
+                                ///< scene those that have slid and were caught
 };
 
 /// How much of the bridge a collapse takes.
@@ -51,8 +58,9 @@ CollapseExtent collapse_extent(const BlockLayout& layout, const std::vector<Bloc
 /// "none", "local", "arch"
 std::string_view to_string(CollapseExtent extent);
 
-/// Follows scenes of one bridge, several side by side; lanes that finish early take the next scene. A solution depends
-/// on its scene only, to the last bit. Not thread-safe: one solver a thread. The bridge must outlive the solver.
+/// Follows scenes of one bridge, several side by side; lanes that finish early take the next scene. A
+/// solution depends on its scene only, to the last bit. Not thread-safe: one solver a thread. The bridge must
+/// outlive the solver.
 class DynamicSolver {
  public:
   /// Throws InputError for a step above the critical one and for settings that make no sense.

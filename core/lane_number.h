@@ -1,8 +1,9 @@
 #pragma once
 /// @file Numbers that are one double, or several side by side, one for each scene of a group.
 ///
-/// Kernels are templates on such a number. Conditions are masks (bool, or one for each lane), `mask ? a : b` picks
-/// lane by lane, and no operation mixes lanes: a lane's bits do not depend on what the other lanes hold.
+/// Kernels are templates on such a number. Conditions are masks (bool, or one for each lane), `mask ? a : b`
+/// picks lane by lane, and no operation mixes lanes: a lane's bits do not depend on what the other lanes
+/// hold.
 
 #include <cmath>
 #include <cstdint>
@@ -75,8 +76,8 @@ VOUSSOIR_INLINE T square_root(T a) {
   return root;
 }
 
-/// 1 / sqrt(a) to round-off for a in [3, 4.2]; a is taken to the nearer end outside. Without roots and quotients, which
-/// take longest of all.
+/// 1 / sqrt(a) to round-off for a in [3, 4.2]; a is taken to the nearer end outside. Without roots and
+/// quotients, which take longest of all.
 template <class T>
 VOUSSOIR_INLINE T inverse_root_near_four(T a) {
   const T bounded = smaller(larger(a, T{} + 3.0), T{} + 4.2);
@@ -97,8 +98,8 @@ VOUSSOIR_INLINE bool any(const Mask& mask) {
   }
 }
 
-/// A number by itself in memory. Aligned for the widest instruction set that any clone of a kernel may use, which the
-/// compiler does not do when it compiles for the oldest.
+/// A number by itself in memory. Aligned for the widest instruction set that any clone of a kernel may use,
+/// which the compiler does not do when it compiles for the oldest.
 template <class T>
 struct alignas(sizeof(T)) Cell {
   T value;

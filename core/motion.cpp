@@ -61,7 +61,8 @@ MotionModel::MotionModel(const Bridge& bridge_, double step_, double damping_, d
     responses.insert(responses.end(), response.data(), response.data() + response.size());
   }
   weight = masses.sum() * gravity;
-  for (const BlockBody& body : bodies) per_weight.push_back(gravity > 0.0 ? 1.0 / (body.mass * gravity) : 0.0);
+  for (const BlockBody& body : bodies)
+    per_weight.push_back(gravity > 0.0 ? 1.0 / (body.mass * gravity) : 0.0);
 }
 
 template <class T>
@@ -165,11 +166,11 @@ double kinetic_energy(const MotionModel& model, const Motion<T>& motion, int i) 
   return energy;
 }
 
-#define VOUSSOIR_INSTANTIATE(T)                                                                        \
-  template Motion<T> at_rest<T>(const MotionModel&);                                                   \
-  template void place_scene<T>(const MotionModel&, const std::vector<bool>&, int, Motion<T>&);         \
-  template void search_contacts<T>(const MotionModel&, double, Motion<T>&);                            \
-  template Field displacement<T>(const MotionModel&, const Motion<T>&, int);                           \
+#define VOUSSOIR_INSTANTIATE(T)                                                                \
+  template Motion<T> at_rest<T>(const MotionModel&);                                           \
+  template void place_scene<T>(const MotionModel&, const std::vector<bool>&, int, Motion<T>&); \
+  template void search_contacts<T>(const MotionModel&, double, Motion<T>&);                    \
+  template Field displacement<T>(const MotionModel&, const Motion<T>&, int);                   \
   template double kinetic_energy<T>(const MotionModel&, const Motion<T>&, int);
 VOUSSOIR_INSTANTIATE(Lanes<1>)
 VOUSSOIR_INSTANTIATE(Lanes<4>)

@@ -1,5 +1,6 @@
 #pragma once
-/// @file The inner loops of a time step, for any number of lanes. Included by one source file for each instruction set.
+/// @file The inner loops of a time step, for any number of lanes. Included by one source file for each
+/// instruction set.
 
 #include "core/motion.h"
 
@@ -40,7 +41,8 @@ MotionView<T> view_of(Motion<T>& motion) {
 
 /// forces += contact, at the places that the nodes will have `ahead` steps later: contact damping.
 template <class T>
-VOUSSOIR_INLINE void add_contact_forces(const ContactMaterial& material, double ahead, const MotionView<T>& view) {
+VOUSSOIR_INLINE void add_contact_forces(const ContactMaterial& material, double ahead,
+                                        const MotionView<T>& view) {
   for (std::size_t c = 0; c < view.contact_count; ++c) {
     const EdgeContact& contact = view.contacts[c];
     const T present = view.present[contact.blocks[0]].value * view.present[contact.blocks[1]].value;
@@ -66,7 +68,8 @@ VOUSSOIR_INLINE Pair<T> turned_back(const Pair<T>& v, const Pair<T>& rotation) {
   return {rotation.x * v.x + rotation.y * v.y, rotation.x * v.y - rotation.y * v.x};
 }
 
-/// The rotation by a small angle more: the rational approximation of the rotation matrix, made a unit vector again.
+/// The rotation by a small angle more: the rational approximation of the rotation matrix, made a unit vector
+/// again.
 template <class T>
 VOUSSOIR_INLINE Pair<T> turned_by(const Pair<T>& rotation, T angle) {
   const T half = 0.5 * angle;
@@ -85,7 +88,8 @@ struct Resultant {
 };
 
 template <class T>
-VOUSSOIR_INLINE Resultant<T> resultant(const BlockBody& body, const Pair<T>& centre, const MotionView<T>& view) {
+VOUSSOIR_INLINE Resultant<T> resultant(const BlockBody& body, const Pair<T>& centre,
+                                       const MotionView<T>& view) {
   Resultant<T> sum = {{T{}, T{}}, T{}};
   for (int i = body.nodes.begin; i < body.nodes.end; ++i) {
     const Pair<T>& force = view.forces[i];
@@ -153,11 +157,11 @@ VOUSSOIR_INLINE void add_weight(const BlockBody& body, T pull, const MotionView<
   }
 }
 
-/// Central differences for a free block's frame. Damping acts on the mean of the velocities before and after, so that
-/// `kept` of the old one is left and the force acts for the time `gained`.
+/// Central differences for a free block's frame. Damping acts on the mean of the velocities before and after,
+/// so that `kept` of the old one is left and the force acts for the time `gained`.
 template <class T>
-VOUSSOIR_INLINE void move_frame(const BlockBody& body, const Resultant<T>& sum, double step, double kept, double gained,
-                                BlockFrame<T>& frame) {
+VOUSSOIR_INLINE void move_frame(const BlockBody& body, const Resultant<T>& sum, double step, double kept,
+                                double gained, BlockFrame<T>& frame) {
   frame.velocity = frame.velocity * kept + sum.force * (gained / body.mass);
   frame.spin = frame.spin * kept + sum.moment * (gained / body.inertia);
   frame.centre = frame.centre + frame.velocity * step;

@@ -19,7 +19,8 @@ void add_element_forces(const MotionModel& model, Motion<Lanes<1>>& motion) {
         triangle_force(model.triangles[t], model.moduli, model.bridge->description.material.thickness, q);
     for (std::size_t i = 0; i < 3; ++i) {
       Pair<double>& sum = motion.forces[static_cast<std::size_t>(value(nodes[i]))];
-      sum = sum - Pair<double>{force[2 * static_cast<Eigen::Index>(i)], force[2 * static_cast<Eigen::Index>(i) + 1]};
+      sum = sum - Pair<double>{force[2 * static_cast<Eigen::Index>(i)],
+                               force[2 * static_cast<Eigen::Index>(i) + 1]};
     }
   }
 }

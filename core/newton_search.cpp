@@ -83,7 +83,8 @@ void NewtonSearch::begin_next_phase() {
       begin(SearchPhase::quick, at_rest(), 1.0);
       break;
     case SearchPhase::quick:
-      phase_ = SearchPhase::falling;  // from where the search is
+      phase_ =
+          settings_->follow_falls ? SearchPhase::falling : SearchPhase::done;  // from where the search is
       phase_iterations_ = 0;
       break;
     case SearchPhase::falling:

@@ -19,6 +19,7 @@ struct QuasiStaticSettings {
       12;                    ///< factorisations from a given start before the search starts again from zero
   int most_iterations = 30;  ///< factorisations of a search from zero
   int most_falling_iterations = 40;    ///< factorisations of a fall
+  bool follow_falls = true;            ///< false: a search without hope ends there, `unresolved`
   double collapse_displacement = 0.1;  ///< [m] a standing bridge moves less; beyond it blocks are falling
 };
 

@@ -18,9 +18,11 @@ std::string_view to_string(Outcome outcome);
 
 struct Solution {
   Outcome outcome = Outcome::unresolved;
-  Field displacement;     ///< [m], 2 x nodes; NaN at nodes of removed blocks
-  double residual = 0.0;  ///< largest unbalanced nodal force over the largest nodal weight [-]
-  int iterations = 0;     ///< Newton iterations (factorisations) spent
+  Field displacement;  ///< [m], 2 x nodes; NaN at nodes of removed blocks
+  double residual =
+      0.0;  ///< of equilibrium: largest unbalanced nodal force over the largest nodal weight [-]; of
+            ///< a collapse in motion: sum of the blocks' resultant forces over the bridge's weight [-]
+  int iterations = 0;  ///< linear systems solved; time steps for a collapse in motion
 };
 
 }  // namespace voussoir

@@ -8,8 +8,8 @@ extern "C" herr_t keep_description(unsigned, const H5E_error2_t* error, void* te
   return 0;
 }
 
-/// HDF5 is not shut down at exit either: after a write that failed (disk full) its shutdown works on a file already
-/// freed and crashes, and everything that matters has been closed by then.
+/// HDF5 is not shut down at exit either: after a write that failed (disk full) its shutdown works on a file
+/// already freed and crashes, and everything that matters has been closed by then.
 bool quieten() {
   H5dont_atexit();
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);

@@ -141,6 +141,26 @@ void Hdf5Output::add_chunk(const Hdf5Handle& field_dataset, std::uint64_t row, B
         "cannot be written");
 }
 
+void Hdf5Output::add_field_view(const std::string& name, const std::string& database, std::uint64_t rows,
+                                std::uint64_t nodes, std::uint64_t row) {
+  const Hdf5Handle source = make_space({rows, nodes, 2});
+  const Hdf5Handle view = make_space({nodes, 3});
+  const std::array<hsize_t, 3> source_start = {row, 0, 0};
+  const std::array<hsize_t, 3> source_count = {1, nodes, 2};
+  const std::array<hsize_t, 2> view_start = {0, 0};
+  const std::array<hsize_t, 2> view_count = {nodes, 2};
+  H5Sselect_hyperslab(source.get(), H5S_SELECT_SET, source_start.data(), nullptr, source_count.data(),
+                      nullptr);
+  H5Sselect_hyperslab(view.get(), H5S_SELECT_SET, view_start.data(), nullptr, view_count.data(), nullptr);
+  const Hdf5Handle creation = without_times(H5P_DATASET_CREATE);
+  H5Pset_virtual(creation.get(), view.get(), database.c_str(), dataset::kField, source.get());
+  H5Sselect_all(view.get());
+  const Hdf5Handle made(H5Dcreate2(file_.get(), name.c_str(), H5T_IEEE_F64LE, view.get(), H5P_DEFAULT,
+                                   creation.get(), H5P_DEFAULT),
+                        H5Dclose);
+  check(static_cast<bool>(made), "cannot be written");
+}
+
 void Hdf5Output::close() {
   errno = 0;
   check(H5Fflush(file_.get(), H5F_SCOPE_GLOBAL) >= 0, "cannot be written");

@@ -21,6 +21,10 @@ class Hdf5Output {
   /// fields/displacement: rows x nodes x 2, one compressed chunk a row, to be filled by add_chunk.
   Hdf5Handle add_field_dataset(std::uint64_t rows, std::uint64_t nodes);
   void add_chunk(const Hdf5Handle& field_dataset, std::uint64_t row, ByteView packed);
+  /// A virtual dataset, nodes x 3: row `row` of fields/displacement in `database` (a file in the same
+  /// folder), z zero.
+  void add_field_view(const std::string& name, const std::string& database, std::uint64_t rows,
+                      std::uint64_t nodes, std::uint64_t row);
   /// Hands everything to the operating system.
   void close();
 

@@ -10,6 +10,7 @@
 
 #include "core/error.h"
 #include "database/writer.h"
+#include "database/xdmf.h"
 #include "generator/build_settings.h"
 #include "generator/existing_database.h"
 #include "generator/known_records.h"
@@ -171,6 +172,12 @@ void run(const Build& build, std::optional<Database> old, BuildSummary& summary)
   known.journal().remove();
 }
 
+void write_index(const Build& build) {
+  if (build.request.xdmf_scenes.empty()) return;
+  write_index(Database::open(build.request.output),
+              parse_scene_list(build.request.xdmf_scenes, build.bridge.layout));
+}
+
 }  // namespace
 
 BuildSummary build_database(const BuildRequest& request, const SolverChoice& solver, Progress& progress) {
@@ -189,6 +196,7 @@ BuildSummary build_database(const BuildRequest& request, const SolverChoice& sol
       progress.say(fmt::format("{} is built anew: {}", request.output.string(), change));
     run(build, existing.reusable ? std::move(existing.database) : std::nullopt, summary);
   }
+  write_index(build);
   summary.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
   return summary;
 }

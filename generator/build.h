@@ -11,7 +11,8 @@
 
 namespace voussoir {
 
-/// The most scenes that one thread solves before it keeps their records: what a killed build can lose a thread.
+/// The most scenes that one thread solves before it keeps their records: what a killed build can lose a
+/// thread.
 inline constexpr std::size_t kLargestBatch = 32;
 
 struct BuildRequest {
@@ -21,7 +22,8 @@ struct BuildRequest {
   int threads = 0;             ///< 0: one for each core
   KeepField fields = KeepField::yes;
   UseMirror mirror = UseMirror::yes;
-  bool force = false;  ///< build anew even if the file is up to date
+  std::string xdmf_scenes;  ///< scenes of the XDMF index beside the database; empty: no index
+  bool force = false;       ///< build anew even if the file is up to date
 };
 
 struct UnresolvedScene {

@@ -14,7 +14,7 @@ namespace {
 int run(BuildOptions options) {
   options.request.bridge = options.bridge ? read_bridge_file(*options.bridge) : reference_bridge_file();
   Progress progress(options.quiet ? Progress::Mode::quiet : Progress::Mode::automatic);
-  const BuildSummary summary = build_database(options.request, quasi_static(), progress);
+  const BuildSummary summary = build_database(options.request, options.solver, progress);
   std::cout << (options.json ? to_json(summary) : to_text(summary)) << std::flush;
   return std::cout ? 0 : 1;
 }

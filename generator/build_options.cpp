@@ -11,17 +11,12 @@ constexpr int kMostThreads = 4096;
 constexpr int kBadUsage = 2;
 
 constexpr const char* kFooter =
+    "Example: build-database examples/bridges/small.toml -o small.h5 --scenes 'singles;4,2+5,1..3'\n\n"
     "--scenes takes all, singles, pairs, or items separated by ';': intact, a scene (10,4 or 10,4+6,4), or a "
     "scene with\n"
     "ranges (10,1..20  0,*  10,4+2..4,*). An interrupted build goes on when the same command is run again; a "
     "file that is\n"
     "up to date is left alone. Exit codes: 0 done, 1 could not be done, 2 bad usage or bad bridge file.";
-
-std::string check_solver(const std::string& name) {
-  if (name == "quasi-static") return {};
-  if (name == "dynamic") return "the dynamic solver is not available in this version (expected quasi-static)";
-  return "unknown solver '" + name + "' (expected quasi-static)";
-}
 
 }  // namespace
 
@@ -31,7 +26,10 @@ BuildOptions parse_build_options(int argc, char** argv) {
                "build-database");
   app.footer(kFooter);
   app.set_version_flag("--version", version_text("build-database"));
-  std::string solver = "quasi-static";
+  bool in_motion = false;
+  bool explicit_steps = false;
+  const std::map<std::string, bool> solver_names = {{"quasi-static", false}, {"dynamic", true}};
+  const std::map<std::string, bool> integrator_names = {{"implicit", false}, {"explicit", true}};
   bool fields = true;
   bool no_mirror = false;
   const std::map<std::string, bool> field_names = {{"all", true}, {"none", false}};
@@ -42,9 +40,17 @@ BuildOptions parse_build_options(int argc, char** argv) {
   app.add_option("--threads", options.request.threads, "threads, 0: one for each core")
       ->check(CLI::Range(0, kMostThreads))
       ->capture_default_str();
-  app.add_option("--solver", solver, "quasi-static")
-      ->check(CLI::Validator(check_solver, ""))
-      ->capture_default_str();
+  app.add_option("--solver", in_motion,
+                 "quasi-static: Newton for scenes that stand, motion for the others; dynamic: motion for all")
+      ->transform(CLI::Transformer(solver_names))
+      ->default_str("quasi-static")
+      ->option_text("quasi-static|dynamic");
+  app.add_option(
+         "--integrator", explicit_steps,
+         "with --solver dynamic: implicit in the blocks, or central differences with tiny steps (slow)")
+      ->transform(CLI::Transformer(integrator_names))
+      ->default_str("implicit")
+      ->option_text("implicit|explicit");
   app.add_option("--fields", fields, "displacements of all nodes are kept of all scenes or of none")
       ->transform(CLI::Transformer(field_names))
       ->default_str("all")
@@ -53,6 +59,8 @@ BuildOptions parse_build_options(int argc, char** argv) {
       ->transform(CLI::Transformer(format_names))
       ->default_str("text")
       ->option_text("text|json");
+  app.add_option("--xdmf", options.request.xdmf_scenes,
+                 "also write an index (.xdmf, .views.h5) with which ParaView opens these scenes");
   app.add_flag("--no-mirror", no_mirror, "solve every scene, even if its mirror image is solved");
   app.add_flag("--force", options.request.force, "build anew even if the file is up to date");
   app.add_flag("--quiet", options.quiet, "no progress and no messages");
@@ -62,6 +70,9 @@ BuildOptions parse_build_options(int argc, char** argv) {
     options.exit_code = app.exit(error) == 0 ? 0 : kBadUsage;
   }
   options.request.fields = fields ? KeepField::yes : KeepField::no;
+  DynamicSettings motion;
+  if (explicit_steps) motion.integrator = Integrator::central_differences;
+  options.solver = in_motion ? dynamic(motion) : quasi_static();
   options.request.mirror = no_mirror ? UseMirror::no : UseMirror::yes;
   return options;
 }

@@ -10,6 +10,7 @@ namespace voussoir {
 struct BuildOptions {
   std::optional<std::filesystem::path> bridge;  ///< nothing: the reference bridge
   BuildRequest request;                         ///< all but the bridge
+  SolverChoice solver;
   bool quiet = false;
   bool json = false;
   std::optional<int> exit_code;  ///< set if the program is to end at once (--help, --version, bad usage)

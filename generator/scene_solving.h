@@ -4,16 +4,18 @@
 #include <functional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/bridge.h"
+#include "core/dynamic_solver.h"
 #include "core/quasi_static_solver.h"
 #include "core/solution.h"
 
 namespace voussoir {
 
-/// Solves scenes of one bridge, one solution a scene in their order; used by one thread at a time. A solution depends on
-/// its scene and start only, not on the others.
+/// Solves scenes of one bridge, one solution a scene in their order; used by one thread at a time. A solution
+/// depends on its scene and start only, not on the others.
 using SceneSolver = std::function<std::vector<Solution>(std::span<const SceneStart>)>;
 
 struct SolverChoice {
@@ -21,7 +23,14 @@ struct SolverChoice {
   std::function<SceneSolver(const Bridge&)> make_solver;  ///< called once for each thread
 };
 
-SolverChoice quasi_static(const QuasiStaticSettings& settings = {});
+/// Newton for scenes that stand, motion for the others (core/combined_solver.h).
+SolverChoice quasi_static(const QuasiStaticSettings& newton = {}, const DynamicSettings& motion = {});
+
+/// Motion for all scenes: the reference.
+SolverChoice dynamic(const DynamicSettings& motion = {});
+
+/// The solver whose settings a database states. Throws Failure if this program has none with just these.
+SolverChoice solver_with(std::string_view settings);
 
 /// Solves the scenes and rounds their fields to the storage precision.
 std::vector<Solution> solve_for_storage(const SceneSolver& solver, std::span<const SceneStart> scenes);

@@ -95,7 +95,8 @@ Recomputed recompute_row(const Database& database, const Bridge& bridge, std::si
 }
 
 void check_recomputed(const VerifyRequest& request, const Database& database, const Bridge& bridge,
-                      const SolverChoice& solver, VerifyReport& report) {
+                      VerifyReport& report) {
+  const SolverChoice solver = solver_with(database.provenance().solver_settings);
   const auto rows = choose_rows(database.table().rows, request.recompute, request.seed);
   std::vector<Recomputed> results(rows.size());
   oneapi::tbb::enumerable_thread_specific<SceneSolver> solvers([&] { return solver.make_solver(bridge); });
@@ -108,7 +109,7 @@ void check_recomputed(const VerifyRequest& request, const Database& database, co
   }
 }
 
-void check_content(const VerifyRequest& request, const SolverChoice& solver, VerifyReport& report) {
+void check_content(const VerifyRequest& request, VerifyReport& report) {
   const Database database = Database::open(request.database);
   count_outcomes(database, report);
   const Bridge bridge = bridge_of(database);
@@ -117,15 +118,15 @@ void check_content(const VerifyRequest& request, const SolverChoice& solver, Ver
   const bool mirrors = mirror_use_in(database.provenance().solver_settings) == UseMirror::yes;
   report.most_unbalance = most_stored_unbalance(system);
   check_scenes({database, bridge, system, report.most_unbalance, mirrors}, request.threads, report);
-  if (request.recompute > 0) check_recomputed(request, database, bridge, solver, report);
+  if (request.recompute > 0) check_recomputed(request, database, bridge, report);
 }
 
 }  // namespace
 
-VerifyReport verify_database(const VerifyRequest& request, const SolverChoice& solver) {
+VerifyReport verify_database(const VerifyRequest& request) {
   VerifyReport report;
   try {
-    check_content(request, solver, report);
+    check_content(request, report);
   } catch (const InputError& error) {
     report.problems.push_back(error.what());
   }

@@ -43,7 +43,7 @@ struct VerifyReport {
 /// stored field alone, and that mirror images have mirrored fields. Solves some scenes anew if asked for.
 /// Throws Failure if the file cannot be read at all; whatever is wrong with its content is a problem in the
 /// report.
-VerifyReport verify_database(const VerifyRequest& request, const SolverChoice& solver);
+VerifyReport verify_database(const VerifyRequest& request);
 
 /// Lines for people; at most twenty problems.
 std::string to_text(const VerifyReport& report, const std::filesystem::path& database);

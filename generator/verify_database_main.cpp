@@ -10,7 +10,7 @@ using namespace voussoir;
 namespace {
 
 int run(const VerifyOptions& options) {
-  const VerifyReport report = verify_database(options.request, quasi_static());
+  const VerifyReport report = verify_database(options.request);
   std::cout << (options.json ? to_json(report) : to_text(report, options.request.database)) << std::flush;
   return report.ok() && std::cout ? 0 : 1;
 }

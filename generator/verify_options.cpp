@@ -15,7 +15,9 @@ constexpr int kBadUsage = 2;
 VerifyOptions parse_verify_options(int argc, char** argv) {
   VerifyOptions options;
   CLI::App app("Checks that a database is whole and that what it says is right.", "verify-database");
-  app.footer("Exit codes: 0 no problems, 1 problems (or the file cannot be read), 2 bad usage.");
+  app.footer(
+      "Example: verify-database bridge.h5 --recompute 20\n\n"
+      "Exit codes: 0 no problems, 1 problems (or the file cannot be read), 2 bad usage.");
   app.set_version_flag("--version", version_text("verify-database"));
   const std::map<std::string, bool> format_names = {{"text", false}, {"json", true}};
   app.add_option("database", options.request.database, "file written by build-database")->required();

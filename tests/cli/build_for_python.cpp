@@ -6,13 +6,15 @@
 
 namespace voussoir {
 
-TEST_CASE("The h5py example reads a database and finds its checksums and digest right, computed by Python alone") {
+TEST_CASE(
+    "The h5py example reads a database and finds its checksums and digest right, computed by Python alone") {
   const test::TemporaryFolder folder;
   const std::string database = (folder / "small.h5").string();
   const std::string bridge = test::example_bridge("small").string();
   const std::string example = std::string(VOUSSOIR_SOURCE_DIR) + "/examples/h5py/read_database.py";
   for (const char* fields : {"all", "none"}) {
-    REQUIRE(test::run("build-database", {bridge, "-o", database, "--scenes", "singles;4,1+4,2", "--fields", fields})
+    REQUIRE(test::run("build-database",
+                      {bridge, "-o", database, "--scenes", "singles;4,1+4,2", "--fields", fields})
                 .exit_code == 0);
     const test::ProgramResult result = test::run("/usr/bin/python3", {example, database});
     INFO(result.out << result.err);
@@ -20,6 +22,26 @@ TEST_CASE("The h5py example reads a database and finds its checksums and digest 
     CHECK_THAT(result.out, Catch::Contains("bridge 'small', 40 scenes"));
     CHECK_THAT(result.out, Catch::Contains("40 of 40 right; content digest right"));
   }
+}
+
+TEST_CASE(
+    "The XDMF index refers to just the numbers of its scenes, read by Python as its specification says") {
+  const test::TemporaryFolder folder;
+  const std::string database = (folder / "small.h5").string();
+  const std::string bridge = test::example_bridge("small").string();
+  const std::string check = std::string(VOUSSOIR_SOURCE_DIR) + "/tests/cli/build_xdmf.py";
+  REQUIRE(
+      test::run("build-database", {bridge, "-o", database, "--scenes", "singles", "--xdmf", "intact;4,1..3"})
+          .exit_code == 0);
+  const test::ProgramResult result =
+      test::run("/usr/bin/python3", {check, (folder / "small.xdmf").string(), "intact", "4,1", "4,2", "4,3"});
+  INFO(result.out << result.err);
+  CHECK(result.exit_code == 0);
+  CHECK(result.out == "4 grids right\n");
+  const test::ProgramResult unknown =
+      test::run("build-database", {bridge, "-o", database, "--scenes", "singles", "--xdmf", "4,1+4,2"});
+  CHECK(unknown.exit_code == 2);
+  CHECK_THAT(unknown.err, Catch::Contains("does not hold scene 4,1+4,2"));
 }
 
 }  // namespace voussoir

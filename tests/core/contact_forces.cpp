@@ -16,7 +16,10 @@ constexpr ContactMaterial kRough{.normal = 1e9, .tangential = 1e8, .friction = 0
 
 /// Two edges of lengths 1 and 0.8 at rest.
 EdgeContact edges(double share) {
-  return {.nodes = {0, 1, 2, 3}, .blocks = {0, 1}, .per_length = {1.0, 1.25}, .corner_share = {share, share, share, share}};
+  return {.nodes = {0, 1, 2, 3},
+          .blocks = {0, 1},
+          .per_length = {1.0, 1.25},
+          .corner_share = {share, share, share, share}};
 }
 
 /// Edge A on the x axis with its block below; edge B above it, turned by an angle, its middle at (x, gap).
@@ -34,7 +37,8 @@ EdgeForces<double> forces_of(const EdgeContact& contact, const ContactMaterial& 
   return forces;
 }
 
-/// Brute force: the energy by a fine midpoint rule, with the corners' shares and the fading written out as inequalities.
+/// Brute force: the energy by a fine midpoint rule, with the corners' shares and the fading written out as
+/// inequalities.
 double energy_of(const EdgeContact& contact, const Places& now) {
   const Pair<double> along_a = now[1] - now[0];
   const Pair<double> along_b = now[2] - now[3];
@@ -87,9 +91,10 @@ TEST_CASE("Forces of a smooth contact are the derivatives of its energy (brute f
         double largest = 0.0;
         for (int c = 0; c < 8; ++c) largest = std::max(largest, std::abs(component(forces, c)));
         for (int c = 0; c < 8; ++c) {
-          constexpr double kShift = 1e-4;
-          const double slope = (energy_of(contact, moved_by(now, c, kShift)) - energy_of(contact, moved_by(now, c, -kShift))) /
-                               (2.0 * kShift);
+          constexpr double kShift = 5e-4;
+          const double slope =
+              (energy_of(contact, moved_by(now, c, kShift)) - energy_of(contact, moved_by(now, c, -kShift))) /
+              (2.0 * kShift);
           INFO("share " << share << " angle " << angle << " x " << x << " component " << c);
           CHECK(component(forces, c) == Approx(-slope).margin(3e-3 * largest));
           ++checked;
@@ -98,7 +103,8 @@ TEST_CASE("Forces of a smooth contact are the derivatives of its energy (brute f
   CHECK(checked == 2 * 4 * 3 * 8);
 }
 
-TEST_CASE("Forces of a rough contact are in balance and leave no couple, wherever the edges are (closed form)") {
+TEST_CASE(
+    "Forces of a rough contact are in balance and leave no couple, wherever the edges are (closed form)") {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> any(-1.0, 1.0);
   int touching = 0;
@@ -125,7 +131,8 @@ TEST_CASE("Forces of a rough contact are in balance and leave no couple, whereve
 TEST_CASE("A contact turned and shifted as a whole has forces turned alike (frame invariance)") {
   const double angle = 1.1;
   const auto turned = [&](const Pair<double>& v) {
-    return Pair<double>{std::cos(angle) * v.x - std::sin(angle) * v.y, std::sin(angle) * v.x + std::cos(angle) * v.y};
+    return Pair<double>{std::cos(angle) * v.x - std::sin(angle) * v.y,
+                        std::sin(angle) * v.x + std::cos(angle) * v.y};
   };
   const Places now = placed(0.3, -0.01, 0.05);
   const Places moved = {{{1e-4, 0.0}, {0.0, 2e-4}, {3e-4, 0.0}, {5e-4, 1e-4}}};
@@ -145,8 +152,10 @@ TEST_CASE("A contact turned and shifted as a whole has forces turned alike (fram
 }
 
 TEST_CASE("Two facing edges of one length answer as the joint law of the quasi-static equations does") {
-  const EdgeContact contact{.nodes = {0, 1, 2, 3}, .blocks = {0, 1}, .per_length = {1.0, 1.0}, .corner_share = {}};
-  const JointMaterial material{.normal_stiffness = 1e9, .tangential_stiffness = 1e8, .friction_angle = std::atan(0.7)};
+  const EdgeContact contact{
+      .nodes = {0, 1, 2, 3}, .blocks = {0, 1}, .per_length = {1.0, 1.0}, .corner_share = {}};
+  const JointMaterial material{
+      .normal_stiffness = 1e9, .tangential_stiffness = 1e8, .friction_angle = std::atan(0.7)};
   for (const double gap_1 : {-2e-6, 1e-6})
     for (const double slip : {3e-6, 1e-5, -4e-5}) {
       const double gap_0 = -3e-6;
@@ -167,8 +176,8 @@ TEST_CASE("Two facing edges of one length answer as the joint law of the quasi-s
 TEST_CASE("A lane's forces have the same bits whatever the other lanes hold") {
   using Four = Lanes<4>;
   const EdgeContact contact = edges(1.0);
-  const std::array<Places, 4> lanes = {placed(0.5, -0.01, 0.0), placed(0.2, 0.5, 0.3), placed(0.9, -0.02, 0.8),
-                                       placed(0.4, -0.03, -0.1)};
+  const std::array<Places, 4> lanes = {placed(0.5, -0.01, 0.0), placed(0.2, 0.5, 0.3),
+                                       placed(0.9, -0.02, 0.8), placed(0.4, -0.03, -0.1)};
   EdgePlaces<Four> together{};
   for (std::size_t i = 0; i < 4; ++i)
     for (int l = 0; l < 4; ++l) {

@@ -40,8 +40,8 @@ Momentum momentum(const MotionModel& model, const Motion<One>& motion) {
     const BlockFrame<One>& frame = motion.frames[b];
     const Point v(frame.velocity.x, frame.velocity.y);
     sum.linear += model.bodies[b].mass * v;
-    sum.angular +=
-        model.bodies[b].mass * cross(Point(frame.centre.x, frame.centre.y), v) + model.bodies[b].inertia * frame.spin;
+    sum.angular += model.bodies[b].mass * cross(Point(frame.centre.x, frame.centre.y), v) +
+                   model.bodies[b].inertia * frame.spin;
   }
   return sum;
 }
@@ -132,7 +132,9 @@ TEST_CASE("A block in free flight keeps its momentum and energy to round-off (co
         Approx(std::remainder(7.5, 2.0 * std::numbers::pi)).margin(1e-6));
 }
 
-TEST_CASE("A free block under central differences keeps linear and angular momentum to round-off (conservation laws)") {
+TEST_CASE(
+    "A free block under central differences keeps linear and angular momentum to round-off (conservation "
+    "laws)") {
   const Bridge bridge = floating_course(1, kThirtyFive);
   const std::vector<BlockBody> bodies = make_block_bodies(bridge);
   const double step = 0.5 * critical_step(bridge, bodies, Integrator::central_differences, 0.0);
@@ -149,7 +151,9 @@ TEST_CASE("A free block under central differences keeps linear and angular momen
   CHECK(kinetic_energy(model, motion, 0) == Approx(energy).epsilon(1e-5));  // it also vibrates a little
 }
 
-TEST_CASE("Blocks that collide without friction keep linear and angular momentum, and gain no energy (conservation laws)") {
+TEST_CASE(
+    "Blocks that collide without friction keep linear and angular momentum, and gain no energy (conservation "
+    "laws)") {
   const Bridge bridge = floating_course(2, 0.0);
   const MotionModel model(bridge, 2e-5, 0.0, 0.0);
   Motion<One> motion = collision(model);
@@ -158,7 +162,7 @@ TEST_CASE("Blocks that collide without friction keep linear and angular momentum
   run(model, 20000, motion);
   const Momentum after = momentum(model, motion);
   CHECK((after.linear - before.linear).norm() <= 1e-12 * before.linear.norm());
-  CHECK(after.angular == Approx(before.angular).epsilon(1e-4));  // moments act at places a step apart
+  CHECK(after.angular == Approx(before.angular).epsilon(1e-4));      // moments act at places a step apart
   CHECK(motion.frames[1].velocity.x > motion.frames[0].velocity.x);  // they have parted
   CHECK(kinetic_energy(model, motion, 0) <= energy * (1.0 + 1e-3));
   CHECK(kinetic_energy(model, motion, 0) >= 0.9 * energy);  // only the implicit vibrations are damped

@@ -39,7 +39,7 @@ struct FewScenes {
     VerifyRequest request{path};
     request.threads = 1;
     request.recompute = recompute;
-    return verify_database(request, quasi_static());
+    return verify_database(request);
   }
 };
 
@@ -162,7 +162,7 @@ TEST_CASE("Fields that are out of equilibrium are found although every checksum 
   const test::TemporaryFolder folder;
   const BridgeFile file = read_bridge_file(test::example_bridge("small"));
   test::write_made_up_database(folder / "made-up.h5", file, all_scenes(38, 1));
-  const VerifyReport report = verify_database({folder / "made-up.h5"}, quasi_static());
+  const VerifyReport report = verify_database({folder / "made-up.h5"});
   CHECK(report.scenes == 39);
   REQUIRE(report.problems.size() >= report.standing);
   CHECK_THAT(report.problems.front(),
@@ -173,7 +173,7 @@ TEST_CASE("Mirror images whose fields are not mirrored are found") {
   const test::TemporaryFolder folder;
   const BridgeFile file = read_bridge_file(test::example_bridge("small"));
   test::write_made_up_database(folder / "made-up.h5", file, all_scenes(38, 1));
-  const VerifyReport report = verify_database({folder / "made-up.h5"}, quasi_static());
+  const VerifyReport report = verify_database({folder / "made-up.h5"});
   CHECK(report.mirror_pairs > 10);
   CHECK(std::any_of(report.problems.begin(), report.problems.end(), [](const std::string& problem) {
     return problem.find("differs from its mirror image") != std::string::npos;

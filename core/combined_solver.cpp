@@ -1,0 +1,61 @@
+#include "core/combined_solver.h"
+
+namespace voussoir {
+namespace {
+
+QuasiStaticSettings without_falls(QuasiStaticSettings settings) {
+  settings.follow_falls = false;
+  return settings;
+}
+
+}  // namespace
+
+DynamicSettings patient(DynamicSettings settings) {
+  // Measured on the reference bridge: a bridge at rest goes below 1e-7 within a second; blocks that creep
+  // keep 1e-5 to 1e-3 and take up to four seconds to move away.
+  settings.standing_unbalance = 1e-7;
+  settings.collapsing_unbalance = 1e-5;
+  settings.latest_decision = 8.0;
+  return settings;
+}
+
+CombinedSolver::CombinedSolver(const Bridge& bridge, const QuasiStaticSettings& newton,
+                               const DynamicSettings& motion)
+    : newton_(bridge, without_falls(newton)),
+      motion_(bridge, motion),
+      patient_motion_(bridge, patient(motion)) {}
+
+std::vector<Solution> CombinedSolver::solve(std::span<const SceneStart> scenes) {
+  std::vector<Solution> solutions = newton_.solve(scenes);
+  follow(motion_, scenes, solutions);
+  follow(patient_motion_, scenes, solutions);
+  return solutions;
+}
+
+/// Sets the scenes that are still open in motion: takes the collapses, polishes what rests.
+void CombinedSolver::follow(DynamicSolver& motion, std::span<const SceneStart> scenes,
+                            std::vector<Solution>& solutions) {
+  std::vector<std::size_t> open;
+  std::vector<Scene> moving;
+  for (std::size_t i = 0; i < scenes.size(); ++i)
+    if (solutions[i].outcome == Outcome::unresolved) {
+      open.push_back(i);
+      moving.push_back(scenes[i].scene);
+    }
+  std::vector<DynamicSolution> motions = motion.solve(moving);
+
+  std::vector<SceneStart> resting;
+  std::vector<std::size_t> resting_at;
+  for (std::size_t k = 0; k < open.size(); ++k) {
+    if (motions[k].solution.outcome == Outcome::collapsed) {
+      solutions[open[k]] = std::move(motions[k].solution);
+    } else {
+      resting.push_back({moving[k], &motions[k].solution.displacement});
+      resting_at.push_back(open[k]);
+    }
+  }
+  std::vector<Solution> polished = newton_.solve(resting);
+  for (std::size_t k = 0; k < polished.size(); ++k) solutions[resting_at[k]] = std::move(polished[k]);
+}
+
+}  // namespace voussoir

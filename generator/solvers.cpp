@@ -1,0 +1,80 @@
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "core/combined_solver.h"
+#include "core/error.h"
+#include "generator/scene_solving.h"
+
+namespace voussoir {
+namespace {
+
+// The structured bindings fail to compile when settings gain a member, which then has to be added here.
+
+std::string settings_text(const QuasiStaticSettings& settings) {
+  const auto& [tolerance, round_off, loose_tolerance, most_warm_iterations, most_iterations,
+               most_falling_iterations, follow_falls, collapse_displacement] = settings;
+  return fmt::format(
+      "tolerance = {}\nround_off = {}\nloose_tolerance = {}\nmost_warm_iterations = {}\nmost_iterations = "
+      "{}\n"
+      "most_falling_iterations = {}\nfollow_falls = {}\ncollapse_displacement_m = {}\n",
+      tolerance, round_off, loose_tolerance, most_warm_iterations, most_iterations, most_falling_iterations,
+      follow_falls, collapse_displacement);
+}
+
+std::string or_automatic(const std::optional<double>& value) {
+  return value ? fmt::format("{}", *value) : "automatic";
+}
+
+std::string settings_text(const DynamicSettings& settings) {
+  const auto& [integrator, step, ramp, damping, contact_damping, moment, earliest_decision, latest_decision,
+               standing_unbalance, collapsing_unbalance, plain_unbalance, largest_standing_unbalance,
+               moving_sags, side_by_side] = settings;
+  std::string text = fmt::format(
+      "integrator = {}\nstep_s = {}\nramp_s = {}\ndamping_per_s = {}\ncontact_damping_s = {}\nmoment_s = "
+      "{}\n",
+      integrator == Integrator::implicit_blocks ? "implicit" : "explicit", or_automatic(step), ramp,
+      or_automatic(damping), contact_damping, moment);
+  text += fmt::format("earliest_decision_s = {}\nlatest_decision_s = {}\nstanding_unbalance = {}\n",
+                      earliest_decision, latest_decision, standing_unbalance);
+  text += fmt::format("collapsing_unbalance = {}\nplain_unbalance = {}\nlargest_standing_unbalance = {}\n",
+                      collapsing_unbalance, plain_unbalance, largest_standing_unbalance);
+  return text + fmt::format("moving_sags = {}\n", moving_sags);  // lanes do not change the answer
+}
+
+constexpr const char* kQuasiStatic = "solver = quasi-static\n";
+constexpr const char* kDynamic = "solver = dynamic\n";
+
+}  // namespace
+
+SolverChoice quasi_static(const QuasiStaticSettings& newton, const DynamicSettings& motion) {
+  return {kQuasiStatic + settings_text(newton) + settings_text(motion),
+          [newton, motion](const Bridge& bridge) -> SceneSolver {
+            const auto solver = std::make_shared<CombinedSolver>(bridge, newton, motion);
+            return [solver](std::span<const SceneStart> scenes) { return solver->solve(scenes); };
+          }};
+}
+
+SolverChoice dynamic(const DynamicSettings& motion) {
+  return {kDynamic + settings_text(motion), [motion](const Bridge& bridge) -> SceneSolver {
+            const auto solver = std::make_shared<DynamicSolver>(bridge, motion);
+            return [solver](std::span<const SceneStart> tasks) {
+              std::vector<Scene> scenes;
+              for (const SceneStart& task : tasks) scenes.push_back(task.scene);
+              std::vector<Solution> solutions;
+              for (DynamicSolution& motion_of_scene : solver->solve(scenes))
+                solutions.push_back(std::move(motion_of_scene.solution));
+              return solutions;
+            };
+          }};
+}
+
+SolverChoice solver_with(std::string_view settings) {
+  DynamicSettings plain;
+  plain.integrator = Integrator::central_differences;
+  for (SolverChoice choice : {quasi_static(), dynamic(), dynamic(plain)})
+    if (settings.starts_with(choice.settings)) return choice;
+  throw Failure("the database was built with solver settings that this program does not have");
+}
+
+}  // namespace voussoir

@@ -1,0 +1,174 @@
+/// locate-damage and query-field as a user runs them, on the small bridge's database.
+
+#include <catch2/catch.hpp>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "database/database.h"
+#include "tests/support/bridges.h"
+#include "tests/support/program.h"
+
+using namespace voussoir;
+using Catch::Matchers::Contains;
+using test::ProgramResult;
+
+namespace {
+
+/// A folder with the small bridge's database (built once) and room for measurement files.
+struct Desk {
+  test::TemporaryFolder folder;
+  std::string database = (folder / "small.h5").string();
+
+  Desk() {
+    const ProgramResult built =
+        test::run("build-database", {test::example_bridge("small").string(), "-o", database, "--quiet"});
+    if (built.exit_code != 0) throw std::runtime_error(built.err);
+  }
+  std::string file(const std::string& text) const {
+    const std::string path = (folder / "readings.csv").string();
+    std::ofstream(path, std::ios::binary) << text;
+    return path;
+  }
+  ProgramResult locate(const std::string& text, std::vector<std::string> more = {}) const {
+    more.insert(more.begin(), {file(text), "-d", database});
+    return test::run("locate-damage", more);
+  }
+  /// Noise-free readings of a scene, as query-field prints them.
+  std::string readings_of(const std::string& scene) const {
+    const ProgramResult result =
+        test::run("query-field", {scene, "-d", database, "--at", "control", "--format", "json"});
+    REQUIRE(result.exit_code == 0);
+    std::string csv = "point,uy_m\n";
+    for (const auto& entry : nlohmann::json::parse(result.out))
+      if (!entry.at("uy_m").is_null())
+        csv += entry.at("point").get<std::string>() + "," + entry.at("uy_m").dump() + "\n";
+    return csv;
+  }
+};
+
+const Desk& desk() {
+  static const Desk shared;
+  return shared;
+}
+
+bool is_one_line(const std::string& text) {
+  return !text.empty() && text.find('\n') == text.size() - 1;
+}
+
+}  // namespace
+
+TEST_CASE("locate-damage names the scene whose readings query-field printed") {
+  for (const char* scene : {"intact", "4,2", "5,3", "2,1+5,6"}) {
+    const ProgramResult result = desk().locate(desk().readings_of(scene), {"--format", "json"});
+    INFO(scene << ": " << result.err);
+    REQUIRE(result.exit_code == 0);
+    const auto json = nlohmann::json::parse(result.out);
+    CHECK(json.at("candidates").at(0).at("scene") == scene);
+    CHECK(json.at("candidates").at(0).at("posterior").is_number());
+    CHECK(json.dump().find(Database::open(desk().database).digest()) != std::string::npos);
+  }
+}
+
+TEST_CASE(
+    "locate-damage takes any order of rows, settlements, byte order marks, CRLF, comments and silent "
+    "sensors") {
+  std::vector<std::string> rows;
+  std::string text = desk().readings_of("4,2");
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) rows.push_back(line);
+  std::string odd = "\xEF\xBB\xBF# levelled in spring\r\npoint,settlement_mm\r\n";
+  for (std::size_t i = rows.size() - 1; i > 0; --i) {
+    const std::size_t comma = rows[i].find(',');
+    odd += rows[i].substr(0, comma) + "," +
+           (i % 5 == 0 ? "" : std::to_string(-1e3 * std::stod(rows[i].substr(comma + 1)))) + "\r\n";
+  }
+  const ProgramResult result = desk().locate(odd, {"--format", "json"});
+  REQUIRE(result.exit_code == 0);
+  CHECK(nlohmann::json::parse(result.out).at("candidates").at(0).at("scene") == "4,2");
+}
+
+TEST_CASE("Every search and format of locate-damage answers") {
+  const std::string readings = desk().readings_of("4,2");
+  for (const char* search : {"exhaustive", "genetic", "nearest"})
+    for (const char* objective : {"paper", "posterior"}) {
+      const ProgramResult result =
+          desk().locate(readings, {"--search", search, "--objective", objective, "--format", "csv"});
+      INFO(search << " " << objective << ": " << result.err);
+      REQUIRE(result.exit_code == 0);
+      CHECK_THAT(result.out, Contains("4,2"));
+    }
+  const ProgramResult text = desk().locate(readings, {"--noise", "5%", "--top", "3"});
+  CHECK_THAT(text.out, Contains("course 4, 2nd from the left") && Contains("rank"));
+}
+
+TEST_CASE("A bad measurements file gives one line that names file, line and what was expected") {
+  const auto message = [](const std::string& text) {
+    const ProgramResult result = desk().locate(text);
+    CHECK(result.exit_code == 2);
+    CHECK(result.out.empty());
+    CHECK(is_one_line(result.err));
+    CHECK_THAT(result.err, Contains("readings.csv"));
+    return result.err;
+  };
+  CHECK_THAT(message(""), Contains("empty") && Contains("expected"));
+  CHECK_THAT(message("point,uy_mm\n"), Contains("expected"));
+  CHECK_THAT(message("point,uy_mm\nT1,1\nT99,1\n"), Contains(":3:") && Contains("T99"));
+  CHECK_THAT(message("point,uy_mm\nT1,1\nT1,2\n"), Contains(":3:") && Contains("T1"));
+  CHECK_THAT(message("point,uy_mm\nT1,one\n"), Contains(":2:") && Contains("'one'"));
+  CHECK_THAT(message("point,uy_inch\nT1,1\n"), Contains(":1:") && Contains("uy_inch"));
+  CHECK_THAT(message("point,uy_mm\nT1,inf\n"), Contains(":2:"));
+  CHECK_THAT(message("point\nT1\n"), Contains(":1:"));
+}
+
+TEST_CASE("A missing, foreign or truncated database gives one line that says so") {
+  const std::string readings = desk().file(desk().readings_of("4,2"));
+  const auto message = [&](const std::string& database) {
+    const ProgramResult result = test::run("locate-damage", {readings, "-d", database});
+    CHECK((result.exit_code == 1 || result.exit_code == 2));
+    CHECK(is_one_line(result.err));
+    return result.err;
+  };
+  CHECK_THAT(message("/nowhere/bridge.h5"), Contains("/nowhere/bridge.h5"));
+  const std::string text_file = (desk().folder / "text.h5").string();
+  std::ofstream(text_file) << "not a database";
+  CHECK_THAT(message(text_file), Contains("text.h5"));
+  const std::string truncated = (desk().folder / "truncated.h5").string();
+  std::filesystem::copy_file(desk().database, truncated, std::filesystem::copy_options::overwrite_existing);
+  std::filesystem::resize_file(truncated, std::filesystem::file_size(truncated) / 2);
+  CHECK_THAT(message(truncated), Contains("truncated.h5"));
+  const ProgramResult other =
+      test::run("locate-damage", {desk().file("point,uy_mm\nT40,1\n"), "-d", desk().database});
+  CHECK(other.exit_code == 2);
+  CHECK_THAT(other.err, Contains("T40"));  // the reference bridge has this point, the small one has not
+}
+
+TEST_CASE("query-field gives points by name, place and set, and refuses what is not there") {
+  const auto query = [](std::vector<std::string> more) {
+    more.insert(more.end(), {"-d", desk().database});
+    return test::run("query-field", more);
+  };
+  const auto json = nlohmann::json::parse(query({"4,2", "--at", "T3,A2", "--format", "json"}).out);
+  REQUIRE(json.size() == 2);
+  CHECK(json.at(0).at("point") == "T3");
+  const Database database = Database::open(desk().database);
+  const std::size_t row = database.find(parse_scene("4,2", database.layout())).value();
+  CHECK(json.at(0).at("uy_m").get<double>() == database.table().row(row)[2]);
+  CHECK(query({"4,2", "--at", "3.0,2.5"}).exit_code == 0);
+  CHECK_THAT(query({"4,2", "--format", "vtu"}).out, Contains("<VTKFile"));
+  for (const std::vector<std::string>& bad :
+       {std::vector<std::string>{"99,1"}, {"4,2", "--at", "Z9"}, {"4,2+4,2"}}) {
+    const ProgramResult result = query(bad);
+    CHECK(result.exit_code == 2);
+    CHECK(is_one_line(result.err));
+  }
+}
+
+TEST_CASE("Programs tell their version and show an example in their help") {
+  for (const char* name : {"build-database", "verify-database", "locate-damage", "query-field"}) {
+    CHECK(test::run(name, {"--version"}).exit_code == 0);
+    const ProgramResult help = test::run(name, {"--help"});
+    CHECK(help.exit_code == 0);
+    CHECK_THAT(help.out, Contains("xample"));
+    CHECK(test::run(name, {"--no-such-option"}).exit_code == 2);
+  }
+}

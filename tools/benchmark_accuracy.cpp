@@ -1,0 +1,249 @@
+#include "tools/benchmark_accuracy.h"
+
+#include <cmath>
+#include <ctime>
+
+#include "core/dynamic_solver.h"
+#include "core/error.h"
+#include "core/quasi_static_solver.h"
+
+namespace voussoir {
+namespace {
+
+double processor_seconds() {
+  return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
+}
+
+/// Readings [m] of intact and of every scene, and what they cost.
+struct Readings {
+  std::vector<Eigen::VectorXd> of_scene;  ///< intact first
+  double seconds = 0.0;                   ///< a scene
+};
+
+std::vector<Scene> with_intact(const AccuracyOptions& options, const Bridge& bridge) {
+  std::vector<Scene> scenes = {{}};
+  for (const std::string& text : options.scenes) scenes.push_back(parse_scene(text, bridge.layout));
+  return scenes;
+}
+
+Readings quasi_static_readings(const Bridge& bridge, const std::vector<Scene>& scenes,
+                               const QuasiStaticSettings& settings, bool from_intact) {
+  QuasiStaticSolver solver(bridge, settings);
+  Readings readings;
+  const Field intact = solver.solve(scenes.front()).displacement;
+  std::vector<SceneStart> starts;
+  for (const Scene& scene : scenes)
+    starts.push_back({.scene = scene, .start = from_intact ? &intact : nullptr});
+  const double begin = processor_seconds();
+  const std::vector<Solution> solutions = solver.solve(starts);
+  readings.seconds = (processor_seconds() - begin) / static_cast<double>(scenes.size());
+  for (const Solution& solution : solutions)
+    readings.of_scene.push_back(vertical_displacements(solution.displacement, bridge.control_points));
+  return readings;
+}
+
+Readings dynamic_readings(const Bridge& bridge, const std::vector<Scene>& scenes,
+                          const DynamicSettings& settings) {
+  DynamicSolver solver(bridge, settings);
+  Readings readings;
+  const double begin = processor_seconds();
+  const std::vector<DynamicSolution> solutions = solver.solve(scenes);
+  readings.seconds = (processor_seconds() - begin) / static_cast<double>(scenes.size());
+  for (const DynamicSolution& solution : solutions)
+    readings.of_scene.push_back(
+        vertical_displacements(solution.solution.displacement, bridge.control_points));
+  return readings;
+}
+
+void compare(const Readings& readings, const Readings& reference, AccuracyRow& row) {
+  double distance = 0.0;
+  double size = 0.0;
+  for (std::size_t scene = 1; scene < readings.of_scene.size(); ++scene)
+    for (Eigen::Index i = 0; i < readings.of_scene[scene].size(); ++i) {
+      const double expected = reference.of_scene[scene][i] - reference.of_scene[0][i];
+      const double found = readings.of_scene[scene][i] - readings.of_scene[0][i];
+      if (std::isnan(expected) || std::isnan(found)) continue;
+      distance += std::abs(found - expected);
+      size += std::abs(expected);
+      row.largest_error =
+          std::max(row.largest_error, std::abs(readings.of_scene[scene][i] - reference.of_scene[scene][i]));
+    }
+  row.signal_error = distance / size;
+  row.seconds = readings.seconds;
+}
+
+Bridge refined_bridge(BridgeDescription description, int level) {
+  description.mesh.refinement = level;
+  return make_bridge(description);
+}
+
+/// Measures rows of one bridge against the reference.
+class Bench {
+ public:
+  Bench(const BridgeDescription& description, const AccuracyOptions& options)
+      : bridge_(make_bridge(description)), options_(options), scenes_(with_intact(options, bridge_)) {
+    const Bridge fine = refined_bridge(description, options.reference_refinement);
+    reference_ = quasi_static_readings(fine, scenes_, {}, false);
+    for (const Eigen::VectorXd& d : reference_.of_scene)
+      if (!d.array().isNaN().select(0.0, d).allFinite())
+        throw Failure("a scene of the reference does not stand");
+    add({.solver = "quasi-static",
+         .integrator = "-",
+         .step = "1e-08",
+         .ramp = "-",
+         .mesh = fmt::format("refined {}x", options.reference_refinement),
+         .variation = "reference"},
+        reference_);
+  }
+
+  void quasi_static(double tolerance, bool from_intact, bool is_default) {
+    QuasiStaticSettings settings;
+    settings.tolerance = tolerance;
+    add({.solver = "quasi-static",
+         .integrator = "-",
+         .step = fmt::format("{:.0e}", tolerance),
+         .ramp = "-",
+         .mesh = "paper's",
+         .variation = from_intact ? "" : "no warm start",
+         .is_default = is_default},
+        quasi_static_readings(bridge_, scenes_, settings, from_intact));
+  }
+
+  void dynamic(double ramp, std::optional<double> step, double unbalance, int side_by_side) {
+    DynamicSettings settings;
+    settings.ramp = settings.moment = ramp;
+    settings.earliest_decision = ramp + 0.1;
+    settings.latest_decision = ramp + 1.0;
+    settings.step = step;
+    settings.standing_unbalance = unbalance;
+    settings.side_by_side = side_by_side;
+    add({.solver = "dynamic",
+         .integrator = "implicit blocks",
+         .step = fmt::format("{}, {:.0e}", step ? fmt::format("{:.1e} s", *step) : "0.9 critical", unbalance),
+         .ramp = fmt::format("{} s", ramp),
+         .mesh = "paper's",
+         .variation = side_by_side == 1 ? "one scene at a time" : ""},
+        dynamic_readings(bridge_, scenes_, settings));
+  }
+
+  /// The first scene only: it takes minutes.
+  void plain() {
+    DynamicSettings settings;
+    settings.integrator = Integrator::central_differences;
+    const std::vector<Scene> two = {scenes_[0], scenes_[1]};
+    add({.solver = "dynamic",
+         .integrator = "central differences",
+         .step = "0.9 critical",
+         .ramp = "0.3 s",
+         .mesh = "paper's",
+         .variation = "first scene only"},
+        dynamic_readings(bridge_, two, settings));
+  }
+
+  std::vector<AccuracyRow> rows() const { return rows_; }
+
+ private:
+  void add(AccuracyRow row, const Readings& readings) {
+    compare(readings, reference_, row);
+    rows_.push_back(row);
+  }
+
+  Bridge bridge_;
+  AccuracyOptions options_;
+  std::vector<Scene> scenes_;
+  Readings reference_;
+  std::vector<AccuracyRow> rows_;
+};
+
+/// Pixels of a logarithmic axis.
+struct LogAxis {
+  double lowest;
+  double highest;
+  double begin;
+  double end;
+  double operator()(double x) const {
+    return begin + (end - begin) * (std::log10(x) - lowest) / (highest - lowest);
+  }
+};
+
+LogAxis axis_over(const std::vector<double>& values, double begin, double end) {
+  double lowest = std::numeric_limits<double>::infinity();
+  double highest = -lowest;
+  for (const double v : values) {
+    lowest = std::min(lowest, std::floor(std::log10(v)));
+    highest = std::max(highest, std::ceil(std::log10(v)));
+  }
+  return {.lowest = lowest, .highest = std::max(highest, lowest + 1.0), .begin = begin, .end = end};
+}
+
+}  // namespace
+
+std::vector<AccuracyRow> measure_accuracy(const BridgeDescription& description,
+                                          const AccuracyOptions& options) {
+  Bench bench(description, options);
+  bench.quasi_static(1e-8, true, true);
+  bench.quasi_static(1e-8, false, false);
+  bench.quasi_static(1e-5, true, false);
+  for (const double ramp : {0.1, 0.3, 1.0, 3.0}) bench.dynamic(ramp, std::nullopt, 1e-6, 4);
+  for (const double unbalance : {2.3e-4, 1e-8}) bench.dynamic(0.3, std::nullopt, unbalance, 4);
+  bench.dynamic(0.3, 1e-4, 1e-6, 4);
+  bench.dynamic(0.3, std::nullopt, 1e-6, 1);
+  if (options.plain) bench.plain();
+  return bench.rows();
+}
+
+std::string to_markdown(const std::vector<AccuracyRow>& rows) {
+  std::string text =
+      "| solver | integrator | step, tolerance | ramp | mesh | variation | s a scene | signal error | "
+      "largest error [um] |\n"
+      "|---|---|---|---|---|---|---|---|---|\n";
+  for (const AccuracyRow& row : rows)
+    text += fmt::format("| {} | {} | {} | {} | {} | {}{} | {:.4f} | {:.2f} % | {:.2f} |\n", row.solver,
+                        row.integrator, row.step, row.ramp, row.mesh, row.variation,
+                        row.is_default ? "**default**" : "", row.seconds, 100.0 * row.signal_error,
+                        1e6 * row.largest_error);
+  return text;
+}
+
+std::string to_svg(const std::vector<AccuracyRow>& rows) {
+  std::vector<double> times;
+  std::vector<double> errors;
+  for (const AccuracyRow& row : rows) {
+    if (row.signal_error <= 0.0) continue;  // the reference itself
+    times.push_back(std::max(row.seconds, 1e-6));
+    errors.push_back(row.signal_error);
+  }
+  const LogAxis x = axis_over(times, 80.0, 760.0);
+  const LogAxis y = axis_over(errors, 440.0, 30.0);
+  std::string svg =
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"800\" height=\"500\" font-family=\"sans-serif\" "
+      "font-size=\"12\">\n"
+      "<rect width=\"800\" height=\"500\" fill=\"white\"/>\n";
+  for (double e = x.lowest; e <= x.highest; ++e)
+    svg += fmt::format(
+        "<path d=\"M{0:.1f} 30V440\" stroke=\"#ddd\"/><text x=\"{0:.1f}\" y=\"458\" "
+        "text-anchor=\"middle\">{1:g} s</text>\n",
+        x(std::pow(10.0, e)), std::pow(10.0, e));
+  for (double e = y.lowest; e <= y.highest; ++e)
+    svg += fmt::format(
+        "<path d=\"M80 {0:.1f}H760\" stroke=\"#ddd\"/><text x=\"72\" y=\"{0:.1f}\" text-anchor=\"end\">{1:g} "
+        "%</text>\n",
+        y(std::pow(10.0, e)), 100.0 * std::pow(10.0, e));
+  for (const AccuracyRow& row : rows) {
+    if (row.signal_error <= 0.0) continue;
+    const double px = x(std::max(row.seconds, 1e-6));
+    const double py = y(row.signal_error);
+    const char* colour = row.is_default ? "#c00" : row.solver == "dynamic" ? "#06c" : "#393";
+    svg += fmt::format(
+        "<circle cx=\"{0:.1f}\" cy=\"{1:.1f}\" r=\"{2}\" fill=\"{3}\"/><text x=\"{4:.1f}\" y=\"{1:.1f}\">{5} "
+        "{6} {7} {8}</text>\n",
+        px, py, row.is_default ? 7 : 4, colour, px + 8.0, row.solver, row.step, row.ramp, row.variation);
+  }
+  svg +=
+      "<text x=\"420\" y=\"485\" text-anchor=\"middle\">processor time a scene</text>\n"
+      "<text x=\"20\" y=\"235\" text-anchor=\"middle\" transform=\"rotate(-90 20 235)\">error of the "
+      "signal</text>\n</svg>\n";
+  return svg;
+}
+
+}  // namespace voussoir

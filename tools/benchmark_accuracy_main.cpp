@@ -1,0 +1,39 @@
+/// @file benchmark-accuracy: run time against error of the solvers.
+
+#include <CLI/CLI.hpp>
+#include <fstream>
+#include <iostream>
+
+#include "core/bridge_file.h"
+#include "core/error.h"
+#include "tools/benchmark_accuracy.h"
+
+int main(int argc, char** argv) {
+  using namespace voussoir;
+  CLI::App app{"Run time against error of the solvers, as a table (Markdown) and a plot (SVG)",
+               "benchmark-accuracy"};
+  AccuracyOptions options;
+  std::string bridge_file;
+  std::string plot;
+  app.add_option("bridge", bridge_file, "bridge file; the reference bridge without");
+  app.add_option("--scenes", options.scenes, "scenes that stand, such as 10,4 4,10+2,6")->delimiter(' ');
+  app.add_option("--reference-refinement", options.reference_refinement, "levels of the reference's mesh")
+      ->check(CLI::Range(0, 3));
+  app.add_flag("--plain", options.plain, "also plain central differences (minutes)");
+  app.add_option("--svg", plot, "write the plot to this file");
+  CLI11_PARSE(app, argc, argv);
+  try {
+    const BridgeFile bridge = bridge_file.empty() ? reference_bridge_file() : read_bridge_file(bridge_file);
+    const std::vector<AccuracyRow> rows = measure_accuracy(bridge.description, options);
+    std::cout << to_markdown(rows);
+    if (!plot.empty() && !(std::ofstream(plot) << to_svg(rows)))
+      throw Failure(fmt::format("{}: cannot be written", plot));
+    return 0;
+  } catch (const InputError& error) {
+    std::cerr << "benchmark-accuracy: " << error.what() << '\n';
+    return 2;
+  } catch (const std::exception& error) {
+    std::cerr << "benchmark-accuracy: " << error.what() << '\n';
+    return 1;
+  }
+}
