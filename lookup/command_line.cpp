@@ -1,5 +1,13 @@
 #include "lookup/command_line.h"
 
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 
@@ -15,6 +23,16 @@ constexpr int kBadInput = 2;
 int complain(const CLI::App& app, const std::exception& error, int code) {
   fmt::print(stderr, "{}: {}\n", app.get_name(), error.what());
   return code;
+}
+
+/// A short-lived program gains nothing from giving pages back to the system only to ask for them again.
+void keep_freed_memory() {
+#ifdef __GLIBC__
+  constexpr int kNever = 1 << 30;
+  mallopt(M_MMAP_THRESHOLD, kNever);
+  mallopt(M_TRIM_THRESHOLD, kNever);
+  mallopt(M_TOP_PAD, 1 << 20);
+#endif
 }
 
 void write_out(const std::string& text) {
@@ -34,7 +52,19 @@ std::filesystem::path find_database(const std::optional<std::string>& given) {
                 "build one with: build-database -o bridge.h5");
 }
 
+void expect_whole_table(const SceneTable& table) {
+#ifdef MADV_POPULATE_READ
+  const auto page = static_cast<std::uintptr_t>(::sysconf(_SC_PAGESIZE));
+  const auto begin = reinterpret_cast<std::uintptr_t>(table.vertical.data()) / page * page;
+  const auto end = reinterpret_cast<std::uintptr_t>(table.vertical.data() + table.vertical.size());
+  static_cast<void>(::madvise(reinterpret_cast<void*>(begin), end - begin, MADV_POPULATE_READ));
+#else
+  static_cast<void>(table);
+#endif
+}
+
 int run_program(CLI::App& app, int argc, char** argv, const std::function<std::string()>& program) {
+  keep_freed_memory();
   try {
     app.parse(argc, argv);
     write_out(program());

@@ -16,6 +16,7 @@ namespace {
 constexpr double kImpossible = -std::numeric_limits<double>::infinity();
 constexpr std::array<NoiseShape, 3> kAutomaticShapes = {NoiseShape::uniform, NoiseShape::gaussian,
                                                         NoiseShape::laplace};
+constexpr std::size_t kBlockRows = 1024;
 constexpr int kLevelsPerOctave = 8;  // of the grid, where the marginal over levels has no closed form
 
 std::span<const NoiseShape> shapes_of(const NoiseModel& noise) {
@@ -28,6 +29,14 @@ bool is_proportional(const NoiseModel& noise, const Measurements& measurements) 
   const bool own = std::any_of(measurements.sigma.begin(), measurements.sigma.end(),
                                [](double sigma) { return !std::isnan(sigma); });
   return noise.floor == 0.0 && noise.model_error == 0.0 && !own && noise.shape != NoiseShape::student;
+}
+
+/// Some rows of a table.
+SceneTable part_of(const SceneTable& table, std::size_t first, std::size_t count) {
+  SceneTable part = table;
+  part.rows = count;
+  part.vertical = table.vertical.subspan(first * table.points, count * table.points);
+  return part;
 }
 
 /// Student's t has no short statistics: one pass over the row.
@@ -43,43 +52,64 @@ double log_student_likelihood(const Observation& observation, std::span<const do
 struct Problem {
   const Measurements& measurements;
   const SceneTable& table;
-  std::span<const std::size_t> rows;  // those that count; all others get -infinity
+  std::span<const std::size_t> rows;  // those that count, in ascending order; all others get -infinity
   std::span<const double> intact;
   const NoiseModel& noise;
   std::vector<double> log_silence;  // of each row: that the silent sensors are silent
 };
 
-/// Only the rows that count, with what their silent sensors say; -infinity elsewhere.
-std::vector<double> with_silence(const Problem& problem, const std::vector<double>& logs) {
-  std::vector<double> result(logs.size(), kImpossible);
-  for (const std::size_t row : problem.rows) result[row] = logs[row] + problem.log_silence[row];
+/// A function of blocks of rows, applied to all of them: intermediate results stay in the cache. The function gets a part
+/// of the table and the positions in it of the rows that count, and gives a logarithm for each row of the part.
+/// Rows that do not count get -infinity, the others what their silent sensors say on top.
+template <typename Function>
+std::vector<double> block_by_block(const Problem& problem, Function function) {
+  std::vector<double> result(problem.table.rows, kImpossible);
+  std::vector<std::size_t> positions;
+  auto next = problem.rows.begin();
+  for (std::size_t first = 0; first < problem.table.rows; first += kBlockRows) {
+    const std::size_t count = std::min(kBlockRows, problem.table.rows - first);
+    positions.clear();
+    for (; next != problem.rows.end() && *next < first + count; ++next) positions.push_back(*next - first);
+    if (positions.empty()) continue;
+    const std::vector<double> logs = function(part_of(problem.table, first, count), positions);
+    for (const std::size_t row : positions) result[first + row] = logs[row] + problem.log_silence[first + row];
+  }
   return result;
 }
 
-std::vector<double> student_likelihoods(const Problem& problem, const Observation& observation,
+std::vector<double> student_likelihoods(const Problem& problem, const SceneTable& part,
+                                        std::span<const std::size_t> rows, const Observation& observation,
                                         const TableStatistics& statistics) {
-  std::vector<double> result(problem.table.rows, kImpossible);
-  for (const std::size_t row : problem.rows)
+  std::vector<double> result(part.rows, kImpossible);
+  for (const std::size_t row : rows)
     if (!std::isnan(statistics.sum_absolute[row]))
-      result[row] = log_student_likelihood(observation, problem.table.row(row), problem.noise.degrees_of_freedom,
+      result[row] = log_student_likelihood(observation, part.row(row), problem.noise.degrees_of_freedom,
                                            statistics.sum_log_scale[row]);
   return result;
 }
 
 std::vector<double> at_level(const Problem& problem, double level) {
   const Observation observation = observe(problem.measurements, problem.intact, problem.noise, level);
-  const TableStatistics statistics = table_statistics(observation, problem.table);
-  std::vector<std::vector<double>> logs;
-  for (const NoiseShape shape : shapes_of(problem.noise))
-    logs.push_back(shape == NoiseShape::student ? student_likelihoods(problem, observation, statistics)
-                                                : log_likelihoods(shape, statistics, observation.count));
-  return with_silence(problem, log_mean(logs));
+  return block_by_block(problem, [&](const SceneTable& part, std::span<const std::size_t> rows) {
+    const TableStatistics statistics = table_statistics(observation, part);
+    std::vector<std::vector<double>> logs;
+    for (const NoiseShape shape : shapes_of(problem.noise))
+      logs.push_back(shape == NoiseShape::student ? student_likelihoods(problem, part, rows, observation, statistics)
+                                                  : log_likelihoods(shape, statistics, observation.count));
+    return log_mean(std::move(logs));
+  });
 }
 
 std::vector<double> over_levels_in_closed_form(const Problem& problem) {
   const Observation observation = observe(problem.measurements, problem.intact, problem.noise, 1.0);
-  const TableStatistics statistics = table_statistics(observation, problem.table);
-  return with_silence(problem, log_mean_evidences(shapes_of(problem.noise), statistics, problem.rows, observation.count));
+  std::vector<LevelIntegral> integrals;
+  for (const NoiseShape shape : shapes_of(problem.noise))
+    integrals.push_back(level_integral(shape, observation.count));
+  double best = kImpossible;
+  return block_by_block(problem, [&](const SceneTable& part, std::span<const std::size_t> rows) {
+    return log_mean_evidences(integrals, table_statistics(observation, part), rows, observation.count,
+                              best);
+  });
 }
 
 /// Levels from the smallest to the largest, evenly spaced in their logarithm.

@@ -10,7 +10,7 @@
 
 namespace voussoir {
 
-/// log p(readings | scene) of the given rows, with an unknown noise level and an automatic noise shape marginalised.
+/// log p(readings | scene) of the given rows (in ascending order), with an unknown noise level and an automatic noise shape marginalised.
 /// -infinity for impossible scenes (a reading on a block that the scene lacks, or an error beyond a uniform noise's
 /// bound) and for all other rows; with an unknown level perhaps for scenes less likely than the likeliest by exp(50).
 /// A silent sensor on a block that the scene has counts with the chance of its failing.

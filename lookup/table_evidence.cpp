@@ -24,68 +24,40 @@ struct ShapeEvidence {
   std::vector<std::size_t> open;
 };
 
-/// Over all levels the integral is that of a power; it is open where the largest level cuts it short.
-ShapeEvidence uniform_evidence(const TableStatistics& statistics, std::span<const std::size_t> rows,
-                               std::size_t count) {
-  const auto n = static_cast<double>(count);
-  const double cut = kLargestLevel * std::pow(kCutOff, 1.0 / n);
-  const double constant = -n * std::numbers::ln2 - std::log(n * log_range());
-  ShapeEvidence result{NoiseShape::uniform, statistics.largest, {}};
-  for (double& largest : result.logs) largest = std::max(largest * (1.0 - kBoundTolerance), kSmallestLevel);
-  make_logarithms(result.logs);
-  for (std::size_t row = 0; row < statistics.rows(); ++row)
-    result.logs[row] = constant - n * result.logs[row] - statistics.sum_log_scale[row];
-  std::copy_if(rows.begin(), rows.end(), std::back_inserter(result.open),
-               [&](std::size_t row) { return statistics.largest[row] >= cut; });
-  return result;
+const std::vector<double>& sums_of(NoiseShape shape, const TableStatistics& statistics) {
+  return shape == NoiseShape::uniform   ? statistics.largest
+         : shape == NoiseShape::laplace ? statistics.sum_absolute
+                                        : statistics.sum_square;
 }
 
-/// Over all levels the integral of exp(-count u - a exp(-power u)) is Gamma(order) a^(-order) / power with
-/// order = count / power; it is open where either end of the range of levels cuts it short.
-ShapeEvidence smooth_evidence(NoiseShape shape, const TableStatistics& statistics, std::span<const std::size_t> rows,
-                              std::size_t count) {
-  const LevelCurve unit = level_curve(shape, {1.0, 1.0, 1.0, 0.0}, count);  // a for sums of one
-  const double order = unit.count / unit.power;
-  const double least = boost::math::gamma_q_inv(order, kCutOff) * std::pow(kSmallestLevel, unit.power);
-  const double most = boost::math::gamma_p_inv(order, kCutOff) * std::pow(kLargestLevel, unit.power);
-  const double constant = unit.constant + std::lgamma(order) - std::log(unit.power * log_range()) - order * std::log(unit.a);
-  const std::vector<double>& sums = shape == NoiseShape::laplace ? statistics.sum_absolute : statistics.sum_square;
-  ShapeEvidence result{shape, sums, {}};
+ShapeEvidence shape_evidence(const LevelIntegral& integral, const TableStatistics& statistics,
+                             std::span<const std::size_t> rows, std::size_t count, double& best) {
+  const std::vector<double>& sums = sums_of(integral.shape, statistics);
+  ShapeEvidence result{integral.shape, sums, {}};
   make_logarithms(result.logs);
   for (std::size_t row = 0; row < statistics.rows(); ++row)
-    result.logs[row] = constant - order * result.logs[row] - statistics.sum_log_scale[row];
+    result.logs[row] = integral.constant - integral.order * result.logs[row] - statistics.sum_log_scale[row];
   for (const std::size_t row : rows) {
-    if (unit.a * sums[row] >= least && unit.a * sums[row] <= most) continue;
-    result.open.push_back(row);
-    const RowStatistics one = statistics.row(row);
-    result.logs[row] = log_likelihood(shape, one, count, likeliest_level(shape, one, count));
+    double& value = result.logs[row];
+    if (std::isnan(statistics.sum_absolute[row])) {
+      value = kImpossible;
+    } else if (sums[row] >= integral.least && sums[row] <= integral.most) {
+      best = std::max(best, value);
+    } else {
+      const RowStatistics one = statistics.row(row);
+      value = log_likelihood(integral.shape, one, count, likeliest_level(integral.shape, one, count));
+      result.open.push_back(row);
+    }
   }
   return result;
 }
 
-ShapeEvidence shape_evidence(NoiseShape shape, const TableStatistics& statistics, std::span<const std::size_t> rows,
-                             std::size_t count) {
-  ShapeEvidence result = shape == NoiseShape::uniform ? uniform_evidence(statistics, rows, count)
-                                                      : smooth_evidence(shape, statistics, rows, count);
-  for (const std::size_t row : rows)
-    if (std::isnan(statistics.sum_absolute[row])) result.logs[row] = kImpossible;
-  return result;
-}
-
-/// The largest evidence that is no mere bound.
-double largest_known(const ShapeEvidence& evidence, std::span<const std::size_t> rows) {
-  std::vector<double> known = evidence.logs;
-  for (const std::size_t row : evidence.open) known[row] = kImpossible;
-  double result = kImpossible;
-  for (const std::size_t row : rows) result = std::max(result, known[row]);
-  return result;
-}
-
-/// Works out the open rows from the largest bound down to what is hopeless against `best`, which rises on the way.
+/// Works out the open rows, the one with the largest bound first, but for those that are hopeless against `best`.
 void close(ShapeEvidence& evidence, const TableStatistics& statistics, std::size_t count, double& best) {
-  std::sort(evidence.open.begin(), evidence.open.end(), [&](std::size_t a, std::size_t b) {
-    return evidence.logs[a] != evidence.logs[b] ? evidence.logs[a] > evidence.logs[b] : a < b;
+  const auto likeliest = std::max_element(evidence.open.begin(), evidence.open.end(), [&](std::size_t a, std::size_t b) {
+    return evidence.logs[a] < evidence.logs[b];
   });
+  if (likeliest != evidence.open.end()) std::swap(*likeliest, evidence.open.front());
   for (const std::size_t row : evidence.open) {
     double& value = evidence.logs[row];
     value = value < best - kHopeless ? kImpossible : log_evidence(evidence.shape, statistics.row(row), count);
@@ -111,34 +83,45 @@ std::vector<double> log_likelihoods(NoiseShape shape, const TableStatistics& sta
   return result;
 }
 
-std::vector<double> log_mean_evidences(std::span<const NoiseShape> shapes, const TableStatistics& statistics,
-                                       std::span<const std::size_t> rows, std::size_t count) {
+LevelIntegral level_integral(NoiseShape shape, std::size_t count) {
+  const auto n = static_cast<double>(count);
+  if (shape == NoiseShape::uniform)
+    return {shape, n, -n * (std::numbers::ln2 + std::log1p(-kBoundTolerance)) - std::log(n * log_range()),
+            kSmallestLevel / (1.0 - kBoundTolerance), kLargestLevel * std::pow(kCutOff, 1.0 / n)};
+  // The integral over u of exp(-n u - a exp(-power u)) is Gamma(order) a^(-order) / power.
+  using Policy = boost::math::policies::policy<boost::math::policies::promote_double<false>>;
+  const LevelCurve unit = level_curve(shape, {1.0, 1.0, 1.0, 0.0}, count);  // its a is that of a sum of one
+  const double order = n / unit.power;
+  return {shape, order,
+          unit.constant + std::lgamma(order) - std::log(unit.power * log_range()) - order * std::log(unit.a),
+          boost::math::gamma_q_inv(order, kCutOff, Policy()) * std::pow(kSmallestLevel, unit.power) / unit.a,
+          boost::math::gamma_p_inv(order, kCutOff, Policy()) * std::pow(kLargestLevel, unit.power) / unit.a};
+}
+
+std::vector<double> log_mean_evidences(std::span<const LevelIntegral> integrals, const TableStatistics& statistics,
+                                       std::span<const std::size_t> rows, std::size_t count, double& best) {
   std::vector<ShapeEvidence> parts;
-  double best = kImpossible;
-  for (const NoiseShape shape : shapes) {
-    parts.push_back(shape_evidence(shape, statistics, rows, count));
-    best = std::max(best, largest_known(parts.back(), rows));
-  }
+  for (const LevelIntegral& integral : integrals)
+    parts.push_back(shape_evidence(integral, statistics, rows, count, best));
   std::vector<std::vector<double>> logs;
   for (ShapeEvidence& part : parts) {
     close(part, statistics, count, best);
     logs.push_back(std::move(part.logs));
   }
-  return log_mean(logs);
+  return log_mean(std::move(logs));
 }
 
-std::vector<double> log_mean(const std::vector<std::vector<double>>& logs) {
-  if (logs.size() == 1) return logs.front();
+std::vector<double> log_mean(std::vector<std::vector<double>> logs) {
+  if (logs.size() == 1) return std::move(logs.front());
   const std::size_t rows = logs.front().size();
   std::vector<double> largest = logs.front();
   for (const std::vector<double>& values : logs)
     for (std::size_t row = 0; row < rows; ++row) largest[row] = std::max(largest[row], values[row]);
   std::vector<double> sum(rows, 0.0);
-  std::vector<double> part(rows);
-  for (const std::vector<double>& values : logs) {
-    for (std::size_t row = 0; row < rows; ++row) part[row] = values[row] - largest[row];
-    make_exponentials(part);
-    for (std::size_t row = 0; row < rows; ++row) sum[row] += part[row];
+  for (std::vector<double>& values : logs) {
+    for (std::size_t row = 0; row < rows; ++row) values[row] -= largest[row];
+    make_exponentials(values);
+    for (std::size_t row = 0; row < rows; ++row) sum[row] += values[row];
   }
   make_logarithms(sum);
   const double log_count = std::log(static_cast<double>(logs.size()));
