@@ -292,3 +292,43 @@ TEST_CASE("A prior needs a weight for each number of missing blocks") {
   CHECK_THROWS_AS(posterior(library.table, eligible, std::vector<double>(library.table.rows, 0.0), {{0, 1}, {1.0}}, 6),
                   InputError);
 }
+
+TEST_CASE("A silent sensor counts with its chance of failing where its block stands, and costs nothing where it is gone") {
+  const SyntheticLibrary library(2, 4);
+  Measurements measured = readings_of(library, 0, 0.02, 11);
+  const auto rows = all_rows(library.table);
+  const NoiseModel noise{NoiseShape::gaussian, 0.05};
+  for (const std::size_t point : {std::size_t{2}, std::size_t{3}})  // both sensors of the second top block
+    measured.displacement[point] = std::nan("");
+  const auto unlisted = log_evidence_of_rows(measured, library.table, rows, library.intact(), noise);
+  for (const std::size_t point : {std::size_t{2}, std::size_t{3}}) measured.silent[point] = true;
+  const auto silent = log_evidence_of_rows(measured, library.table, rows, library.intact(), noise);
+  const BlockId block = library.points[2].block;
+  for (const std::size_t row : rows) {
+    const double expected = library.table.scene(row).lacks(block) ? 0.0 : 2.0 * std::log(noise.silence);
+    if (unlisted[row] != -kInfinity) CHECK(silent[row] - unlisted[row] == Approx(expected).margin(1e-9));
+  }
+}
+
+TEST_CASE("Simulated readings have the noise that was asked for, and silent sensors on missing blocks and by chance") {
+  std::vector<double> truth(20'000, -2e-3);
+  truth[7] = std::nan("");
+  for (const NoiseShape shape : kShapes) {
+    Random random(12);
+    const NoiseModel noise{shape, 0.05, 1e-5, 0.0, 8.0, 0.1};
+    const Measurements measured = simulate_readings(truth, noise, random);
+    CHECK(measured.silent[7]);
+    double sum = 0.0, square = 0.0;
+    for (const double value : measured.displacement)
+      if (!std::isnan(value)) {
+        sum += value + 2e-3;
+        square += (value + 2e-3) * (value + 2e-3);
+      }
+    const auto n = static_cast<double>(measured.count());
+    const double sigma = 0.05 * 2e-3 + 1e-5;
+    INFO(to_string(shape));
+    CHECK(n / 20'000 == Approx(0.9).margin(0.01));
+    CHECK(sum / n == Approx(0.0).margin(4.0 * sigma / std::sqrt(n)));
+    CHECK(std::sqrt(square / n) == Approx(sigma * standard_deviation(shape)).epsilon(0.05));
+  }
+}
