@@ -11,8 +11,8 @@ QuasiStaticSettings without_falls(QuasiStaticSettings settings) {
 }  // namespace
 
 DynamicSettings patient(DynamicSettings settings) {
-  // Measured on the reference bridge: a bridge at rest goes below 1e-7 of its weight within a second; a block that creeps
-  // keeps 4e-3 and more of its own weight unbalanced and takes up to four seconds to move away.
+  // Measured on the reference bridge: a bridge at rest goes below 1e-7 of its weight within a second; a block
+  // that creeps keeps 4e-3 and more of its own weight unbalanced and takes up to four seconds to move away.
   settings.standing_unbalance = 1e-7;
   settings.collapsing_unbalance = 1e-3;
   settings.latest_decision = 8.0;

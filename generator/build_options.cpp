@@ -26,39 +26,32 @@ BuildOptions parse_build_options(int argc, char** argv) {
                "build-database");
   app.footer(kFooter);
   app.set_version_flag("--version", version_text("build-database"));
-  bool in_motion = false;
-  bool explicit_steps = false;
-  const std::map<std::string, bool> solver_names = {{"quasi-static", false}, {"dynamic", true}};
-  const std::map<std::string, bool> integrator_names = {{"implicit", false}, {"explicit", true}};
-  bool fields = true;
+  std::string solver = "quasi-static";
+  std::string integrator = "implicit";
+  std::string fields = "all";
+  std::string format = "text";
   bool no_mirror = false;
-  const std::map<std::string, bool> field_names = {{"all", true}, {"none", false}};
-  const std::map<std::string, bool> format_names = {{"text", false}, {"json", true}};
   app.add_option("bridge", options.bridge, "bridge file (TOML); default: the reference bridge");
   app.add_option("-o,--output", options.request.output, "database to write")->capture_default_str();
   app.add_option("--scenes", options.request.scenes, "which scenes, see below")->capture_default_str();
   app.add_option("--threads", options.request.threads, "threads, 0: one for each core")
       ->check(CLI::Range(0, kMostThreads))
       ->capture_default_str();
-  app.add_option("--solver", in_motion,
+  app.add_option("--solver", solver,
                  "quasi-static: Newton for scenes that stand, motion for the others; dynamic: motion for all")
-      ->transform(CLI::Transformer(solver_names))
-      ->default_str("quasi-static")
-      ->option_text("quasi-static|dynamic");
+      ->check(CLI::IsMember({"quasi-static", "dynamic"}))
+      ->capture_default_str();
   app.add_option(
-         "--integrator", explicit_steps,
+         "--integrator", integrator,
          "with --solver dynamic: implicit in the blocks, or central differences with tiny steps (slow)")
-      ->transform(CLI::Transformer(integrator_names))
-      ->default_str("implicit")
-      ->option_text("implicit|explicit");
+      ->check(CLI::IsMember({"implicit", "explicit"}))
+      ->capture_default_str();
   app.add_option("--fields", fields, "displacements of all nodes are kept of all scenes or of none")
-      ->transform(CLI::Transformer(field_names))
-      ->default_str("all")
-      ->option_text("all|none");
-  app.add_option("--format", options.json, "of the summary")
-      ->transform(CLI::Transformer(format_names))
-      ->default_str("text")
-      ->option_text("text|json");
+      ->check(CLI::IsMember({"all", "none"}))
+      ->capture_default_str();
+  app.add_option("--format", format, "of the summary")
+      ->check(CLI::IsMember({"text", "json"}))
+      ->capture_default_str();
   app.add_option("--xdmf", options.request.xdmf_scenes,
                  "also write an index (.xdmf, .views.h5) with which ParaView opens these scenes");
   app.add_flag("--no-mirror", no_mirror, "solve every scene, even if its mirror image is solved");
@@ -69,10 +62,11 @@ BuildOptions parse_build_options(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     options.exit_code = app.exit(error) == 0 ? 0 : kBadUsage;
   }
-  options.request.fields = fields ? KeepField::yes : KeepField::no;
+  options.json = format == "json";
+  options.request.fields = fields == "all" ? KeepField::yes : KeepField::no;
   DynamicSettings motion;
-  if (explicit_steps) motion.integrator = Integrator::central_differences;
-  options.solver = in_motion ? dynamic(motion) : quasi_static();
+  if (integrator == "explicit") motion.integrator = Integrator::central_differences;
+  options.solver = solver == "dynamic" ? dynamic(motion) : quasi_static();
   options.request.mirror = no_mirror ? UseMirror::no : UseMirror::yes;
   return options;
 }

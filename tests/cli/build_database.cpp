@@ -172,10 +172,11 @@ TEST_CASE("Bad usage of build-database is told in words and ends with 2") {
     CHECK(result.exit_code == 2);
     CHECK_THAT(result.err, Catch::Contains(words));
   };
-  refused({"--solver", "magic"}, "--solver = magic");
+  refused({"--solver", "magic"}, "magic not in {quasi-static,dynamic}");
+  refused({"--format", "xml"}, "xml not in {text,json}");
   refused({"--threads", "many"}, "--threads");
   refused({"--threads", "-1"}, "--threads");
-  refused({"--fields", "some"}, "--fields");
+  refused({"--fields", "some"}, "some not in {all,none}");
   refused({"--scenes", "9,1"}, "no course 9");
   refused({"--scenes", "5,1..x"}, "cannot read '5,1..x'");
   refused({"--tolerance", "1"}, "--tolerance");
