@@ -36,7 +36,8 @@ void keep_freed_memory() {
 }
 
 void write_out(const std::string& text) {
-  const bool written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0;
+  const bool written =
+      std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0;
   if (!written) throw Failure("the answer cannot be written to the standard output");
 }
 
@@ -48,8 +49,9 @@ std::filesystem::path find_database(const std::optional<std::string>& given) {
   if (named != nullptr && *named != '\0') return named;
   const std::filesystem::path usual = "bridge.h5";
   if (std::filesystem::exists(usual)) return usual;
-  throw Failure("no database: there is no ./bridge.h5, and neither -d nor $VOUSSOIR_DATABASE names one; "
-                "build one with: build-database -o bridge.h5");
+  throw Failure(
+      "no database: there is no ./bridge.h5, and neither -d nor $VOUSSOIR_DATABASE names one; "
+      "build one with: build-database -o bridge.h5");
 }
 
 void expect_whole_table(const SceneTable& table) {

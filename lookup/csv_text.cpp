@@ -55,7 +55,8 @@ std::optional<double> parse_number(std::string_view text) {
   const auto [end, error] = std::from_chars(text.data(), last, number);
   if (end != last || error == std::errc::invalid_argument) return std::nullopt;
   if (error == std::errc::result_out_of_range) {
-    // from_chars says the same of numbers too large and too small; only the too small have a negative exponent.
+    // from_chars says the same of numbers too large and too small; only the too small have a negative
+    // exponent.
     const auto exponent = text.find_first_of("eE");
     const bool tiny = exponent == std::string_view::npos || text.substr(exponent + 1).starts_with('-');
     return tiny ? 0.0 : std::numeric_limits<double>::infinity();

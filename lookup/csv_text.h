@@ -1,6 +1,6 @@
 #pragma once
-/// @file The few rules of a measurements file's CSV: lines, comments, fields, numbers. No quoting beyond a pair of
-/// quotation marks round a whole field.
+/// @file The few rules of a measurements file's CSV: lines, comments, fields, numbers. No quoting beyond a
+/// pair of quotation marks round a whole field.
 
 #include <optional>
 #include <string>
@@ -15,12 +15,13 @@ struct CsvLine {
   std::vector<std::string_view> fields;
 };
 
-/// Cuts a text into lines (LF or CRLF, with or without UTF-8 byte order mark), drops what follows '#', drops empty
-/// lines, and cuts the rest at commas; blanks and one pair of quotation marks round a field are removed.
+/// Cuts a text into lines (LF or CRLF, with or without UTF-8 byte order mark), drops what follows '#', drops
+/// empty lines, and cuts the rest at commas; blanks and one pair of quotation marks round a field are
+/// removed.
 std::vector<CsvLine> cut_csv(std::string_view text);
 
-/// The number that fills the whole text, NaN and infinities included, whatever the locale; nothing if it does not.
-/// A number too large for a double is an infinity.
+/// The number that fills the whole text, NaN and infinities included, whatever the locale; nothing if it does
+/// not. A number too large for a double is an infinity.
 std::optional<double> parse_number(std::string_view text);
 
 /// The text between apostrophes, shortened and without unprintable bytes, fit for an error message.

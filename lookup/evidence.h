@@ -1,6 +1,6 @@
 #pragma once
-/// @file The probability (density) of the readings given one scene, for a stated noise level and over all levels, for the
-/// shapes whose statistics are short: uniform, Gaussian, Laplace.
+/// @file The probability (density) of the readings given one scene, for a stated noise level and over all
+/// levels, for the shapes whose statistics are short: uniform, Gaussian, Laplace.
 
 #include "lookup/noise_model.h"
 #include "lookup/row_statistics.h"
@@ -10,13 +10,14 @@ namespace voussoir {
 /// Errors may exceed the bound of uniform noise by this share of it: rounding.
 inline constexpr double kBoundTolerance = 1e-9;
 
-/// log p(readings | scene) when all scales are `level` times those of the statistics. -infinity for an impossible
-/// scene. Densities are per metre for each reading.
-double log_likelihood(NoiseShape shape, const RowStatistics& statistics, std::size_t count, double level = 1.0);
+/// log p(readings | scene) when all scales are `level` times those of the statistics. -infinity for an
+/// impossible scene. Densities are per metre for each reading.
+double log_likelihood(NoiseShape shape, const RowStatistics& statistics, std::size_t count,
+                      double level = 1.0);
 
 /// log of the mean of p(readings | scene, level) over levels with a density uniform in log level between
-/// kSmallestLevel and kLargestLevel; statistics taken with level 1. Uniform in closed form, Gaussian and Laplace by
-/// Gauss-Legendre quadrature over the part of the range that matters (relative error below 1e-9).
+/// kSmallestLevel and kLargestLevel; statistics taken with level 1. Uniform in closed form, Gaussian and
+/// Laplace by Gauss-Legendre quadrature over the part of the range that matters (relative error below 1e-9).
 double log_evidence(NoiseShape shape, const RowStatistics& statistics, std::size_t count);
 
 /// The level at which these statistics (taken with level 1) are most likely, within the range of levels.

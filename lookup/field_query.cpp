@@ -42,7 +42,7 @@ std::vector<PlaceDisplacement> at_points(const Database& database, std::size_t r
     const StoredPoint& point = database.control_points()[i];
     const Point displacement =
         has_fields ? Point(field.col(value(node_of(point, database.mesh()))))
-              : Point(std::numeric_limits<double>::quiet_NaN(), database.table().row(row)[i]);
+                   : Point(std::numeric_limits<double>::quiet_NaN(), database.table().row(row)[i]);
     result.push_back({point.name, displacement});
   }
   return result;
@@ -50,11 +50,12 @@ std::vector<PlaceDisplacement> at_points(const Database& database, std::size_t r
 
 std::size_t find_point(const Database& database, std::string_view name) {
   const auto& points = database.control_points();
-  const auto found =
-      std::find_if(points.begin(), points.end(), [&](const StoredPoint& point) { return point.name == name; });
+  const auto found = std::find_if(points.begin(), points.end(),
+                                  [&](const StoredPoint& point) { return point.name == name; });
   if (found == points.end())
-    throw InputError(fmt::format("--at: unknown point {}, expected control, coordinates X,Y in metres, or names from {} to {}",
-                                 quoted(name), points.front().name, points.back().name));
+    throw InputError(fmt::format(
+        "--at: unknown point {}, expected control, coordinates X,Y in metres, or names from {} to {}",
+        quoted(name), points.front().name, points.back().name));
   return static_cast<std::size_t>(found - points.begin());
 }
 
@@ -86,8 +87,9 @@ Point displacement_at(const Database& database, std::size_t row, const Point& pl
       return result;
     }
   }
-  throw InputError(fmt::format("--at: there is no block at x = {} m, y = {} m in scene {}, expected a place within one",
-                               place.x(), place.y(), to_string(scene, database.layout())));
+  throw InputError(
+      fmt::format("--at: there is no block at x = {} m, y = {} m in scene {}, expected a place within one",
+                  place.x(), place.y(), to_string(scene, database.layout())));
 }
 
 std::optional<Point> parse_place(const std::vector<std::string_view>& parts) {
@@ -104,11 +106,13 @@ std::size_t find_row(const Database& database, std::string_view text) {
   const Scene scene = parse_scene(text, database.layout());
   const std::optional<std::size_t> row = database.find(scene);
   if (!row)
-    throw Failure(fmt::format("{}: has no scene {}", database.path().string(), to_string(scene, database.layout())));
+    throw Failure(
+        fmt::format("{}: has no scene {}", database.path().string(), to_string(scene, database.layout())));
   return *row;
 }
 
-std::vector<PlaceDisplacement> displacements_at(const Database& database, std::size_t row, std::string_view at) {
+std::vector<PlaceDisplacement> displacements_at(const Database& database, std::size_t row,
+                                                std::string_view at) {
   const std::vector<std::string_view> parts = cut_at_commas(at);
   if (const std::optional<Point> place = parse_place(parts))
     return {{fmt::format("{},{}", place->x(), place->y()), displacement_at(database, row, *place)}};

@@ -37,7 +37,8 @@ std::string field_csv(const SceneField& scene) {
     const IndexRange nodes = scene.mesh.block_nodes[block];
     for (int node = nodes.begin; node < nodes.end; ++node)
       fmt::format_to(std::back_inserter(text), "{},{},{},{},{},{}\n", index.course, index.position,
-                     scene.mesh.nodes(0, node), scene.mesh.nodes(1, node), scene.field(0, node), scene.field(1, node));
+                     scene.mesh.nodes(0, node), scene.mesh.nodes(1, node), scene.field(0, node),
+                     scene.field(1, node));
   });
   return text;
 }
@@ -84,9 +85,11 @@ void append_block(const SceneField& scene, std::size_t block, VtkArrays& arrays)
   arrays.point_count += nodes.size();
 }
 
-std::string data_array(std::string_view type, std::string_view name, int components, const std::string& values) {
-  return fmt::format("<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"ascii\">\n{}</DataArray>\n",
-                     type, name, components, values);
+std::string data_array(std::string_view type, std::string_view name, int components,
+                       const std::string& values) {
+  return fmt::format(
+      "<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"ascii\">\n{}</DataArray>\n",
+      type, name, components, values);
 }
 
 std::string field_vtu(const SceneField& scene) {
@@ -100,7 +103,8 @@ std::string field_vtu(const SceneField& scene) {
       "<Points>\n{}</Points>\n<Cells>\n{}{}{}</Cells>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n",
       arrays.point_count, arrays.cell_count, data_array("Float64", "displacement_m", 3, arrays.displacements),
       data_array("Int32", "course", 1, arrays.courses), data_array("Int32", "position", 1, arrays.positions),
-      data_array("Float64", "points_m", 3, arrays.points), data_array("Int32", "connectivity", 1, arrays.connectivity),
+      data_array("Float64", "points_m", 3, arrays.points),
+      data_array("Int32", "connectivity", 1, arrays.connectivity),
       data_array("Int32", "offsets", 1, arrays.offsets), data_array("UInt8", "types", 1, arrays.types));
 }
 
@@ -131,8 +135,9 @@ std::string places_json(const std::vector<PlaceDisplacement>& places) {
 
 std::string field_report(const Database& database, std::size_t row, FieldFormat format) {
   const SceneField scene{database, database.mesh(), database.table().scene(row), database.field(row)};
-  return format == FieldFormat::vtu ? field_vtu(scene) : format == FieldFormat::json ? field_json(scene)
-                                                                                      : field_csv(scene);
+  return format == FieldFormat::vtu    ? field_vtu(scene)
+         : format == FieldFormat::json ? field_json(scene)
+                                       : field_csv(scene);
 }
 
 }  // namespace voussoir

@@ -16,8 +16,9 @@ std::string places_csv(const std::vector<PlaceDisplacement>& places);
 /// [{"point": "T12", "ux_m": .., "uy_m": ..}, ..]; null where there is no value.
 std::string places_json(const std::vector<PlaceDisplacement>& places);
 
-/// Every node of the blocks that are there. Formats: a CSV or JSON list with block, place [m] and displacement [m], or an
-/// unstructured grid for ParaView with the displacement at nodes, and course and position of the block in triangles.
+/// Every node of the blocks that are there. Formats: a CSV or JSON list with block, place [m] and
+/// displacement [m], or an unstructured grid for ParaView with the displacement at nodes, and course and
+/// position of the block in triangles.
 std::string field_report(const Database& database, std::size_t row, FieldFormat format);
 
 }  // namespace voussoir

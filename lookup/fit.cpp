@@ -11,15 +11,16 @@
 namespace voussoir {
 namespace {
 
-constexpr double kSuspiciousLevel = 0.3;    // an estimated noise above this share means that nothing fits
-constexpr double kPerfectLevel = 1e-4;      // below it residuals are rounding, and their pattern means nothing
+constexpr double kSuspiciousLevel = 0.3;  // an estimated noise above this share means that nothing fits
+constexpr double kPerfectLevel = 1e-4;    // below it residuals are rounding, and their pattern means nothing
 constexpr std::size_t kFewestForPattern = 10;
-constexpr double kDisagreement = 8.0;       // times the median error: rare even among Laplace's wide tails
+constexpr double kDisagreement = 8.0;  // times the median error: rare even among Laplace's wide tails
 constexpr std::size_t kFewestForDisagreement = 5;
 
 std::vector<double> without_gaps(const std::vector<double>& errors) {
   std::vector<double> result;
-  std::copy_if(errors.begin(), errors.end(), std::back_inserter(result), [](double z) { return !std::isnan(z); });
+  std::copy_if(errors.begin(), errors.end(), std::back_inserter(result),
+               [](double z) { return !std::isnan(z); });
   return result;
 }
 
@@ -37,7 +38,8 @@ double student_chance(const std::vector<double>& errors, double nu) {
   return lower_tail(-(sum - n * mean) / std::sqrt(n * variance));
 }
 
-double chance_at_stated_level(const std::vector<double>& errors, NoiseShape shape, double degrees_of_freedom) {
+double chance_at_stated_level(const std::vector<double>& errors, NoiseShape shape,
+                              double degrees_of_freedom) {
   const auto n = static_cast<double>(errors.size());
   double absolute = 0.0, square = 0.0, largest = 0.0;
   for (const double z : errors) {
@@ -57,7 +59,8 @@ double chance_at_stated_level(const std::vector<double>& errors, NoiseShape shap
   }
 }
 
-/// Chance that independent errors follow their neighbours as closely as these: von Neumann's ratio, normal limit.
+/// Chance that independent errors follow their neighbours as closely as these: von Neumann's ratio, normal
+/// limit.
 double chance_of_pattern(const std::vector<double>& errors) {
   const auto n = static_cast<double>(errors.size());
   double square = 0.0, differences = 0.0;
@@ -77,7 +80,8 @@ Fit check_fit(const std::vector<double>& errors, const NoiseEstimate& noise, dou
   const std::vector<double> present = without_gaps(errors);
   if (!noise.estimated) {
     const double chance = chance_at_stated_level(present, noise.shape, degrees_of_freedom);
-    return {chance >= kSmallestChance, chance, chance >= kSmallestChance ? "" : "the scatter exceeds the stated noise"};
+    return {chance >= kSmallestChance, chance,
+            chance >= kSmallestChance ? "" : "the scatter exceeds the stated noise"};
   }
   if (noise.level * standard_deviation(noise.shape) > kSuspiciousLevel)
     return {false, 0.0, "the scatter is too large to be noise"};
@@ -87,7 +91,8 @@ Fit check_fit(const std::vector<double>& errors, const NoiseEstimate& noise, dou
           chance >= kSmallestChance ? "" : "neighbouring sensors deviate together, as noise does not"};
 }
 
-std::vector<SensorResidual> sensor_residuals(const Measurements& measurements, std::span<const double> prediction,
+std::vector<SensorResidual> sensor_residuals(const Measurements& measurements,
+                                             std::span<const double> prediction,
                                              const std::vector<double>& errors) {
   std::vector<double> sizes = without_gaps(errors);
   for (double& size : sizes) size = std::abs(size);

@@ -11,8 +11,8 @@ namespace voussoir {
 namespace {
 
 constexpr std::size_t kMostGenes = 4;
-constexpr std::uint32_t kLargestStep = 2;    // of a local mutation, in courses or positions
-constexpr double kLocalMutation = 0.5;       // share of mutations that stay near; the others go anywhere
+constexpr std::uint32_t kLargestStep = 2;  // of a local mutation, in courses or positions
+constexpr double kLocalMutation = 0.5;     // share of mutations that stay near; the others go anywhere
 constexpr std::uint32_t kNoRow = std::numeric_limits<std::uint32_t>::max();
 constexpr double kNotScored = -1.0;
 
@@ -25,8 +25,13 @@ class Evolution {
  public:
   Evolution(std::span<const double> readings, const SceneTable& table, const GeneSpace& space, int missing,
             const GeneticSettings& settings)
-      : readings_(readings), table_(table), space_(space), missing_(static_cast<std::size_t>(missing)),
-        settings_(settings), random_(settings.seed), sums_(table.rows, kNotScored) {}
+      : readings_(readings),
+        table_(table),
+        space_(space),
+        missing_(static_cast<std::size_t>(missing)),
+        settings_(settings),
+        random_(settings.seed),
+        sums_(table.rows, kNotScored) {}
 
   GeneticResult run(std::size_t count) {
     std::vector<Member> population = first_generation();
@@ -75,7 +80,8 @@ class Evolution {
     return a.score < b.score ? a : b;
   }
 
-  /// Each block of the child comes from either parent; a single block inherits its course and position separately.
+  /// Each block of the child comes from either parent; a single block inherits its course and position
+  /// separately.
   Member crossed(const Member& a, const Member& b) {
     if (random_.uniform() >= settings_.crossover) return a;
     Member child = a;
@@ -183,8 +189,9 @@ std::size_t GeneSpace::row(std::span<const int> genes) const {
   return row == kNoRow ? none : row;
 }
 
-GeneticResult genetic_search(std::span<const double> readings, const SceneTable& table, const GeneSpace& space,
-                             int missing, const GeneticSettings& settings, std::size_t count) {
+GeneticResult genetic_search(std::span<const double> readings, const SceneTable& table,
+                             const GeneSpace& space, int missing, const GeneticSettings& settings,
+                             std::size_t count) {
   return Evolution(readings, table, space, missing, settings).run(count);
 }
 

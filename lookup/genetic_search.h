@@ -26,7 +26,9 @@ class GeneSpace {
   GeneSpace(const BlockLayout& layout, const SceneTable& table);
 
   int courses() const { return static_cast<int>(courses_.size()); }  ///< the arch (0) included
-  int positions(int course) const { return static_cast<int>(courses_[static_cast<std::size_t>(course)].size()); }
+  int positions(int course) const {
+    return static_cast<int>(courses_[static_cast<std::size_t>(course)].size());
+  }
 
   /// The table's row of the scene that lacks the blocks (x1, x2), (x3, x4)..., or `none`: blocks named twice,
   /// scenes that are not in the database, unresolved scenes. At most two blocks.
@@ -46,11 +48,11 @@ struct GeneticResult {
   std::size_t evaluations = 0;  ///< misfits computed (each scene once)
 };
 
-/// Minimises the paper's Eq. 1 over integer genes (x1, x2[, x3, x4]). Each generation keeps its best member, chooses
-/// parents by tournaments of two, exchanges whole blocks between them, and moves a block to a neighbouring or to any
-/// position. Reproducible for a seed.
-/// Precondition: 1 or 2 missing blocks.
-GeneticResult genetic_search(std::span<const double> readings, const SceneTable& table, const GeneSpace& space,
-                             int missing, const GeneticSettings& settings, std::size_t count);
+/// Minimises the paper's Eq. 1 over integer genes (x1, x2[, x3, x4]). Each generation keeps its best member,
+/// chooses parents by tournaments of two, exchanges whole blocks between them, and moves a block to a
+/// neighbouring or to any position. Reproducible for a seed. Precondition: 1 or 2 missing blocks.
+GeneticResult genetic_search(std::span<const double> readings, const SceneTable& table,
+                             const GeneSpace& space, int missing, const GeneticSettings& settings,
+                             std::size_t count);
 
 }  // namespace voussoir

@@ -1,5 +1,6 @@
 #pragma once
-/// @file Logarithm and exponential of four doubles at once, in plain arithmetic: the same bits on every machine.
+/// @file Logarithm and exponential of four doubles at once, in plain arithmetic: the same bits on every
+/// machine.
 
 #include <cstdint>
 #include <limits>
@@ -12,8 +13,8 @@ namespace voussoir {
 /// x = log(x) for normal positive numbers, within 2 units in the last place of the larger of result and 1;
 /// -infinity for zero, subnormal and negative numbers; infinity and NaN stay.
 ///
-/// x = 2^e f with f in [sqrt(1/2), sqrt(2)); log f = 2 atanh(s) with s = (f - 1) / (f + 1), |s| < 0.1716, by its odd
-/// series up to s^19 (the next term is below 1e-17).
+/// x = 2^e f with f in [sqrt(1/2), sqrt(2)); log f = 2 atanh(s) with s = (f - 1) / (f + 1), |s| < 0.1716, by
+/// its odd series up to s^19 (the next term is below 1e-17).
 VOUSSOIR_INLINE void make_logarithm(Lanes& x) {
   constexpr std::int64_t kRootHalfBits = 0x3FE6A09E667F3BCD;
   constexpr std::int64_t kExponentMask = static_cast<std::int64_t>(0xFFF0000000000000);
@@ -24,7 +25,8 @@ VOUSSOIR_INLINE void make_logarithm(Lanes& x) {
   const Lanes s = (f - 1.0) / (f + 1.0);
   const Lanes q = s * s;
   Lanes series = Lanes{} + 1.0 / 19.0;
-  for (const double divisor : {17.0, 15.0, 13.0, 11.0, 9.0, 7.0, 5.0, 3.0}) series = series * q + 1.0 / divisor;
+  for (const double divisor : {17.0, 15.0, 13.0, 11.0, 9.0, 7.0, 5.0, 3.0})
+    series = series * q + 1.0 / divisor;
   const Lanes tail = s * q * series;
   constexpr double kLn2High = 0x1.62e42fefa3800p-1;  // the last bits are zero: e times it is exact
   constexpr double kLn2Low = 0x1.ef35793c76730p-45;
@@ -36,7 +38,8 @@ VOUSSOIR_INLINE void make_logarithm(Lanes& x) {
 
 /// x = exp(x) for x <= 0, within 3 units in the last place; zero below -708, NaN stays.
 ///
-/// x = k log 2 + r with |r| <= log(2) / 2; exp r by its Taylor polynomial of degree 13 (remainder below 1e-17).
+/// x = k log 2 + r with |r| <= log(2) / 2; exp r by its Taylor polynomial of degree 13 (remainder below
+/// 1e-17).
 VOUSSOIR_INLINE void make_exponential(Lanes& x) {
   constexpr double kLowest = -708.0;
   constexpr double kRound = 0x1.8p52;  // adding it leaves the nearest whole number in the low bits
@@ -47,8 +50,8 @@ VOUSSOIR_INLINE void make_exponential(Lanes& x) {
   const Lanes k = rounded - kRound;
   const Lanes r = (bounded - k * kLn2High) - k * kLn2Low;
   Lanes series = Lanes{} + 1.0 / 6227020800.0;
-  for (const double factorial : {479001600.0, 39916800.0, 3628800.0, 362880.0, 40320.0, 5040.0, 720.0, 120.0, 24.0,
-                                 6.0, 2.0, 1.0, 1.0})
+  for (const double factorial : {479001600.0, 39916800.0, 3628800.0, 362880.0, 40320.0, 5040.0, 720.0, 120.0,
+                                 24.0, 6.0, 2.0, 1.0, 1.0})
     series = series * r + 1.0 / factorial;
   const LaneMask scale = (__builtin_convertvector(k, LaneMask) + 1023) << 52;
   const Lanes result = series * reinterpret_cast<Lanes>(scale);

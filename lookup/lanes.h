@@ -1,13 +1,15 @@
 #pragma once
 /// @file Four doubles side by side, and the attribute that compiles a loop over them for the newest common
-/// instruction set as well as for the oldest; both give the same bits (no contraction, the same order of sums).
+/// instruction set as well as for the oldest; both give the same bits (no contraction, the same order of
+/// sums).
 
 #include <cstdint>
 #include <cstring>
 
 namespace voussoir {
 
-#if defined(__x86_64__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) && !defined(__clang__)
+#if defined(__x86_64__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) && \
+    !defined(__clang__)
 #define VOUSSOIR_VECTORISED __attribute__((target_clones("avx2", "default")))
 #else
 #define VOUSSOIR_VECTORISED

@@ -14,7 +14,8 @@ double LevelCurve::peak() const {
 }
 
 LevelCurve level_curve(NoiseShape shape, const RowStatistics& statistics, std::size_t count) {
-  const double constant = static_cast<double>(count) * log_density(shape, 0.0, 0.0) - statistics.sum_log_scale;
+  const double constant =
+      static_cast<double>(count) * log_density(shape, 0.0, 0.0) - statistics.sum_log_scale;
   if (shape == NoiseShape::laplace)
     return {static_cast<double>(count), std::numbers::sqrt2 * statistics.sum_absolute, 1.0, constant};
   return {static_cast<double>(count), 0.5 * statistics.sum_square, 2.0, constant};

@@ -58,9 +58,9 @@ struct Problem {
   std::vector<double> log_silence;  // of each row: that the silent sensors are silent
 };
 
-/// A function of blocks of rows, applied to all of them: intermediate results stay in the cache. The function gets a part
-/// of the table and the positions in it of the rows that count, and gives a logarithm for each row of the part.
-/// Rows that do not count get -infinity, the others what their silent sensors say on top.
+/// A function of blocks of rows, applied to all of them: intermediate results stay in the cache. The function
+/// gets a part of the table and the positions in it of the rows that count, and gives a logarithm for each
+/// row of the part. Rows that do not count get -infinity, the others what their silent sensors say on top.
 template <typename Function>
 std::vector<double> block_by_block(const Problem& problem, Function function) {
   std::vector<double> result(problem.table.rows, kImpossible);
@@ -72,7 +72,8 @@ std::vector<double> block_by_block(const Problem& problem, Function function) {
     for (; next != problem.rows.end() && *next < first + count; ++next) positions.push_back(*next - first);
     if (positions.empty()) continue;
     const std::vector<double> logs = function(part_of(problem.table, first, count), positions);
-    for (const std::size_t row : positions) result[first + row] = logs[row] + problem.log_silence[first + row];
+    for (const std::size_t row : positions)
+      result[first + row] = logs[row] + problem.log_silence[first + row];
   }
   return result;
 }
@@ -94,8 +95,9 @@ std::vector<double> at_level(const Problem& problem, double level) {
     const TableStatistics statistics = table_statistics(observation, part);
     std::vector<std::vector<double>> logs;
     for (const NoiseShape shape : shapes_of(problem.noise))
-      logs.push_back(shape == NoiseShape::student ? student_likelihoods(problem, part, rows, observation, statistics)
-                                                  : log_likelihoods(shape, statistics, observation.count));
+      logs.push_back(shape == NoiseShape::student
+                         ? student_likelihoods(problem, part, rows, observation, statistics)
+                         : log_likelihoods(shape, statistics, observation.count));
     return log_mean(std::move(logs));
   });
 }
@@ -107,8 +109,7 @@ std::vector<double> over_levels_in_closed_form(const Problem& problem) {
     integrals.push_back(level_integral(shape, observation.count));
   double best = kImpossible;
   return block_by_block(problem, [&](const SceneTable& part, std::span<const std::size_t> rows) {
-    return log_mean_evidences(integrals, table_statistics(observation, part), rows, observation.count,
-                              best);
+    return log_mean_evidences(integrals, table_statistics(observation, part), rows, observation.count, best);
   });
 }
 
@@ -153,8 +154,8 @@ NoiseShape likeliest_shape(const Problem& problem) {
   for (const NoiseShape shape : shapes_of(problem.noise)) {
     NoiseModel single = problem.noise;
     single.shape = shape;
-    const Problem one_shape{problem.measurements, problem.table, problem.rows, problem.intact, single,
-                            problem.log_silence};
+    const Problem one_shape{problem.measurements, problem.table, problem.rows,
+                            problem.intact,       single,        problem.log_silence};
     const double value = log_evidence(one_shape).front();
     if (value > best_log) best = shape;
     best_log = std::max(best_log, value);
@@ -191,8 +192,8 @@ std::vector<double> log_evidence_of_rows(const Measurements& measurements, const
                                          const NoiseModel& noise) {
   if (observe(measurements, intact, noise, 1.0).count == 0)
     throw InputError("no reading at a control point that can move, expected at least one");
-  return log_evidence(
-      {measurements, table, rows, intact, noise, log_chance_of_silence(measurements, table, rows, noise.silence)});
+  return log_evidence({measurements, table, rows, intact, noise,
+                       log_chance_of_silence(measurements, table, rows, noise.silence)});
 }
 
 NoiseEstimate estimate_noise(const Measurements& measurements, std::span<const double> prediction,

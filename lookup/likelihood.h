@@ -10,18 +10,18 @@
 
 namespace voussoir {
 
-/// log p(readings | scene) of the given rows (in ascending order), with an unknown noise level and an automatic noise shape marginalised.
-/// -infinity for impossible scenes (a reading on a block that the scene lacks, or an error beyond a uniform noise's
-/// bound) and for all other rows; with an unknown level perhaps for scenes less likely than the likeliest by exp(50).
-/// A silent sensor on a block that the scene has counts with the chance of its failing.
-/// `intact` are the displacements of the intact bridge. The result has a value for each row of the table.
-/// Throws InputError if no reading is at a point that can move.
+/// log p(readings | scene) of the given rows (in ascending order), with an unknown noise level and an
+/// automatic noise shape marginalised. -infinity for impossible scenes (a reading on a block that the scene
+/// lacks, or an error beyond a uniform noise's bound) and for all other rows; with an unknown level perhaps
+/// for scenes less likely than the likeliest by exp(50). A silent sensor on a block that the scene has counts
+/// with the chance of its failing. `intact` are the displacements of the intact bridge. The result has a
+/// value for each row of the table. Throws InputError if no reading is at a point that can move.
 std::vector<double> log_evidence_of_rows(const Measurements& measurements, const SceneTable& table,
                                          std::span<const std::size_t> rows, std::span<const double> intact,
                                          const NoiseModel& noise);
 
-/// log of the chance, in each of the given rows, that the silent sensors are silent: certain on missing blocks, `silence`
-/// on the others. Zero for all other rows.
+/// log of the chance, in each of the given rows, that the silent sensors are silent: certain on missing
+/// blocks, `silence` on the others. Zero for all other rows.
 std::vector<double> log_chance_of_silence(const Measurements& measurements, const SceneTable& table,
                                           std::span<const std::size_t> rows, double silence);
 

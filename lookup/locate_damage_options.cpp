@@ -14,9 +14,10 @@ constexpr int kMostMissing = 2;
 
 void add_search_options(CLI::App& app, LocateDamageOptions& options) {
   LookupSettings& settings = options.settings;
-  add_choice<Search>(app, "--search", settings.search,
-                     {{"exhaustive", Search::exhaustive}, {"genetic", Search::genetic}, {"nearest", Search::nearest}},
-                     "exhaustive (default), genetic or nearest");
+  add_choice<Search>(
+      app, "--search", settings.search,
+      {{"exhaustive", Search::exhaustive}, {"genetic", Search::genetic}, {"nearest", Search::nearest}},
+      "exhaustive (default), genetic or nearest");
   add_choice<Objective>(
       app, "--objective", settings.objective,
       {{"posterior", Objective::posterior}, {"paper", Objective::paper}},
@@ -36,13 +37,15 @@ void add_search_options(CLI::App& app, LocateDamageOptions& options) {
 }
 
 void add_noise_options(CLI::App& app, LocateDamageOptions& options) {
-  app.add_option("--noise", options.noise_level,
-                 "errors as a share of the displacement, such as 5% (the bound for uniform noise, else the standard "
-                 "deviation); default: estimated from the measurements")
+  app.add_option(
+         "--noise", options.noise_level,
+         "errors as a share of the displacement, such as 5% (the bound for uniform noise, else the standard "
+         "deviation); default: estimated from the measurements")
       ->check(checked_by(parse_noise_level, "LEVEL"))
       ->option_text("LEVEL");
-  app.add_option("--noise-model", options.noise_model,
-                 "auto (default: the measurements decide among the next three), uniform, gaussian, laplace, student")
+  app.add_option(
+         "--noise-model", options.noise_model,
+         "auto (default: the measurements decide among the next three), uniform, gaussian, laplace, student")
       ->check(checked_by(parse_noise_shape, "NAME"))
       ->option_text("NAME");
   app.add_option("--floor", options.floor_mm, "absolute part of the errors [mm], default 0")
@@ -52,19 +55,23 @@ void add_noise_options(CLI::App& app, LocateDamageOptions& options) {
                  "the model's own error as a share of the change that a missing block makes, default 0")
       ->check(checked_by(parse_noise_level, "LEVEL"))
       ->option_text("LEVEL");
-  app.add_option("--silent-sensors", options.silence,
-                 "chance that a sensor on a standing block gives no reading, default 10%; a listed sensor without "
-                 "reading speaks for the loss of its block")
+  app.add_option(
+         "--silent-sensors", options.silence,
+         "chance that a sensor on a standing block gives no reading, default 10%; a listed sensor without "
+         "reading speaks for the loss of its block")
       ->check(checked_by(parse_noise_level, "LEVEL"))
       ->option_text("LEVEL");
-  app.add_option("--degrees-of-freedom", options.settings.noise.degrees_of_freedom, "of student noise, default 4")
+  app.add_option("--degrees-of-freedom", options.settings.noise.degrees_of_freedom,
+                 "of student noise, default 4")
       ->check(CLI::Range(2.1, 1000.0))
       ->option_text("NU");
   app.add_option("--unknown-scale", options.unknown_scale,
-                 "how far all displacements may be too large or small by one factor, such as 20%; gaussian noise only")
+                 "how far all displacements may be too large or small by one factor, such as 20%; gaussian "
+                 "noise only")
       ->check(checked_by(parse_noise_level, "LEVEL"))
       ->option_text("LEVEL");
-  app.add_option("--unknown-datum", options.unknown_datum_mm, "how far all readings may be shifted [mm]; gaussian only")
+  app.add_option("--unknown-datum", options.unknown_datum_mm,
+                 "how far all readings may be shifted [mm]; gaussian only")
       ->check(CLI::NonNegativeNumber)
       ->option_text("MM");
   app.add_option("--unknown-tilt", options.unknown_tilt_mm_per_m,
@@ -92,9 +99,10 @@ void add_genetic_options(CLI::App& app, GeneticSettings& genetic) {
 }  // namespace
 
 void add_options(CLI::App& app, LocateDamageOptions& options) {
-  app.add_option("MEASUREMENTS", options.measurements,
-                 "CSV with a header: point (or x_m,y_m) and uy_mm, uy_m or settlement_mm, optionally sigma_mm; "
-                 "- reads the standard input")
+  app.add_option(
+         "MEASUREMENTS", options.measurements,
+         "CSV with a header: point (or x_m,y_m) and uy_mm, uy_m or settlement_mm, optionally sigma_mm; "
+         "- reads the standard input")
       ->required()
       ->option_text("FILE");
   app.add_option("-d,--database", options.database, "default: $VOUSSOIR_DATABASE, else ./bridge.h5")
@@ -119,7 +127,8 @@ LookupSettings finish(const LocateDamageOptions& options) {
   settings.noise.floor = kMetresPerMillimetre * options.floor_mm;
   settings.noise.model_error = parse_noise_level(options.model_error);
   settings.noise.silence = parse_noise_level(options.silence);
-  settings.nuisance = {parse_noise_level(options.unknown_scale), kMetresPerMillimetre * options.unknown_datum_mm,
+  settings.nuisance = {parse_noise_level(options.unknown_scale),
+                       kMetresPerMillimetre * options.unknown_datum_mm,
                        kMetresPerMillimetre * options.unknown_tilt_mm_per_m};
   if (options.approximate) settings.nearest.mode = NearestMode::approximate;
   return settings;

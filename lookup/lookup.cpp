@@ -11,10 +11,10 @@
 namespace voussoir {
 namespace {
 
-/// Scenes whose predictions differ by less than this, as the root of the sum of squares in units of sigma, are one
-/// scene to these sensors: even a hundred repeated measurements would hardly tell them apart.
+/// Scenes whose predictions differ by less than this, as the root of the sum of squares in units of sigma,
+/// are one scene to these sensors: even a hundred repeated measurements would hardly tell them apart.
 constexpr double kSameReadings = 0.1;
-constexpr double kSolverPrecision = 1e-9;     // [m] predictions are not compared more closely
+constexpr double kSolverPrecision = 1e-9;      // [m] predictions are not compared more closely
 constexpr std::size_t kMostComparisons = 500;  // rows looked at for scenes that cannot be told apart
 
 std::string listed(const std::vector<int>& numbers) {
@@ -29,8 +29,9 @@ std::size_t intact_row(const SceneTable& table) {
   throw Failure("the database has no intact scene, which a lookup needs to know what can move");
 }
 
-std::vector<double> evidence(const Library& library, const Measurements& measurements, const Eligible& eligible,
-                             std::span<const double> intact, const LookupSettings& settings) {
+std::vector<double> evidence(const Library& library, const Measurements& measurements,
+                             const Eligible& eligible, std::span<const double> intact,
+                             const LookupSettings& settings) {
   if (settings.nuisance.any())
     return log_evidence_with_nuisance(measurements, library.table, eligible.rows, intact, library.points,
                                       settings.noise, settings.nuisance);
@@ -55,7 +56,8 @@ std::vector<ScoredRow> run_genetic(const Library& library, const Measurements& m
 }
 
 std::vector<ScoredRow> scored_by_misfit(const Library& library, const Measurements& measurements,
-                                        const Eligible& eligible, const LookupSettings& settings, Answer& answer) {
+                                        const Eligible& eligible, const LookupSettings& settings,
+                                        Answer& answer) {
   switch (settings.search) {
     case Search::genetic:
       return run_genetic(library, measurements, settings, answer);
@@ -69,7 +71,8 @@ std::vector<ScoredRow> scored_by_misfit(const Library& library, const Measuremen
 
 /// The likeliest rows; behind them, if fewer than `count` are possible, those with the smallest misfit.
 std::vector<ScoredRow> scored_by_posterior(const Library& library, const Measurements& measurements,
-                                           const Eligible& eligible, const Posterior& posterior, std::size_t count) {
+                                           const Eligible& eligible, const Posterior& posterior,
+                                           std::size_t count) {
   std::vector<std::size_t> likely;
   for (const std::size_t row : eligible.rows)
     if (posterior.probability[row] > 0.0) likely.push_back(row);
@@ -84,7 +87,8 @@ std::vector<ScoredRow> scored_by_posterior(const Library& library, const Measure
   for (const std::size_t row : likely)
     result.push_back({row, sum_of_differences(measurements.displacement, library.table.row(row))});
   if (kept == count) return result;
-  for (const ScoredRow& row : exhaustive_search(measurements.displacement, library.table, eligible.rows, count))
+  for (const ScoredRow& row :
+       exhaustive_search(measurements.displacement, library.table, eligible.rows, count))
     if (result.size() < count && std::find(likely.begin(), likely.end(), row.row) == likely.end())
       result.push_back(row);
   return result;
@@ -130,16 +134,19 @@ void judge_best(const Library& library, const Measurements& measurements, std::s
   const std::vector<std::size_t> others = rows_to_compare(found, *answer.posterior);
   for (Candidate& candidate : answer.candidates)
     for (const std::size_t other : others)
-      if (other != candidate.row && same_readings(observation, library.table.row(candidate.row), library.table.row(other)))
+      if (other != candidate.row &&
+          same_readings(observation, library.table.row(candidate.row), library.table.row(other)))
         candidate.same_readings.push_back(library.table.scene(other));
 }
 
 }  // namespace
 
-Answer locate_damage(const Library& library, const Measurements& measurements, const LookupSettings& settings) {
+Answer locate_damage(const Library& library, const Measurements& measurements,
+                     const LookupSettings& settings) {
   const Eligible eligible = eligible_rows(library.table, settings.prior.missing);
   if (eligible.rows.empty())
-    throw Failure(fmt::format("the database has no solved scene with {} missing blocks", listed(settings.prior.missing)));
+    throw Failure(fmt::format("the database has no solved scene with {} missing blocks",
+                              listed(settings.prior.missing)));
   const std::span<const double> intact = library.table.row(intact_row(library.table));
   Answer answer;
   answer.readings = measurements.count();
@@ -147,8 +154,9 @@ Answer locate_damage(const Library& library, const Measurements& measurements, c
   answer.unresolved = eligible.unresolved;
   const bool by_posterior = settings.objective == Objective::posterior;
   if (by_posterior)
-    answer.posterior = posterior(library.table, eligible, evidence(library, measurements, eligible, intact, settings),
-                                 settings.prior, library.layout.size());
+    answer.posterior =
+        posterior(library.table, eligible, evidence(library, measurements, eligible, intact, settings),
+                  settings.prior, library.layout.size());
   std::vector<ScoredRow> found;
   if (by_posterior && settings.search == Search::exhaustive) {
     found = scored_by_posterior(library, measurements, eligible, *answer.posterior, settings.top);
@@ -157,8 +165,12 @@ Answer locate_damage(const Library& library, const Measurements& measurements, c
     if (by_posterior) order_by_posterior(found, *answer.posterior);
   }
   for (const ScoredRow& row : found) {
-    Candidate candidate{row.row, library.table.scene(row.row), static_cast<Outcome>(library.table.outcome[row.row]),
-                        misfit_of(row.sum), std::nullopt, {}};
+    Candidate candidate{row.row,
+                        library.table.scene(row.row),
+                        static_cast<Outcome>(library.table.outcome[row.row]),
+                        misfit_of(row.sum),
+                        std::nullopt,
+                        {}};
     if (by_posterior) candidate.posterior = answer.posterior->probability[row.row];
     answer.candidates.push_back(std::move(candidate));
   }

@@ -46,26 +46,27 @@ struct Candidate {
   std::size_t row = 0;
   Scene scene;
   Outcome outcome = Outcome::standing;
-  double misfit = 0.0;                  ///< Eq. 1
-  std::optional<double> posterior;      ///< with Objective::posterior
-  std::vector<Scene> same_readings;     ///< scenes that these sensors cannot tell from this one under this noise
+  double misfit = 0.0;               ///< Eq. 1
+  std::optional<double> posterior;   ///< with Objective::posterior
+  std::vector<Scene> same_readings;  ///< scenes that these sensors cannot tell from this one under this noise
 };
 
 struct Answer {
-  std::vector<Candidate> candidates;    ///< best first
-  std::optional<Posterior> posterior;   ///< with Objective::posterior
-  std::optional<NoiseEstimate> noise;   ///< if the best candidate is the truth; with Objective::posterior
-  std::optional<Fit> fit;               ///< of the best candidate; with Objective::posterior
+  std::vector<Candidate> candidates;      ///< best first
+  std::optional<Posterior> posterior;     ///< with Objective::posterior
+  std::optional<NoiseEstimate> noise;     ///< if the best candidate is the truth; with Objective::posterior
+  std::optional<Fit> fit;                 ///< of the best candidate; with Objective::posterior
   std::vector<SensorResidual> residuals;  ///< of the best candidate, a value for each reading
   std::size_t readings = 0;
-  std::size_t searched = 0;             ///< scenes
-  std::size_t unresolved = 0;           ///< scenes left out because the solver gave no answer
-  std::vector<GeneticResult> genetic;   ///< with Search::genetic: for one and for two missing blocks
+  std::size_t searched = 0;            ///< scenes
+  std::size_t unresolved = 0;          ///< scenes left out because the solver gave no answer
+  std::vector<GeneticResult> genetic;  ///< with Search::genetic: for one and for two missing blocks
 };
 
 /// Scores the scenes of the library and ranks the best.
-/// Throws Failure if the library has no scene with the wanted numbers of missing blocks, InputError if no reading can
-/// tell scenes apart.
-Answer locate_damage(const Library& library, const Measurements& measurements, const LookupSettings& settings);
+/// Throws Failure if the library has no scene with the wanted numbers of missing blocks, InputError if no
+/// reading can tell scenes apart.
+Answer locate_damage(const Library& library, const Measurements& measurements,
+                     const LookupSettings& settings);
 
 }  // namespace voussoir

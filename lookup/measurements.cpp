@@ -19,7 +19,8 @@ constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kMetresPerMillimetre = 1e-3;
 constexpr std::size_t kLargestFile = 4U << 20U;  // [bytes] far beyond any number of sensors
 constexpr double kSamePlace = 1e-6;              // [m] points closer than this share a place
-constexpr std::string_view kColumns = "point or x_m,y_m; one of uy_mm, uy_m, settlement_mm; optionally sigma_mm";
+constexpr std::string_view kColumns =
+    "point or x_m,y_m; one of uy_mm, uy_m, settlement_mm; optionally sigma_mm";
 
 struct ValueColumn {
   std::string_view name;
@@ -111,7 +112,8 @@ class Reader {
 
   void read_row(const CsvLine& line) {
     if (line.fields.size() != columns_.count)
-      fail(line.number, fmt::format("{} values, expected {} as in the header", line.fields.size(), columns_.count));
+      fail(line.number,
+           fmt::format("{} values, expected {} as in the header", line.fields.size(), columns_.count));
     const std::size_t point = columns_.point != kAbsent ? named_point(line) : placed_point(line);
     if (line_of_point_[point] != 0)
       fail(line.number, fmt::format("point {} is given again, expected each point once (first in line {})",
@@ -138,21 +140,24 @@ class Reader {
     std::size_t nearest = 0;
     for (std::size_t i = 1; i < points_.size(); ++i) {
       const double gain = (points_[nearest].position - place).norm() - (points_[i].position - place).norm();
-      const bool twin = std::abs(gain) <= kSamePlace && line_of_point_[nearest] != 0 && line_of_point_[i] == 0;
+      const bool twin =
+          std::abs(gain) <= kSamePlace && line_of_point_[nearest] != 0 && line_of_point_[i] == 0;
       if (gain > kSamePlace || twin) nearest = i;
     }
     const double distance = (points_[nearest].position - place).norm();
     if (distance > kPointTolerance)
-      fail(line.number, fmt::format("no control point at x = {} m, y = {} m: the nearest, {}, is {:.3g} m away, "
-                                    "expected at most {} m",
-                                    place.x(), place.y(), points_[nearest].name, distance, kPointTolerance));
+      fail(line.number,
+           fmt::format("no control point at x = {} m, y = {} m: the nearest, {}, is {:.3g} m away, "
+                       "expected at most {} m",
+                       place.x(), place.y(), points_[nearest].name, distance, kPointTolerance));
     return nearest;
   }
 
   double coordinate(const CsvLine& line, std::size_t column) const {
     const std::optional<double> number = parse_number(line.fields[column]);
     if (!number || !std::isfinite(*number))
-      fail(line.number, fmt::format("{} is no coordinate, expected a number in metres", quoted(line.fields[column])));
+      fail(line.number,
+           fmt::format("{} is no coordinate, expected a number in metres", quoted(line.fields[column])));
     return *number;
   }
 
@@ -160,13 +165,16 @@ class Reader {
     const std::string_view text = line.fields[columns_.value];
     if (text.empty()) return kNan;
     const std::optional<double> number = parse_number(text);
-    if (!number) fail(line.number, fmt::format("{} is no number, expected a displacement or nothing", quoted(text)));
+    if (!number)
+      fail(line.number, fmt::format("{} is no number, expected a displacement or nothing", quoted(text)));
     if (std::isinf(*number))
-      fail(line.number, fmt::format("{} is infinite, expected a finite displacement or nothing", quoted(text)));
+      fail(line.number,
+           fmt::format("{} is infinite, expected a finite displacement or nothing", quoted(text)));
     const double metres = columns_.factor * *number;
     if (std::abs(metres) > kLargestDisplacement)
-      fail(line.number, fmt::format("{} is a displacement of {:.3g} m, expected at most {} m (check the units)",
-                                    quoted(text), std::abs(metres), kLargestDisplacement));
+      fail(line.number,
+           fmt::format("{} is a displacement of {:.3g} m, expected at most {} m (check the units)",
+                       quoted(text), std::abs(metres), kLargestDisplacement));
     return metres;
   }
 
@@ -176,7 +184,8 @@ class Reader {
     const std::optional<double> number = parse_number(text);
     if (number && std::isnan(*number)) return kNan;
     if (!number || !(*number > 0.0) || std::isinf(*number))
-      fail(line.number, fmt::format("{} is no sigma, expected a positive number of millimetres or nothing", quoted(text)));
+      fail(line.number,
+           fmt::format("{} is no sigma, expected a positive number of millimetres or nothing", quoted(text)));
     return kMetresPerMillimetre * *number;
   }
 
@@ -189,8 +198,9 @@ class Reader {
 
 std::string read_text(const std::filesystem::path& path, const std::string& name) {
   const auto failed = [&] {
-    return InputError(at_line(name, 0, fmt::format("cannot be read ({}), expected a CSV file of measurements",
-                                                   std::strerror(errno))));
+    return InputError(at_line(
+        name, 0,
+        fmt::format("cannot be read ({}), expected a CSV file of measurements", std::strerror(errno))));
   };
   const bool standard_input = path == "-";
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(
@@ -202,20 +212,22 @@ std::string read_text(const std::filesystem::path& path, const std::string& name
     got = std::fread(chunk.data(), 1, chunk.size(), file.get());
   if (std::ferror(file.get()) != 0) throw failed();
   if (text.size() > kLargestFile)
-    throw InputError(at_line(name, 0, fmt::format("larger than {} MiB, expected a CSV file of measurements",
-                                                  kLargestFile >> 20U)));
+    throw InputError(
+        at_line(name, 0,
+                fmt::format("larger than {} MiB, expected a CSV file of measurements", kLargestFile >> 20U)));
   return text;
 }
 
 }  // namespace
 
 std::size_t Measurements::count() const {
-  return static_cast<std::size_t>(
-      std::count_if(displacement.begin(), displacement.end(), [](double value) { return !std::isnan(value); }));
+  return static_cast<std::size_t>(std::count_if(displacement.begin(), displacement.end(),
+                                                [](double value) { return !std::isnan(value); }));
 }
 
 Measurements as_measurements(std::span<const double> displacements) {
-  Measurements result{{displacements.begin(), displacements.end()}, std::vector<double>(displacements.size(), kNan), {}};
+  Measurements result{
+      {displacements.begin(), displacements.end()}, std::vector<double>(displacements.size(), kNan), {}};
   for (const double value : displacements) result.silent.push_back(std::isnan(value));
   return result;
 }

@@ -30,11 +30,11 @@ inline constexpr double kPointTolerance = 0.05;
 inline constexpr double kLargestDisplacement = 100.0;
 
 /// Reads a measurements file (CSV with a header; '#' starts a comment; UTF-8, LF or CRLF):
-/// `point` or the pair `x_m,y_m`; one of `uy_mm`, `uy_m` (up is positive), `settlement_mm` (down is positive);
-/// optionally `sigma_mm`. An empty value or NaN is a sensor without a reading. Where two control points share a
-/// place (neighbouring blocks' corners), the first row with its coordinates is the left block's, the second the
-/// right block's. The path "-" is the standard input.
-/// Throws InputError "file:line: ..." for anything else, and for a file without any reading.
+/// `point` or the pair `x_m,y_m`; one of `uy_mm`, `uy_m` (up is positive), `settlement_mm` (down is
+/// positive); optionally `sigma_mm`. An empty value or NaN is a sensor without a reading. Where two control
+/// points share a place (neighbouring blocks' corners), the first row with its coordinates is the left
+/// block's, the second the right block's. The path "-" is the standard input. Throws InputError "file:line:
+/// ..." for anything else, and for a file without any reading.
 Measurements read_measurements(const std::filesystem::path& path, const std::vector<StoredPoint>& points);
 
 /// The same for a text in memory (`name` is used in messages).

@@ -38,7 +38,8 @@ VOUSSOIR_INLINE double sum_row(const double* readings, const double* prediction,
 }
 
 VOUSSOIR_VECTORISED
-void sum_rows(const double* readings, const double* table, std::size_t rows, std::size_t points, double* sums) {
+void sum_rows(const double* readings, const double* table, std::size_t rows, std::size_t points,
+              double* sums) {
   for (std::size_t row = 0; row < rows; ++row) sums[row] = sum_row(readings, table + row * points, points);
 }
 

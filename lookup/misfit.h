@@ -11,9 +11,9 @@ namespace voussoir {
 /// Keeps the logarithm of a perfect match finite (paper, Eq. 1).
 inline constexpr double kMisfitGuard = 1e-16;
 
-/// Sum of |reading - prediction| [m] over the readings (NaN: no reading), always in the same order of additions.
-/// Infinite if a reading has no prediction (NaN): it was taken on a block that the scene lacks, so the scene is
-/// impossible. Precondition: equal sizes.
+/// Sum of |reading - prediction| [m] over the readings (NaN: no reading), always in the same order of
+/// additions. Infinite if a reading has no prediction (NaN): it was taken on a block that the scene lacks, so
+/// the scene is impossible. Precondition: equal sizes.
 double sum_of_differences(std::span<const double> readings, std::span<const double> prediction);
 
 /// The paper's Eq. 1: log(sum + 1e-16) of a sum of differences [m].

@@ -73,7 +73,8 @@ struct NearestIndex::Implementation {
   std::vector<std::size_t> candidates(std::span<const double> readings, std::size_t count) const {
     if (settings.mode == NearestMode::approximate)
       return neighbours(readings, std::min(rows.size(), count * settings.oversampling)).rows;
-    for (std::size_t fetched = std::min(rows.size(), count + 1);; fetched = std::min(rows.size(), 2 * fetched)) {
+    for (std::size_t fetched = std::min(rows.size(), count + 1);;
+         fetched = std::min(rows.size(), 2 * fetched)) {
       Neighbours found = neighbours(readings, fetched);
       const bool cut_is_clear =
           found.distances.back() > found.distances[std::min(count, fetched) - 1] * (1.0 + kRounding);

@@ -1,5 +1,6 @@
 #pragma once
-/// @file Nearest neighbours of the readings among the scenes, by FLANN; candidates are rescored with the one misfit.
+/// @file Nearest neighbours of the readings among the scenes, by FLANN; candidates are rescored with the one
+/// misfit.
 
 #include <memory>
 #include <span>
@@ -17,9 +18,10 @@ enum class NearestMode {
 
 struct NearestSettings {
   NearestMode mode = NearestMode::exact;
-  int trees = 4;             ///< approximate mode only, here and below
-  int checks = 4096;         ///< leaves visited
-  std::size_t oversampling = 20;  ///< neighbours fetched for each one wanted, because trees order them roughly
+  int trees = 4;      ///< approximate mode only, here and below
+  int checks = 4096;  ///< leaves visited
+  std::size_t oversampling =
+      20;  ///< neighbours fetched for each one wanted, because trees order them roughly
 };
 
 /// An index over the displacements of some rows at the points that have readings.
@@ -32,7 +34,8 @@ class NearestIndex {
   NearestIndex(NearestIndex&&) noexcept;
   NearestIndex& operator=(NearestIndex&&) noexcept;
 
-  /// The `count` rows nearest in the L1 norm, best first. Readings at the same points as those of the constructor.
+  /// The `count` rows nearest in the L1 norm, best first. Readings at the same points as those of the
+  /// constructor.
   std::vector<ScoredRow> search(std::span<const double> readings, std::size_t count) const;
 
  private:

@@ -16,8 +16,8 @@ constexpr std::array<std::string_view, 5> kShapeNames = {"auto", "uniform", "gau
 /// Student's t with `nu` degrees of freedom, scaled to a standard deviation of one.
 double log_student(double z, double nu) {
   const double scale_square = (nu - 2.0) / nu;
-  const double constant =
-      std::lgamma((nu + 1.0) / 2.0) - std::lgamma(nu / 2.0) - 0.5 * std::log(nu * std::numbers::pi * scale_square);
+  const double constant = std::lgamma((nu + 1.0) / 2.0) - std::lgamma(nu / 2.0) -
+                          0.5 * std::log(nu * std::numbers::pi * scale_square);
   return constant - (nu + 1.0) / 2.0 * std::log1p(z * z / (nu * scale_square));
 }
 
@@ -47,8 +47,8 @@ std::string_view to_string(NoiseShape shape) {
 NoiseShape parse_noise_shape(std::string_view text) {
   for (std::size_t i = 0; i < kShapeNames.size(); ++i)
     if (text == kShapeNames.at(i)) return static_cast<NoiseShape>(i);
-  throw InputError(
-      fmt::format("{} is no noise model, expected auto, uniform, gaussian, laplace or student", quoted(text)));
+  throw InputError(fmt::format("{} is no noise model, expected auto, uniform, gaussian, laplace or student",
+                               quoted(text)));
 }
 
 double parse_noise_level(std::string_view text) {
@@ -56,8 +56,8 @@ double parse_noise_level(std::string_view text) {
   const std::optional<double> number = parse_number(text.substr(0, text.size() - (percent ? 1 : 0)));
   const double level = number ? *number * (percent ? 0.01 : 1.0) : -1.0;
   if (!(level >= 0.0 && level <= 1.0))
-    throw InputError(fmt::format("{} is no noise level, expected a share of the displacement such as 5% or 0.05",
-                                 quoted(text)));
+    throw InputError(fmt::format(
+        "{} is no noise level, expected a share of the displacement such as 5% or 0.05", quoted(text)));
   return level;
 }
 

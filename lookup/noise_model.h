@@ -6,8 +6,8 @@
 /// or the sensor's own sigma where the measurements state one, plus an allowance for the model's own error,
 /// model_error * |d_i - d_i(intact)|. The paper's noise d_i (1 + p U(-1, 1)) is `uniform` with relative = p.
 ///
-/// A sensor on a missing block cannot read anything; one on a standing block may fail by itself. So a sensor that is
-/// there and silent speaks for the loss of its block, the more so the more reliable sensors are.
+/// A sensor on a missing block cannot read anything; one on a standing block may fail by itself. So a sensor
+/// that is there and silent speaks for the loss of its block, the more so the more reliable sensors are.
 
 #include <optional>
 #include <string>
@@ -36,8 +36,8 @@ struct NoiseModel {
 inline constexpr double kSmallestLevel = 1e-6;
 inline constexpr double kLargestLevel = 0.5;
 
-/// Displacements smaller than this [m] are treated like this one by relative noise, so that a point that hardly
-/// moves does not have a scale of zero.
+/// Displacements smaller than this [m] are treated like this one by relative noise, so that a point that
+/// hardly moves does not have a scale of zero.
 inline constexpr double kSmallestMovement = 1e-6;
 
 /// log density of an error z in units of sigma (so the density of the error itself is this minus log sigma).

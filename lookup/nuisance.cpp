@@ -16,13 +16,15 @@ namespace voussoir {
 namespace {
 
 constexpr double kImpossible = -std::numeric_limits<double>::infinity();
-constexpr int kPanels = 24;             // of the quadrature over the logarithm of the level
-constexpr double kLeastScale = 1e-3;    // of the fitted factor, so that a scene cannot explain readings as noise-free
+constexpr int kPanels = 24;  // of the quadrature over the logarithm of the level
+constexpr double kLeastScale =
+    1e-3;  // of the fitted factor, so that a scene cannot explain readings as noise-free
 constexpr std::size_t kMostTerms = 3;
 
-/// The readings of one scene with the nuisance terms diagonalised. With W = 1 / scale_i^2 (for level 1), Phi the
-/// nuisance columns times their prior deviations and y the differences, Phi' W Phi = V diag(e) V' and g = V' Phi' W y.
-/// At noise level s: -2 log p = n log 2 pi + 2 sum log scale + 2 n log s + sum log(1 + e_k / s^2)
+/// The readings of one scene with the nuisance terms diagonalised. With W = 1 / scale_i^2 (for level 1), Phi
+/// the nuisance columns times their prior deviations and y the differences, Phi' W Phi = V diag(e) V' and g =
+/// V' Phi' W y. At noise level s: -2 log p = n log 2 pi + 2 sum log scale + 2 n log s + sum log(1 + e_k /
+/// s^2)
 ///                              + (y' W y - sum g_k^2 / (s^2 + e_k)) / s^2.
 struct Reduced {
   double count = 0.0;
@@ -54,10 +56,12 @@ double fitted_factor(const Observation& observation, std::span<const double> pre
 
 class NuisanceModel {
  public:
-  NuisanceModel(const Observation& observation, const std::vector<StoredPoint>& points, const Nuisance& nuisance)
+  NuisanceModel(const Observation& observation, const std::vector<StoredPoint>& points,
+                const Nuisance& nuisance)
       : observation_(observation), points_(points), nuisance_(nuisance) {
     for (std::size_t i = 0; i < points.size(); ++i)
-      if (!std::isnan(observation.reading[i])) mean_x_ += points[i].position.x() / static_cast<double>(observation.count);
+      if (!std::isnan(observation.reading[i]))
+        mean_x_ += points[i].position.x() / static_cast<double>(observation.count);
   }
 
   /// Nothing is possible (a NaN in `square`) if a reading has no prediction.
@@ -73,7 +77,8 @@ class NuisanceModel {
                            observation_.model_error * change;
       const double difference = (observation_.reading[i] - prediction[i]) / scale;
       const Eigen::Vector3d terms = Eigen::Vector3d(nuisance_.scale * prediction[i], nuisance_.datum,
-                                                    nuisance_.tilt * (points_[i].position.x() - mean_x_)) / scale;
+                                                    nuisance_.tilt * (points_[i].position.x() - mean_x_)) /
+                                    scale;
       normal += terms * terms.transpose();
       right += terms * difference;
       result.square += difference * difference;
@@ -101,10 +106,12 @@ double log_evidence(const Reduced& reduced) {
   double sum = kImpossible;
   for (int panel = 0; panel < kPanels; ++panel) {
     const double from = first + panel * width;
-    const double top = std::max({reduced.log_likelihood(std::exp(from)), reduced.log_likelihood(std::exp(from + width)),
-                                 reduced.log_likelihood(std::exp(from + width / 2.0))});
+    const double top =
+        std::max({reduced.log_likelihood(std::exp(from)), reduced.log_likelihood(std::exp(from + width)),
+                  reduced.log_likelihood(std::exp(from + width / 2.0))});
     const auto density = [&](double u) { return std::exp(reduced.log_likelihood(std::exp(u)) - top); };
-    const double integral = boost::math::quadrature::gauss<double, 15>::integrate(density, from, from + width);
+    const double integral =
+        boost::math::quadrature::gauss<double, 15>::integrate(density, from, from + width);
     sum = log_sum(sum, top + std::log(integral));
   }
   return sum - std::log(kPanels * width);
@@ -113,19 +120,22 @@ double log_evidence(const Reduced& reduced) {
 }  // namespace
 
 std::vector<double> log_evidence_with_nuisance(const Measurements& measurements, const SceneTable& table,
-                                               std::span<const std::size_t> rows, std::span<const double> intact,
-                                               const std::vector<StoredPoint>& points, const NoiseModel& noise,
-                                               const Nuisance& nuisance) {
+                                               std::span<const std::size_t> rows,
+                                               std::span<const double> intact,
+                                               const std::vector<StoredPoint>& points,
+                                               const NoiseModel& noise, const Nuisance& nuisance) {
   if (noise.shape != NoiseShape::gaussian)
     throw InputError("an unknown scale, datum or tilt needs Gaussian noise, expected --noise-model gaussian");
   const bool absolute = noise.floor > 0.0 || noise.model_error > 0.0 ||
                         std::any_of(measurements.sigma.begin(), measurements.sigma.end(),
                                     [](double sigma) { return !std::isnan(sigma); });
   if (!noise.relative && absolute)
-    throw InputError("an unknown scale, datum or tilt beside absolute errors needs a noise level, expected --noise");
+    throw InputError(
+        "an unknown scale, datum or tilt beside absolute errors needs a noise level, expected --noise");
   const double level = noise.relative ? std::max(*noise.relative, kSmallestLevel) : 1.0;
   const Observation observation = observe(measurements, intact, noise, level);
-  if (observation.count == 0) throw InputError("no reading at a control point that can move, expected at least one");
+  if (observation.count == 0)
+    throw InputError("no reading at a control point that can move, expected at least one");
   const NuisanceModel model(observation, points, nuisance);
   const std::vector<double> log_silence = log_chance_of_silence(measurements, table, rows, noise.silence);
   std::vector<double> result(table.rows, kImpossible);

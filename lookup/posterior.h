@@ -1,5 +1,6 @@
 #pragma once
-/// @file The exact posterior over all scenes of a database: the library of scenes is finite, so it is enumerated.
+/// @file The exact posterior over all scenes of a database: the library of scenes is finite, so it is
+/// enumerated.
 
 #include <vector>
 
@@ -10,33 +11,38 @@ namespace voussoir {
 /// What is believed before the measurement.
 struct Prior {
   std::vector<int> missing = {0, 1, 2};  ///< numbers of missing blocks that are possible
-  std::vector<double> weight = {};       ///< of each of them; empty: equal. Uniform over the scenes within each
+  std::vector<double> weight = {};  ///< of each of them; empty: equal. Uniform over the scenes within each
 };
 
 /// Rows that a search may look at: their number of missing blocks is allowed, and their outcome is known.
 struct Eligible {
   std::vector<std::size_t> rows;
   std::vector<std::uint8_t> missing;  ///< of each of them, how many blocks
-  std::size_t unresolved = 0;  ///< rows left out only because the solver gave no answer
+  std::size_t unresolved = 0;         ///< rows left out only because the solver gave no answer
 };
 Eligible eligible_rows(const SceneTable& table, const std::vector<int>& missing);
 
 int missing_blocks(const SceneTable& table, std::size_t row);
 
 struct Posterior {
-  std::vector<double> probability;        ///< of each row of the table; all zero if no scene is possible
-  std::vector<double> block_probability;  ///< that a block is missing: sum over the scenes that lack it
+  std::vector<double> probability;          ///< of each row of the table; all zero if no scene is possible
+  std::vector<double> block_probability;    ///< that a block is missing: sum over the scenes that lack it
   std::vector<double> missing_probability;  ///< of 0, 1, 2... missing blocks
-  std::vector<std::size_t> credible;      ///< the fewest rows that hold 95 % of the probability, likeliest first
+  std::vector<std::size_t> credible;  ///< the fewest rows that hold 95 % of the probability, likeliest first
 };
 
 /// Share of the probability in Posterior::credible.
 inline constexpr double kCredibleShare = 0.95;
 
-/// prior x evidence, normalised. `log_evidence` has a value for each row of the table (-infinity: impossible);
-/// rows that are not eligible get no probability.
-/// Throws InputError if no weight is positive, or if the prior has not as many weights as numbers.
-Posterior posterior(const SceneTable& table, const Eligible& eligible, const std::vector<double>& log_evidence,
-                    const Prior& prior, std::size_t block_count);
+/// log prior of one scene with 0, 1, 2... missing blocks: its number's weight over how many eligible scenes
+/// have it. Throws InputError if the prior has not as many weights as numbers.
+std::vector<double> log_prior_by_missing(const SceneTable& table, const Eligible& eligible,
+                                         const Prior& prior);
+
+/// prior x evidence, normalised. `log_evidence` has a value for each row of the table (-infinity:
+/// impossible); rows that are not eligible get no probability. Throws InputError if no weight is positive, or
+/// if the prior has not as many weights as numbers.
+Posterior posterior(const SceneTable& table, const Eligible& eligible,
+                    const std::vector<double>& log_evidence, const Prior& prior, std::size_t block_count);
 
 }  // namespace voussoir

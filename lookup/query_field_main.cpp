@@ -37,10 +37,13 @@ int main(int argc, char** argv) {
   app.footer("Example: query-field 10,4+6,4 -d bridge.h5 --at T12,A3 --format json");
   app.set_version_flag("--version", voussoir::version_text("query-field"));
   Options options;
-  app.add_option("SCENE", options.scene, "missing blocks: intact, 10,4 or 10,4+6,4")->required()->option_text("SCENE");
+  app.add_option("SCENE", options.scene, "missing blocks: intact, 10,4 or 10,4+6,4")
+      ->required()
+      ->option_text("SCENE");
   app.add_option("-d,--database", options.database, "default: $VOUSSOIR_DATABASE, else ./bridge.h5")
       ->option_text("FILE");
-  app.add_option("--at", options.at, "control points such as T12,A3, coordinates X,Y in metres, or control for all")
+  app.add_option("--at", options.at,
+                 "control points such as T12,A3, coordinates X,Y in metres, or control for all")
       ->option_text("PLACES");
   voussoir::add_choice<FieldFormat>(
       app, "--format", options.format,

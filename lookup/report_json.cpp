@@ -39,7 +39,8 @@ ordered_json settings_json(const LookupSettings& settings) {
                         {"model_error", settings.noise.model_error},
                         {"silent_sensors", settings.noise.silence}};
   if (settings.noise.relative) noise["relative"] = *settings.noise.relative;
-  if (settings.noise.shape == NoiseShape::student) noise["degrees_of_freedom"] = settings.noise.degrees_of_freedom;
+  if (settings.noise.shape == NoiseShape::student)
+    noise["degrees_of_freedom"] = settings.noise.degrees_of_freedom;
   result["noise"] = std::move(noise);
   result["unknown"] = {{"scale", settings.nuisance.scale},
                        {"datum_m", settings.nuisance.datum},
@@ -97,9 +98,8 @@ std::string json_report(const Answer& answer, const LookupSettings& settings, co
                        {"relative", answer.noise->level},
                        {"estimated", answer.noise->estimated}};
   if (answer.fit)
-    result["fit"] = {{"explained", answer.fit->explained},
-                     {"chance", answer.fit->chance},
-                     {"reason", answer.fit->reason}};
+    result["fit"] = {
+        {"explained", answer.fit->explained}, {"chance", answer.fit->chance}, {"reason", answer.fit->reason}};
   if (!answer.residuals.empty()) result["sensors"] = sensors_json(answer, library);
   for (const GeneticResult& run : answer.genetic)
     result["genetic"].push_back({{"generations", run.generations},

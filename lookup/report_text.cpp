@@ -43,8 +43,9 @@ void write_heading(Text& text, const Answer& answer, const Library& library, con
   text.line("Database:     {} (bridge '{}', digest {})", source.database, source.bridge,
             source.digest.substr(0, kDigestShown));
   text.line("Searched:     {} scenes{}", answer.searched,
-            answer.unresolved == 0 ? ""
-                                   : fmt::format("; {} more have no solution and were left out", answer.unresolved));
+            answer.unresolved == 0
+                ? ""
+                : fmt::format("; {} more have no solution and were left out", answer.unresolved));
 }
 
 void write_verdict(Text& text, const Answer& answer, const Library& library) {
@@ -70,11 +71,12 @@ void write_table(Text& text, const Answer& answer, const Library& library) {
   std::size_t width = 5;
   for (const Candidate& candidate : answer.candidates)
     width = std::max(width, to_string(candidate.scene, library.layout).size());
-  text.line("{:>4}  {:<{}}  {:>11}  {:>10}  {:>11}  {}", "rank", "scene", width, "probability", "misfit", "behind",
-            "where");
+  text.line("{:>4}  {:<{}}  {:>11}  {:>10}  {:>11}  {}", "rank", "scene", width, "probability", "misfit",
+            "behind", "where");
   for (std::size_t i = 0; i < answer.candidates.size(); ++i) {
     const Candidate& candidate = answer.candidates[i];
-    text.line("{:>4}  {:<{}}  {:>11}  {:>10.4f}  {:>11}  {}", i + 1, to_string(candidate.scene, library.layout), width,
+    text.line("{:>4}  {:<{}}  {:>11}  {:>10.4f}  {:>11}  {}", i + 1,
+              to_string(candidate.scene, library.layout), width,
               candidate.posterior ? percent(*candidate.posterior) : "-", candidate.misfit,
               i == 0 ? "-" : behind(candidate, answer.candidates.front()),
               place_in_words(candidate.scene, library.layout));
@@ -94,7 +96,8 @@ void write_probabilities(Text& text, const Answer& answer, const Library& librar
   const Posterior& posterior = *answer.posterior;
   std::string numbers;
   for (std::size_t missing = 0; missing < posterior.missing_probability.size(); ++missing)
-    numbers += fmt::format("{}{}: {}", missing == 0 ? "" : ", ", missing, percent(posterior.missing_probability[missing]));
+    numbers += fmt::format("{}{}: {}", missing == 0 ? "" : ", ", missing,
+                           percent(posterior.missing_probability[missing]));
   text.line("Number of missing blocks: {}", numbers);
   std::vector<std::size_t> blocks;
   for (std::size_t id = 0; id < posterior.block_probability.size(); ++id)
@@ -108,8 +111,8 @@ void write_probabilities(Text& text, const Answer& answer, const Library& librar
     names += fmt::format("{}{}: {}", names.empty() ? "" : "; ", to_string(library.layout.blocks[id].index),
                          percent(posterior.block_probability[id]));
   text.line("Blocks most likely missing: {}", names.empty() ? "none" : names);
-  text.line("{:.0f} % of the probability is held by {} scene{}", 100.0 * kCredibleShare, posterior.credible.size(),
-            posterior.credible.size() == 1 ? "" : "s");
+  text.line("{:.0f} % of the probability is held by {} scene{}", 100.0 * kCredibleShare,
+            posterior.credible.size(), posterior.credible.size() == 1 ? "" : "s");
 }
 
 void write_sensors(Text& text, const Answer& answer, const Library& library) {
@@ -123,13 +126,14 @@ void write_sensors(Text& text, const Answer& answer, const Library& library) {
   odd.resize(std::min(odd.size(), kMostSensorsListed));
   for (const SensorResidual& sensor : odd)
     text.line("Sensor {} disagrees: it reads {:.4g} mm where {:.4g} mm would be expected",
-              library.points[sensor.point].name, kMillimetres * sensor.reading, kMillimetres * sensor.predicted);
+              library.points[sensor.point].name, kMillimetres * sensor.reading,
+              kMillimetres * sensor.predicted);
 }
 
 void write_genetic(Text& text, const Answer& answer) {
   for (const GeneticResult& run : answer.genetic)
-    text.line("Genetic search: {} generations, the best appeared in generation {}, {} scenes scored", run.generations,
-              run.converged, run.evaluations);
+    text.line("Genetic search: {} generations, the best appeared in generation {}, {} scenes scored",
+              run.generations, run.converged, run.evaluations);
 }
 
 }  // namespace
@@ -140,7 +144,9 @@ std::string text_report(const Answer& answer, const Library& library, const Sour
   write_genetic(text, answer);
   text.line("");
   if (answer.candidates.empty()) {
-    text.line("No scene in this database explains these measurements: every scene lacks a block that has a reading.");
+    text.line(
+        "No scene in this database explains these measurements: every scene lacks a block that has a "
+        "reading.");
     return text.take();
   }
   write_verdict(text, answer, library);

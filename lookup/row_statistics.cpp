@@ -11,8 +11,8 @@ namespace voussoir {
 namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr double kClamped = 1e-12;          // [m] points that move less are held by a support
-constexpr std::size_t kSafeProducts = 16;   // factors within 1e+-19 of the unit cannot leave a double's range
+constexpr double kClamped = 1e-12;         // [m] points that move less are held by a support
+constexpr std::size_t kSafeProducts = 16;  // factors within 1e+-19 of the unit cannot leave a double's range
 
 /// Running statistics, lane by lane, with the product of scales in place of the sum of their logarithms.
 struct LaneStatistics {
@@ -68,7 +68,8 @@ VOUSSOIR_INLINE void add_errors(const View& view, std::size_t i, std::size_t cou
   statistics.product *= has_reading ? scale * view.inverse_unit : Lanes{} + 1.0;
 }
 
-/// A positive number as mantissa times two to the power of the exponent: products of any length keep their range.
+/// A positive number as mantissa times two to the power of the exponent: products of any length keep their
+/// range.
 struct WideProduct {
   double mantissa = 1.0;
   double exponent = 0.0;
@@ -126,8 +127,13 @@ void collect(const View& view, const double* table, std::size_t rows, const Colu
 Observation observe(const Measurements& measurements, std::span<const double> intact, const NoiseModel& noise,
                     double level) {
   const std::size_t points = measurements.displacement.size();
-  Observation result{std::vector<double>(points, kNan), std::vector<double>(points, 0.0),
-                     std::vector<double>(points, 1.0), {intact.begin(), intact.end()}, noise.model_error, 1.0, 0};
+  Observation result{std::vector<double>(points, kNan),
+                     std::vector<double>(points, 0.0),
+                     std::vector<double>(points, 1.0),
+                     {intact.begin(), intact.end()},
+                     noise.model_error,
+                     1.0,
+                     0};
   double sum_log_scale = 0.0;
   for (std::size_t i = 0; i < points; ++i) {
     if (std::isnan(measurements.displacement[i]) || std::abs(intact[i]) <= kClamped) continue;
@@ -146,12 +152,16 @@ TableStatistics table_statistics(const Observation& observation, const SceneTabl
   const std::vector<double> zeros(table.rows, 0.0);
   TableStatistics result{zeros, zeros, zeros, zeros};
   std::vector<double> exponent = zeros;
-  const View view{observation.reading.data(), observation.slope.data(),     observation.offset.data(),
-                  observation.intact.data(),  observation.model_error,      1.0 / observation.unit,
+  const View view{observation.reading.data(),
+                  observation.slope.data(),
+                  observation.offset.data(),
+                  observation.intact.data(),
+                  observation.model_error,
+                  1.0 / observation.unit,
                   table.points};
   collect(view, table.vertical.data(), table.rows,
-          {result.sum_absolute.data(), result.sum_square.data(), result.largest.data(), result.sum_log_scale.data(),
-           exponent.data()});
+          {result.sum_absolute.data(), result.sum_square.data(), result.largest.data(),
+           result.sum_log_scale.data(), exponent.data()});
   make_logarithms(result.sum_log_scale);
   const double shift = static_cast<double>(observation.count) * std::log(observation.unit);
   for (std::size_t row = 0; row < table.rows; ++row)

@@ -9,8 +9,8 @@
 
 namespace voussoir {
 
-/// The readings that can tell scenes apart, with what the noise model says of each, in the order of the database's
-/// points: scale_i = slope_i |d_i| + offset_i + model_error |d_i - intact_i|.
+/// The readings that can tell scenes apart, with what the noise model says of each, in the order of the
+/// database's points: scale_i = slope_i |d_i| + offset_i + model_error |d_i - intact_i|.
 struct Observation {
   std::vector<double> reading;  ///< [m], NaN where there is none or where nothing can move
   std::vector<double> slope;    ///< [-] zero where there is no reading
@@ -29,8 +29,8 @@ struct RowStatistics {
   double sum_log_scale = 0.0;  ///< sum log scale_i [log m]
 };
 
-/// The observation for a noise level. `intact` are the displacements of the intact bridge: points that do not move
-/// there (clamped) move in no scene; their readings say nothing and are left out.
+/// The observation for a noise level. `intact` are the displacements of the intact bridge: points that do not
+/// move there (clamped) move in no scene; their readings say nothing and are left out.
 Observation observe(const Measurements& measurements, std::span<const double> intact, const NoiseModel& noise,
                     double level);
 
@@ -39,7 +39,9 @@ struct TableStatistics {
   std::vector<double> sum_absolute, sum_square, largest, sum_log_scale;
 
   std::size_t rows() const { return largest.size(); }
-  RowStatistics row(std::size_t i) const { return {sum_absolute[i], sum_square[i], largest[i], sum_log_scale[i]}; }
+  RowStatistics row(std::size_t i) const {
+    return {sum_absolute[i], sum_square[i], largest[i], sum_log_scale[i]};
+  }
 };
 TableStatistics table_statistics(const Observation& observation, const SceneTable& table);
 

@@ -19,7 +19,8 @@ double draw_student(double nu, Random& random) {
     const double x = 2.0 * random.uniform() - 1.0;
     const double y = 2.0 * random.uniform() - 1.0;
     const double w = x * x + y * y;
-    if (w > 0.0 && w < 1.0) return x * std::sqrt(nu * (std::pow(w, -2.0 / nu) - 1.0) / w) * std::sqrt((nu - 2.0) / nu);
+    if (w > 0.0 && w < 1.0)
+      return x * std::sqrt(nu * (std::pow(w, -2.0 / nu) - 1.0) / w) * std::sqrt((nu - 2.0) / nu);
   }
 }
 
@@ -38,7 +39,8 @@ double draw_error(NoiseShape shape, double degrees_of_freedom, Random& random) {
   }
 }
 
-Measurements simulate_readings(std::span<const double> displacements, const NoiseModel& noise, Random& random) {
+Measurements simulate_readings(std::span<const double> displacements, const NoiseModel& noise,
+                               Random& random) {
   std::vector<double> readings(displacements.begin(), displacements.end());
   for (double& value : readings) {
     if (std::isnan(value)) continue;

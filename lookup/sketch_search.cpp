@@ -15,15 +15,15 @@ namespace voussoir {
 namespace {
 
 constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
-constexpr std::size_t kSegment = 8;       // places that share a step: what one instruction sums up
-constexpr std::size_t kRegister = 32;     // bytes: sketches are filled up to a whole number of them
-constexpr std::size_t kBlock = 32;        // rows whose bounds are looked at together first
+constexpr std::size_t kSegment = 8;    // places that share a step: what one instruction sums up
+constexpr std::size_t kRegister = 32;  // bytes: sketches are filled up to a whole number of them
+constexpr std::size_t kBlock = 32;     // rows whose bounds are looked at together first
 constexpr double kLargestByte = 255.0;
-constexpr double kRange = 0.3;            // of bytes, as a share of the segment's largest intact displacement:
-                                          // readings with up to 15 % of noise stay within it
-constexpr double kLeastRange = 1e-4;      // [m] for segments that hardly move
-constexpr float kSafety = 1.0F - 1e-5F;   // bounds are computed in single precision
-constexpr double kWorthwhile = 0.25;      // share of rows left beyond which scoring all of them is faster
+constexpr double kRange = 0.3;           // of bytes, as a share of the segment's largest intact displacement:
+                                         // readings with up to 15 % of noise stay within it
+constexpr double kLeastRange = 1e-4;     // [m] for segments that hardly move
+constexpr float kSafety = 1.0F - 1e-5F;  // bounds are computed in single precision
+constexpr double kWorthwhile = 0.25;     // share of rows left beyond which scoring all of them is faster
 
 double byte_of(double value, double base, double step) {
   return std::clamp(std::round((value - base) / step), 0.0, kLargestByte);
@@ -54,14 +54,16 @@ struct Comparison {
   std::size_t places;           // of a sketch
 };
 
-/// The sum over segments of weight * (sum of |byte - byte| in the segment), for sketches `first` up to `last`.
+/// The sum over segments of weight * (sum of |byte - byte| in the segment), for sketches `first` up to
+/// `last`.
 void plain_distances(const Comparison& comparison, std::size_t first, std::size_t last, float* distances) {
   for (std::size_t i = first; i < last; ++i) {
     const std::uint8_t* const sketch = comparison.sketches + i * comparison.places;
     std::uint64_t sum = 0;
     for (std::size_t place = 0; place < comparison.places; ++place)
       sum += comparison.weight[place / kSegment] *
-             static_cast<std::uint64_t>(std::abs((sketch[place] & comparison.mask[place]) - comparison.query[place]));
+             static_cast<std::uint64_t>(
+                 std::abs((sketch[place] & comparison.mask[place]) - comparison.query[place]));
     distances[i] = static_cast<float>(sum);
   }
 }
@@ -99,7 +101,8 @@ struct SketchBounds {
   std::vector<float> row;
   std::vector<float> block;  // the smallest of each block of rows
 
-  /// Calls a function with the positions of bounds not above a limit that may fall on the way, until it gives false.
+  /// Calls a function with the positions of bounds not above a limit that may fall on the way, until it gives
+  /// false.
   template <typename Limit, typename Function>
   void for_each_below(Limit limit, Function function) const {
     for (std::size_t b = 0; b < block.size(); ++b) {
@@ -124,7 +127,9 @@ class BestSums {
   }
 
   /// Sums above it cannot be among the best `count`.
-  double limit() const { return heap_.size() < count_ ? std::numeric_limits<double>::infinity() : heap_.front(); }
+  double limit() const {
+    return heap_.size() < count_ ? std::numeric_limits<double>::infinity() : heap_.front();
+  }
 
  private:
   std::size_t count_;
@@ -149,15 +154,16 @@ std::vector<std::size_t> smallest(const SketchBounds& bounds, std::size_t count)
   return heap;
 }
 
-SketchBounds lower_bounds(const Comparison& comparison, const std::vector<float>& row_error, float unit, double error,
-                          double worst_row_error) {
+SketchBounds lower_bounds(const Comparison& comparison, const std::vector<float>& row_error, float unit,
+                          double error, double worst_row_error) {
   SketchBounds bounds{std::vector<float>(row_error.size()), {}};
   for (std::size_t first = 0; first < row_error.size(); first += kBlock) {
     const std::size_t last = std::min(row_error.size(), first + kBlock);
     sketch_distances(comparison, first, last, bounds.row.data());
     float smallest_of_block = std::numeric_limits<float>::infinity();
     for (std::size_t i = first; i < last; ++i) {
-      const float rounding = static_cast<float>(error) + std::min(row_error[i], static_cast<float>(worst_row_error));
+      const float rounding =
+          static_cast<float>(error) + std::min(row_error[i], static_cast<float>(worst_row_error));
       bounds.row[i] = unit * bounds.row[i] * kSafety - rounding / kSafety;
       smallest_of_block = std::min(smallest_of_block, bounds.row[i]);
     }
@@ -168,9 +174,15 @@ SketchBounds lower_bounds(const Comparison& comparison, const std::vector<float>
 
 }  // namespace
 
-SketchIndex::SketchIndex(const SceneTable& table, std::span<const std::size_t> rows, std::span<const double> intact)
-    : table_(table), rows_(rows.begin(), rows.end()), order_(places(intact)), base_(order_.size(), 0.0),
-      weight_(order_.size() / kSegment, 1), bytes_(rows.size() * order_.size(), 0), row_error_(rows.size(), 0.0F) {
+SketchIndex::SketchIndex(const SceneTable& table, std::span<const std::size_t> rows,
+                         std::span<const double> intact)
+    : table_(table),
+      rows_(rows.begin(), rows.end()),
+      order_(places(intact)),
+      base_(order_.size(), 0.0),
+      weight_(order_.size() / kSegment, 1),
+      bytes_(rows.size() * order_.size(), 0),
+      row_error_(rows.size(), 0.0F) {
   constexpr double kFinest = 65536.0;  // units in the largest step
   const auto range = [&](std::size_t segment) {
     const std::size_t first = order_[segment * kSegment];
@@ -185,9 +197,11 @@ SketchIndex::SketchIndex(const SceneTable& table, std::span<const std::size_t> r
     const std::span<const double> row = table.row(rows_[i]);
     double error = 0.0;
     for (std::size_t place = 0; place < order_.size(); ++place) {
-      if (order_[place] == kNone || std::isnan(row[order_[place]])) continue;  // no displacement: any byte will do
+      if (order_[place] == kNone || std::isnan(row[order_[place]]))
+        continue;  // no displacement: any byte will do
       const double value = row[order_[place]];
-      bytes_[i * order_.size() + place] = static_cast<std::uint8_t>(byte_of(value, base_[place], step(place)));
+      bytes_[i * order_.size() + place] =
+          static_cast<std::uint8_t>(byte_of(value, base_[place], step(place)));
       error += rounding_error(value, base_[place], step(place));
     }
     row_error_[i] = std::nextafter(static_cast<float>(error), std::numeric_limits<float>::infinity());
@@ -214,9 +228,10 @@ SketchIndex::Query SketchIndex::sketch(std::span<const double> readings) const {
 SketchIndex::Result SketchIndex::search(std::span<const double> readings, std::size_t count) const {
   if (count == 0) return {};
   const Query query = sketch(readings);
-  const Comparison comparison{bytes_.data(), query.bytes.data(), query.mask.data(), weight_.data(), order_.size()};
-  const SketchBounds bounds = lower_bounds(comparison, row_error_, static_cast<float>(unit_), query.error,
-                                           query.worst_row_error);
+  const Comparison comparison{bytes_.data(), query.bytes.data(), query.mask.data(), weight_.data(),
+                              order_.size()};
+  const SketchBounds bounds =
+      lower_bounds(comparison, row_error_, static_cast<float>(unit_), query.error, query.worst_row_error);
   BestSums best(count);
   std::vector<ScoredRow> scored;
   const auto score = [&](std::size_t i) {
@@ -226,10 +241,11 @@ SketchIndex::Result SketchIndex::search(std::span<const double> readings, std::s
   const std::vector<std::size_t> probes = smallest(bounds, count);
   for (const std::size_t i : probes) score(i);
   const auto most = static_cast<std::size_t>(kWorthwhile * static_cast<double>(rows_.size()));
-  bounds.for_each_below([&] { return best.limit(); }, [&](std::size_t i) {
-    if (std::find(probes.begin(), probes.end(), i) == probes.end()) score(i);
-    return scored.size() <= most;
-  });
+  bounds.for_each_below([&] { return best.limit(); },
+                        [&](std::size_t i) {
+                          if (std::find(probes.begin(), probes.end(), i) == probes.end()) score(i);
+                          return scored.size() <= most;
+                        });
   if (scored.size() > most) return {exhaustive_search(readings, table_, rows_, count), rows_.size(), true};
   const std::size_t number = scored.size();
   return {best_rows(std::move(scored), count), number, false};

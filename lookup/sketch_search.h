@@ -1,6 +1,6 @@
 #pragma once
-/// @file Exact search under Eq. 1, faster than scoring every row: sketches of one byte for each displacement bound the
-/// sums of differences from below, and only rows that the bounds cannot rule out are scored.
+/// @file Exact search under Eq. 1, faster than scoring every row: sketches of one byte for each displacement
+/// bound the sums of differences from below, and only rows that the bounds cannot rule out are scored.
 
 #include <span>
 #include <vector>
@@ -10,20 +10,21 @@
 
 namespace voussoir {
 
-/// Points are put in segments of eight with similar displacements; each segment has its own step, and a displacement is
-/// kept as the nearest whole number of steps, from 0 to 255, above the segment's base for that point. With |.| of whole
-/// numbers and the sizes of what rounding took away,
+/// Points are put in segments of eight with similar displacements; each segment has its own step, and a
+/// displacement is kept as the nearest whole number of steps, from 0 to 255, above the segment's base for
+/// that point. With |.| of whole numbers and the sizes of what rounding took away,
 ///     sum |reading - d| >= sum over segments of step * (sum |byte of reading - byte of d|) - rounding,
-/// also where values lie beyond the range of bytes, since drawing two numbers to an interval never parts them.
+/// also where values lie beyond the range of bytes, since drawing two numbers to an interval never parts
+/// them.
 class SketchIndex {
  public:
   /// Sketches of the given rows, in ascending order. The table must outlive the index.
   SketchIndex(const SceneTable& table, std::span<const std::size_t> rows, std::span<const double> intact);
 
   struct Result {
-    std::vector<ScoredRow> best;     ///< the same rows, order and sums as exhaustive_search
-    std::size_t scored = 0;          ///< rows whose sum was computed
-    bool fell_back = false;          ///< the bounds ruled out too little, and all rows were scored
+    std::vector<ScoredRow> best;  ///< the same rows, order and sums as exhaustive_search
+    std::size_t scored = 0;       ///< rows whose sum was computed
+    bool fell_back = false;       ///< the bounds ruled out too little, and all rows were scored
   };
   Result search(std::span<const double> readings, std::size_t count) const;
 
@@ -41,12 +42,12 @@ class SketchIndex {
 
   const SceneTable& table_;
   std::vector<std::size_t> rows_;
-  std::vector<std::size_t> order_;      // point in each place of a sketch; `none` where a segment is not full
-  std::vector<double> base_;            // [m] of each place: the displacement whose byte is 0
-  double unit_ = 0.0;                   // [m]
-  std::vector<std::uint64_t> weight_;   // of each segment: its step in units
-  std::vector<std::uint8_t> bytes_;     // rows x places
-  std::vector<float> row_error_;        // [m] of each row: what rounding took away, at most
+  std::vector<std::size_t> order_;     // point in each place of a sketch; `none` where a segment is not full
+  std::vector<double> base_;           // [m] of each place: the displacement whose byte is 0
+  double unit_ = 0.0;                  // [m]
+  std::vector<std::uint64_t> weight_;  // of each segment: its step in units
+  std::vector<std::uint8_t> bytes_;    // rows x places
+  std::vector<float> row_error_;       // [m] of each row: what rounding took away, at most
 };
 
 }  // namespace voussoir

@@ -14,8 +14,9 @@ namespace voussoir {
 namespace {
 
 constexpr double kImpossible = -std::numeric_limits<double>::infinity();
-constexpr double kCutOff = 1e-13;    // share of an integral over levels that may lie outside the range of levels
-constexpr double kHopeless = 50.0;   // log of the factor beyond which a scene's probability is taken for zero
+constexpr double kCutOff =
+    1e-13;  // share of an integral over levels that may lie outside the range of levels
+constexpr double kHopeless = 50.0;  // log of the factor beyond which a scene's probability is taken for zero
 
 /// The evidence of every row for one shape; in the `open` rows it is an upper bound.
 struct ShapeEvidence {
@@ -52,11 +53,12 @@ ShapeEvidence shape_evidence(const LevelIntegral& integral, const TableStatistic
   return result;
 }
 
-/// Works out the open rows, the one with the largest bound first, but for those that are hopeless against `best`.
+/// Works out the open rows, the one with the largest bound first, but for those that are hopeless against
+/// `best`.
 void close(ShapeEvidence& evidence, const TableStatistics& statistics, std::size_t count, double& best) {
-  const auto likeliest = std::max_element(evidence.open.begin(), evidence.open.end(), [&](std::size_t a, std::size_t b) {
-    return evidence.logs[a] < evidence.logs[b];
-  });
+  const auto likeliest =
+      std::max_element(evidence.open.begin(), evidence.open.end(),
+                       [&](std::size_t a, std::size_t b) { return evidence.logs[a] < evidence.logs[b]; });
   if (likeliest != evidence.open.end()) std::swap(*likeliest, evidence.open.front());
   for (const std::size_t row : evidence.open) {
     double& value = evidence.logs[row];
@@ -71,7 +73,8 @@ void close(ShapeEvidence& evidence, const TableStatistics& statistics, std::size
 std::vector<double> log_likelihoods(NoiseShape shape, const TableStatistics& statistics, std::size_t count) {
   const bool bounded = shape == NoiseShape::uniform;
   const LevelCurve unit = level_curve(shape, {1.0, 1.0, 1.0, 0.0}, count);
-  const std::vector<double>& sums = shape == NoiseShape::laplace ? statistics.sum_absolute : statistics.sum_square;
+  const std::vector<double>& sums =
+      shape == NoiseShape::laplace ? statistics.sum_absolute : statistics.sum_square;
   const double constant = bounded ? -unit.count * std::numbers::ln2 : unit.constant;
   const double factor = bounded ? 0.0 : unit.a;
   const double limit = bounded ? 1.0 + kBoundTolerance : std::numeric_limits<double>::infinity();
@@ -98,8 +101,9 @@ LevelIntegral level_integral(NoiseShape shape, std::size_t count) {
           boost::math::gamma_p_inv(order, kCutOff, Policy()) * std::pow(kLargestLevel, unit.power) / unit.a};
 }
 
-std::vector<double> log_mean_evidences(std::span<const LevelIntegral> integrals, const TableStatistics& statistics,
-                                       std::span<const std::size_t> rows, std::size_t count, double& best) {
+std::vector<double> log_mean_evidences(std::span<const LevelIntegral> integrals,
+                                       const TableStatistics& statistics, std::span<const std::size_t> rows,
+                                       std::size_t count, double& best) {
   std::vector<ShapeEvidence> parts;
   for (const LevelIntegral& integral : integrals)
     parts.push_back(shape_evidence(integral, statistics, rows, count, best));

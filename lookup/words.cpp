@@ -29,9 +29,11 @@ std::string place_in_words(BlockId id, const BlockLayout& layout) {
     low = low.cwiseMin(corner);
     high = high.cwiseMax(corner);
   }
-  const std::string box = fmt::format("x {:.4g}..{:.4g} m, y {:.4g}..{:.4g} m", low.x(), high.x(), low.y(), high.y());
+  const std::string box =
+      fmt::format("x {:.4g}..{:.4g} m, y {:.4g}..{:.4g} m", low.x(), high.x(), low.y(), high.y());
   if (block.index.course > 0)
-    return fmt::format("course {}, {} from the left, {}", block.index.course, ordinal(block.index.position), box);
+    return fmt::format("course {}, {} from the left, {}", block.index.course, ordinal(block.index.position),
+                       box);
   return fmt::format("{} {} of {} of the arch, {}", block.kind == BlockKind::leg ? "leg block" : "voussoir",
                      block.index.position, layout.count_in_course(0), box);
 }

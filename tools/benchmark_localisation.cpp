@@ -11,7 +11,7 @@ namespace voussoir {
 namespace {
 
 constexpr std::size_t kBins = 10;
-constexpr double kLowestLevel = 0.01;   // of the noise in calibration and false alarms
+constexpr double kLowestLevel = 0.01;  // of the noise in calibration and false alarms
 constexpr double kHighestLevel = 0.20;
 constexpr double kWorthCounting = 1e-3;  // probabilities below it do not enter the reliability table
 
@@ -25,8 +25,8 @@ std::size_t row_of(const Library& library, const std::string& text) {
 Posterior posterior_of(const Library& library, const Measurements& measured, const Eligible& eligible,
                        const NoiseModel& noise, const Prior& prior) {
   return posterior(library.table, eligible,
-                   log_evidence_of_rows(measured, library.table, eligible.rows, library.table.row(0), noise), prior,
-                   library.layout.size());
+                   log_evidence_of_rows(measured, library.table, eligible.rows, library.table.row(0), noise),
+                   prior, library.layout.size());
 }
 
 /// The place of the truth in the order of probabilities, from 0 (equal ones count half behind it).
@@ -49,8 +49,8 @@ void count_posterior(std::size_t truth, const Posterior& posterior, Success& suc
   success.in_credible += std::find(set.begin(), set.end(), truth) != set.end() ? 1 : 0;
 }
 
-void count_genetic(const Library& library, const GeneSpace& space, const Measurements& measured, std::size_t truth,
-                   const ScoredRow& minimum, std::uint64_t seed, CaseResult& result) {
+void count_genetic(const Library& library, const GeneSpace& space, const Measurements& measured,
+                   std::size_t truth, const ScoredRow& minimum, std::uint64_t seed, CaseResult& result) {
   GeneticSettings settings;
   settings.seed = seed;
   const GeneticResult run = genetic_search(measured.displacement, library.table, space,
@@ -97,9 +97,9 @@ void finish_bins(std::vector<ReliabilityBin>& bins) {
 
 const std::vector<PaperCase>& paper_table_2() {
   static const std::vector<PaperCase> cases = {
-      {"0,15", 0.10, "8"},  {"6,4", 0.05, "9"},    {"6,4", 0.10, "-"},  {"2,6", 0.05, "27"},
-      {"2,6", 0.10, "65"},  {"4,10", 0.05, "35"},  {"4,10", 0.10, "-"}, {"8,12", 0.05, "127"},
-      {"8,12", 0.10, "-"},  {"10,4", 0.10, "67"},  {"10,12", 0.10, "32"}};
+      {"0,15", 0.10, "8"}, {"6,4", 0.05, "9"},   {"6,4", 0.10, "-"},   {"2,6", 0.05, "27"},
+      {"2,6", 0.10, "65"}, {"4,10", 0.05, "35"}, {"4,10", 0.10, "-"},  {"8,12", 0.05, "127"},
+      {"8,12", 0.10, "-"}, {"10,4", 0.10, "67"}, {"10,12", 0.10, "32"}};
   return cases;
 }
 
@@ -124,11 +124,13 @@ CaseResult run_case(const Library& library, const PaperCase& paper_case, int tri
   for (int trial = 0; trial < trials; ++trial) {
     const Measurements measured = simulate_readings(library.table.row(truth), noise, random);
     const auto found = exhaustive_search(measured.displacement, library.table, eligible.rows, 5);
-    const auto place = std::find_if(found.begin(), found.end(), [&](const ScoredRow& row) { return row.row == truth; });
+    const auto place =
+        std::find_if(found.begin(), found.end(), [&](const ScoredRow& row) { return row.row == truth; });
     count_place(static_cast<std::size_t>(place - found.begin()), result.paper_objective);
     count_posterior(truth, posterior_of(library, measured, eligible, noise, prior), result.right_model);
     count_posterior(truth, posterior_of(library, measured, eligible, {}, prior), result.default_model);
-    count_genetic(library, space, measured, truth, found.front(), static_cast<std::uint64_t>(trial) + 1, result);
+    count_genetic(library, space, measured, truth, found.front(), static_cast<std::uint64_t>(trial) + 1,
+                  result);
   }
   std::sort(result.generations.begin(), result.generations.end());
   return result;
@@ -137,7 +139,8 @@ CaseResult run_case(const Library& library, const PaperCase& paper_case, int tri
 Calibration calibrate(const Library& library, NoiseShape drawn, NoiseShape assumed, bool stated, int trials,
                       std::uint64_t seed) {
   const Eligible all = eligible_rows(library.table, {0, 1, 2});
-  const std::vector<Eligible> by_missing = {eligible_rows(library.table, {0}), eligible_rows(library.table, {1}),
+  const std::vector<Eligible> by_missing = {eligible_rows(library.table, {0}),
+                                            eligible_rows(library.table, {1}),
                                             eligible_rows(library.table, {2})};
   Calibration result{{}, 0.0, std::vector<ReliabilityBin>(kBins)};
   Random random(seed);

@@ -1,5 +1,6 @@
 #pragma once
-/// @file How often the truth is found: the paper's Tables 2 and 3, calibration, false alarms. Seeds are fixed.
+/// @file How often the truth is found: the paper's Tables 2 and 3, calibration, false alarms. Seeds are
+/// fixed.
 
 #include <string>
 #include <vector>
@@ -11,8 +12,8 @@ namespace voussoir {
 /// A row of the paper's Table 2 or 3.
 struct PaperCase {
   std::string scene;
-  double noise = 0.0;   ///< [-]
-  std::string paper;    ///< generations to convergence as printed there, "-" for not found
+  double noise = 0.0;  ///< [-]
+  std::string paper;   ///< generations to convergence as printed there, "-" for not found
 };
 
 /// Table 2 (one block) and Table 3 (two blocks).
@@ -22,18 +23,18 @@ const std::vector<PaperCase>& paper_table_3();
 /// How a ranking did over noisy trials.
 struct Success {
   int trials = 0;
-  int first = 0;      ///< truth at the head of the list
-  int in_five = 0;    ///< truth among the first five
+  int first = 0;        ///< truth at the head of the list
+  int in_five = 0;      ///< truth among the first five
   int in_credible = 0;  ///< truth in the 95 % set (posterior only)
 };
 
 struct CaseResult {
   PaperCase paper_case;
-  Success paper_objective;    ///< Eq. 1, exhaustive
-  Success right_model;        ///< posterior, noise shape and level known
-  Success default_model;      ///< posterior, nothing known of the noise
-  int genetic_found = 0;      ///< trials in which the genetic search ends at the truth
-  int genetic_minimum = 0;    ///< trials in which it reaches the exhaustive minimum of Eq. 1
+  Success paper_objective;       ///< Eq. 1, exhaustive
+  Success right_model;           ///< posterior, noise shape and level known
+  Success default_model;         ///< posterior, nothing known of the noise
+  int genetic_found = 0;         ///< trials in which the genetic search ends at the truth
+  int genetic_minimum = 0;       ///< trials in which it reaches the exhaustive minimum of Eq. 1
   std::vector<int> generations;  ///< to convergence, of the trials that found the truth, sorted
 };
 
@@ -50,16 +51,18 @@ struct ReliabilityBin {
 
 struct Calibration {
   Success success;
-  double mean_set_size = 0.0;         ///< scenes in the 95 % set
-  std::vector<ReliabilityBin> bins;   ///< ten, of equal width
+  double mean_set_size = 0.0;        ///< scenes in the 95 % set
+  std::vector<ReliabilityBin> bins;  ///< ten, of equal width
 };
 
-/// Random scenes (numbers of missing blocks equally often) with noise levels even in 1..20 % and sensors that fail as
-/// often as the lookup supposes, looked up among all scenes; `stated`: the noise level is told to the lookup.
+/// Random scenes (numbers of missing blocks equally often) with noise levels even in 1..20 % and sensors that
+/// fail as often as the lookup supposes, looked up among all scenes; `stated`: the noise level is told to the
+/// lookup.
 Calibration calibrate(const Library& library, NoiseShape drawn, NoiseShape assumed, bool stated, int trials,
                       std::uint64_t seed);
 
-/// Trials with the intact bridge (uniform noise, levels even in 1..20 %) in which a damaged scene comes first.
+/// Trials with the intact bridge (uniform noise, levels even in 1..20 %) in which a damaged scene comes
+/// first.
 int false_alarms(const Library& library, bool known_noise, int trials, std::uint64_t seed);
 
 }  // namespace voussoir

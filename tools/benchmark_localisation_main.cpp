@@ -26,28 +26,33 @@ double share(int count, const Success& success) {
 std::string generations(const CaseResult& result) {
   if (result.generations.empty()) return "-";
   const auto at = [&](double part) {
-    return result.generations[static_cast<std::size_t>(part * static_cast<double>(result.generations.size() - 1))];
+    return result
+        .generations[static_cast<std::size_t>(part * static_cast<double>(result.generations.size() - 1))];
   };
   return fmt::format("{} ({}..{})", at(0.5), at(0.1), at(0.9));
 }
 
-void print_table(const Library& library, const std::string& title, const std::vector<voussoir::PaperCase>& cases,
-                 const Options& options) {
-  fmt::print("{}: {} noisy trials a case, uniform relative noise, among the scenes with as many missing blocks\n", title,
-             options.trials);
-  fmt::print("{:<12} {:>5} | {:>9} | {:>6} {:>6} | {:>6} {:>6} {:>6} | {:>6} {:>6} {:>6} | {:>7} {:>7}  {}\n", "scene",
-             "noise", "paper", "Eq. 1", "top 5", "right", "top 5", "95 %", "deflt", "top 5", "95 %", "GA true",
-             "GA min", "generations");
+void print_table(const Library& library, const std::string& title,
+                 const std::vector<voussoir::PaperCase>& cases, const Options& options) {
+  fmt::print(
+      "{}: {} noisy trials a case, uniform relative noise, among the scenes with as many missing blocks\n",
+      title, options.trials);
+  fmt::print("{:<12} {:>5} | {:>9} | {:>6} {:>6} | {:>6} {:>6} {:>6} | {:>6} {:>6} {:>6} | {:>7} {:>7}  {}\n",
+             "scene", "noise", "paper", "Eq. 1", "top 5", "right", "top 5", "95 %", "deflt", "top 5", "95 %",
+             "GA true", "GA min", "generations");
   for (const auto& paper_case : cases) {
     const CaseResult r = voussoir::run_case(library, paper_case, options.trials, options.seed);
-    fmt::print("{:<12} {:>4.0f}% | {:>9} | {:>6.3f} {:>6.3f} | {:>6.3f} {:>6.3f} {:>6.3f} | {:>6.3f} {:>6.3f} {:>6.3f} | "
-               "{:>7.3f} {:>7.3f}  {}\n",
-               paper_case.scene, 100.0 * paper_case.noise, paper_case.paper,
-               share(r.paper_objective.first, r.paper_objective), share(r.paper_objective.in_five, r.paper_objective),
-               share(r.right_model.first, r.right_model), share(r.right_model.in_five, r.right_model),
-               share(r.right_model.in_credible, r.right_model), share(r.default_model.first, r.default_model),
-               share(r.default_model.in_five, r.default_model), share(r.default_model.in_credible, r.default_model),
-               share(r.genetic_found, r.paper_objective), share(r.genetic_minimum, r.paper_objective), generations(r));
+    fmt::print(
+        "{:<12} {:>4.0f}% | {:>9} | {:>6.3f} {:>6.3f} | {:>6.3f} {:>6.3f} {:>6.3f} | {:>6.3f} {:>6.3f} "
+        "{:>6.3f} | "
+        "{:>7.3f} {:>7.3f}  {}\n",
+        paper_case.scene, 100.0 * paper_case.noise, paper_case.paper,
+        share(r.paper_objective.first, r.paper_objective),
+        share(r.paper_objective.in_five, r.paper_objective), share(r.right_model.first, r.right_model),
+        share(r.right_model.in_five, r.right_model), share(r.right_model.in_credible, r.right_model),
+        share(r.default_model.first, r.default_model), share(r.default_model.in_five, r.default_model),
+        share(r.default_model.in_credible, r.default_model), share(r.genetic_found, r.paper_objective),
+        share(r.genetic_minimum, r.paper_objective), generations(r));
   }
   fmt::print("\n");
 }
@@ -59,10 +64,12 @@ void print_calibration(const Library& library, const std::string& title, NoiseSh
   fmt::print("  truth first {:.3f}, in the first five {:.3f}, in the 95 % set {:.3f} (mean size {:.0f})\n",
              share(c.success.first, c.success), share(c.success.in_five, c.success),
              share(c.success.in_credible, c.success), c.mean_set_size);
-  fmt::print("  {:>9} {:>8} {:>10} {:>10} {:>16}\n", "stated p", "scenes", "mean p", "frequency", "standard errors");
+  fmt::print("  {:>9} {:>8} {:>10} {:>10} {:>16}\n", "stated p", "scenes", "mean p", "frequency",
+             "standard errors");
   for (std::size_t i = 0; i < c.bins.size(); ++i) {
     const auto& bin = c.bins[i];
-    const double off = bin.standard_error > 0.0 ? (bin.frequency - bin.mean_probability) / bin.standard_error : 0.0;
+    const double off =
+        bin.standard_error > 0.0 ? (bin.frequency - bin.mean_probability) / bin.standard_error : 0.0;
     fmt::print("  {:.1f}..{:.1f}  {:>8} {:>10.4f} {:>10.4f} {:>+16.2f}\n", 0.1 * static_cast<double>(i),
                0.1 * static_cast<double>(i + 1), bin.scenes, bin.mean_probability, bin.frequency, off);
   }
@@ -72,14 +79,20 @@ void print_calibration(const Library& library, const std::string& title, NoiseSh
 std::string benchmark(const Options& options) {
   const auto database = voussoir::Database::open(voussoir::find_database(options.database));
   const Library library{database.table(), database.control_points(), database.layout()};
-  fmt::print("Columns: Eq. 1 = the paper's objective; right = posterior with the true noise model; deflt = posterior "
-             "knowing nothing of the noise;\n95 % = truth in the credible set; GA true, GA min = genetic search ends at "
-             "the truth, at the minimum of Eq. 1; generations = median (10..90 %)\n\n");
+  fmt::print(
+      "Columns: Eq. 1 = the paper's objective; right = posterior with the true noise model; deflt = "
+      "posterior "
+      "knowing nothing of the noise;\n95 % = truth in the credible set; GA true, GA min = genetic search "
+      "ends at "
+      "the truth, at the minimum of Eq. 1; generations = median (10..90 %)\n\n");
   print_table(library, "Table 2", voussoir::paper_table_2(), options);
   print_table(library, "Table 3", voussoir::paper_table_3(), options);
-  print_calibration(library, "uniform noise, model right", NoiseShape::uniform, NoiseShape::uniform, true, options);
-  print_calibration(library, "Gaussian noise, model right", NoiseShape::gaussian, NoiseShape::gaussian, true, options);
-  print_calibration(library, "uniform noise, default settings", NoiseShape::uniform, NoiseShape::automatic, false, options);
+  print_calibration(library, "uniform noise, model right", NoiseShape::uniform, NoiseShape::uniform, true,
+                    options);
+  print_calibration(library, "Gaussian noise, model right", NoiseShape::gaussian, NoiseShape::gaussian, true,
+                    options);
+  print_calibration(library, "uniform noise, default settings", NoiseShape::uniform, NoiseShape::automatic,
+                    false, options);
   for (const bool known : {true, false})
     fmt::print("Intact called damaged, noise {}: {} of {} trials\n", known ? "known" : "unknown",
                voussoir::false_alarms(library, known, options.scenes, options.seed), options.scenes);

@@ -23,11 +23,12 @@ struct Options {
 };
 
 std::string heading(const Options& options, const voussoir::Database& database) {
-  std::string text = fmt::format("# Simulated levelling of the bridge '{}': vertical displacements under its own weight.\n",
-                                 database.bridge_name());
+  std::string text =
+      fmt::format("# Simulated levelling of the bridge '{}': vertical displacements under its own weight.\n",
+                  database.bridge_name());
   if (!options.hide) text += fmt::format("# scene: {}\n", options.scene);
-  text += fmt::format("# noise: {} of the displacement and {} mm, {}\n# seed: {}\npoint,uy_mm\n", options.noise_level,
-                      options.floor_mm, options.noise_model, options.seed);
+  text += fmt::format("# noise: {} of the displacement and {} mm, {}\n# seed: {}\npoint,uy_mm\n",
+                      options.noise_level, options.floor_mm, options.noise_model, options.seed);
   return text;
 }
 
@@ -35,10 +36,14 @@ std::string make_measurements(const Options& options) {
   const auto database = voussoir::Database::open(voussoir::find_database(options.database));
   const auto row = database.table().row(voussoir::find_row(database, options.scene));
   const voussoir::NoiseModel noise{voussoir::parse_noise_shape(options.noise_model),
-                                   voussoir::parse_noise_level(options.noise_level), 1e-3 * options.floor_mm, 0.0, 4.0,
+                                   voussoir::parse_noise_level(options.noise_level),
+                                   1e-3 * options.floor_mm,
+                                   0.0,
+                                   4.0,
                                    voussoir::parse_noise_level(options.silence)};
   if (noise.shape == voussoir::NoiseShape::automatic)
-    throw voussoir::InputError("--noise-model auto cannot be simulated, expected uniform, gaussian, laplace or student");
+    throw voussoir::InputError(
+        "--noise-model auto cannot be simulated, expected uniform, gaussian, laplace or student");
   voussoir::Random random(options.seed);
   const auto readings = voussoir::simulate_readings(row, noise, random);
   std::string text = heading(options, database);
@@ -54,11 +59,14 @@ std::string make_measurements(const Options& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("Writes a measurements file: a scene's displacements with simulated noise.", "make-measurements");
+  CLI::App app("Writes a measurements file: a scene's displacements with simulated noise.",
+               "make-measurements");
   app.footer("Example: make-measurements 10,4 -d bridge.h5 --noise 5% --seed 1 -o readings.csv");
   app.set_version_flag("--version", voussoir::version_text("make-measurements"));
   Options options;
-  app.add_option("SCENE", options.scene, "missing blocks: intact, 10,4 or 10,4+6,4")->required()->option_text("SCENE");
+  app.add_option("SCENE", options.scene, "missing blocks: intact, 10,4 or 10,4+6,4")
+      ->required()
+      ->option_text("SCENE");
   app.add_option("-d,--database", options.database, "default: $VOUSSOIR_DATABASE, else ./bridge.h5");
   app.add_option("--noise", options.noise_level, "share of the displacement, default 5%")
       ->check(voussoir::checked_by(voussoir::parse_noise_level, "LEVEL"));

@@ -1,6 +1,6 @@
 #pragma once
-/// @file A made-up library of scenes, quick to make: a wall of blocks in courses, smooth settlements, a dent below each
-/// missing block.
+/// @file A made-up library of scenes, quick to make: a wall of blocks in courses, smooth settlements, a dent
+/// below each missing block.
 
 #include <array>
 #include <cmath>
@@ -24,8 +24,9 @@ struct SyntheticLibrary {
   SyntheticLibrary(const SyntheticLibrary&) = delete;  // the table looks into the vectors
   SyntheticLibrary& operator=(const SyntheticLibrary&) = delete;
 
-  /// `courses` courses of `length` unit blocks, two points on each block of the highest course; intact, all singles and
-  /// all pairs. Removing a whole column's foot is said to make a scene collapse (large displacements).
+  /// `courses` courses of `length` unit blocks, two points on each block of the highest course; intact, all
+  /// singles and all pairs. Removing a whole column's foot is said to make a scene collapse (large
+  /// displacements).
   SyntheticLibrary(int courses, int length) : blocks(static_cast<std::size_t>(courses * length)) {
     for (int course = 1; course <= courses; ++course)
       for (int position = 1; position <= length; ++position) add_block(course, position);
@@ -77,7 +78,8 @@ struct SyntheticLibrary {
     std::array<std::int32_t, 2> ids = {-1, -1};
     for (std::size_t i = 0; i < scene.removed.size(); ++i) ids.at(i) = value(scene.removed[i]);
     removed.insert(removed.end(), ids.begin(), ids.end());
-    outcome.push_back(static_cast<std::uint8_t>(scene.lacks(BlockId{1}) ? Outcome::collapsed : Outcome::standing));
+    outcome.push_back(
+        static_cast<std::uint8_t>(scene.lacks(BlockId{1}) ? Outcome::collapsed : Outcome::standing));
   }
 };
 

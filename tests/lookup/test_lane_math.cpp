@@ -1,5 +1,5 @@
-#include <catch2/catch.hpp>
 #include <array>
+#include <catch2/catch.hpp>
 #include <cmath>
 
 #include "lookup/lane_math.h"
@@ -56,5 +56,6 @@ TEST_CASE("The lane exponential is the library's in extended precision to three 
 TEST_CASE("All four lanes are worked on alike") {
   Lanes x = {1.0, 2.0, 0.25, 1e-9};
   make_logarithm(x);
-  for (const int lane : {0, 1, 2, 3}) CHECK(x[lane] == Approx(std::log(std::array{1.0, 2.0, 0.25, 1e-9}[static_cast<std::size_t>(lane)])));
+  for (const int lane : {0, 1, 2, 3})
+    CHECK(x[lane] == Approx(std::log(std::array{1.0, 2.0, 0.25, 1e-9}[static_cast<std::size_t>(lane)])));
 }

@@ -63,7 +63,8 @@ TEST_CASE("A single is not beaten by the many pairs that fit its noise as well")
   Random random(2);
   int right = 0;
   for (int trial = 0; trial < 20; ++trial) {
-    const Measurements measured = library.measure(library.row_of({{BlockId{29}}}), 0.01, NoiseShape::uniform, random);
+    const Measurements measured =
+        library.measure(library.row_of({{BlockId{29}}}), 0.01, NoiseShape::uniform, random);
     right += locate_damage(library.library(), measured, {}).candidates.front().scene.missing() == 1 ? 1 : 0;
   }
   CHECK(right >= 18);
@@ -92,16 +93,19 @@ TEST_CASE("A wild sensor is named and does not hide the damage") {
   for (const SensorResidual& sensor : answer.residuals)
     if (sensor.disagrees) odd.push_back(sensor.point);
   CHECK(odd == std::vector<std::size_t>{14});
-  CHECK(text_report(answer, library.library(), kSource).find("Sensor T15 disagrees: it reads") != std::string::npos);
+  CHECK(text_report(answer, library.library(), kSource).find("Sensor T15 disagrees: it reads") !=
+        std::string::npos);
 }
 
-TEST_CASE("Readings of no scene are called unexplained: beyond the bound, beyond the scatter, or with a pattern") {
+TEST_CASE(
+    "Readings of no scene are called unexplained: beyond the bound, beyond the scatter, or with a pattern") {
   const SyntheticLibrary library(4, 9);
   Random random(5);
   Measurements bent = library.measure(0, 0.002, NoiseShape::uniform, random);
   for (std::size_t i = 0; i < bent.displacement.size(); ++i)
     bent.displacement[i] *= 1.0 + 0.1 * std::sin(0.5 * static_cast<double>(i) + 1.0);
-  for (const NoiseShape shape : {NoiseShape::uniform, NoiseShape::gaussian, NoiseShape::laplace, NoiseShape::student}) {
+  for (const NoiseShape shape :
+       {NoiseShape::uniform, NoiseShape::gaussian, NoiseShape::laplace, NoiseShape::student}) {
     LookupSettings settings;
     settings.noise = {shape, 0.005};
     const Answer answer = locate_damage(library.library(), bent, settings);
@@ -135,14 +139,17 @@ TEST_CASE("Readings with the stated noise are called explained, for every shape"
 TEST_CASE("Scenes that the sensors cannot tell apart are reported together") {
   SyntheticLibrary library(4, 9);
   const std::size_t a = library.row_of({{BlockId{5}}}), b = library.row_of({{BlockId{6}}});
-  std::copy_n(library.vertical.begin() + static_cast<std::ptrdiff_t>(a * library.table.points), library.table.points,
+  std::copy_n(library.vertical.begin() + static_cast<std::ptrdiff_t>(a * library.table.points),
+              library.table.points,
               library.vertical.begin() + static_cast<std::ptrdiff_t>(b * library.table.points));
   Random random(7);
-  const Answer answer = locate_damage(library.library(), library.measure(a, 0.01, NoiseShape::uniform, random), {});
+  const Answer answer =
+      locate_damage(library.library(), library.measure(a, 0.01, NoiseShape::uniform, random), {});
   REQUIRE(answer.candidates.front().row == a);
   CHECK(answer.candidates.front().same_readings == std::vector<Scene>{{{BlockId{6}}}});
   CHECK(*answer.candidates[0].posterior == Approx(*answer.candidates[1].posterior));
-  CHECK(text_report(answer, library.library(), kSource).find("cannot tell 1,6 from: 1,7") != std::string::npos);
+  CHECK(text_report(answer, library.library(), kSource).find("cannot tell 1,6 from: 1,7") !=
+        std::string::npos);
 }
 
 TEST_CASE("A library without the wanted numbers of missing blocks is a failure with a reason") {
@@ -150,8 +157,9 @@ TEST_CASE("A library without the wanted numbers of missing blocks is a failure w
   LookupSettings settings;
   settings.prior.missing = {3};
   Random random(8);
-  CHECK_THROWS_WITH(locate_damage(library.library(), library.measure(0, 0.1, NoiseShape::uniform, random), settings),
-                    "the database has no solved scene with 3 missing blocks");
+  CHECK_THROWS_WITH(
+      locate_damage(library.library(), library.measure(0, 0.1, NoiseShape::uniform, random), settings),
+      "the database has no solved scene with 3 missing blocks");
 }
 
 TEST_CASE("If every scene lacks a measured block there is no candidate, and the report says so") {
@@ -164,9 +172,11 @@ TEST_CASE("If every scene lacks a measured block there is no candidate, and the 
     for (std::size_t i = 0; i < all_gone.table.points; ++i)
       all_gone.vertical[row * all_gone.table.points + i] = std::nan("");
   Random random(9);
-  const Answer answer = locate_damage(all_gone.library(), all_gone.measure(0, 0.1, NoiseShape::uniform, random), settings);
+  const Answer answer =
+      locate_damage(all_gone.library(), all_gone.measure(0, 0.1, NoiseShape::uniform, random), settings);
   CHECK(answer.candidates.empty());
-  CHECK(text_report(answer, all_gone.library(), kSource).find("No scene in this database explains") != std::string::npos);
+  CHECK(text_report(answer, all_gone.library(), kSource).find("No scene in this database explains") !=
+        std::string::npos);
 }
 
 TEST_CASE("The JSON report has the candidates in order, the settings used and the database's digest") {
@@ -174,7 +184,8 @@ TEST_CASE("The JSON report has the candidates in order, the settings used and th
   Random random(10);
   LookupSettings settings;
   settings.noise.relative = 0.02;
-  const Answer answer = locate_damage(library.library(), library.measure(40, 0.01, NoiseShape::uniform, random), settings);
+  const Answer answer =
+      locate_damage(library.library(), library.measure(40, 0.01, NoiseShape::uniform, random), settings);
   const auto json = nlohmann::json::parse(json_report(answer, settings, library.library(), kSource));
   REQUIRE(json["candidates"].size() == answer.candidates.size());
   for (std::size_t i = 0; i < answer.candidates.size(); ++i) {
@@ -186,8 +197,10 @@ TEST_CASE("The JSON report has the candidates in order, the settings used and th
   CHECK(json["settings"]["objective"] == "posterior");
   CHECK(json["settings"]["noise"]["relative"] == 0.02);
   settings.objective = Objective::paper;
-  const Answer paper = locate_damage(library.library(), library.measure(40, 0.01, NoiseShape::uniform, random), settings);
-  CHECK(nlohmann::json::parse(json_report(paper, settings, library.library(), kSource))["candidates"][0]["posterior"]
+  const Answer paper =
+      locate_damage(library.library(), library.measure(40, 0.01, NoiseShape::uniform, random), settings);
+  CHECK(nlohmann::json::parse(
+            json_report(paper, settings, library.library(), kSource))["candidates"][0]["posterior"]
             .is_null());
 }
 
@@ -196,7 +209,8 @@ TEST_CASE("The CSV report has one quoted scene a line") {
   Random random(11);
   LookupSettings settings;
   settings.top = 2;
-  const Answer answer = locate_damage(library.library(), library.measure(8, 0.0, NoiseShape::uniform, random), settings);
+  const Answer answer =
+      locate_damage(library.library(), library.measure(8, 0.0, NoiseShape::uniform, random), settings);
   const std::string text = csv_report(answer, library.library());
   CHECK(text.find("rank,scene,misfit,posterior,outcome,place\n1,\"") == 0);
   CHECK(std::count(text.begin(), text.end(), '\n') == 3);
@@ -204,7 +218,8 @@ TEST_CASE("The CSV report has one quoted scene a line") {
 
 TEST_CASE("Places and numbers are said in plain words") {
   const SyntheticLibrary library(12, 12);
-  CHECK(place_in_words(BlockId{9 * 12 + 3}, library.layout) == "course 10, 4th from the left, x 3..4 m, y 9..10 m");
+  CHECK(place_in_words(BlockId{9 * 12 + 3}, library.layout) ==
+        "course 10, 4th from the left, x 3..4 m, y 9..10 m");
   CHECK(place_in_words(Scene{}, library.layout) == "no block is missing");
   CHECK(ordinal(1) == "1st");
   CHECK(ordinal(2) == "2nd");

@@ -12,8 +12,10 @@ using namespace voussoir;
 namespace {
 
 /// Two top blocks that share the corner at x = 1, and one point on the intrados.
-const std::vector<StoredPoint> kPoints = {{"T1", Point(0, 6), BlockId{0}}, {"T2", Point(1, 6), BlockId{0}},
-                                          {"T3", Point(1, 6), BlockId{1}}, {"T4", Point(2, 6), BlockId{1}},
+const std::vector<StoredPoint> kPoints = {{"T1", Point(0, 6), BlockId{0}},
+                                          {"T2", Point(1, 6), BlockId{0}},
+                                          {"T3", Point(1, 6), BlockId{1}},
+                                          {"T4", Point(2, 6), BlockId{1}},
                                           {"A1", Point(1, 2), BlockId{2}}};
 
 Measurements parse(const std::string& text) {
@@ -38,7 +40,8 @@ TEST_CASE("Displacements are read in metres with up positive, whatever the colum
   CHECK(parse("point,uy_mm\nT2,+3.5\n").displacement[1] == Approx(3.5e-3).epsilon(1e-15));
 }
 
-TEST_CASE("Any subset of points in any order is a valid file, and sensors without reading count for nothing") {
+TEST_CASE(
+    "Any subset of points in any order is a valid file, and sensors without reading count for nothing") {
   const Measurements read = parse("uy_mm,point\n1,A1\n,T1\nNaN,T2\nnan,T3\n");
   CHECK(read.count() == 1);
   CHECK(read.displacement[4] == Approx(1e-3));
@@ -46,8 +49,9 @@ TEST_CASE("Any subset of points in any order is a valid file, and sensors withou
 }
 
 TEST_CASE("Comments, empty lines, blanks, quotation marks, CRLF and a byte order mark are understood") {
-  const Measurements read =
-      parse("\xEF\xBB\xBF# levelling of May\r\n\r\n point , \"uy_mm\" \r\nT1, -1 # left end\r\n   \r\n\"T4\",-2\r\n");
+  const Measurements read = parse(
+      "\xEF\xBB\xBF# levelling of May\r\n\r\n point , \"uy_mm\" \r\nT1, -1 # left end\r\n   "
+      "\r\n\"T4\",-2\r\n");
   CHECK(read.count() == 2);
   CHECK(read.displacement[0] == Approx(-1e-3));
   CHECK(read.displacement[3] == Approx(-2e-3));
@@ -69,7 +73,8 @@ TEST_CASE("Coordinates mean the nearest control point, and twins at one place ar
   CHECK(error_of("x_m,y_m,uy_mm\n1,6,-1\n1,6,-2\n1,6,-3\n") ==
         "m.csv:4: point T2 is given again, expected each point once (first in line 2)");
   CHECK(error_of("x_m,y_m,uy_mm\n1,6.2,-1\n") ==
-        "m.csv:2: no control point at x = 1 m, y = 6.2 m: the nearest, T2, is 0.2 m away, expected at most 0.05 m");
+        "m.csv:2: no control point at x = 1 m, y = 6.2 m: the nearest, T2, is 0.2 m away, expected at most "
+        "0.05 m");
 }
 
 TEST_CASE("A sensor's own sigma is read in millimetres") {
@@ -83,9 +88,11 @@ TEST_CASE("A sensor's own sigma is read in millimetres") {
 }
 
 TEST_CASE("Bad files are refused with the file, the line, the value and what was expected") {
-  const std::string columns = "expected point or x_m,y_m; one of uy_mm, uy_m, settlement_mm; optionally sigma_mm";
-  CHECK(error_of("") == "m.csv: the file is empty, expected a header line "
-                        "(point or x_m,y_m; one of uy_mm, uy_m, settlement_mm; optionally sigma_mm)");
+  const std::string columns =
+      "expected point or x_m,y_m; one of uy_mm, uy_m, settlement_mm; optionally sigma_mm";
+  CHECK(error_of("") ==
+        "m.csv: the file is empty, expected a header line "
+        "(point or x_m,y_m; one of uy_mm, uy_m, settlement_mm; optionally sigma_mm)");
   CHECK(error_of("# only a comment\n").find("m.csv: the file is empty") == 0);
   CHECK(error_of("point,uy_cm\nT1,1\n") == "m.csv:1: unknown column 'uy_cm', " + columns);
   CHECK(error_of("point,uy_mm,note\nT1,1,x\n") == "m.csv:1: unknown column 'note', " + columns);
@@ -99,15 +106,19 @@ TEST_CASE("Bad files are refused with the file, the line, the value and what was
         "m.csv:1: column 'uy_m' is given twice or beside another value column, " + columns);
   CHECK(error_of("point,point,uy_mm\n") ==
         "m.csv:1: column 'point' is given twice or beside another value column, " + columns);
-  CHECK(error_of("point,uy_mm\n") == "m.csv: no usable row, expected at least one control point with a displacement");
+  CHECK(error_of("point,uy_mm\n") ==
+        "m.csv: no usable row, expected at least one control point with a displacement");
   CHECK(error_of("point,uy_mm\nT1,\n") ==
         "m.csv: no usable row, expected at least one control point with a displacement");
   CHECK(error_of("# x\npoint,uy_mm\nT1,1\nT99,1\n") == "m.csv:4: unknown point 'T99', expected T1 to A1");
   CHECK(error_of("point,uy_mm\nT1,1\nT2,1\nT1,2\n") ==
         "m.csv:4: point T1 is given again, expected each point once (first in line 2)");
-  CHECK(error_of("point,uy_mm\nT1,soft\n") == "m.csv:2: 'soft' is no number, expected a displacement or nothing");
-  CHECK(error_of("point,uy_mm\nT1,1.5mm\n") == "m.csv:2: '1.5mm' is no number, expected a displacement or nothing");
-  CHECK(error_of("point,uy_mm\nT1,0x10\n") == "m.csv:2: '0x10' is no number, expected a displacement or nothing");
+  CHECK(error_of("point,uy_mm\nT1,soft\n") ==
+        "m.csv:2: 'soft' is no number, expected a displacement or nothing");
+  CHECK(error_of("point,uy_mm\nT1,1.5mm\n") ==
+        "m.csv:2: '1.5mm' is no number, expected a displacement or nothing");
+  CHECK(error_of("point,uy_mm\nT1,0x10\n") ==
+        "m.csv:2: '0x10' is no number, expected a displacement or nothing");
   CHECK(error_of("point,uy_mm\nT1,-inf\n") ==
         "m.csv:2: '-inf' is infinite, expected a finite displacement or nothing");
   CHECK(error_of("point,uy_mm\nT1,1e999\n") ==
@@ -116,9 +127,12 @@ TEST_CASE("Bad files are refused with the file, the line, the value and what was
         "m.csv:2: '-350' is a displacement of 350 m, expected at most 100 m (check the units)");
   CHECK(error_of("point,uy_mm\nT1,-3,5\n") == "m.csv:2: 3 values, expected 2 as in the header");
   CHECK(error_of("point,uy_mm\nT1\n") == "m.csv:2: 1 values, expected 2 as in the header");
-  CHECK(error_of("x_m,y_m,uy_mm\n1,high,1\n") == "m.csv:2: 'high' is no coordinate, expected a number in metres");
-  CHECK(error_of("x_m,y_m,uy_mm\nnan,1,1\n") == "m.csv:2: 'nan' is no coordinate, expected a number in metres");
-  CHECK(error_of(std::string("point,uy_mm\nT1,1\0\n", 19)) == "m.csv:1: the file holds binary data, expected CSV");
+  CHECK(error_of("x_m,y_m,uy_mm\n1,high,1\n") ==
+        "m.csv:2: 'high' is no coordinate, expected a number in metres");
+  CHECK(error_of("x_m,y_m,uy_mm\nnan,1,1\n") ==
+        "m.csv:2: 'nan' is no coordinate, expected a number in metres");
+  CHECK(error_of(std::string("point,uy_mm\nT1,1\0\n", 19)) ==
+        "m.csv:1: the file holds binary data, expected CSV");
   CHECK(error_of("\xFF\xFEp") == "m.csv:1: the file is UTF-16, expected UTF-8 (save it as plain CSV)");
 }
 
@@ -138,8 +152,9 @@ TEST_CASE("A file that cannot be read is named with the reason, and so is a file
   CHECK_THROWS_WITH(read_measurements(folder / "none.csv", kPoints),
                     (folder / "none.csv").string() +
                         ": cannot be read (No such file or directory), expected a CSV file of measurements");
-  CHECK_THROWS_WITH(read_measurements(folder.path(), kPoints),
-                    folder.path().string() + ": cannot be read (Is a directory), expected a CSV file of measurements");
+  CHECK_THROWS_WITH(
+      read_measurements(folder.path(), kPoints),
+      folder.path().string() + ": cannot be read (Is a directory), expected a CSV file of measurements");
   CHECK_THROWS_WITH(read_measurements("/dev/zero", kPoints),
                     "/dev/zero: larger than 4 MiB, expected a CSV file of measurements");
   std::ofstream(folder / "good.csv") << "point,uy_mm\nT1,-1\n";

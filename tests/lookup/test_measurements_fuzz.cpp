@@ -1,5 +1,5 @@
-/// @file The reader of measurements files against damaged and made-up inputs. Oracle: it accepts or throws InputError,
-/// and what it accepts is finite and in place.
+/// @file The reader of measurements files against damaged and made-up inputs. Oracle: it accepts or throws
+/// InputError, and what it accepts is finite and in place.
 
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -12,17 +12,41 @@ using namespace voussoir;
 
 namespace {
 
-const std::vector<StoredPoint> kPoints = {{"T1", Point(0, 6), BlockId{0}}, {"T2", Point(1, 6), BlockId{0}},
-                                          {"T3", Point(1, 6), BlockId{1}}, {"A1", Point(1, 2), BlockId{2}}};
+const std::vector<StoredPoint> kPoints = {{"T1", Point(0, 6), BlockId{0}},
+                                          {"T2", Point(1, 6), BlockId{0}},
+                                          {"T3", Point(1, 6), BlockId{1}},
+                                          {"A1", Point(1, 2), BlockId{2}}};
 
 const std::vector<std::string> kGoodFiles = {
     "point,uy_mm\nT1,-1.25\nT2,-3e-1\nA1,0\n", "x_m,y_m,uy_m\n0,6,-1e-3\n1,6,\n1,6,NaN\n",
     "\xEF\xBB\xBF# c\r\npoint,settlement_mm,sigma_mm\r\n\"T3\", 4.5 ,0.1\r\n\r\nT1,,\r\n"};
 
 /// Pieces that parsers stumble over.
-const std::vector<std::string> kNasty = {"nan", "inf", "-inf", "1e999", "-1e-999", "\"", ",", "\n", "\r", "#", "T1", "T",
-                                         "point", "uy_mm", "sigma_mm", "x_m", "+-1", "0x1p3", std::string(1, '\0'),
-                                         "\xFF\xFE", "\xEF\xBB\xBF", "e", ".", "-", "1.7976931348623157e308"};
+const std::vector<std::string> kNasty = {"nan",
+                                         "inf",
+                                         "-inf",
+                                         "1e999",
+                                         "-1e-999",
+                                         "\"",
+                                         ",",
+                                         "\n",
+                                         "\r",
+                                         "#",
+                                         "T1",
+                                         "T",
+                                         "point",
+                                         "uy_mm",
+                                         "sigma_mm",
+                                         "x_m",
+                                         "+-1",
+                                         "0x1p3",
+                                         std::string(1, '\0'),
+                                         "\xFF\xFE",
+                                         "\xEF\xBB\xBF",
+                                         "e",
+                                         ".",
+                                         "-",
+                                         "1.7976931348623157e308"};
 
 std::string mutated(Random& random) {
   std::string text = kGoodFiles[random.below(static_cast<std::uint32_t>(kGoodFiles.size()))];
@@ -54,11 +78,13 @@ Tally feed(int inputs, std::uint64_t seed) {
       ++tally.accepted;
       bool sound = read.displacement.size() == kPoints.size() && read.count() > 0;
       for (const double value : read.displacement) sound = sound && !(std::abs(value) > kLargestDisplacement);
-      for (const double sigma : read.sigma) sound = sound && (std::isnan(sigma) || (sigma > 0.0 && std::isfinite(sigma)));
+      for (const double sigma : read.sigma)
+        sound = sound && (std::isnan(sigma) || (sigma > 0.0 && std::isfinite(sigma)));
       if (!sound) FAIL("accepted an unsound file: " << text);
     } catch (const InputError& error) {
       ++tally.refused;
-      if (std::string(error.what()).find("fuzz.csv:") != 0) FAIL("a message without the file: " << error.what());
+      if (std::string(error.what()).find("fuzz.csv:") != 0)
+        FAIL("a message without the file: " << error.what());
     }
   }
   return tally;

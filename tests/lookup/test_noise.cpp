@@ -1,4 +1,5 @@
-/// @file Noise shapes, their evidence, and the posterior, against closed forms and brute force in extended precision.
+/// @file Noise shapes, their evidence, and the posterior, against closed forms and brute force in extended
+/// precision.
 
 #include <array>
 #include <catch2/catch.hpp>
@@ -40,7 +41,8 @@ long double density(NoiseShape shape, long double error, long double sigma, long
 
 /// p(readings | row) for a stated level, the definition in noise_model.h word for word.
 long double likelihood(const Measurements& measured, std::span<const double> prediction,
-                       std::span<const double> intact, const NoiseModel& noise, NoiseShape shape, long double level) {
+                       std::span<const double> intact, const NoiseModel& noise, NoiseShape shape,
+                       long double level) {
   long double product = 1.0L;
   for (std::size_t i = 0; i < prediction.size(); ++i) {
     if (std::isnan(measured.displacement[i])) continue;
@@ -77,7 +79,8 @@ Measurements readings_of(const SyntheticLibrary& library, std::size_t row, doubl
 TEST_CASE("Log densities are the logarithms of the textbook densities") {
   for (const NoiseShape shape : kShapes)
     for (const double z : {0.0, 0.3, -0.99, 0.99})
-      CHECK(log_density(shape, z, 5.0) == Approx(static_cast<double>(std::log(density(shape, z, 1.0L, 5.0L)))));
+      CHECK(log_density(shape, z, 5.0) ==
+            Approx(static_cast<double>(std::log(density(shape, z, 1.0L, 5.0L)))));
   CHECK(log_density(NoiseShape::uniform, 1.01, 5.0) == -kInfinity);
   CHECK(log_density(NoiseShape::gaussian, 6.0, 0.0) == Approx(-18.0 - 0.5 * std::log(2 * std::numbers::pi)));
 }
@@ -125,7 +128,8 @@ TEST_CASE("The likelihood for a stated level is the product of the textbook dens
       const auto logs = log_evidence_of_rows(with_sigma, library.table, rows, library.intact(), noise);
       int possible = 0;
       for (const std::size_t row : rows) {
-        const long double exact = likelihood(with_sigma, library.table.row(row), library.intact(), noise, shape, 0.3L);
+        const long double exact =
+            likelihood(with_sigma, library.table.row(row), library.intact(), noise, shape, 0.3L);
         if (logs[row] == -kInfinity) continue;
         ++possible;
         REQUIRE(logs[row] == Approx(static_cast<double>(std::log(exact))).epsilon(1e-10));
@@ -147,17 +151,21 @@ TEST_CASE("The evidence over all levels is the brute-force mean over a fine grid
       INFO(to_string(shape) << " row " << row);
       // The midpoint rule cuts the uniform shape's edge within one of its 40,000 steps.
       if (logs[row] != -kInfinity)
-        CHECK(logs[row] == Approx(static_cast<double>(std::log(exact))).margin(shape == NoiseShape::uniform ? 5e-3 : 1e-6));
+        CHECK(
+            logs[row] ==
+            Approx(static_cast<double>(std::log(exact))).margin(shape == NoiseShape::uniform ? 5e-3 : 1e-6));
     }
   }
 }
 
-TEST_CASE("Where absolute errors stand beside an unknown level, the grid of levels agrees with the fine one") {
+TEST_CASE(
+    "Where absolute errors stand beside an unknown level, the grid of levels agrees with the fine one") {
   const SyntheticLibrary library(2, 3);
   const Measurements measured = readings_of(library, 2, 0.05, 3);
   for (const NoiseShape shape : {NoiseShape::gaussian, NoiseShape::laplace, NoiseShape::student}) {
     const NoiseModel noise{shape, std::nullopt, 1e-5, 0.0, 5.0};
-    const auto logs = log_evidence_of_rows(measured, library.table, all_rows(library.table), library.intact(), noise);
+    const auto logs =
+        log_evidence_of_rows(measured, library.table, all_rows(library.table), library.intact(), noise);
     for (const std::size_t row : {std::size_t{2}, library.row_of({{BlockId{1}, BlockId{2}}})}) {
       const long double exact = over_levels(measured, library.table.row(row), library.intact(), noise, shape);
       CHECK(logs[row] == Approx(static_cast<double>(std::log(exact))).margin(0.02));
@@ -174,15 +182,16 @@ TEST_CASE("The automatic shape is the mean of uniform, Gaussian and Laplace") {
     for (const NoiseShape shape : {NoiseShape::uniform, NoiseShape::gaussian, NoiseShape::laplace})
       sum += std::exp(static_cast<long double>(
           log_evidence_of_rows(measured, library.table, rows, library.intact(), {shape, level})[2]));
-    const double automatic =
-        log_evidence_of_rows(measured, library.table, rows, library.intact(), {NoiseShape::automatic, level})[2];
+    const double automatic = log_evidence_of_rows(measured, library.table, rows, library.intact(),
+                                                  {NoiseShape::automatic, level})[2];
     CHECK(automatic == Approx(static_cast<double>(std::log(sum / 3.0L))).epsilon(1e-12));
   }
 }
 
 TEST_CASE("Points that no scene moves are left out, and readings only there are refused") {
   SyntheticLibrary library(2, 3);
-  for (std::size_t row = 0; row < library.table.rows; ++row) library.vertical[row * library.table.points] = 0.0;
+  for (std::size_t row = 0; row < library.table.rows; ++row)
+    library.vertical[row * library.table.points] = 0.0;
   Measurements measured = readings_of(library, 2, 0.05, 5);
   const NoiseModel noise{NoiseShape::gaussian, 0.05};
   const auto rows = all_rows(library.table);
@@ -200,13 +209,16 @@ TEST_CASE("The estimated level of a scene is that of the noise that made its rea
   const SyntheticLibrary library(3, 12);
   Random random(6);
   const Measurements uniform = library.measure(5, 0.08, NoiseShape::uniform, random);
-  const NoiseEstimate bound = estimate_noise(uniform, library.table.row(5), library.intact(), {NoiseShape::uniform, {}});
+  const NoiseEstimate bound =
+      estimate_noise(uniform, library.table.row(5), library.intact(), {NoiseShape::uniform, {}});
   CHECK(bound.estimated);
   CHECK(bound.level == Approx(0.08).epsilon(0.15));
   const Measurements gaussian = library.measure(5, 0.08, NoiseShape::gaussian, random);
-  const NoiseEstimate sigma = estimate_noise(gaussian, library.table.row(5), library.intact(), {NoiseShape::gaussian, {}});
+  const NoiseEstimate sigma =
+      estimate_noise(gaussian, library.table.row(5), library.intact(), {NoiseShape::gaussian, {}});
   CHECK(sigma.level == Approx(0.08).epsilon(0.5));
-  CHECK_FALSE(estimate_noise(gaussian, library.table.row(5), library.intact(), {NoiseShape::gaussian, 0.1}).estimated);
+  CHECK_FALSE(estimate_noise(gaussian, library.table.row(5), library.intact(), {NoiseShape::gaussian, 0.1})
+                  .estimated);
 }
 
 TEST_CASE("The posterior is prior times likelihood, normalised by brute force in extended precision") {
@@ -246,8 +258,8 @@ TEST_CASE("The credible set is the shortest list of likeliest rows that holds 95
   const SyntheticLibrary library(3, 5);
   const Eligible eligible = eligible_rows(library.table, {1});
   const Measurements measured = readings_of(library, 7, 0.2, 8);
-  const auto logs =
-      log_evidence_of_rows(measured, library.table, eligible.rows, library.intact(), {NoiseShape::gaussian, 0.3});
+  const auto logs = log_evidence_of_rows(measured, library.table, eligible.rows, library.intact(),
+                                         {NoiseShape::gaussian, 0.3});
   const Posterior result = posterior(library.table, eligible, logs, {{1}, {}}, library.blocks);
   REQUIRE(result.credible.size() > 2);
   double share = 0.0;
@@ -259,15 +271,16 @@ TEST_CASE("The credible set is the shortest list of likeliest rows that holds 95
   CHECK(share >= kCredibleShare);
 }
 
-TEST_CASE("Unresolved rows take no part and are counted, and so do rows with other numbers of missing blocks") {
+TEST_CASE(
+    "Unresolved rows take no part and are counted, and so do rows with other numbers of missing blocks") {
   SyntheticLibrary library(3, 5);
   library.outcome[4] = static_cast<std::uint8_t>(Outcome::unresolved);
   const Eligible eligible = eligible_rows(library.table, {1});
   CHECK(eligible.unresolved == 1);
   CHECK(eligible.rows.size() == 14);
   const Measurements measured = readings_of(library, 4, 0.0, 9);
-  const auto logs =
-      log_evidence_of_rows(measured, library.table, eligible.rows, library.intact(), {NoiseShape::gaussian, 0.1});
+  const auto logs = log_evidence_of_rows(measured, library.table, eligible.rows, library.intact(),
+                                         {NoiseShape::gaussian, 0.1});
   const Posterior result = posterior(library.table, eligible, logs, {{1}, {}}, library.blocks);
   CHECK(result.probability[4] == 0.0);
   CHECK(result.probability[0] == 0.0);
@@ -279,8 +292,8 @@ TEST_CASE("If every scene is impossible there is no probability at all") {
   const Eligible eligible = eligible_rows(library.table, {0, 1, 2});
   Measurements measured = readings_of(library, 2, 0.0, 10);
   measured.displacement[3] *= 50.0;
-  const auto logs =
-      log_evidence_of_rows(measured, library.table, eligible.rows, library.intact(), {NoiseShape::uniform, 0.05});
+  const auto logs = log_evidence_of_rows(measured, library.table, eligible.rows, library.intact(),
+                                         {NoiseShape::uniform, 0.05});
   const Posterior result = posterior(library.table, eligible, logs, {}, library.blocks);
   CHECK(result.credible.empty());
   CHECK(*std::max_element(result.probability.begin(), result.probability.end()) == 0.0);
@@ -289,11 +302,14 @@ TEST_CASE("If every scene is impossible there is no probability at all") {
 TEST_CASE("A prior needs a weight for each number of missing blocks") {
   const SyntheticLibrary library(2, 3);
   const Eligible eligible = eligible_rows(library.table, {0, 1});
-  CHECK_THROWS_AS(posterior(library.table, eligible, std::vector<double>(library.table.rows, 0.0), {{0, 1}, {1.0}}, 6),
-                  InputError);
+  CHECK_THROWS_AS(
+      posterior(library.table, eligible, std::vector<double>(library.table.rows, 0.0), {{0, 1}, {1.0}}, 6),
+      InputError);
 }
 
-TEST_CASE("A silent sensor counts with its chance of failing where its block stands, and costs nothing where it is gone") {
+TEST_CASE(
+    "A silent sensor counts with its chance of failing where its block stands, and costs nothing where it is "
+    "gone") {
   const SyntheticLibrary library(2, 4);
   Measurements measured = readings_of(library, 0, 0.02, 11);
   const auto rows = all_rows(library.table);
@@ -310,7 +326,9 @@ TEST_CASE("A silent sensor counts with its chance of failing where its block sta
   }
 }
 
-TEST_CASE("Simulated readings have the noise that was asked for, and silent sensors on missing blocks and by chance") {
+TEST_CASE(
+    "Simulated readings have the noise that was asked for, and silent sensors on missing blocks and by "
+    "chance") {
   std::vector<double> truth(20'000, -2e-3);
   truth[7] = std::nan("");
   for (const NoiseShape shape : kShapes) {

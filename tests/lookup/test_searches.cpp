@@ -16,7 +16,8 @@ using voussoir::test::SyntheticLibrary;
 
 namespace {
 
-std::vector<ScoredRow> full_sort(std::span<const double> readings, const SceneTable& table, std::size_t count) {
+std::vector<ScoredRow> full_sort(std::span<const double> readings, const SceneTable& table,
+                                 std::size_t count) {
   std::vector<ScoredRow> scored;
   for (std::size_t row = 0; row < table.rows; ++row) {
     const double sum = sum_of_differences(readings, table.row(row));
@@ -87,7 +88,8 @@ TEST_CASE("Exact nearest-neighbour search keeps the order of rows among equal di
         exhaustive_search(readings, library.table, rows, 15));
 }
 
-TEST_CASE("Approximate nearest-neighbour search nearly always has the exhaustive winner, with its exact misfit") {
+TEST_CASE(
+    "Approximate nearest-neighbour search nearly always has the exhaustive winner, with its exact misfit") {
   const SyntheticLibrary library(4, 7);
   Random random(13);
   NearestSettings settings;
@@ -106,7 +108,8 @@ TEST_CASE("Approximate nearest-neighbour search nearly always has the exhaustive
   CHECK(hits >= 48);
 }
 
-TEST_CASE("Genetic search reaches the exhaustive minimum for one and for two blocks in at least 95 % of seeds") {
+TEST_CASE(
+    "Genetic search reaches the exhaustive minimum for one and for two blocks in at least 95 % of seeds") {
   const SyntheticLibrary library(5, 8);
   const GeneSpace space(library.layout, library.table);
   Random random(17);
@@ -119,7 +122,8 @@ TEST_CASE("Genetic search reaches the exhaustive minimum for one and for two blo
       const auto best = exhaustive_search(readings, library.table, rows, 1).front();
       GeneticSettings settings;
       settings.seed = seed;
-      hits += genetic_search(readings, library.table, space, missing, settings, 1).best.front() == best ? 1 : 0;
+      hits +=
+          genetic_search(readings, library.table, space, missing, settings, 1).best.front() == best ? 1 : 0;
     }
     CHECK(hits >= 95);
   }

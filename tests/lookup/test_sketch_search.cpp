@@ -1,4 +1,5 @@
-/// @file The search by sketches against the exhaustive search: rows, order and values must be the same, always.
+/// @file The search by sketches against the exhaustive search: rows, order and values must be the same,
+/// always.
 
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -20,7 +21,8 @@ void check_same(const SketchIndex& index, const SyntheticLibrary& library, std::
 
 }  // namespace
 
-TEST_CASE("Sketch search gives what exhaustive search gives, for noise of any size and any subset of sensors") {
+TEST_CASE(
+    "Sketch search gives what exhaustive search gives, for noise of any size and any subset of sensors") {
   const SyntheticLibrary library(5, 9);
   const auto rows = all_rows(library.table);
   const SketchIndex index(library.table, rows, library.intact());
