@@ -13,24 +13,6 @@ namespace {
 
 constexpr double kImpossible = -std::numeric_limits<double>::infinity();
 
-/// log prior of one scene with a given number of missing blocks: its number's weight over how many there are.
-std::vector<double> log_prior_by_missing(const SceneTable& table, const Eligible& eligible,
-                                         const Prior& prior) {
-  if (!prior.weight.empty() && prior.weight.size() != prior.missing.size())
-    throw InputError(fmt::format("{} prior weights, expected {}: one for each number of missing blocks",
-                                 prior.weight.size(), prior.missing.size()));
-  std::vector<double> scenes(table.most_missing + 1, 0.0);
-  for (const std::uint8_t missing : eligible.missing) ++scenes[missing];
-  std::vector<double> result(table.most_missing + 1, kImpossible);
-  for (std::size_t i = 0; i < prior.missing.size(); ++i) {
-    const auto missing = static_cast<std::size_t>(prior.missing[i]);
-    const double weight = prior.weight.empty() ? 1.0 : prior.weight[i];
-    if (missing < result.size() && scenes[missing] > 0.0)
-      result[missing] = std::log(weight / scenes[missing]);
-  }
-  return result;
-}
-
 void normalise(std::vector<double>& probability) {
   const double total = std::accumulate(probability.begin(), probability.end(), 0.0);
   if (total > 0.0)
@@ -84,6 +66,23 @@ Eligible eligible_rows(const SceneTable& table, const std::vector<int>& missing)
   return result;
 }
 
+std::vector<double> log_prior_by_missing(const SceneTable& table, const Eligible& eligible,
+                                         const Prior& prior) {
+  if (!prior.weight.empty() && prior.weight.size() != prior.missing.size())
+    throw InputError(fmt::format("{} prior weights, expected {}: one for each number of missing blocks",
+                                 prior.weight.size(), prior.missing.size()));
+  std::vector<double> scenes(table.most_missing + 1, 0.0);
+  for (const std::uint8_t missing : eligible.missing) ++scenes[missing];
+  std::vector<double> result(table.most_missing + 1, kImpossible);
+  for (std::size_t i = 0; i < prior.missing.size(); ++i) {
+    const auto missing = static_cast<std::size_t>(prior.missing[i]);
+    const double weight = prior.weight.empty() ? 1.0 : prior.weight[i];
+    if (missing < result.size() && scenes[missing] > 0.0)
+      result[missing] = std::log(weight / scenes[missing]);
+  }
+  return result;
+}
+
 Posterior posterior(const SceneTable& table, const Eligible& eligible,
                     const std::vector<double>& log_evidence, const Prior& prior, std::size_t block_count) {
   const std::vector<double> log_prior = log_prior_by_missing(table, eligible, prior);
@@ -91,22 +90,23 @@ Posterior posterior(const SceneTable& table, const Eligible& eligible,
                    std::vector<double>(block_count, 0.0),
                    std::vector<double>(table.most_missing + 1, 0.0),
                    {}};
-  std::vector<double> log_weight(table.rows, kImpossible);
+  std::vector<std::size_t> possible;  // positions in `eligible`
+  std::vector<double> weight;
   double best = kImpossible;
   for (std::size_t i = 0; i < eligible.rows.size(); ++i) {
-    const std::size_t row = eligible.rows[i];
-    log_weight[row] = log_prior[eligible.missing[i]] + log_evidence[row];
-    best = std::max(best, log_weight[row]);
+    if (log_evidence[eligible.rows[i]] == kImpossible) continue;
+    possible.push_back(i);
+    weight.push_back(log_prior[eligible.missing[i]] + log_evidence[eligible.rows[i]]);
+    best = std::max(best, weight.back());
   }
   if (best == kImpossible) return result;
-  for (double& value : log_weight) value -= best;
-  make_exponentials(log_weight);
-  result.probability = std::move(log_weight);
-  normalise(result.probability);
-  for (std::size_t i = 0; i < eligible.rows.size(); ++i) {
-    const std::size_t row = eligible.rows[i];
-    if (result.probability[row] == 0.0) continue;
-    result.missing_probability[eligible.missing[i]] += result.probability[row];
+  for (double& value : weight) value -= best;
+  make_exponentials(weight);
+  normalise(weight);
+  for (std::size_t i = 0; i < possible.size(); ++i) {
+    const std::size_t row = eligible.rows[possible[i]];
+    result.probability[row] = weight[i];
+    result.missing_probability[eligible.missing[possible[i]]] += weight[i];
     for (const std::int32_t id : table.removed.subspan(row * table.most_missing, table.most_missing))
       if (id >= 0) result.block_probability[static_cast<std::size_t>(id)] += result.probability[row];
   }

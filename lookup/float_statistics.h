@@ -1,0 +1,33 @@
+#pragma once
+/// @file RowStatistics in single precision, for bounds.
+
+#include <cstddef>
+#include <vector>
+
+#include "lookup/row_statistics.h"
+
+namespace voussoir {
+
+/// Eight numbers at a time.
+inline constexpr std::size_t kFloatLanes = 8;
+
+/// Column by column; where a product of scales leaves the range of numbers its logarithm is -infinity, which
+/// is on the safe side of a bound.
+struct FloatStatistics {
+  std::vector<float> sum_absolute;  ///< NaN for an impossible scene, here and below
+  std::vector<float> sum_square;
+  std::vector<float> largest;
+  std::vector<float> log_scale;  ///< sum log scale_i
+};
+
+/// Of `rows` rows of `stride` floats (a multiple of kFloatLanes, NaN behind the last point).
+/// Precondition: no model error.
+FloatStatistics float_statistics(const Observation& observation, const std::vector<float>& vertical,
+                                 std::size_t rows, std::size_t stride);
+
+/// log(x) within 1e-5 for positive normal numbers; in a form that compilers turn into instructions for many
+/// at once.
+float approximate_log(float x);
+void make_approximate_logs(std::vector<float>& values);
+
+}  // namespace voussoir

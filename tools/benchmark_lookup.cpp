@@ -1,0 +1,132 @@
+#include "tools/benchmark_lookup.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "lookup/exhaustive_search.h"
+#include "lookup/posterior_screen.h"
+#include "lookup/simulate.h"
+#include "lookup/sketch_search.h"
+
+namespace voussoir {
+namespace {
+
+constexpr std::size_t kTop = 10;
+constexpr double kLowestLevel = 0.01;
+constexpr double kHighestLevel = 0.10;
+
+/// Times a function for each query.
+template <typename Function>
+Timing timed(const std::string& name, std::size_t queries, Function function) {
+  std::vector<double> milliseconds;
+  for (std::size_t i = 0; i < queries; ++i) {
+    const auto start = std::chrono::steady_clock::now();
+    function(i);
+    milliseconds.push_back(
+        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
+  }
+  std::sort(milliseconds.begin(), milliseconds.end());
+  const auto at = [&](double share) {
+    return milliseconds[static_cast<std::size_t>(share * static_cast<double>(milliseconds.size() - 1))];
+  };
+  return {name, at(0.5), at(0.95)};
+}
+
+struct Query {
+  std::size_t truth = 0;
+  double level = 0.0;
+  Measurements measured;
+};
+
+std::vector<Query> make_queries(const SceneTable& table, int count, std::uint64_t seed) {
+  const std::vector<Eligible> by_missing = {eligible_rows(table, {0}), eligible_rows(table, {1}),
+                                            eligible_rows(table, {2})};
+  Random random(seed);
+  std::vector<Query> queries;
+  for (int i = 0; i < count; ++i) {
+    const auto& rows = by_missing[static_cast<std::size_t>(i) % by_missing.size()].rows;
+    const std::size_t truth = rows[random.below(static_cast<std::uint32_t>(rows.size()))];
+    NoiseModel noise{NoiseShape::uniform, kLowestLevel + (kHighestLevel - kLowestLevel) * random.uniform()};
+    noise.silence = 0.0;
+    queries.push_back({truth, *noise.relative, simulate_readings(table.row(truth), noise, random)});
+  }
+  return queries;
+}
+
+void time_searches(const Library& library, const std::vector<Query>& queries, const Eligible& eligible,
+                   LookupTimings& timings) {
+  const SceneTable& table = library.table;
+  const SketchIndex sketches(table, eligible.rows, table.row(0));
+  std::vector<std::vector<ScoredRow>> scan(queries.size());
+  timings.searches.push_back(timed("scan of all rows, vectorised", queries.size(), [&](std::size_t i) {
+    scan[i] = exhaustive_search(queries[i].measured.displacement, table, eligible.rows, kTop);
+  }));
+  timings.searches.push_back(timed("sketches, exact", queries.size(), [&](std::size_t i) {
+    if (sketches.search(queries[i].measured.displacement, kTop).best != scan[i]) ++timings.disagreements;
+  }));
+  // FLANN's index covers the points with readings, which are the same in queries whose scene has all points.
+  std::vector<std::size_t> whole;
+  for (std::size_t i = 0; i < queries.size(); ++i)
+    if (queries[i].measured.count() == table.points) whole.push_back(i);
+  if (whole.empty()) return;
+  const NearestIndex nearest(table, eligible.rows, queries[whole.front()].measured.displacement, {});
+  timings.searches.push_back(timed("FLANN linear, L1", whole.size(), [&](std::size_t i) {
+    const std::size_t query = whole[i];
+    if (nearest.search(queries[query].measured.displacement, kTop) != scan[query]) ++timings.disagreements;
+  }));
+}
+
+void time_posteriors(const Library& library, const std::vector<Query>& queries, const Eligible& eligible,
+                     LookupTimings& timings) {
+  const SceneTable& table = library.table;
+  const Prior prior;
+  const PosteriorScreen screen(table, eligible, prior, library.layout.size());
+  for (const bool stated : {true, false}) {
+    const auto noise_of = [&](std::size_t i) {
+      return stated ? NoiseModel{NoiseShape::uniform, queries[i].level} : NoiseModel{};
+    };
+    const std::string noise = stated ? "uniform noise, stated" : "noise unknown (default)";
+    std::vector<Posterior> exact(queries.size());
+    timings.posteriors.push_back(timed("every row, " + noise, queries.size(), [&](std::size_t i) {
+      exact[i] = posterior(
+          table, eligible,
+          log_evidence_of_rows(queries[i].measured, table, eligible.rows, table.row(0), noise_of(i)), prior,
+          library.layout.size());
+    }));
+    std::vector<Posterior> screened(queries.size());
+    timings.posteriors.push_back(timed("screened, " + noise, queries.size(), [&](std::size_t i) {
+      screened[i] = screen(queries[i].measured, table.row(0), noise_of(i));
+    }));
+    for (std::size_t i = 0; i < queries.size(); ++i)
+      for (std::size_t row = 0; row < table.rows; ++row)
+        timings.largest_difference = std::max(
+            timings.largest_difference, std::abs(screened[i].probability[row] - exact[i].probability[row]));
+  }
+}
+
+void time_genetic(const Library& library, const std::vector<Query>& queries, LookupTimings& timings) {
+  const GeneSpace space(library.layout, library.table);
+  for (const int missing : {1, 2})
+    timings.genetic.push_back(timed(missing == 1 ? "genetic search, one block" : "genetic search, two blocks",
+                                    queries.size(), [&](std::size_t i) {
+                                      GeneticSettings settings;
+                                      settings.seed = i + 1;
+                                      genetic_search(queries[i].measured.displacement, library.table, space,
+                                                     missing, settings, kTop);
+                                    }));
+}
+
+}  // namespace
+
+LookupTimings time_lookups(const Library& library, int count, std::uint64_t seed) {
+  const std::vector<Query> queries = make_queries(library.table, count, seed);
+  const Eligible eligible = eligible_rows(library.table, {0, 1, 2});
+  LookupTimings timings;
+  time_searches(library, queries, eligible, timings);
+  time_posteriors(library, queries, eligible, timings);
+  time_genetic(library, queries, timings);
+  return timings;
+}
+
+}  // namespace voussoir

@@ -1,0 +1,50 @@
+/// @file benchmark-lookup: how fast lookups are, in process, on one core.
+
+#include "core/error.h"
+#include "lookup/command_line.h"
+#include "tools/benchmark_lookup.h"
+
+namespace {
+
+struct Options {
+  std::optional<std::string> database;
+  int queries = 150;
+  std::uint64_t seed = 1;
+};
+
+std::string table(const std::string& title, const std::vector<voussoir::Timing>& timings) {
+  std::string text = fmt::format("{:<44} {:>12} {:>10}\n", title, "median [ms]", "p95 [ms]");
+  for (const auto& timing : timings)
+    text += fmt::format("  {:<42} {:>12.3f} {:>10.3f}\n", timing.name, timing.median, timing.p95);
+  return text + "\n";
+}
+
+std::string benchmark(const Options& options) {
+  const auto database = voussoir::Database::open(voussoir::find_database(options.database));
+  const voussoir::Library library{database.table(), database.control_points(), database.layout()};
+  const auto timings = voussoir::time_lookups(library, options.queries, options.seed);
+  std::string text = fmt::format("{} queries, {} scenes, {} points\n\n", options.queries,
+                                 database.table().rows, database.table().points);
+  text += table("Ten best under Eq. 1", timings.searches);
+  text += table("Posterior over all scenes", timings.posteriors);
+  text += table("Genetic search, the paper's settings", timings.genetic);
+  for (const auto& timing : timings.searches)
+    text += fmt::format("{:<30} {:>6.1f} times the sketches' median\n", timing.name,
+                        timing.median / timings.searches[1].median);
+  return text + fmt::format(
+                    "\nFast searches that differ from the scan: {}\nLargest difference of a screened "
+                    "probability: {:.1e}\n",
+                    timings.disagreements, timings.largest_difference);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("Measures how fast lookups are, in process, on one core.", "benchmark-lookup");
+  app.footer("Example: benchmark-lookup -d bridge.h5");
+  Options options;
+  app.add_option("-d,--database", options.database, "default: $VOUSSOIR_DATABASE, else ./bridge.h5");
+  app.add_option("--queries", options.queries, "default 150")->check(CLI::Range(3, 1000000));
+  app.add_option("--seed", options.seed, "default 1");
+  return voussoir::run_program(app, argc, argv, [&] { return benchmark(options); });
+}
