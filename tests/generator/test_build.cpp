@@ -15,9 +15,13 @@ namespace {
 /// A folder to build in and the request for the small bridge.
 struct Site {
   test::TemporaryFolder folder;
-  BuildRequest request{test::small_bridge_file(), folder / "small.h5"};
+  BuildRequest request;
 
-  Site() { request.threads = 2; }
+  Site() {
+    request.bridge = test::small_bridge_file();
+    request.output = folder / "small.h5";
+    request.threads = 2;
+  }
   BuildSummary build(const SolverChoice& solver = test::made_up_solver()) const {
     Progress quiet(Progress::Mode::quiet);
     return build_database(request, solver, quiet);

@@ -27,7 +27,9 @@ struct FewScenes {
 
   FewScenes() {
     Progress quiet(Progress::Mode::quiet);
-    BuildRequest request{read_bridge_file(test::example_bridge("small")), path};
+    BuildRequest request;
+    request.bridge = read_bridge_file(test::example_bridge("small"));
+    request.output = path;
     request.scenes = "intact;4,1..3;0,5;4,1+4,2";
     request.threads = 1;
     build_database(request, quasi_static(), quiet);
