@@ -1,5 +1,6 @@
 #include "generator/progress.h"
 
+#include <cmath>
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -14,7 +15,7 @@ constexpr int kBarWidth = 30;
 constexpr const char* kClearLine = "\r\033[K";
 
 std::string duration_text(double seconds) {
-  const auto whole = static_cast<long>(seconds + 0.5);
+  const long whole = std::lround(seconds);
   return whole >= 60 ? fmt::format("{} min {} s", whole / 60, whole % 60) : fmt::format("{} s", whole);
 }
 
