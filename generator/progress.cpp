@@ -1,9 +1,9 @@
 #include "generator/progress.h"
 
-#include <cmath>
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <cmath>
 #include <cstdio>
 
 namespace voussoir {
