@@ -55,7 +55,6 @@ void collect(const FloatView& view, float inverse_unit, const float* table, std:
       const FloatLanes scale = slope * movement + offset;
       FloatLanes error = reading - predicted;
       make_absolute(error);
-      // NOLINTNEXTLINE(misc-redundant-expression): false where the reading is NaN
       const FloatMask has_reading = reading == reading;
       const FloatLanes z = has_reading ? error / scale : FloatLanes{};
       sum_absolute += z;
