@@ -92,12 +92,14 @@ class Procession {
         motion_(at_rest<T>(model_)) {}
 
   std::vector<DynamicSolution> run() {
-    for (int lane = 0; lane < kLaneCount<T>; ++lane) start_next(lane);
+    for (int lane = 0; lane < kLaneCount<T>; ++lane) empty(lane);
+    start_in_idle_lanes();
     while (any_busy()) {
       prepare_step();
       take_step(shared_.settings.integrator, model_, motion_);
       for (int lane = 0; lane < kLaneCount<T>; ++lane)
         if (runs_[lane].busy) follow(lane);
+      if (shared_.settings.skips.lane_refill || !any_busy()) start_in_idle_lanes();
     }
     return std::move(solutions_);
   }
@@ -107,17 +109,21 @@ class Procession {
     return std::any_of(runs_.begin(), runs_.end(), [](const LaneRun& run) { return run.busy; });
   }
 
-  /// An idle lane holds no blocks.
-  void start_next(int lane_index) {
-    LaneRun& run = runs_[static_cast<std::size_t>(lane_index)];
-    run = LaneRun{};
-    std::vector<bool> removed(model_.bodies.size(), true);
-    if (next_ < scenes_.size()) {
+  void start_in_idle_lanes() {
+    for (int lane = 0; lane < kLaneCount<T> && next_ < scenes_.size(); ++lane) {
+      LaneRun& run = runs_[static_cast<std::size_t>(lane)];
+      if (run.busy) continue;
+      run = LaneRun{};
       run.busy = true;
       run.scene = next_++;
-      removed = removal_mask(scenes_[run.scene], model_.bodies.size());
+      place_scene(model_, removal_mask(scenes_[run.scene], model_.bodies.size()), lane, motion_);
     }
-    place_scene(model_, removed, lane_index, motion_);
+  }
+
+  /// An idle lane holds no blocks.
+  void empty(int lane_index) {
+    runs_[static_cast<std::size_t>(lane_index)].busy = false;
+    place_scene(model_, std::vector<bool>(model_.bodies.size(), true), lane_index, motion_);
   }
 
   void prepare_step() {
@@ -126,7 +132,9 @@ class Procession {
       set_lane(motion_.load, i,
                load_share(static_cast<double>(run.steps + 1) * model_.step, shared_.settings.ramp));
     }
-    if (any(motion_.travel > 0.5 * shared_.margin)) search_contacts(model_, shared_.margin, motion_);
+    const bool settled = shared_.settings.skips.settled_contacts;
+    if (!settled || any(motion_.travel > 0.5 * shared_.margin))
+      search_contacts(model_, shared_.margin, motion_);
   }
 
   void follow(int lane_index) {
@@ -143,7 +151,7 @@ class Procession {
     if (!decided(lane_index, time, run.solution)) return;
     run.solution.solution.iterations = static_cast<int>(run.steps);
     solutions_[run.scene] = std::move(run.solution);
-    start_next(lane_index);
+    empty(lane_index);
   }
 
   /// Fills in the outcome, if there is one by now.
@@ -153,6 +161,7 @@ class Procession {
     const double kinetic = kinetic_energy(model_, motion_, i);
     const double largest = lane(motion_.largest_unbalanced, i);
     const bool early = time < settings.earliest_decision;
+    if (early && !settings.skips.early_outcome) return false;
     const bool last = time >= settings.latest_decision;
     const bool quiet = !early && unbalanced <= settings.standing_unbalance &&
                        kinetic <= unbalanced * shared_.natural.work &&

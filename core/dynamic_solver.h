@@ -9,6 +9,7 @@
 
 #include "core/bridge.h"
 #include "core/critical_step.h"
+#include "core/skips.h"
 #include "core/solution.h"
 
 namespace voussoir {
@@ -33,6 +34,7 @@ struct DynamicSettings {
   double largest_standing_unbalance = 1e-2;  ///< resultant force on a block over its weight, at most
   double moving_sags =
       2.0;  ///< blocks that have moved further than this many sags of the bonded bridge have moved away
+  Skips skips;
   int side_by_side = 4;  ///< scenes at a time: 1 or 4; the answers have the same bits
 };
 

@@ -150,7 +150,8 @@ void NewtonSearch::take_step(const Eigen::VectorXd& step) {
 
 bool NewtonSearch::exhausted() const {
   const Manner& how = manner(phase_);
-  const bool hopeless = steps_ >= how.patience && recent_.back() > how.hope * first_norm_;
+  const bool hopeless =
+      settings_->skips.early_outcome && steps_ >= how.patience && recent_.back() > how.hope * first_norm_;
   return hopeless || fallen() || phase_iterations_ >= most_iterations(phase_, *settings_);
 }
 

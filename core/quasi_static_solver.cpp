@@ -49,8 +49,10 @@ std::vector<Solution> QuasiStaticSolver::solve(std::span<const SceneStart> scene
   std::size_t next = 0;
   std::size_t solved = 0;
   while (solved < scenes.size()) {
+    const bool refill = w.settings.skips.lane_refill || solved == next;
+    if (!w.settings.skips.shared_analysis) w.linear = LaneFactorisation(w.system.pattern);
     for (std::size_t lane = 0; lane < kLanes; ++lane) {
-      if (!searches[lane] && next < scenes.size()) {
+      if (!searches[lane] && refill && next < scenes.size()) {
         const SceneStart& task = scenes[next];
         searches[lane].emplace(w.system, w.settings, task.scene, task.start, w.lane_of_tangents(lane));
         scene_in_lane[lane] = next++;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/bridge.h"
+#include "core/skips.h"
 #include "core/solution.h"
 
 namespace voussoir {
@@ -21,6 +22,7 @@ struct QuasiStaticSettings {
   int most_falling_iterations = 40;    ///< factorisations of a fall
   bool follow_falls = true;            ///< false: a search without hope ends there, `unresolved`
   double collapse_displacement = 0.1;  ///< [m] a standing bridge moves less; beyond it blocks are falling
+  Skips skips;
 };
 
 /// A scene and where to look for its equilibrium.

@@ -22,7 +22,7 @@ struct BuildRequest {
   std::string scenes = "all";  ///< as parse_scene_list reads it
   int threads = 0;             ///< 0: one for each core
   KeepField fields = KeepField::yes;
-  UseMirror mirror = UseMirror::yes;
+  PlanRules rules;
   std::string xdmf_scenes;  ///< scenes of the XDMF index beside the database; empty: no index
   bool force = false;       ///< build anew even if the file is up to date
 };

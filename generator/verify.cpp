@@ -71,8 +71,8 @@ struct Recomputed {
 Recomputed recompute_row(const Database& database, const Bridge& bridge, std::size_t row,
                          const SceneSolver& solver) {
   const Scene scene = database.table().scene(row);
-  const UseMirror mirror = mirror_use_in(database.provenance().solver_settings);
-  const Solution solution = recompute(scene, database, bridge, mirror, solver);
+  const PlanRules rules = rules_in(database.provenance().solver_settings);
+  const Solution solution = recompute(scene, database, bridge, rules, solver);
   const auto stored = static_cast<Outcome>(database.table().outcome[row]);
   const std::string name = to_string(scene, bridge.layout);
   if (solution.outcome != stored)
@@ -106,7 +106,7 @@ void check_content(const VerifyRequest& request, VerifyReport& report) {
   const Bridge bridge = bridge_of(database);
   check_geometry(database, bridge, report);
   const EquilibriumSystem system(bridge);
-  const bool mirrors = mirror_use_in(database.provenance().solver_settings) == UseMirror::yes;
+  const bool mirrors = rules_in(database.provenance().solver_settings).mirror_images;
   report.most_unbalance = most_stored_unbalance(system, database.provenance().solver_settings);
   check_scenes({database, bridge, system, report.most_unbalance, mirrors}, request.threads, report);
   if (request.recompute > 0) check_recomputed(request, database, bridge, report);

@@ -106,7 +106,7 @@ TEST_CASE("Mirror images are recorded with mirrored fields, bit by bit") {
 
 TEST_CASE("Without mirror images every scene is solved and the digest says so") {
   Site site;
-  site.request.mirror = UseMirror::no;
+  site.request.rules.mirror_images = false;
   CHECK(site.build().digest != digest_of_reference());
   const Database database = site.open();
   const Bridge bridge = make_bridge(site.request.bridge.description);
