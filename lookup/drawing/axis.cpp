@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -18,6 +19,18 @@ double round_step(double range, int count) {
   for (const double factor : {1.0, 2.0, 5.0})
     if (factor * power >= raw * (1.0 - kRounding)) return factor * power;
   return 10.0 * power;
+}
+
+/// A power of ten: plain where that is short, else as 10 with its exponent raised.
+std::string power_of_ten(int exponent) {
+  constexpr int kShortest = -3, kLongest = 4;
+  if (exponent >= kShortest && exponent <= kLongest) return fmt::format("{:g}", std::pow(10.0, exponent));
+  constexpr std::array<const char*, 10> kRaised = {"\u2070", "\u00b9", "\u00b2", "\u00b3", "\u2074",
+                                                   "\u2075", "\u2076", "\u2077", "\u2078", "\u2079"};
+  std::string text = exponent < 0 ? "10\u207b" : "10";
+  for (const char digit : fmt::format("{}", std::abs(exponent)))
+    text += kRaised.at(static_cast<std::size_t>(digit - '0'));
+  return text;
 }
 
 struct Range {
@@ -59,15 +72,16 @@ AxisMap axis_over(std::span<const double> values, AxisScale scale, int ticks, do
     range = {range.lowest - margin, range.highest + margin};
   }
   const double step = round_step(range.highest - range.lowest, ticks);
-  return {step * std::floor(range.lowest / step + kRounding), step * std::ceil(range.highest / step - kRounding),
-          begin, end, AxisScale::linear};
+  return {step * std::floor(range.lowest / step + kRounding),
+          step * std::ceil(range.highest / step - kRounding), begin, end, AxisScale::linear};
 }
 
 std::vector<Tick> ticks_of(const AxisMap& axis, int count) {
   std::vector<Tick> ticks;
   if (axis.scale == AxisScale::logarithmic) {
-    for (double e = std::round(std::log10(axis.lowest)); e <= std::log10(axis.highest) + kRounding; ++e)
-      ticks.push_back({std::pow(10.0, e), fmt::format("{:g}", std::pow(10.0, e))});
+    const auto last = static_cast<int>(std::floor(std::log10(axis.highest) + kRounding));
+    for (auto e = static_cast<int>(std::ceil(std::log10(axis.lowest) - kRounding)); e <= last; ++e)
+      ticks.push_back({std::pow(10.0, e), power_of_ten(e)});
     return ticks;
   }
   const double step = round_step(axis.highest - axis.lowest, count);

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 
 #include "lookup/drawing/style.h"
@@ -22,7 +24,8 @@ struct Axes {
   Point operator()(double at_x, double at_y) const { return {x(at_x), y(at_y)}; }
 };
 
-AxisMap axis_of(const ChartAxis& axis, const std::vector<double>& values, int ticks, double begin, double end) {
+AxisMap axis_of(const ChartAxis& axis, const std::vector<double>& values, int ticks, double begin,
+                double end) {
   if (axis.range) return {axis.range->first, axis.range->second, begin, end, axis.scale};
   return axis_over(values, axis.scale, ticks, begin, end);
 }
@@ -54,10 +57,11 @@ std::string grid(const Chart& chart, const Axes& axes) {
                                            axes.y.begin, axes.x.end));
   const double middle = 0.5 * (axes.y.begin + axes.y.end);
   text += text_element({0.5 * (axes.x.begin + axes.x.end), chart.height - 8.0}, "middle", "", chart.x.label);
-  return text + fmt::format(
-                    "<text x=\"14\" y=\"{0:.1f}\" text-anchor=\"middle\" transform=\"rotate(-90 14 {0:.1f})\">{1}"
-                    "</text>\n",
-                    middle, escaped(chart.y.label));
+  return text +
+         fmt::format(
+             "<text x=\"14\" y=\"{0:.1f}\" text-anchor=\"middle\" transform=\"rotate(-90 14 {0:.1f})\">{1}"
+             "</text>\n",
+             middle, escaped(chart.y.label));
 }
 
 bool drawable(const Series& series, std::size_t i, const Axes& axes) {
@@ -95,22 +99,71 @@ std::string band(const Series& series, const Axes& axes) {
   return path_element(fmt::format("band f{}", series.colour), closed_path(outline));
 }
 
+std::string tip_of(const Series& series, std::size_t i) {
+  if (i < series.tips.size()) return series.tips[i];
+  return fmt::format("{}{}{:.6g}, {:.6g}{}{}", series.name, series.name.empty() ? "" : ": ", series.x[i],
+                     series.y[i], i < series.notes.size() ? "\n" : "",
+                     i < series.notes.size() ? series.notes[i] : "");
+}
+
 std::string discs(const Series& series, const Axes& axes) {
   std::string text;
   for (std::size_t i = 0; i < series.x.size(); ++i) {
     if (!drawable(series, i, axes)) continue;
     const Point at = axes(series.x[i], series.y[i]);
-    const std::string tip = i < series.tips.size() ? series.tips[i]
-                                                   : fmt::format("{}{}{:.6g}, {:.6g}", series.name,
-                                                                 series.name.empty() ? "" : ": ", series.x[i],
-                                                                 series.y[i]);
-    text += fmt::format("<circle class=\"f{}\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{}\">{}</circle>\n", series.colour,
-                        at.x(), at.y(), kDisc, tip_element(tip));
-    if (i < series.notes.size())
-      text += text_element(at + Point(kDisc + 4.0, 4.0), "start", "small", series.notes[i]);
+    text += fmt::format("<circle class=\"f{}\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{}\">{}</circle>\n",
+                        series.colour, at.x(), at.y(), kDisc, tip_element(tip_of(series, i)));
   }
   return text;
 }
+
+/// Writes notes beside their discs where they cover no other note and no disc; the others are left to the
+/// discs' tips.
+class Notes {
+ public:
+  Notes(const Chart& chart, const Axes& axes) : chart_(chart), axes_(axes) {
+    for (const Series& series : chart.series)
+      if (!series.notes.empty())
+        for (std::size_t i = 0; i < series.x.size(); ++i)
+          if (drawable(series, i, axes))
+            taken_.push_back(around(axes(series.x[i], series.y[i]), kDisc, kDisc));
+  }
+
+  std::string elements() {
+    std::string text;
+    for (const Series& series : chart_.series)
+      for (std::size_t i = 0; i < series.notes.size(); ++i)
+        if (drawable(series, i, axes_)) text += note(axes_(series.x[i], series.y[i]), series.notes[i]);
+    return text;
+  }
+
+ private:
+  using Box = Eigen::AlignedBox2d;
+
+  static Box around(const Point& middle, double half_width, double half_height) {
+    const Point half(half_width, half_height);
+    return {middle - half, middle + half};
+  }
+
+  std::string note(const Point& disc, const std::string& words) {
+    const double half = 0.5 * kLetter * static_cast<double>(words.size());
+    for (const Point& shift :
+         {Point(half + 8.0, 0.0), Point(-half - 8.0, 0.0), Point(0.0, 13.0), Point(0.0, -13.0)}) {
+      const Box box = around(disc + shift, half, 7.0);
+      const bool outside = box.min().x() < kLeft || box.max().x() > chart_.width;
+      const bool covers =
+          std::any_of(taken_.begin(), taken_.end(), [&](const Box& b) { return b.intersects(box); });
+      if (outside || covers) continue;
+      taken_.push_back(box);
+      return text_element(disc + shift + Point(0.0, 4.0), "middle", "small", words);
+    }
+    return "";
+  }
+
+  const Chart& chart_;
+  const Axes& axes_;
+  std::vector<Box> taken_;
+};
 
 std::string draw_series(const Series& series, const Axes& axes) {
   switch (series.mark) {
@@ -130,14 +183,12 @@ std::string sample(const Series& series, const Point& at) {
   if (series.mark == Mark::band)
     return fmt::format("<rect class=\"band f{}\" x=\"{:.1f}\" y=\"{:.1f}\" width=\"{}\" height=\"10\"/>\n",
                        series.colour, at.x(), at.y() - 5.0, kLegendSample);
-  const std::string disc =
-      series.mark == Mark::points || series.mark == Mark::beads
-          ? fmt::format("<circle class=\"f{}\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{}\"/>\n", series.colour,
-                        at.x() + 0.5 * kLegendSample, at.y(), kDisc)
-          : "";
+  const std::string disc = series.mark == Mark::points || series.mark == Mark::beads
+                               ? fmt::format("<circle class=\"f{}\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{}\"/>\n",
+                                             series.colour, at.x() + 0.5 * kLegendSample, at.y(), kDisc)
+                               : "";
   if (series.mark == Mark::points) return disc;
-  return path_element(line_class(series),
-                      fmt::format("M{:.1f} {:.1f}h{}", at.x(), at.y(), kLegendSample)) +
+  return path_element(line_class(series), fmt::format("M{:.1f} {:.1f}h{}", at.x(), at.y(), kLegendSample)) +
          disc;
 }
 
@@ -150,6 +201,7 @@ Drawing draw(const Chart& chart) {
     if (series.mark == Mark::band) elements += draw_series(series, axes);
   for (const Series& series : chart.series)
     if (series.mark != Mark::band) elements += draw_series(series, axes);
+  elements += Notes(chart, axes).elements();
   return {chart.width, chart.height, chart.label, elements};
 }
 
@@ -166,8 +218,8 @@ Drawing draw_with_legend(const Chart& chart) {
   }
   Drawing drawing = draw(chart);
   const double height = legend.empty() ? 0.0 : at.y() + 0.5 * kLegendHeight;
-  drawing.elements = legend + fmt::format("<g transform=\"translate(0 {:.1f})\">\n", height) + drawing.elements +
-                     "</g>\n";
+  drawing.elements =
+      legend + fmt::format("<g transform=\"translate(0 {:.1f})\">\n", height) + drawing.elements + "</g>\n";
   drawing.height += height;
   return drawing;
 }

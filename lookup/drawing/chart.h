@@ -14,10 +14,10 @@ namespace voussoir {
 enum class Mark {
   line,
   dashes,
-  dots,      ///< a dotted line
-  points,    ///< one disc a point
-  beads,     ///< a line with discs
-  band       ///< the area between y and `upper`
+  dots,    ///< a dotted line
+  points,  ///< one disc a point
+  beads,   ///< a line with discs
+  band     ///< the area between y and `upper`
 };
 
 /// Values in the order they are joined; NaN interrupts a line.

@@ -16,7 +16,8 @@ std::string table_html(const Figure& figure) {
   const std::string table = "<div class=\"scroll\">" + to_html(figure.table, figure.digits) + "</div>";
   if (figure.view == TableView::open) return table;
   return fmt::format("<details{}><summary>Table: {}</summary>{}</details>\n",
-                     figure.view == TableView::printed ? " class=\"printed\"" : "", escaped(figure.title), table);
+                     figure.view == TableView::printed ? " class=\"printed\"" : "", escaped(figure.title),
+                     table);
 }
 
 }  // namespace
@@ -31,7 +32,8 @@ std::string panorama_html(const Drawing& drawing) {
 
 std::string to_html(const Figure& figure) {
   return fmt::format(
-      "<figure id=\"{}\"{}><h3>{}</h3>\n<div class=\"pictures\">{}</div>\n<figcaption>{}</figcaption>\n{}</figure>\n",
+      "<figure id=\"{}\"{}><h3>{}</h3>\n<div "
+      "class=\"pictures\">{}</div>\n<figcaption>{}</figcaption>\n{}</figure>\n",
       figure.id, figure.wide ? " class=\"wide\"" : "", escaped(figure.title), figure.pictures,
       escaped(figure.caption), table_html(figure));
 }
@@ -64,7 +66,8 @@ std::string html_page(std::string_view title, std::string_view body) {
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
       "<meta http-equiv=\"Content-Security-Policy\" content=\"{1}\">\n"
       "<link rel=\"icon\" href=\"data:,\">\n<style>\n{2}{3}</style>\n</head>\n"
-      "<body>\n<h1>{0}</h1>\n{4}<div id=\"tip\" role=\"status\" hidden></div>\n<script>\n{5}</script>\n</body>\n"
+      "<body>\n<h1>{0}</h1>\n{4}<div id=\"tip\" role=\"status\" "
+      "hidden></div>\n<script>\n{5}</script>\n</body>\n"
       "</html>\n",
       escaped(title), kPolicy, drawing_style(), page_style(), body, page_script());
 }

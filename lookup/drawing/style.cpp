@@ -23,16 +23,16 @@ svg text.strong{font-weight:600}
 .grid{stroke:var(--grid);fill:none}
 .axis{stroke:var(--muted);fill:none}
 .stone{fill:var(--stone);stroke:var(--edge);stroke-width:.7}
-.gone{fill:none;stroke:var(--text);stroke-width:1.4;stroke-dasharray:4 2.5}
-.gap{fill:var(--page);stroke:var(--edge);stroke-width:.7}
-.outline{fill:none;stroke:var(--edge);stroke-width:.5}
+.gone{fill:transparent;stroke:var(--text);stroke-width:1.4;stroke-dasharray:4 2.5}
+.block{stroke:var(--edge);stroke-width:.7}
+.outline{fill:transparent;stroke:var(--edge);stroke-width:.6}
 .mark{fill:none;stroke:var(--text);stroke-width:2.2}
-.touch{fill:transparent;stroke:none}
+svg text.label{font-size:12px;font-weight:600;paint-order:stroke;stroke:var(--page);stroke-width:3.5px;pointer-events:none}
+.silent{fill:var(--page);stroke:var(--muted);stroke-width:1.2}
 .line{fill:none;stroke-width:1.8;stroke-linejoin:round}
 .dashed{stroke-dasharray:6 4}
 .dotted{stroke-dasharray:1.5 3.5;stroke-linecap:round}
 .band{stroke:none;opacity:.2}
-.tile{stroke:var(--page);stroke-width:.5}
 path.tip:hover,circle.tip:hover{stroke:var(--text);stroke-width:2.2}
 )";
 
@@ -53,10 +53,12 @@ figcaption{font-size:.9rem;margin:.3em 0}
 .pictures{display:grid;gap:.8rem}
 .legend{display:flex;flex-wrap:wrap;gap:.1rem 1.1rem;margin:.2em 0 .4em;padding:0;list-style:none;font-size:.85rem}
 .legend svg{display:inline-block;width:34px;height:12px;margin-right:.4em;vertical-align:-1px}
-.scroll{overflow-x:auto;max-height:30rem}
+.scroll{overflow-x:auto}
+details .scroll{overflow-y:auto;max-height:30rem}
 table{border-collapse:collapse;font-size:.88rem;font-variant-numeric:tabular-nums;margin:.4em 0}
 th{text-align:left;vertical-align:bottom;font-weight:600;border-bottom:1px solid var(--edge);padding:.25em .8em .25em 0}
 td{vertical-align:top;border-bottom:1px solid var(--grid);padding:.2em .8em .2em 0}
+td:last-child:not(.number){min-width:11rem}
 td.number,th.number{text-align:right;white-space:nowrap}
 summary{cursor:pointer;color:var(--s1);font-size:.88rem}
 dl{display:grid;grid-template-columns:max-content 1fr;gap:.2em 1.2em;margin:.6em 0}
@@ -67,7 +69,7 @@ dd{margin:0;min-width:0;overflow-wrap:anywhere}
 white-space:pre-line;background:var(--text);color:var(--page);pointer-events:none}
 #tip[hidden]{display:none}
 @media(max-width:640px){body{padding:1rem .9rem 3rem}h1{font-size:1.4rem}dl{grid-template-columns:1fr}dd{margin-bottom:.4em}
-svg text{font-size:16px}svg text.small{font-size:15px}.panorama text{font-size:27px}.panorama text.small{font-size:25px}
+svg text{font-size:16px}svg text.small{font-size:15px}.panorama text{font-size:26px}.panorama text.small{font-size:23px}.panorama text.label{font-size:24px}
 .pictures svg{overflow:visible}}
 @media print{@page{size:A4;margin:15mm}html{font-size:10.5pt}body{max-width:none;padding:0}
 .figures{grid-template-columns:1fr 1fr;gap:1rem}figure,table tr{break-inside:avoid}h2,h3{break-after:avoid}
@@ -111,8 +113,8 @@ std::string classes() {
 }  // namespace
 
 std::string drawing_style() {
-  return fmt::format(":root{{{}{}}}\n@media screen and (prefers-color-scheme:dark){{:root{{{}{}}}}}\n", kLight,
-                     level_colours(light_colour), kDark, level_colours(dark_colour)) +
+  return fmt::format(":root{{{}{}}}\n@media screen and (prefers-color-scheme:dark){{:root{{{}{}}}}}\n",
+                     kLight, level_colours(light_colour), kDark, level_colours(dark_colour)) +
          classes() + kDrawing;
 }
 

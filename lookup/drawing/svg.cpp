@@ -44,8 +44,9 @@ std::string svg_element(const Drawing& drawing) {
 }
 
 std::string svg_file(const Drawing& drawing) {
-  const std::string more = fmt::format(" xmlns=\"http://www.w3.org/2000/svg\" width=\"{:.6g}\" height=\"{:.6g}\"",
-                                       drawing.width, drawing.height);
+  const std::string more =
+      fmt::format(" xmlns=\"http://www.w3.org/2000/svg\" width=\"{:.6g}\" height=\"{:.6g}\"", drawing.width,
+                  drawing.height);
   return opening(drawing, more) + "\n<style>\n" + drawing_style() +
          "</style>\n<rect class=\"page\" width=\"100%\" height=\"100%\"/>\n" + drawing.elements + "</svg>\n";
 }
@@ -53,7 +54,8 @@ std::string svg_file(const Drawing& drawing) {
 std::string open_path(std::span<const Point> points) {
   std::string data;
   for (const Point& point : points)
-    fmt::format_to(std::back_inserter(data), "{}{:.1f} {:.1f}", data.empty() ? 'M' : 'L', point.x(), point.y());
+    fmt::format_to(std::back_inserter(data), "{}{:.1f} {:.1f}", data.empty() ? 'M' : 'L', point.x(),
+                   point.y());
   return data;
 }
 
@@ -72,8 +74,8 @@ std::string path_element(std::string_view css_class, std::string_view data, std:
 
 std::string text_element(const Point& at, std::string_view anchor, std::string_view css_class,
                          std::string_view text) {
-  return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\" class=\"{}\">{}</text>\n", at.x(), at.y(),
-                     anchor, css_class, escaped(text));
+  return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\" class=\"{}\">{}</text>\n", at.x(),
+                     at.y(), anchor, css_class, escaped(text));
 }
 
 }  // namespace voussoir

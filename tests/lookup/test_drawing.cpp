@@ -19,8 +19,7 @@ double lightness(Colour colour) {
     const double c = byte / 255.0;
     return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
   };
-  const double y =
-      0.2126 * linear(colour.red) + 0.7152 * linear(colour.green) + 0.0722 * linear(colour.blue);
+  const double y = 0.2126 * linear(colour.red) + 0.7152 * linear(colour.green) + 0.0722 * linear(colour.blue);
   return y > 0.008856 ? 116.0 * std::cbrt(y) - 16.0 : 903.3 * y;
 }
 
@@ -33,7 +32,8 @@ std::size_t count(const std::string& text, const std::string& part) {
 }  // namespace
 
 TEST_CASE("Levels of the colour map step evenly in CIELAB's lightness, away from the page") {
-  const double step = (lightness(dark_colour(kColourLevels - 1)) - lightness(dark_colour(0))) / (kColourLevels - 1);
+  const double step =
+      (lightness(dark_colour(kColourLevels - 1)) - lightness(dark_colour(0))) / (kColourLevels - 1);
   CHECK(step > 3.5);  // some 80 of 100 over all levels
   for (int level = 1; level < kColourLevels; ++level) {
     INFO("level " << level);
@@ -70,7 +70,7 @@ TEST_CASE("A chart's discs lie where the axes say, and what has no value is not 
                   {"line", 2, Mark::line, {1.0, 2.0, 3.0, 4.0, 5.0}, {0.1, 0.2, std::nan(""), 0.4, 0.5}}};
   const Drawing drawing = draw(chart);
   CHECK(count(drawing.elements, "<circle") == 2);
-  CHECK_THAT(drawing.elements, Contains("cx=\"62.0\" cy=\"254.0\""));   // the corner of the axes
+  CHECK_THAT(drawing.elements, Contains("cx=\"62.0\" cy=\"254.0\""));  // the corner of the axes
   CHECK_THAT(drawing.elements, Contains("cx=\"466.0\" cy=\"10.0\""));  // the opposite corner
   const std::size_t line = drawing.elements.find("class=\"line s2\"");
   REQUIRE(line != std::string::npos);
@@ -80,8 +80,7 @@ TEST_CASE("A chart's discs lie where the axes say, and what has no value is not 
 
 TEST_CASE("Tables keep all digits and quote as RFC 4180 says in CSV, and escape in HTML") {
   const Table table{{"scene", "p"}, {{"10,4 \"x\" <y>", 0.1}, {"intact", std::nan("")}, {"5", 1.0 / 3.0}}};
-  CHECK(to_csv(table) ==
-        "scene,p\n\"10,4 \"\"x\"\" <y>\",0.1\nintact,\n5,0.3333333333333333\n");
+  CHECK(to_csv(table) == "scene,p\n\"10,4 \"\"x\"\" <y>\",0.1\nintact,\n5,0.3333333333333333\n");
   const std::string html = to_html(table, 3);
   CHECK_THAT(html, Contains("<td>10,4 &quot;x&quot; &lt;y&gt;</td><td class=\"number\">0.1</td>"));
   CHECK_THAT(html, Contains(">0.333<"));
