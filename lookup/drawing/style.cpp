@@ -58,7 +58,7 @@ details .scroll{overflow-y:auto;max-height:30rem}
 table{border-collapse:collapse;font-size:.88rem;font-variant-numeric:tabular-nums;margin:.4em 0}
 th{text-align:left;vertical-align:bottom;font-weight:600;border-bottom:1px solid var(--edge);padding:.25em .8em .25em 0}
 td{vertical-align:top;border-bottom:1px solid var(--grid);padding:.2em .8em .2em 0}
-td:last-child:not(.number){min-width:11rem}
+table{overflow-wrap:normal}td:last-child:not(.number){min-width:11rem}
 td.number,th.number{text-align:right;white-space:nowrap}
 summary{cursor:pointer;color:var(--s1);font-size:.88rem}
 dl{display:grid;grid-template-columns:max-content 1fr;gap:.2em 1.2em;margin:.6em 0}
@@ -68,7 +68,7 @@ dd{margin:0;min-width:0;overflow-wrap:anywhere}
 #tip{position:fixed;z-index:9;max-width:min(22rem,90vw);padding:.35em .6em;border-radius:5px;font-size:.85rem;line-height:1.35;
 white-space:pre-line;background:var(--text);color:var(--page);pointer-events:none}
 #tip[hidden]{display:none}
-@media(max-width:640px){body{padding:1rem .9rem 3rem}h1{font-size:1.4rem}dl{grid-template-columns:1fr}dd{margin-bottom:.4em}
+@media(max-width:640px){td:last-child:not(.number){min-width:19rem}body{padding:1rem .9rem 3rem}h1{font-size:1.4rem}dl{grid-template-columns:1fr}dd{margin-bottom:.4em}
 svg text{font-size:16px}svg text.small{font-size:15px}.panorama text{font-size:26px}.panorama text.small{font-size:23px}.panorama text.label{font-size:24px}
 .pictures svg{overflow:visible}}
 @media print{@page{size:A4;margin:15mm}html{font-size:10.5pt}body{max-width:none;padding:0}
