@@ -158,10 +158,12 @@ class Procession {
                        kinetic <= unbalanced * shared_.natural.work &&
                        largest <= settings.largest_standing_unbalance;
     const Field now = displacement(model_, motion_, i);
-    result.moving = moving_blocks(now);
+    const Mesh& mesh = model_.bridge->mesh;
+    result.solution.moving = blocks_moved_beyond(settings.moving_sags * shared_.natural.sag, mesh, now);
+    result.solution.extent = collapse_extent(model_.bridge->layout, result.solution.moving);
     const bool plain =
         early ? unbalanced >= settings.plain_unbalance : largest >= settings.collapsing_unbalance;
-    const bool falling = !quiet && !result.moving.empty() && plain;
+    const bool falling = !quiet && !result.solution.moving.empty() && plain;
     if (!quiet && !falling && !last) return false;
     result.kinetic_energy = kinetic;
     result.solution.residual = unbalanced;
@@ -170,17 +172,6 @@ class Procession {
     result.solution.displacement = now;
     result.time = time;
     return true;
-  }
-
-  std::vector<BlockId> moving_blocks(const Field& field) const {
-    const double limit = shared_.settings.moving_sags * shared_.natural.sag;
-    std::vector<BlockId> moving;
-    for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
-      const IndexRange& nodes = model_.bodies[b].nodes;
-      if (field.middleCols(nodes.begin, nodes.size()).colwise().norm().maxCoeff() > limit)
-        moving.push_back(BlockId{static_cast<std::int32_t>(b)});
-    }
-    return moving;
   }
 
   const Shared& shared_;
@@ -193,25 +184,6 @@ class Procession {
 };
 
 }  // namespace
-
-CollapseExtent collapse_extent(const BlockLayout& layout, const std::vector<BlockId>& moving) {
-  if (moving.empty()) return CollapseExtent::none;
-  const bool ring =
-      std::any_of(moving.begin(), moving.end(), [&](BlockId b) { return layout[b].index.course == 0; });
-  return ring ? CollapseExtent::arch : CollapseExtent::local;
-}
-
-std::string_view to_string(CollapseExtent extent) {
-  switch (extent) {
-    case CollapseExtent::local:
-      return "local";
-    case CollapseExtent::arch:
-      return "arch";
-    case CollapseExtent::none:
-      break;
-  }
-  return "none";
-}
 
 DynamicSolver::DynamicSolver(const Bridge& bridge, DynamicSettings settings)
     : workspace_(std::make_unique<Workspace>(bridge, settings)) {}

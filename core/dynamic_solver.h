@@ -42,21 +42,7 @@ struct DynamicSolution {
                       ///< `iterations` counts time steps; the field of a collapse is the one at `time`
   double time = 0.0;  ///< of the field [s]
   double kinetic_energy = 0.0;  ///< at the decision [J]
-  std::vector<BlockId> moving;  ///< blocks that had moved away at the decision, ascending; of a standing
-                                ///< scene those that have slid and were caught
 };
-
-/// How much of the bridge a collapse takes.
-enum class CollapseExtent {
-  none,   ///< nothing moves away
-  local,  ///< wall blocks only: the ring carries on, and so do the readings elsewhere
-  arch    ///< blocks of the ring move away
-};
-
-CollapseExtent collapse_extent(const BlockLayout& layout, const std::vector<BlockId>& moving);
-
-/// "none", "local", "arch"
-std::string_view to_string(CollapseExtent extent);
 
 /// Follows scenes of one bridge, several side by side; lanes that finish early take the next scene. A
 /// solution depends on its scene only, to the last bit. Not thread-safe: one solver a thread. The bridge must

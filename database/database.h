@@ -30,12 +30,13 @@ struct StoredPoint {
 /// what a search over the whole database needs, as views into the database's memory. Views live as long as
 /// the Database they come from.
 struct SceneTable {
-  std::size_t rows = 0;                   ///< scenes
-  std::size_t points = 0;                 ///< control points
-  std::size_t most_missing = 0;           ///< columns of `removed`
-  std::span<const double> vertical;       ///< rows x points [m], up is positive, NaN where the block is gone
-  std::span<const std::int32_t> removed;  ///< rows x most_missing, block ids in ascending order, then -1
-  std::span<const std::uint8_t> outcome;  ///< values of Outcome
+  std::size_t rows = 0;                    ///< scenes
+  std::size_t points = 0;                  ///< control points
+  std::size_t most_missing = 0;            ///< columns of `removed`
+  std::span<const double> vertical;        ///< rows x points [m], up is positive, NaN where the block is gone
+  std::span<const std::int32_t> removed;   ///< rows x most_missing, block ids in ascending order, then -1
+  std::span<const std::uint8_t> outcome;   ///< values of Outcome
+  std::span<const std::uint8_t> collapse{};  ///< values of CollapseExtent
 
   std::span<const double> row(std::size_t scene) const { return vertical.subspan(scene * points, points); }
   Scene scene(std::size_t row) const;

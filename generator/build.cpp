@@ -126,20 +126,12 @@ void run_plan(const Build& build, const BuildPlan& plan, KnownRecords& known) {
   }
 }
 
-void count(const Record& record, const BlockLayout& layout, BuildSummary& summary) {
-  ++summary.scenes;
-  if (record.outcome == Outcome::standing) ++summary.standing;
-  if (record.outcome == Outcome::collapsed) ++summary.collapsed;
-  if (record.outcome == Outcome::unresolved)
-    summary.unresolved.push_back({to_string(record.scene, layout), record.residual});
-}
-
 void write(const Build& build, const KnownRecords& known, BuildSummary& summary) {
   const DatabaseContent content{build.provenance, build.bridge, build.wanted, build.request.fields};
   const WrittenDatabase written = write_database(build.request.output, content, [&](std::size_t row) {
     Record record = known.read(build.wanted[row]);
     if (build.request.fields == KeepField::no) record.packed_field.clear();
-    count(record, build.bridge.layout, summary);
+    summary.outcomes.add(record, build.bridge.layout);
     return record;
   });
   summary.digest = written.digest;

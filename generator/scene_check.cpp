@@ -23,6 +23,7 @@ class Examination {
       check_variant();
       const auto field = take_field(record);
       check_checksum(record, field);
+      check_collapse(record);
       if (field) check_field(record, *field);
     } catch (const InputError& error) {
       report(error.what());
@@ -56,6 +57,11 @@ class Examination {
         field ? std::span(field->data(), static_cast<std::size_t>(field->size())) : std::span<const double>{};
     if (scene_checksum(record, numbers) != record.checksum)
       report("its data do not have the stored checksum");
+  }
+
+  void check_collapse(const Record& record) {
+    if (record.extent != collapse_extent(checked_.bridge.layout, record.moving))
+      report("its kind of collapse is not that of the blocks that move");
   }
 
   void check_field(const Record& record, const Field& field) {
@@ -107,6 +113,8 @@ class Examination {
     const std::string name = to_string(image, checked_.bridge.layout);
     if (other.outcome != record.outcome) report(fmt::format("its mirror image {} has another outcome", name));
     if (record.outcome != Outcome::standing && !checked_.mirror_images_used) return;
+    if (other.moving != mirrored(record.moving, *checked_.bridge.symmetry))
+      report(fmt::format("its mirror image {} has other moving blocks", name));
     const Field expected = mirrored(field, *checked_.bridge.symmetry);
     const double difference = (other.displacement - expected)
                                   .array()

@@ -52,16 +52,6 @@ void check_geometry(const Database& database, const Bridge& stored, VerifyReport
   check_digest(database, expected, report);
 }
 
-void count_outcomes(const Database& database, VerifyReport& report) {
-  report.digest = database.digest();
-  report.scenes = database.table().rows;
-  for (const std::uint8_t outcome : database.table().outcome) {
-    if (outcome == static_cast<std::uint8_t>(Outcome::standing)) ++report.standing;
-    if (outcome == static_cast<std::uint8_t>(Outcome::collapsed)) ++report.collapsed;
-    if (outcome == static_cast<std::uint8_t>(Outcome::unresolved)) ++report.unresolved;
-  }
-}
-
 void check_scenes(const CheckedDatabase& checked, int threads, VerifyReport& report) {
   std::vector<SceneCheck> checks(checked.database.table().rows);
   in_parallel(checks.size(), threads, [&](std::size_t row) { checks[row] = check_scene(checked, row); });
@@ -111,7 +101,8 @@ void check_recomputed(const VerifyRequest& request, const Database& database, co
 
 void check_content(const VerifyRequest& request, VerifyReport& report) {
   const Database database = Database::open(request.database);
-  count_outcomes(database, report);
+  report.digest = database.digest();
+  report.outcomes = count_outcomes(database);
   const Bridge bridge = bridge_of(database);
   check_geometry(database, bridge, report);
   const EquilibriumSystem system(bridge);

@@ -105,7 +105,7 @@ TEST_CASE(
   for (std::size_t i = 0; i < cases.size(); ++i) {
     INFO(cases[i].scene);
     CHECK(solutions[i].solution.outcome == cases[i].outcome);
-    CHECK(collapse_extent(bridge.layout, solutions[i].moving) == cases[i].extent);
+    CHECK(collapse_extent(bridge.layout, solutions[i].solution.moving) == cases[i].extent);
   }
 }
 
