@@ -156,7 +156,7 @@ bool NewtonSearch::exhausted() const {
 }
 
 double NewtonSearch::residual() const {
-  return unbalanced_.cwiseAbs().maxCoeff() / system_->largest_weight;
+  return unbalanced_.cwiseAbs().maxCoeff() / system_->largest_load;
 }
 
 bool NewtonSearch::in_equilibrium() const {

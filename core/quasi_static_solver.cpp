@@ -16,9 +16,9 @@ struct QuasiStaticSolver::Workspace {
   LaneVector steps;
   Eigen::VectorXd step;
 
-  Workspace(const Bridge& bridge, QuasiStaticSettings settings_)
+  Workspace(const Bridge& bridge, QuasiStaticSettings settings_, const Field& dead_load)
       : settings(settings_),
-        system(bridge),
+        system(bridge, dead_load),
         linear(system.pattern),
         tangents(static_cast<std::size_t>(system.pattern.nonZeros())),
         steps(static_cast<std::size_t>(system.unknown_count())),
@@ -35,8 +35,9 @@ struct QuasiStaticSolver::Workspace {
   }
 };
 
-QuasiStaticSolver::QuasiStaticSolver(const Bridge& bridge, QuasiStaticSettings settings)
-    : workspace_(std::make_unique<Workspace>(bridge, settings)) {}
+QuasiStaticSolver::QuasiStaticSolver(const Bridge& bridge, QuasiStaticSettings settings,
+                                     const Field& dead_load)
+    : workspace_(std::make_unique<Workspace>(bridge, settings, dead_load)) {}
 QuasiStaticSolver::~QuasiStaticSolver() = default;
 QuasiStaticSolver::QuasiStaticSolver(QuasiStaticSolver&&) noexcept = default;
 QuasiStaticSolver& QuasiStaticSolver::operator=(QuasiStaticSolver&&) noexcept = default;

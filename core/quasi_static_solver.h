@@ -12,7 +12,7 @@
 namespace voussoir {
 
 struct QuasiStaticSettings {
-  double tolerance = 1e-8;  ///< largest unbalanced nodal force over the largest nodal weight [-]
+  double tolerance = 1e-8;  ///< largest unbalanced nodal force over the largest nodal load [-]
   double round_off =
       1e-12;  ///< a step this small against the largest displacement is round-off: converged, if
   double loose_tolerance = 1e-5;  ///< the residual is at most this (fine meshes cannot reach `tolerance`)
@@ -36,7 +36,9 @@ struct SceneStart {
 /// calls. The bridge must outlive the solver.
 class QuasiStaticSolver {
  public:
-  explicit QuasiStaticSolver(const Bridge& bridge, QuasiStaticSettings settings = {});
+  /// `dead_load`: forces on the nodes beside the weight [N], 2 x nodes; empty for none.
+  explicit QuasiStaticSolver(const Bridge& bridge, QuasiStaticSettings settings = {},
+                             const Field& dead_load = {});
   ~QuasiStaticSolver();
   QuasiStaticSolver(QuasiStaticSolver&&) noexcept;
   QuasiStaticSolver& operator=(QuasiStaticSolver&&) noexcept;

@@ -97,7 +97,7 @@ class Examination {
     const Field clean = field.array().isNaN().select(0.0, field);
     const auto removed = removal_mask(scene_, checked_.bridge.layout.size());
     check_.unbalance = unbalanced_forces(checked_.system, removed, clean).cwiseAbs().maxCoeff() /
-                       checked_.system.largest_weight;
+                       checked_.system.largest_load;
     if (!(check_.unbalance <= checked_.most_unbalance))
       report(fmt::format("stands, but its field is out of equilibrium by {:.1e} of the largest nodal weight",
                          check_.unbalance));
@@ -146,7 +146,7 @@ double most_stored_unbalance(const EquilibriumSystem& system, std::string_view s
   assemble(system, none_removed, zero, kBonded, {tangent.valuePtr()});
   const Eigen::VectorXd row_sums = tangent.cwiseAbs() * Eigen::VectorXd::Ones(tangent.cols());
   return QuasiStaticSettings{}.loose_tolerance +
-         0.5 * kStorageStep * row_sums.maxCoeff() / system.largest_weight;
+         0.5 * kStorageStep * row_sums.maxCoeff() / system.largest_load;
 }
 
 SceneCheck check_scene(const CheckedDatabase& checked, std::size_t row) {
