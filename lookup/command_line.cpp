@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
+#include <fstream>
 
 #include "core/error.h"
 
@@ -63,6 +64,11 @@ void expect_whole_table(const SceneTable& table) {
 #else
   static_cast<void>(table);
 #endif
+}
+
+void write_file(const std::filesystem::path& file, const std::string& text) {
+  std::ofstream stream(file, std::ios::binary);
+  if (!(stream << text && stream.flush())) throw Failure(fmt::format("{}: cannot be written", file.string()));
 }
 
 int run_program(CLI::App& app, int argc, char** argv, const std::function<std::string()>& program) {

@@ -20,6 +20,9 @@ std::filesystem::path find_database(const std::optional<std::string>& given);
 /// instead of one by one. Only a hint.
 void expect_whole_table(const SceneTable& table);
 
+/// Writes a whole text to a file. Throws Failure naming the file if it cannot be written.
+void write_file(const std::filesystem::path& file, const std::string& text);
+
 /// Parses the command line, runs the program and turns exceptions into messages on the standard error and
 /// exit codes: 0 done, 1 could not be done, 2 bad usage or bad input. An answer goes to the standard output
 /// only when it is whole.

@@ -7,6 +7,8 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
+#include "lookup/drawing/field_drawing.h"
+
 namespace voussoir {
 namespace {
 
@@ -108,6 +110,15 @@ std::string field_vtu(const SceneField& scene) {
       data_array("Int32", "offsets", 1, arrays.offsets), data_array("UInt8", "types", 1, arrays.types));
 }
 
+std::string field_svg(const SceneField& scene, Outcome outcome) {
+  const BlockLayout& layout = scene.database.layout();
+  const std::string name =
+      scene.scene.removed.empty() ? "intact" : "without " + to_string(scene.scene, layout);
+  const std::string heading =
+      fmt::format("Bridge '{}' {}, {}", scene.database.bridge_name(), name, to_string(outcome));
+  return svg_file(draw_field({layout, scene.mesh, scene.scene, scene.field, heading}));
+}
+
 nlohmann::ordered_json number_or_null(double number) {
   return std::isnan(number) ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(number);
 }
@@ -135,9 +146,16 @@ std::string places_json(const std::vector<PlaceDisplacement>& places) {
 
 std::string field_report(const Database& database, std::size_t row, FieldFormat format) {
   const SceneField scene{database, database.mesh(), database.table().scene(row), database.field(row)};
-  return format == FieldFormat::vtu    ? field_vtu(scene)
-         : format == FieldFormat::json ? field_json(scene)
-                                       : field_csv(scene);
+  switch (format) {
+    case FieldFormat::vtu:
+      return field_vtu(scene);
+    case FieldFormat::svg:
+      return field_svg(scene, static_cast<Outcome>(database.table().outcome[row]));
+    case FieldFormat::json:
+      return field_json(scene);
+    default:
+      return field_csv(scene);
+  }
 }
 
 }  // namespace voussoir

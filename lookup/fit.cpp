@@ -93,7 +93,9 @@ Fit check_fit(const std::vector<double>& errors, const NoiseEstimate& noise, dou
 
 std::vector<SensorResidual> sensor_residuals(const Measurements& measurements,
                                              std::span<const double> prediction,
-                                             const std::vector<double>& errors) {
+                                             const Observation& observation) {
+  const std::vector<double> scales = error_scales(observation, prediction);
+  const std::vector<double> errors = standard_errors(observation, prediction);
   std::vector<double> sizes = without_gaps(errors);
   for (double& size : sizes) size = std::abs(size);
   double limit = std::numeric_limits<double>::infinity();
@@ -105,8 +107,8 @@ std::vector<SensorResidual> sensor_residuals(const Measurements& measurements,
   std::vector<SensorResidual> result;
   for (std::size_t point = 0; point < prediction.size(); ++point)
     if (!std::isnan(measurements.displacement[point]))
-      result.push_back({point, measurements.displacement[point], prediction[point], errors[point],
-                        std::abs(errors[point]) > limit && limit > 0.0});
+      result.push_back({point, measurements.displacement[point], prediction[point], scales[point],
+                        errors[point], std::abs(errors[point]) > limit && limit > 0.0});
   return result;
 }
 

@@ -29,12 +29,13 @@ struct SensorResidual {
   std::size_t point = 0;
   double reading = 0.0;    ///< [m]
   double predicted = 0.0;  ///< [m]
+  double scale = 0.0;      ///< [m] sigma (the bound of uniform noise); NaN at points that cannot move
   double error = 0.0;      ///< in units of sigma; NaN at points that cannot move
   bool disagrees = false;  ///< far outside what the other sensors show
 };
 
 std::vector<SensorResidual> sensor_residuals(const Measurements& measurements,
                                              std::span<const double> prediction,
-                                             const std::vector<double>& errors);
+                                             const Observation& observation);
 
 }  // namespace voussoir

@@ -17,6 +17,9 @@ std::string locate(const voussoir::LocateDamageOptions& options) {
   const voussoir::Answer answer = voussoir::locate_damage(library, measurements, settings);
   const voussoir::Source source{options.measurements, database.path().string(), database.bridge_name(),
                                 database.digest()};
+  if (options.page)
+    voussoir::write_file(*options.page,
+                         voussoir::page_report(answer, settings, library, measurements, source));
   return voussoir::report(answer, settings, library, source, options.format);
 }
 

@@ -111,6 +111,9 @@ void add_options(CLI::App& app, LocateDamageOptions& options) {
       app, "--format", options.format,
       {{"text", ReportFormat::text}, {"json", ReportFormat::json}, {"csv", ReportFormat::csv}},
       "text (default), json or csv");
+  app.add_option("--report", options.page,
+                 "also write a page (HTML) with pictures, tables and what was assumed, complete in itself")
+      ->option_text("FILE");
   add_search_options(app, options);
   add_noise_options(app, options);
   add_genetic_options(app, options.settings.genetic);

@@ -15,6 +15,7 @@ struct LocateDamageOptions {
   std::optional<std::string> database;
   LookupSettings settings;
   ReportFormat format = ReportFormat::text;
+  std::optional<std::string> page;  ///< file to write the report page to
   // Texts and units of the command line, which finish() turns into settings.
   std::string noise_level;
   std::string noise_model = "auto";

@@ -127,7 +127,7 @@ void judge_best(const Library& library, const Measurements& measurements, std::s
   const Observation observation =
       observe(measurements, intact, settings.noise, std::max(answer.noise->level, kSmallestLevel));
   const std::vector<double> errors = standard_errors(observation, best);
-  answer.residuals = sensor_residuals(measurements, best, errors);
+  answer.residuals = sensor_residuals(measurements, best, observation);
   const bool excluded = answer.posterior->probability[found.front().row] == 0.0;
   answer.fit = excluded ? Fit{false, 0.0, "every scene is excluded by at least one reading"}
                         : check_fit(errors, *answer.noise, settings.noise.degrees_of_freedom);

@@ -17,8 +17,8 @@ struct Options {
 };
 
 std::string query(const Options& options) {
-  if (options.at && options.format == FieldFormat::vtu)
-    throw voussoir::InputError("--format vtu is of the whole field, expected no --at beside it");
+  if (options.at && (options.format == FieldFormat::vtu || options.format == FieldFormat::svg))
+    throw voussoir::InputError("--format vtu and svg are of the whole field, expected no --at beside them");
   const auto database = voussoir::Database::open(voussoir::find_database(options.database));
   const std::size_t row = voussoir::find_row(database, options.scene);
   const auto outcome = static_cast<voussoir::Outcome>(database.table().outcome[row]);
@@ -47,7 +47,10 @@ int main(int argc, char** argv) {
       ->option_text("PLACES");
   voussoir::add_choice<FieldFormat>(
       app, "--format", options.format,
-      {{"csv", FieldFormat::csv}, {"json", FieldFormat::json}, {"vtu", FieldFormat::vtu}},
-      "csv (default), json, or vtu for ParaView");
+      {{"csv", FieldFormat::csv},
+       {"json", FieldFormat::json},
+       {"vtu", FieldFormat::vtu},
+       {"svg", FieldFormat::svg}},
+      "csv (default), json, vtu for ParaView, or svg: a picture of the deformed bridge");
   return voussoir::run_program(app, argc, argv, [&] { return query(options); });
 }

@@ -1,5 +1,5 @@
 #pragma once
-/// @file Answers as text for people, and as JSON and CSV for programs.
+/// @file Answers as text and pages for people, and as JSON and CSV for programs.
 
 #include <string>
 
@@ -29,6 +29,11 @@ std::string json_report(const Answer& answer, const LookupSettings& settings, co
 
 /// rank,scene,misfit,posterior,outcome,place
 std::string csv_report(const Answer& answer, const Library& library);
+
+/// The page of `locate-damage --report`: the bridge with every block's probability, readings against the best
+/// fit, the candidates, residuals, and what was assumed. It is complete in itself.
+std::string page_report(const Answer& answer, const LookupSettings& settings, const Library& library,
+                        const Measurements& measurements, const Source& source);
 
 /// Names of settings as the command line has them.
 std::string_view to_string(Objective objective);

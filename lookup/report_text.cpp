@@ -5,6 +5,7 @@
 #include <iterator>
 
 #include "lookup/report.h"
+#include "lookup/report_words.h"
 #include "lookup/words.h"
 
 namespace voussoir {
@@ -30,13 +31,6 @@ class Text {
   std::string text_;
 };
 
-std::string noise_in_words(const NoiseEstimate& noise) {
-  if (noise.estimated && noise.level <= 2.0 * kSmallestLevel) return "none that could be seen";
-  const std::string_view meaning = noise.shape == NoiseShape::uniform ? "at most" : "a standard deviation of";
-  return fmt::format("{} {:.2g} % of the displacement ({} noise, {})", meaning, 100.0 * noise.level,
-                     to_string(noise.shape), noise.estimated ? "estimated" : "as stated");
-}
-
 void write_heading(Text& text, const Answer& answer, const Library& library, const Source& source) {
   text.line("Measurements: {}, {} of {} control points have a reading", source.measurements, answer.readings,
             library.points.size());
@@ -49,22 +43,7 @@ void write_heading(Text& text, const Answer& answer, const Library& library, con
 }
 
 void write_verdict(Text& text, const Answer& answer, const Library& library) {
-  const Candidate& best = answer.candidates.front();
-  if (answer.fit && !answer.fit->explained)
-    text.line("No scene in this database explains these measurements: {}.", answer.fit->reason);
-  const std::string_view opening = answer.fit && !answer.fit->explained ? "Closest" : "Most likely";
-  text.line("{}: {} ({})", answer.posterior ? opening : "Best match", to_string(best.scene, library.layout),
-            place_in_words(best.scene, library.layout));
-  if (best.posterior) text.line("Probability:  {}", percent(*best.posterior));
-  if (best.outcome == Outcome::collapsed)
-    text.line("This scene collapses: its displacements are a snapshot, not an equilibrium.");
-}
-
-std::string behind(const Candidate& candidate, const Candidate& best) {
-  if (!best.posterior) return fmt::format("{:+.4f}", candidate.misfit - best.misfit);
-  if (*candidate.posterior == 0.0) return "negligible";
-  const double odds = *best.posterior / *candidate.posterior;
-  return odds < 1e6 ? fmt::format("1 : {:.4g}", odds) : "1 : > 10^6";
+  for (const std::string& sentence : verdict(answer, library)) text.line("{}", sentence);
 }
 
 void write_table(Text& text, const Answer& answer, const Library& library) {
@@ -94,22 +73,13 @@ void write_groups(Text& text, const Answer& answer, const Library& library) {
 
 void write_probabilities(Text& text, const Answer& answer, const Library& library) {
   const Posterior& posterior = *answer.posterior;
-  std::string numbers;
-  for (std::size_t missing = 0; missing < posterior.missing_probability.size(); ++missing)
-    numbers += fmt::format("{}{}: {}", missing == 0 ? "" : ", ", missing,
-                           percent(posterior.missing_probability[missing]));
-  text.line("Number of missing blocks: {}", numbers);
-  std::vector<std::size_t> blocks;
-  for (std::size_t id = 0; id < posterior.block_probability.size(); ++id)
-    if (posterior.block_probability[id] >= kBlockWorthListing) blocks.push_back(id);
-  std::stable_sort(blocks.begin(), blocks.end(), [&](std::size_t a, std::size_t b) {
-    return posterior.block_probability[a] > posterior.block_probability[b];
-  });
+  text.line("Number of missing blocks: {}", missing_in_words(posterior));
+  std::vector<BlockId> blocks = likely_blocks(posterior, kBlockWorthListing);
   blocks.resize(std::min(blocks.size(), kMostBlocksListed));
   std::string names;
-  for (const std::size_t id : blocks)
-    names += fmt::format("{}{}: {}", names.empty() ? "" : "; ", to_string(library.layout.blocks[id].index),
-                         percent(posterior.block_probability[id]));
+  for (const BlockId id : blocks)
+    names += fmt::format("{}{}: {}", names.empty() ? "" : "; ", to_string(library.layout[id].index),
+                         percent(posterior.block_probability[static_cast<std::size_t>(value(id))]));
   text.line("Blocks most likely missing: {}", names.empty() ? "none" : names);
   text.line("{:.0f} % of the probability is held by {} scene{}", 100.0 * kCredibleShare,
             posterior.credible.size(), posterior.credible.size() == 1 ? "" : "s");

@@ -169,14 +169,21 @@ TableStatistics table_statistics(const Observation& observation, const SceneTabl
   return result;
 }
 
-std::vector<double> standard_errors(const Observation& observation, std::span<const double> prediction) {
+std::vector<double> error_scales(const Observation& observation, std::span<const double> prediction) {
   std::vector<double> result(prediction.size(), kNan);
   for (std::size_t i = 0; i < prediction.size(); ++i) {
+    if (std::isnan(observation.reading[i])) continue;
     const double change = std::abs(prediction[i] - observation.intact[i]);
-    const double scale = observation.slope[i] * std::abs(prediction[i]) + observation.offset[i] +
-                         (observation.model_error > 0.0 ? observation.model_error * change : 0.0);
-    result[i] = (observation.reading[i] - prediction[i]) / scale;
+    result[i] = observation.slope[i] * std::abs(prediction[i]) + observation.offset[i] +
+                (observation.model_error > 0.0 ? observation.model_error * change : 0.0);
   }
+  return result;
+}
+
+std::vector<double> standard_errors(const Observation& observation, std::span<const double> prediction) {
+  std::vector<double> result = error_scales(observation, prediction);
+  for (std::size_t i = 0; i < prediction.size(); ++i)
+    result[i] = (observation.reading[i] - prediction[i]) / result[i];
   return result;
 }
 

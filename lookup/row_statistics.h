@@ -45,6 +45,9 @@ struct TableStatistics {
 };
 TableStatistics table_statistics(const Observation& observation, const SceneTable& table);
 
+/// scale_i of one row [m]; NaN where there is no reading.
+std::vector<double> error_scales(const Observation& observation, std::span<const double> prediction);
+
 /// z_i of one row; NaN where there is no reading.
 std::vector<double> standard_errors(const Observation& observation, std::span<const double> prediction);
 

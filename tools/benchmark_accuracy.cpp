@@ -3,12 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <ctime>
-#include <limits>
+#include <functional>
 #include <optional>
 
 #include "core/dynamic_solver.h"
 #include "core/error.h"
 #include "core/quasi_static_solver.h"
+#include "lookup/drawing/chart.h"
 
 namespace voussoir {
 namespace {
@@ -158,25 +159,20 @@ class Bench {
   std::vector<AccuracyRow> rows_;
 };
 
-/// Pixels of a logarithmic axis.
-struct LogAxis {
-  double lowest;
-  double highest;
-  double begin;
-  double end;
-  double operator()(double x) const {
-    return begin + (end - begin) * (std::log10(x) - lowest) / (highest - lowest);
-  }
-};
+constexpr double kShortestTime = 1e-6;  // [s] the clock's resolution
+constexpr double kMostPerCent = 100.0;
 
-LogAxis axis_over(const std::vector<double>& values, double begin, double end) {
-  double lowest = std::numeric_limits<double>::infinity();
-  double highest = -lowest;
-  for (const double v : values) {
-    lowest = std::min(lowest, std::floor(std::log10(v)));
-    highest = std::max(highest, std::ceil(std::log10(v)));
+/// One colour's points of the plot.
+Series series_of(const std::vector<AccuracyRow>& rows, const std::string& name, int colour,
+                 const std::function<bool(const AccuracyRow&)>& belongs) {
+  Series series{name, colour, Mark::points, {}, {}};
+  for (const AccuracyRow& row : rows) {
+    if (row.signal_error <= 0.0 || !belongs(row)) continue;  // the reference itself has no error
+    series.x.push_back(std::max(row.seconds, kShortestTime));
+    series.y.push_back(kMostPerCent * row.signal_error);
+    series.notes.push_back(fmt::format("{} {} {}", row.step, row.ramp, row.variation));
   }
-  return {.lowest = lowest, .highest = std::max(highest, lowest + 1.0), .begin = begin, .end = end};
+  return series;
 }
 
 }  // namespace
@@ -209,44 +205,18 @@ std::string to_markdown(const std::vector<AccuracyRow>& rows) {
 }
 
 std::string to_svg(const std::vector<AccuracyRow>& rows) {
-  std::vector<double> times;
-  std::vector<double> errors;
-  for (const AccuracyRow& row : rows) {
-    if (row.signal_error <= 0.0) continue;  // the reference itself
-    times.push_back(std::max(row.seconds, 1e-6));
-    errors.push_back(row.signal_error);
-  }
-  const LogAxis x = axis_over(times, 80.0, 760.0);
-  const LogAxis y = axis_over(errors, 440.0, 30.0);
-  std::string svg =
-      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"800\" height=\"500\" font-family=\"sans-serif\" "
-      "font-size=\"12\">\n"
-      "<rect width=\"800\" height=\"500\" fill=\"white\"/>\n";
-  for (double e = x.lowest; e <= x.highest; ++e)
-    svg += fmt::format(
-        "<path d=\"M{0:.1f} 30V440\" stroke=\"#ddd\"/><text x=\"{0:.1f}\" y=\"458\" "
-        "text-anchor=\"middle\">{1:g} s</text>\n",
-        x(std::pow(10.0, e)), std::pow(10.0, e));
-  for (double e = y.lowest; e <= y.highest; ++e)
-    svg += fmt::format(
-        "<path d=\"M80 {0:.1f}H760\" stroke=\"#ddd\"/><text x=\"72\" y=\"{0:.1f}\" text-anchor=\"end\">{1:g} "
-        "%</text>\n",
-        y(std::pow(10.0, e)), 100.0 * std::pow(10.0, e));
-  for (const AccuracyRow& row : rows) {
-    if (row.signal_error <= 0.0) continue;
-    const double px = x(std::max(row.seconds, 1e-6));
-    const double py = y(row.signal_error);
-    const char* colour = row.is_default ? "#c00" : row.solver == "dynamic" ? "#06c" : "#393";
-    svg += fmt::format(
-        "<circle cx=\"{0:.1f}\" cy=\"{1:.1f}\" r=\"{2}\" fill=\"{3}\"/><text x=\"{4:.1f}\" y=\"{1:.1f}\">{5} "
-        "{6} {7} {8}</text>\n",
-        px, py, row.is_default ? 7 : 4, colour, px + 8.0, row.solver, row.step, row.ramp, row.variation);
-  }
-  svg +=
-      "<text x=\"420\" y=\"485\" text-anchor=\"middle\">processor time a scene</text>\n"
-      "<text x=\"20\" y=\"235\" text-anchor=\"middle\" transform=\"rotate(-90 20 235)\">error of the "
-      "signal</text>\n</svg>\n";
-  return svg;
+  Chart chart{"Error of the solvers' signal over their run time",
+              {"processor time a scene [s]", AxisScale::logarithmic},
+              {"error of the signal [%]", AxisScale::logarithmic},
+              {}};
+  chart.width = 800.0;
+  chart.height = 500.0;
+  const auto dynamic = [](const AccuracyRow& row) { return row.solver == "dynamic"; };
+  chart.series = {series_of(rows, "dynamic", 1, dynamic),
+                  series_of(rows, "quasi-static", 3,
+                            [&](const AccuracyRow& row) { return !dynamic(row) && !row.is_default; }),
+                  series_of(rows, "default", 2, [](const AccuracyRow& row) { return row.is_default; })};
+  return svg_file(draw_with_legend(chart));
 }
 
 }  // namespace voussoir

@@ -1,6 +1,7 @@
 /// locate-damage and query-field as a user runs them, on the small bridge's database.
 
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
@@ -49,6 +50,12 @@ struct Desk {
 const Desk& desk() {
   static const Desk shared;
   return shared;
+}
+
+std::size_t occurrences(const std::string& text, const std::string& part) {
+  std::size_t found = 0;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++found;
+  return found;
 }
 
 bool is_one_line(const std::string& text) {
@@ -161,6 +168,45 @@ TEST_CASE("query-field gives points by name, place and set, and refuses what is 
     CHECK(result.exit_code == 2);
     CHECK(is_one_line(result.err));
   }
+}
+
+TEST_CASE("query-field draws every block that is there, and its colours span the field's displacements") {
+  const ProgramResult drawn = test::run("query-field", {"4,2", "-d", desk().database, "--format", "svg"});
+  REQUIRE(drawn.exit_code == 0);
+  const Database database = Database::open(desk().database);
+  const Field field = database.field(database.find(parse_scene("4,2", database.layout())).value());
+  CHECK(occurrences(drawn.out, "class=\"outline\"") == database.layout().size() - 1);
+  CHECK(occurrences(drawn.out, "class=\"gone\"") == 1);
+  double lowest = 0.0;
+  for (Eigen::Index node = 0; node < field.cols(); ++node)
+    if (!std::isnan(field(1, node))) lowest = std::min(lowest, field(1, node));
+  CHECK_THAT(drawn.out, Contains(fmt::format(">{:.3g}</text>", 1e3 * lowest)) && Contains("times larger"));
+  CHECK(test::run("query-field", {"4,2", "-d", desk().database, "--format", "svg", "--at", "T3"}).exit_code ==
+        2);
+}
+
+TEST_CASE("locate-damage writes its answer as a page beside the usual answer") {
+  const std::string page = (desk().folder / "report.html").string();
+  const ProgramResult result = desk().locate(desk().readings_of("4,2"), {"--report", page, "--top", "3"});
+  REQUIRE(result.exit_code == 0);
+  CHECK_THAT(result.out, Contains("Most likely: 4,2"));
+  std::ifstream stream(page);
+  const std::string html{std::istreambuf_iterator<char>(stream), {}};
+  const std::size_t first_row = html.find("<td class=\"number\">1</td>");
+  REQUIRE(first_row != std::string::npos);
+  CHECK(html.substr(first_row).starts_with("<td class=\"number\">1</td><td>4,2</td>"));
+  const Database database = Database::open(desk().database);
+  CHECK_THAT(html, Contains(database.digest()) && Contains("</html>"));
+  for (const Block& block : database.layout().blocks)
+    CHECK_THAT(html, Contains("<title>Block (" + to_string(block.index) + ")"));
+}
+
+TEST_CASE("A report that cannot be written is a failure, and then there is no answer either") {
+  const ProgramResult result = desk().locate(desk().readings_of("4,2"), {"--report", "/nowhere/report.html"});
+  CHECK(result.exit_code == 1);
+  CHECK(result.out.empty());
+  CHECK(is_one_line(result.err));
+  CHECK_THAT(result.err, Contains("/nowhere/report.html"));
 }
 
 TEST_CASE("Programs tell their version and show an example in their help") {

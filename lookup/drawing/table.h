@@ -1,0 +1,24 @@
+#pragma once
+/// @file A table: the numbers behind a picture.
+
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace voussoir {
+
+/// A text or a number; NaN is an empty cell.
+using Cell = std::variant<std::string, double>;
+
+struct Table {
+  std::vector<std::string> columns;
+  std::vector<std::vector<Cell>> rows;  ///< each as long as `columns`
+};
+
+/// Comma-separated, numbers with all their digits, texts quoted where they need to be.
+std::string to_csv(const Table& table);
+
+/// <table>, numbers with `digits` significant digits.
+std::string to_html(const Table& table, int digits = 4);
+
+}  // namespace voussoir

@@ -1,0 +1,27 @@
+#pragma once
+/// @file What the text and the page say in the same words.
+
+#include <string>
+#include <vector>
+
+#include "lookup/lookup.h"
+
+namespace voussoir {
+
+/// The answer in a sentence or a few, the most important first. Precondition: there is a candidate.
+std::vector<std::string> verdict(const Answer& answer, const Library& library);
+
+/// "at most 9.7 % of the displacement (uniform noise, estimated)"
+std::string noise_in_words(const NoiseEstimate& noise);
+
+/// How far a candidate is behind the best: the ratio of probabilities or, without them, of misfits their
+/// difference.
+std::string behind(const Candidate& candidate, const Candidate& best);
+
+/// "0: < 0.1 %, 1: 91.5 %, 2: 8.5 %"
+std::string missing_in_words(const Posterior& posterior);
+
+/// Blocks that are missing with at least this probability, likeliest first.
+std::vector<BlockId> likely_blocks(const Posterior& posterior, double least);
+
+}  // namespace voussoir
