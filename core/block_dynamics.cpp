@@ -23,7 +23,24 @@ void add_stiffness(const Bridge& bridge, const Triangle& triangle, BlockBody& bo
           tangent.block<2, 2>(2 * i, 2 * j);
 }
 
-void set_inertia(const Mesh& mesh, const Eigen::VectorXd& masses, BlockBody& body) {
+/// Moment of inertia of a triangle about the origin, over its density and thickness [m4]; corners relative to
+/// the origin.
+double second_moment(const Point& a, const Point& b, const Point& c) {
+  const double squares = a.squaredNorm() + b.squaredNorm() + c.squaredNorm() + a.dot(b) + b.dot(c) + c.dot(a);
+  return 0.5 * cross(b - a, c - a) * squares / 6.0;
+}
+
+double moment_of_inertia(const Bridge& bridge, const IndexRange& triangles, const Point& centre) {
+  double sum = 0.0;
+  for (int t = triangles.begin; t < triangles.end; ++t) {
+    const auto& [a, b, c] = bridge.mesh.triangles[static_cast<std::size_t>(t)].nodes;
+    sum += second_moment(bridge.mesh.position(a) - centre, bridge.mesh.position(b) - centre,
+                         bridge.mesh.position(c) - centre);
+  }
+  return bridge.description.material.density * bridge.description.material.thickness * sum;
+}
+
+void set_masses(const Mesh& mesh, const Eigen::VectorXd& masses, BlockBody& body) {
   const int n = body.nodes.size();
   body.masses.resize(2 * n);
   body.arms.resize(2 * n);
@@ -37,7 +54,6 @@ void set_inertia(const Mesh& mesh, const Eigen::VectorXd& masses, BlockBody& bod
   body.centre /= body.mass;
   for (int i = 0; i < n; ++i)
     body.arms.segment<2>(2 * i) = mesh.nodes.col(body.nodes.begin + i) - body.centre;
-  body.inertia = body.arms.dot(body.masses.cwiseProduct(body.arms));
 }
 
 void set_supports(const std::vector<bool>& held, BlockBody& body) {
@@ -47,6 +63,16 @@ void set_supports(const std::vector<bool>& held, BlockBody& body) {
     if (here) (c % 2 == 0 ? body.free_x : body.free_y) = false;
   }
   body.held = !body.free_x || !body.free_y;
+}
+
+/// The acceleration that a force gives the nodes of a rigid block [1/kg].
+Eigen::MatrixXd rigid_response(const BlockBody& body, double inertia) {
+  Eigen::MatrixXd modes(body.arms.size(), 3);  // of unit mass each
+  for (Eigen::Index i = 0; i < modes.rows(); i += 2) {
+    modes.row(i) << 1.0 / std::sqrt(body.mass), 0.0, -body.arms[i + 1] / std::sqrt(inertia);
+    modes.row(i + 1) << 0.0, 1.0 / std::sqrt(body.mass), body.arms[i] / std::sqrt(inertia);
+  }
+  return modes * modes.transpose();
 }
 
 }  // namespace
@@ -82,7 +108,8 @@ std::vector<BlockBody> make_block_bodies(const Bridge& bridge) {
     const IndexRange& range = bridge.mesh.block_triangles[block];
     for (int t = range.begin; t < range.end; ++t)
       add_stiffness(bridge, bridge.mesh.triangles[static_cast<std::size_t>(t)], body);
-    set_inertia(bridge.mesh, masses, body);
+    set_masses(bridge.mesh, masses, body);
+    body.inertia = moment_of_inertia(bridge, range, body.centre);
     set_supports(held, body);
     bodies.push_back(std::move(body));
   }
@@ -106,15 +133,15 @@ Eigen::MatrixXd step_response(const BlockBody& body, double step) {
 }
 
 Eigen::MatrixXd deformation_response(const BlockBody& body, double step) {
-  Eigen::MatrixXd response = step_response(body, step);
+  const Eigen::MatrixXd response = step_response(body, step);
   if (body.held) return response;
-  const Eigen::Index n = response.rows();
-  Eigen::MatrixXd rigid(n, 3);  // unit masses: rigid^T M rigid = 1
-  for (Eigen::Index i = 0; i < n; i += 2) {
-    rigid.row(i) << 1.0 / std::sqrt(body.mass), 0.0, -body.arms[i + 1] / std::sqrt(body.inertia);
-    rigid.row(i + 1) << 0.0, 1.0 / std::sqrt(body.mass), body.arms[i] / std::sqrt(body.inertia);
-  }
-  return response - rigid * rigid.transpose();
+  return response - rigid_response(body, body.arms.dot(body.masses.cwiseProduct(body.arms)));
+}
+
+Eigen::MatrixXd motion_response(const BlockBody& body, double step) {
+  const Eigen::MatrixXd response = deformation_response(body, step);
+  if (body.held) return response;
+  return response + rigid_response(body, body.inertia);
 }
 
 }  // namespace voussoir

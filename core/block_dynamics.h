@@ -6,7 +6,10 @@
 /// u_i), with the centre c, the rotation R and the deformation u, which has no part that moves the block as a
 /// whole.
 ///
-///   centre and rotation:  central differences under the resultant and the moment of all forces
+///   centre and rotation:  central differences under the resultant and the moment of all forces, with the
+///   block's true
+///                         moment of inertia (masses lumped at the corners of a block have up to three times
+///                         as much)
 ///   deformation:          (M + dt^2 K) u_new = M (u + dt du/dt) + dt^2 R^T f
 ///
 /// The deformation's own vibrations (hundreds of hertz and more) are damped by the step, its response to slow
@@ -23,7 +26,7 @@ namespace voussoir {
 struct BlockBody {
   IndexRange nodes;
   double mass = 0.0;          ///< [kg]
-  double inertia = 0.0;       ///< moment of inertia of the lumped masses about the centre [kg m2]
+  double inertia = 0.0;       ///< moment of inertia of the triangles about the centre [kg m2]
   Point centre;               ///< of mass, at rest [m]
   bool held = false;          ///< a support holds some of its nodes
   bool free_x = true;         ///< no node is held in x, so that all horizontal forces on it must balance
@@ -44,11 +47,15 @@ Eigen::VectorXd lumped_masses(const Bridge& bridge);
 std::vector<bool> held_components(const Bridge& bridge);
 
 /// (M + dt^2 K)^-1 with zero rows and columns at held components: the acceleration that a force gives the
-/// whole block during an implicit step [1/kg].
+/// nodes during an implicit step, with lumped masses throughout [1/kg].
 Eigen::MatrixXd step_response(const BlockBody& body, double step);
 
 /// The same without the motion of the block as a whole, which a free block's frame makes: what the
 /// deformation takes.
 Eigen::MatrixXd deformation_response(const BlockBody& body, double step);
+
+/// What frame and deformation take together: the acceleration that a force gives the nodes of a block in
+/// motion [1/kg].
+Eigen::MatrixXd motion_response(const BlockBody& body, double step);
 
 }  // namespace voussoir

@@ -21,7 +21,9 @@
 /// Shear: xi(s), linear along the stretch, is the elastic part of the slip; tau = p_t xi, limited point by
 /// point to |tau| <= tan(phi) p and integrated exactly. xi grows by the slip of every step. Where the whole
 /// closed stretch slips one way, the slip that is common to all its points is plastic and leaves xi; an open
-/// contact forgets xi.
+/// contact forgets xi. Slip is the movement along t of points that face each other, t . (x_B - x_A), so that
+/// where the faces are apart the frame's turning counts as well: a block that rocks on its edge does not slip
+/// at its open end.
 
 #include <array>
 
@@ -59,11 +61,13 @@ struct alignas(sizeof(T)) ContactShear {
   T at_1;
 };
 
-/// Places of the edges' four nodes and their movements since the last evaluation [m].
+/// Places of the edges' four nodes and their movements in the last step [m]; the places are those `ahead`
+/// steps later.
 template <class T>
 struct EdgePlaces {
   std::array<Pair<T>, 4> now;
   std::array<Pair<T>, 4> moved;
+  double ahead = 0.0;
 };
 
 /// Forces on the four nodes [N].
@@ -248,22 +252,50 @@ VOUSSOIR_INLINE Closure<T> closure_of(const EdgeContact& contact, const ContactM
   return r;
 }
 
+/// A quantity that is linear along the stretch.
+template <class T>
+struct AlongStretch {
+  T at_a0;
+  T slope;
+  VOUSSOIR_INLINE T operator()(T s) const { return at_a0 + slope * s; }
+};
+
+/// Movement of B against A in a direction, along the stretch.
+template <class T>
+VOUSSOIR_INLINE AlongStretch<T> relative_movement(const std::array<Pair<T>, 4>& moved,
+                                                  const Pair<T>& direction, const Stretch<T>& x) {
+  const auto& [moved_a0, moved_a1, moved_b0, moved_b1] = moved;
+  const T move_a0 = dot(direction, moved_a0);
+  const T slope_a = (dot(direction, moved_a1) - move_a0) * x.per_reach_a;
+  const T move_b1 = dot(direction, moved_b1);
+  const T slope_b = (dot(direction, moved_b0) - move_b1) * x.per_reach_b;
+  return {move_b1 - slope_b * x.s_b1 - move_a0, slope_b - slope_a};
+}
+
+/// How far the frame turned in the last step, counter-clockwise [rad].
+template <class T>
+VOUSSOIR_INLINE T frame_turn(const EdgeContact& contact, const std::array<Pair<T>, 4>& moved,
+                             const Stretch<T>& x) {
+  const Pair<T> change =
+      (moved[1] - moved[0]) * contact.per_length[0] + (moved[2] - moved[3]) * contact.per_length[1];
+  return -dot(x.n, change) * x.per_direction;
+}
+
 /// Shear stress on the closed part, and what the shear is afterwards.
 template <class T>
-VOUSSOIR_INLINE Traction<T> friction_of(const ContactMaterial& material, const std::array<Pair<T>, 4>& moved,
-                                        const Stretch<T>& x, const Closure<T>& closure,
-                                        ContactShear<T>& shear) {
+VOUSSOIR_INLINE Traction<T> friction_of(const EdgeContact& contact, const ContactMaterial& material,
+                                        const EdgePlaces<T>& edges, const Stretch<T>& x,
+                                        const Closure<T>& closure, ContactShear<T>& shear) {
   const T zero = T{};
   const T one = zero + 1.0;
-  const auto& [moved_a0, moved_a1, moved_b0, moved_b1] = moved;
-  const T move_a0 = dot(x.t, moved_a0);
-  const T stretch_a = (dot(x.t, moved_a1) - move_a0) * x.per_reach_a;
-  const T move_b1 = dot(x.t, moved_b1);
-  const T stretch_b = (dot(x.t, moved_b0) - move_b1) * x.per_reach_b;
-  const T slip_at_a0 = move_b1 - stretch_b * x.s_b1 - move_a0;
-  const T slip_slope = stretch_b - stretch_a;
-  const T xi_0 = shear.at_0 + slip_at_a0 + slip_slope * x.s_0;
-  const T xi_1 = shear.at_1 + slip_at_a0 + slip_slope * x.s_1;
+  // The change of t . (x_B - x_A) in the last step, to second order: frame and gap are those of the step's
+  // middle.
+  const AlongStretch<T> along = relative_movement(edges.moved, x.t, x);
+  const AlongStretch<T> opening = relative_movement(edges.moved, x.n, x);
+  const T turn = frame_turn(contact, edges.moved, x);
+  const double to_middle = 1.0 + 2.0 * edges.ahead;
+  const T xi_0 = shear.at_0 + along(x.s_0) - turn * (x.gap_0 - to_middle * opening(x.s_0));
+  const T xi_1 = shear.at_1 + along(x.s_1) - turn * (x.gap_1 - to_middle * opening(x.s_1));
 
   const T xi_slope = (xi_1 - xi_0) / (x.touching ? x.s_1 - x.s_0 : one);
   const T tau_0 = material.tangential * (xi_0 + xi_slope * (closure.begin - x.s_0));
@@ -359,7 +391,7 @@ VOUSSOIR_INLINE bool contact_forces(const EdgeContact& contact, const ContactMat
     return false;
   }
   const Closure<T> closure = closure_of(contact, material, cover, stretch);
-  const Traction<T> drag = friction_of(material, edges.moved, stretch, closure, shear);
+  const Traction<T> drag = friction_of(contact, material, edges, stretch, closure, shear);
   FrameForces<T> f = frame_forces(contact, cover, stretch, closure, drag);
   if (any(closure.closed & (cover.squared < kFullyFacing)))
     fade(contact, material, cover, stretch, closure, f);

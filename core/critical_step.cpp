@@ -48,7 +48,8 @@ std::vector<Eigen::MatrixXd> mobilities(const std::vector<BlockBody>& bodies, In
                                         double step) {
   std::vector<Eigen::MatrixXd> result;
   for (const BlockBody& body : bodies)
-    result.push_back(step_response(body, integrator == Integrator::implicit_blocks ? step : 0.0));
+    result.push_back(integrator == Integrator::implicit_blocks ? motion_response(body, step)
+                                                               : step_response(body, 0.0));
   return result;
 }
 

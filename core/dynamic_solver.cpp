@@ -92,12 +92,14 @@ class Procession {
         motion_(at_rest<T>(model_)) {}
 
   std::vector<DynamicSolution> run() {
-    for (int lane = 0; lane < kLaneCount<T>; ++lane) start_next(lane);
+    for (int lane = 0; lane < kLaneCount<T>; ++lane) empty(lane);
+    start_in_idle_lanes();
     while (any_busy()) {
       prepare_step();
       take_step(shared_.settings.integrator, model_, motion_);
       for (int lane = 0; lane < kLaneCount<T>; ++lane)
         if (runs_[lane].busy) follow(lane);
+      if (shared_.settings.skips.lane_refill || !any_busy()) start_in_idle_lanes();
     }
     return std::move(solutions_);
   }
@@ -107,17 +109,21 @@ class Procession {
     return std::any_of(runs_.begin(), runs_.end(), [](const LaneRun& run) { return run.busy; });
   }
 
-  /// An idle lane holds no blocks.
-  void start_next(int lane_index) {
-    LaneRun& run = runs_[static_cast<std::size_t>(lane_index)];
-    run = LaneRun{};
-    std::vector<bool> removed(model_.bodies.size(), true);
-    if (next_ < scenes_.size()) {
+  void start_in_idle_lanes() {
+    for (int lane = 0; lane < kLaneCount<T> && next_ < scenes_.size(); ++lane) {
+      LaneRun& run = runs_[static_cast<std::size_t>(lane)];
+      if (run.busy) continue;
+      run = LaneRun{};
       run.busy = true;
       run.scene = next_++;
-      removed = removal_mask(scenes_[run.scene], model_.bodies.size());
+      place_scene(model_, removal_mask(scenes_[run.scene], model_.bodies.size()), lane, motion_);
     }
-    place_scene(model_, removed, lane_index, motion_);
+  }
+
+  /// An idle lane holds no blocks.
+  void empty(int lane_index) {
+    runs_[static_cast<std::size_t>(lane_index)].busy = false;
+    place_scene(model_, std::vector<bool>(model_.bodies.size(), true), lane_index, motion_);
   }
 
   void prepare_step() {
@@ -126,7 +132,9 @@ class Procession {
       set_lane(motion_.load, i,
                load_share(static_cast<double>(run.steps + 1) * model_.step, shared_.settings.ramp));
     }
-    if (any(motion_.travel > 0.5 * shared_.margin)) search_contacts(model_, shared_.margin, motion_);
+    const bool settled = shared_.settings.skips.settled_contacts;
+    if (!settled || any(motion_.travel > 0.5 * shared_.margin))
+      search_contacts(model_, shared_.margin, motion_);
   }
 
   void follow(int lane_index) {
@@ -143,7 +151,7 @@ class Procession {
     if (!decided(lane_index, time, run.solution)) return;
     run.solution.solution.iterations = static_cast<int>(run.steps);
     solutions_[run.scene] = std::move(run.solution);
-    start_next(lane_index);
+    empty(lane_index);
   }
 
   /// Fills in the outcome, if there is one by now.
@@ -153,15 +161,18 @@ class Procession {
     const double kinetic = kinetic_energy(model_, motion_, i);
     const double largest = lane(motion_.largest_unbalanced, i);
     const bool early = time < settings.earliest_decision;
+    if (early && !settings.skips.early_outcome) return false;
     const bool last = time >= settings.latest_decision;
     const bool quiet = !early && unbalanced <= settings.standing_unbalance &&
                        kinetic <= unbalanced * shared_.natural.work &&
                        largest <= settings.largest_standing_unbalance;
     const Field now = displacement(model_, motion_, i);
-    result.moving = moving_blocks(now);
+    const Mesh& mesh = model_.bridge->mesh;
+    result.solution.moving = blocks_moved_beyond(settings.moving_sags * shared_.natural.sag, mesh, now);
+    result.solution.extent = collapse_extent(model_.bridge->layout, result.solution.moving);
     const bool plain =
         early ? unbalanced >= settings.plain_unbalance : largest >= settings.collapsing_unbalance;
-    const bool falling = !quiet && !result.moving.empty() && plain;
+    const bool falling = !quiet && !result.solution.moving.empty() && plain;
     if (!quiet && !falling && !last) return false;
     result.kinetic_energy = kinetic;
     result.solution.residual = unbalanced;
@@ -170,17 +181,6 @@ class Procession {
     result.solution.displacement = now;
     result.time = time;
     return true;
-  }
-
-  std::vector<BlockId> moving_blocks(const Field& field) const {
-    const double limit = shared_.settings.moving_sags * shared_.natural.sag;
-    std::vector<BlockId> moving;
-    for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
-      const IndexRange& nodes = model_.bodies[b].nodes;
-      if (field.middleCols(nodes.begin, nodes.size()).colwise().norm().maxCoeff() > limit)
-        moving.push_back(BlockId{static_cast<std::int32_t>(b)});
-    }
-    return moving;
   }
 
   const Shared& shared_;
@@ -193,25 +193,6 @@ class Procession {
 };
 
 }  // namespace
-
-CollapseExtent collapse_extent(const BlockLayout& layout, const std::vector<BlockId>& moving) {
-  if (moving.empty()) return CollapseExtent::none;
-  const bool ring =
-      std::any_of(moving.begin(), moving.end(), [&](BlockId b) { return layout[b].index.course == 0; });
-  return ring ? CollapseExtent::arch : CollapseExtent::local;
-}
-
-std::string_view to_string(CollapseExtent extent) {
-  switch (extent) {
-    case CollapseExtent::local:
-      return "local";
-    case CollapseExtent::arch:
-      return "arch";
-    case CollapseExtent::none:
-      break;
-  }
-  return "none";
-}
 
 DynamicSolver::DynamicSolver(const Bridge& bridge, DynamicSettings settings)
     : workspace_(std::make_unique<Workspace>(bridge, settings)) {}

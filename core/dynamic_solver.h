@@ -9,6 +9,7 @@
 
 #include "core/bridge.h"
 #include "core/critical_step.h"
+#include "core/skips.h"
 #include "core/solution.h"
 
 namespace voussoir {
@@ -33,6 +34,7 @@ struct DynamicSettings {
   double largest_standing_unbalance = 1e-2;  ///< resultant force on a block over its weight, at most
   double moving_sags =
       2.0;  ///< blocks that have moved further than this many sags of the bonded bridge have moved away
+  Skips skips;
   int side_by_side = 4;  ///< scenes at a time: 1 or 4; the answers have the same bits
 };
 
@@ -42,21 +44,7 @@ struct DynamicSolution {
                       ///< `iterations` counts time steps; the field of a collapse is the one at `time`
   double time = 0.0;  ///< of the field [s]
   double kinetic_energy = 0.0;  ///< at the decision [J]
-  std::vector<BlockId> moving;  ///< blocks that had moved away at the decision, ascending; of a standing
-                                ///< scene those that have slid and were caught
 };
-
-/// How much of the bridge a collapse takes.
-enum class CollapseExtent {
-  none,   ///< nothing moves away
-  local,  ///< wall blocks only: the ring carries on, and so do the readings elsewhere
-  arch    ///< blocks of the ring move away
-};
-
-CollapseExtent collapse_extent(const BlockLayout& layout, const std::vector<BlockId>& moving);
-
-/// "none", "local", "arch"
-std::string_view to_string(CollapseExtent extent);
 
 /// Follows scenes of one bridge, several side by side; lanes that finish early take the next scene. A
 /// solution depends on its scene only, to the last bit. Not thread-safe: one solver a thread. The bridge must

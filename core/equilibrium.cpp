@@ -114,13 +114,12 @@ void add_local(const std::array<int, N>& slots, const Matrix& local, TangentTarg
     if (slots[k] >= 0) tangent.first[static_cast<std::size_t>(slots[k]) * tangent.stride] += local.data()[k];
 }
 
-Field weights_of_present_blocks(const EquilibriumSystem& system, const std::vector<bool>& removed) {
+Field loads_of_present_blocks(const EquilibriumSystem& system, const std::vector<bool>& removed) {
   const Mesh& mesh = system.bridge->mesh;
-  Field forces = Field::Zero(2, mesh.node_count());
+  Field forces = system.load;
   for (std::size_t block = 0; block < removed.size(); ++block)
-    if (!removed[block])
-      for (int node = mesh.block_nodes[block].begin; node < mesh.block_nodes[block].end; ++node)
-        forces(1, node) = -system.weight[node];
+    if (removed[block])
+      forces.middleCols(mesh.block_nodes[block].begin, mesh.block_nodes[block].size()).setZero();
   return forces;
 }
 
@@ -149,7 +148,7 @@ void clear_held(const EquilibriumSystem& system, Field& forces) {
 
 }  // namespace
 
-EquilibriumSystem::EquilibriumSystem(const Bridge& bridge_)
+EquilibriumSystem::EquilibriumSystem(const Bridge& bridge_, const Field& dead_load)
     : bridge(&bridge_), moduli(plane_moduli(bridge_.description.material)) {
   const Mesh& mesh = bridge->mesh;
   weight.setZero(mesh.node_count());
@@ -163,7 +162,10 @@ EquilibriumSystem::EquilibriumSystem(const Bridge& bridge_)
       triangle_block.push_back(BlockId{static_cast<std::int32_t>(block)});
       for (const NodeId node : nodes) weight[value(node)] += specific * triangles.back().area / 3.0;
     }
-  largest_weight = weight.maxCoeff();
+  load = dead_load.size() > 0 ? dead_load : Field::Zero(2, mesh.node_count());
+  load.row(1) -= weight.transpose();
+  largest_load = load.cwiseAbs().maxCoeff();
+  if (largest_load == 0.0) largest_load = 1.0;
   for (const Joint& joint : bridge->joints) joints.push_back(make_joint_frame(joint, mesh));
   number_unknowns(*bridge, *this);
   build_pattern(*bridge, *this);
@@ -173,7 +175,7 @@ Field unbalanced_forces(const EquilibriumSystem& system, const std::vector<bool>
                         const Field& displacement) {
   const Bridge& bridge = *system.bridge;
   const double thickness = bridge.description.material.thickness;
-  Field forces = weights_of_present_blocks(system, removed);
+  Field forces = loads_of_present_blocks(system, removed);
   for (std::size_t t = 0; t < system.triangles.size(); ++t) {
     if (!present(removed, system.triangle_block[t])) continue;
     const auto& nodes = bridge.mesh.triangles[t].nodes;
@@ -197,7 +199,7 @@ Field assemble(const EquilibriumSystem& system, const std::vector<bool>& removed
                double bonding, TangentTarget tangent) {
   const Bridge& bridge = *system.bridge;
   const double thickness = bridge.description.material.thickness;
-  Field forces = weights_of_present_blocks(system, removed);
+  Field forces = loads_of_present_blocks(system, removed);
   for (std::size_t i = 0; i < static_cast<std::size_t>(system.pattern.nonZeros()); ++i)
     tangent.first[i * tangent.stride] = 0.0;
   for (std::size_t t = 0; t < system.triangles.size(); ++t) {
@@ -239,7 +241,7 @@ double unbalanced_force(const Bridge& bridge, const Scene& scene, const Field& d
   const EquilibriumSystem system(bridge);
   const Field clean = displacement.array().isNaN().select(0.0, displacement);
   return unbalanced_forces(system, removal_mask(scene, bridge.layout.size()), clean).cwiseAbs().maxCoeff() /
-         system.largest_weight;
+         system.largest_load;
 }
 
 }  // namespace voussoir

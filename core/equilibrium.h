@@ -2,7 +2,7 @@
 /// @file The discrete equations of a bridge: which displacements are free, what forces unbalance them, and
 /// the tangent.
 ///
-///   r(u) = weight - internal forces of the triangles - forces of the joints,   tangent = - dr/du
+///   r(u) = load - internal forces of the triangles - forces of the joints,   tangent = - dr/du
 ///
 /// Removed blocks keep their places in the vectors and the matrix (unit diagonal, zero residual), so that all
 /// scenes of a bridge share one sparsity pattern and one symbolic factorisation.
@@ -19,7 +19,9 @@ namespace voussoir {
 
 /// Everything about the equations that no scene and no displacement changes.
 struct EquilibriumSystem {
-  explicit EquilibriumSystem(const Bridge& bridge);
+  /// `dead_load`: forces on the nodes beside the blocks' weight [N], 2 x nodes, of fixed direction; empty for
+  /// none. Those on removed blocks and held components do not act.
+  explicit EquilibriumSystem(const Bridge& bridge, const Field& dead_load = {});
 
   const Bridge* bridge;  ///< outlives the system
   PlaneModuli moduli;
@@ -27,7 +29,8 @@ struct EquilibriumSystem {
   std::vector<JointFrame> joints;
   std::vector<BlockId> triangle_block;
   Eigen::VectorXd weight;      ///< of each node [N], positive
-  double largest_weight;       ///< [N] the unit of residuals
+  Field load;                  ///< weight and dead load of each node [N]
+  double largest_load;         ///< component of `load` [N]: the unit of residuals; 1 if nothing is loaded
   std::vector<int> unknown;    ///< per displacement component 2 node + axis: its unknown, or -1 if held
   std::vector<int> component;  ///< the inverse: per unknown its displacement component
   Eigen::SparseMatrix<double> pattern;              ///< of the tangent, all values zero

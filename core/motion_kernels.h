@@ -47,6 +47,7 @@ VOUSSOIR_INLINE void add_contact_forces(const ContactMaterial& material, double 
     const EdgeContact& contact = view.contacts[c];
     const T present = view.present[contact.blocks[0]].value * view.present[contact.blocks[1]].value;
     EdgePlaces<T> edges;
+    edges.ahead = ahead;
     for (std::size_t i = 0; i < 4; ++i) {
       edges.moved[i] = view.moved[contact.nodes[i]];
       edges.now[i] = view.places[contact.nodes[i]] + edges.moved[i] * ahead;

@@ -11,6 +11,7 @@ constexpr double kLeastBonding =
     1e-3;  ///< first help for loose blocks: a thousandth of the joints' stiffness
 constexpr double kBondingFactor = 10.0;  ///< more help for a step out of bounds, less after a step
 constexpr int kMostHalvings = 4;
+constexpr double kMovingShare = 0.1;  ///< of the way of the block that has fallen: further means moving away
 
 /// How a phase behaves.
 struct Manner {
@@ -149,12 +150,13 @@ void NewtonSearch::take_step(const Eigen::VectorXd& step) {
 
 bool NewtonSearch::exhausted() const {
   const Manner& how = manner(phase_);
-  const bool hopeless = steps_ >= how.patience && recent_.back() > how.hope * first_norm_;
+  const bool hopeless =
+      settings_->skips.early_outcome && steps_ >= how.patience && recent_.back() > how.hope * first_norm_;
   return hopeless || fallen() || phase_iterations_ >= most_iterations(phase_, *settings_);
 }
 
 double NewtonSearch::residual() const {
-  return unbalanced_.cwiseAbs().maxCoeff() / system_->largest_weight;
+  return unbalanced_.cwiseAbs().maxCoeff() / system_->largest_load;
 }
 
 bool NewtonSearch::in_equilibrium() const {
@@ -174,10 +176,15 @@ Solution NewtonSearch::solution() const {
   solution.displacement = displacement_;
   solution.residual = residual();
   solution.iterations = iterations_;
-  if (fallen())
+  if (fallen()) {
+    const Bridge& bridge = *system_->bridge;
     solution.outcome = Outcome::collapsed;
-  else if (in_equilibrium())
+    solution.moving =
+        blocks_moved_beyond(kMovingShare * settings_->collapse_displacement, bridge.mesh, displacement_);
+    solution.extent = collapse_extent(bridge.layout, solution.moving);
+  } else if (in_equilibrium()) {
     solution.outcome = Outcome::standing;
+  }
   fill_removed(system_->bridge->mesh, removed_, std::numeric_limits<double>::quiet_NaN(),
                solution.displacement);
   return solution;

@@ -16,9 +16,9 @@ struct QuasiStaticSolver::Workspace {
   LaneVector steps;
   Eigen::VectorXd step;
 
-  Workspace(const Bridge& bridge, QuasiStaticSettings settings_)
+  Workspace(const Bridge& bridge, QuasiStaticSettings settings_, const Field& dead_load)
       : settings(settings_),
-        system(bridge),
+        system(bridge, dead_load),
         linear(system.pattern),
         tangents(static_cast<std::size_t>(system.pattern.nonZeros())),
         steps(static_cast<std::size_t>(system.unknown_count())),
@@ -35,8 +35,9 @@ struct QuasiStaticSolver::Workspace {
   }
 };
 
-QuasiStaticSolver::QuasiStaticSolver(const Bridge& bridge, QuasiStaticSettings settings)
-    : workspace_(std::make_unique<Workspace>(bridge, settings)) {}
+QuasiStaticSolver::QuasiStaticSolver(const Bridge& bridge, QuasiStaticSettings settings,
+                                     const Field& dead_load)
+    : workspace_(std::make_unique<Workspace>(bridge, settings, dead_load)) {}
 QuasiStaticSolver::~QuasiStaticSolver() = default;
 QuasiStaticSolver::QuasiStaticSolver(QuasiStaticSolver&&) noexcept = default;
 QuasiStaticSolver& QuasiStaticSolver::operator=(QuasiStaticSolver&&) noexcept = default;
@@ -49,8 +50,10 @@ std::vector<Solution> QuasiStaticSolver::solve(std::span<const SceneStart> scene
   std::size_t next = 0;
   std::size_t solved = 0;
   while (solved < scenes.size()) {
+    const bool refill = w.settings.skips.lane_refill || solved == next;
+    if (!w.settings.skips.shared_analysis) w.linear = LaneFactorisation(w.system.pattern);
     for (std::size_t lane = 0; lane < kLanes; ++lane) {
-      if (!searches[lane] && next < scenes.size()) {
+      if (!searches[lane] && refill && next < scenes.size()) {
         const SceneStart& task = scenes[next];
         searches[lane].emplace(w.system, w.settings, task.scene, task.start, w.lane_of_tangents(lane));
         scene_in_lane[lane] = next++;

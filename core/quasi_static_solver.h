@@ -6,12 +6,13 @@
 #include <vector>
 
 #include "core/bridge.h"
+#include "core/skips.h"
 #include "core/solution.h"
 
 namespace voussoir {
 
 struct QuasiStaticSettings {
-  double tolerance = 1e-8;  ///< largest unbalanced nodal force over the largest nodal weight [-]
+  double tolerance = 1e-8;  ///< largest unbalanced nodal force over the largest nodal load [-]
   double round_off =
       1e-12;  ///< a step this small against the largest displacement is round-off: converged, if
   double loose_tolerance = 1e-5;  ///< the residual is at most this (fine meshes cannot reach `tolerance`)
@@ -21,6 +22,7 @@ struct QuasiStaticSettings {
   int most_falling_iterations = 40;    ///< factorisations of a fall
   bool follow_falls = true;            ///< false: a search without hope ends there, `unresolved`
   double collapse_displacement = 0.1;  ///< [m] a standing bridge moves less; beyond it blocks are falling
+  Skips skips;
 };
 
 /// A scene and where to look for its equilibrium.
@@ -34,7 +36,9 @@ struct SceneStart {
 /// calls. The bridge must outlive the solver.
 class QuasiStaticSolver {
  public:
-  explicit QuasiStaticSolver(const Bridge& bridge, QuasiStaticSettings settings = {});
+  /// `dead_load`: forces on the nodes beside the weight [N], 2 x nodes; empty for none.
+  explicit QuasiStaticSolver(const Bridge& bridge, QuasiStaticSettings settings = {},
+                             const Field& dead_load = {});
   ~QuasiStaticSolver();
   QuasiStaticSolver(QuasiStaticSolver&&) noexcept;
   QuasiStaticSolver& operator=(QuasiStaticSolver&&) noexcept;

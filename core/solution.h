@@ -3,7 +3,9 @@
 
 #include <string_view>
 
-#include "core/mesh.h"
+#include <vector>
+
+#include "core/collapse.h"
 
 namespace voussoir {
 
@@ -23,6 +25,10 @@ struct Solution {
       0.0;  ///< of equilibrium: largest unbalanced nodal force over the largest nodal weight [-]; of
             ///< a collapse in motion: sum of the blocks' resultant forces over the bridge's weight [-]
   int iterations = 0;  ///< linear systems solved; time steps for a collapse in motion
+  CollapseExtent extent = CollapseExtent::none;  ///< of what `moving` says
+  std::vector<BlockId>
+      moving{};  ///< blocks that had moved away when the scene's collapse was decided, ascending;
+                 ///< of a scene in motion that stands those that slid and were caught
 };
 
 }  // namespace voussoir

@@ -94,12 +94,16 @@ std::optional<MirrorSymmetry> find_mirror_symmetry(const BlockLayout& layout, co
   return MirrorSymmetry{std::move(*blocks), std::move(*nodes)};
 }
 
+std::vector<BlockId> mirrored(const std::vector<BlockId>& blocks, const MirrorSymmetry& symmetry) {
+  std::vector<BlockId> images;
+  for (const BlockId block : blocks)
+    images.push_back(symmetry.block_image[static_cast<std::size_t>(value(block))]);
+  std::sort(images.begin(), images.end());
+  return images;
+}
+
 Scene mirrored(const Scene& scene, const MirrorSymmetry& symmetry) {
-  Scene image;
-  for (const BlockId block : scene.removed)
-    image.removed.push_back(symmetry.block_image[static_cast<std::size_t>(value(block))]);
-  std::sort(image.removed.begin(), image.removed.end());
-  return image;
+  return {mirrored(scene.removed, symmetry)};
 }
 
 Field mirrored(const Field& field, const MirrorSymmetry& symmetry) {

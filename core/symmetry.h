@@ -19,6 +19,9 @@ struct MirrorSymmetry {
 std::optional<MirrorSymmetry> find_mirror_symmetry(const BlockLayout& layout, const Mesh& mesh,
                                                    double axis_x);
 
+/// The image blocks, ascending.
+std::vector<BlockId> mirrored(const std::vector<BlockId>& blocks, const MirrorSymmetry& symmetry);
+
 Scene mirrored(const Scene& scene, const MirrorSymmetry& symmetry);
 
 /// u_x changes sign, u_y stays, node by image node.

@@ -56,6 +56,8 @@ void check_scenes(const Hdf5File& file, const SceneTable& table, std::size_t blo
       file.require(false, fmt::format("dataset 'scenes/removed' is out of order in row {}", row));
     if (table.outcome[row] > static_cast<std::uint8_t>(Outcome::unresolved))
       file.require(false, fmt::format("dataset 'scenes/outcome' holds no outcome in row {}", row));
+    if (table.collapse[row] > static_cast<std::uint8_t>(CollapseExtent::arch))
+      file.require(false, fmt::format("dataset 'scenes/collapse' holds no extent in row {}", row));
   }
 }
 
@@ -65,10 +67,11 @@ SceneTable read_table(const Hdf5File& file, std::size_t points) {
   table.most_missing = columns_of_removed(file);
   table.removed = file.numbers<std::int32_t>(dataset::kRemoved, ElementType::int32, table.most_missing);
   table.outcome = file.numbers<std::uint8_t>(dataset::kOutcome, ElementType::uint8, kFlat);
+  table.collapse = file.numbers<std::uint8_t>(dataset::kCollapse, ElementType::uint8, kFlat);
   table.vertical = file.numbers<double>(dataset::kVertical, ElementType::float64, points);
   table.rows = table.outcome.size();
   file.require(table.removed.size() == table.rows * table.most_missing &&
-                   table.vertical.size() == table.rows * table.points,
+                   table.collapse.size() == table.rows && table.vertical.size() == table.rows * table.points,
                "the datasets of scenes/ and control/ have different numbers of scenes");
   return table;
 }
@@ -105,6 +108,7 @@ struct SceneColumns {
   std::span<const double> residual;
   std::span<const std::int32_t> iterations;
   std::span<const std::int32_t> variant;
+  std::span<const std::uint8_t> moving;      ///< rows x blocks
   std::span<const std::uint8_t> checksum;    ///< rows x 32
   std::span<const std::uint32_t> chunk_crc;  ///< empty without fields
   bool has_fields = false;
@@ -121,11 +125,26 @@ std::span<const T> read_column(const Hdf5File& file, const char* path, ElementTy
   return numbers;
 }
 
-SceneColumns read_columns(const Hdf5File& file, std::size_t rows) {
+/// The blocks that are marked in a row of scenes/moving.
+std::vector<BlockId> moving_blocks(const Hdf5File& file, std::span<const std::uint8_t> marks,
+                                   std::size_t rows, std::size_t row) {
+  std::vector<BlockId> moving;
+  const auto of_row = marks.subspan(row * (marks.size() / rows), marks.size() / rows);
+  for (std::size_t b = 0; b < of_row.size(); ++b) {
+    if (of_row[b] > 1)
+      file.require(false, fmt::format("dataset 'scenes/moving' holds {} in row {} where 0 or 1 was expected",
+                                      of_row[b], row));
+    if (of_row[b] == 1) moving.push_back(BlockId{static_cast<std::int32_t>(b)});
+  }
+  return moving;
+}
+
+SceneColumns read_columns(const Hdf5File& file, std::size_t rows, std::size_t blocks) {
   SceneColumns columns;
   columns.residual = read_column<double>(file, dataset::kResidual, ElementType::float64, rows);
   columns.iterations = read_column<std::int32_t>(file, dataset::kIterations, ElementType::int32, rows);
   columns.variant = read_column<std::int32_t>(file, dataset::kVariant, ElementType::int32, rows);
+  columns.moving = read_column<std::uint8_t>(file, dataset::kMoving, ElementType::uint8, rows, blocks);
   columns.checksum =
       read_column<std::uint8_t>(file, dataset::kChecksum, ElementType::uint8, rows, sizeof(Sha256));
   columns.has_fields = file.has(dataset::kField);
@@ -151,7 +170,7 @@ struct Database::Implementation {
 
   const SceneColumns& scene_columns() {
     const std::scoped_lock lock(mutex);
-    if (!columns) columns = read_columns(file, table.rows);
+    if (!columns) columns = read_columns(file, table.rows, blocks());
     return *columns;
   }
 
@@ -159,6 +178,10 @@ struct Database::Implementation {
     if (row >= table.rows)
       throw InputError(
           fmt::format("{}: no scene {} (0 to {} exist)", file.path().string(), row, table.rows - 1));
+  }
+
+  std::size_t blocks() const {
+    return file.numbers<std::int32_t>(dataset::kBlockIndex, ElementType::int32, 2).size() / 2;
   }
 
   Eigen::Index nodes() const {
@@ -244,8 +267,7 @@ Field Database::field(std::size_t row) const {
 }
 
 Solution Database::solution(std::size_t row) const {
-  const Record stored = record(row);
-  return {stored.outcome, field(row), stored.residual, stored.iterations};
+  return solution_of(record(row), field(row));
 }
 
 std::optional<std::size_t> Database::find(const Scene& scene) const {
@@ -277,13 +299,14 @@ Record Database::record(std::size_t row) const {
   implementation_->check_row(row);
   const SceneColumns& columns = implementation_->scene_columns();
   const auto vertical = table().row(row);
-  Record record{table().scene(row),
-                static_cast<Outcome>(table().outcome[row]),
-                columns.residual[row],
-                columns.iterations[row],
-                {vertical.begin(), vertical.end()},
-                {},
-                {}};
+  Record record;
+  record.scene = table().scene(row);
+  record.outcome = static_cast<Outcome>(table().outcome[row]);
+  record.residual = columns.residual[row];
+  record.iterations = columns.iterations[row];
+  record.extent = static_cast<CollapseExtent>(table().collapse[row]);
+  record.moving = moving_blocks(implementation_->file, columns.moving, table().rows, row);
+  record.vertical.assign(vertical.begin(), vertical.end());
   if (columns.has_fields) record.packed_field = implementation_->packed_field(row);
   const auto checksum = columns.checksum.subspan(row * sizeof(Sha256), sizeof(Sha256));
   std::copy(checksum.begin(), checksum.end(), record.checksum.begin());

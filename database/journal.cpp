@@ -13,7 +13,7 @@
 namespace voussoir {
 namespace {
 
-constexpr std::string_view kMagic = "VOUSSOIR JOURNAL 1\n";
+constexpr std::string_view kMagic = "VOUSSOIR JOURNAL 2\n";
 constexpr std::size_t kFrameHead = 2 * sizeof(std::uint32_t);
 
 /// A whole frame's content at the front of the reader, or nothing.
@@ -176,6 +176,9 @@ Bytes serialise(const Record& record) {
   out.put(record.outcome);
   out.put(record.residual);
   out.put(record.iterations);
+  out.put(record.extent);
+  out.put(static_cast<std::uint32_t>(record.moving.size()));
+  out.put_bytes(view_bytes(record.moving));
   out.put(static_cast<std::uint32_t>(record.vertical.size()));
   out.put_bytes(view_bytes(record.vertical));
   out.put(static_cast<std::uint32_t>(record.packed_field.size()));
@@ -209,6 +212,7 @@ std::optional<Record> parse_record(ByteView bytes) {
   Record record;
   const bool whole = take_counted(reader, record.scene.removed) && take(reader, record.outcome) &&
                      take(reader, record.residual) && take(reader, record.iterations) &&
+                     take(reader, record.extent) && take_counted(reader, record.moving) &&
                      take_counted(reader, record.vertical) && take_counted(reader, record.packed_field);
   const auto checksum = reader.get_many<std::uint8_t>(record.checksum.size());
   if (!whole || !checksum || reader.left() > 0) return std::nullopt;

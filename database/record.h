@@ -17,11 +17,13 @@ inline constexpr std::int32_t kOnlyVariant = 0;
 struct Record {
   Scene scene;
   Outcome outcome = Outcome::unresolved;
-  double residual = 0.0;         ///< as in Solution [-]
-  std::int32_t iterations = 0;   ///< as in Solution
-  std::vector<double> vertical;  ///< [m] at the control points, NaN where the block is gone
-  Bytes packed_field;            ///< pack_field of the displacements; empty if fields are not kept
-  Sha256 checksum{};             ///< scene_checksum of all of the above
+  double residual = 0.0;                         ///< as in Solution [-]
+  std::int32_t iterations = 0;                   ///< as in Solution
+  CollapseExtent extent = CollapseExtent::none;  ///< as in Solution
+  std::vector<BlockId> moving;                   ///< as in Solution
+  std::vector<double> vertical;                  ///< [m] at the control points, NaN where the block is gone
+  Bytes packed_field;  ///< pack_field of the displacements; empty if fields are not kept
+  Sha256 checksum{};   ///< scene_checksum of all of the above
 };
 
 enum class KeepField { no, yes };
@@ -32,8 +34,12 @@ enum class KeepField { no, yes };
 Record make_record(const Scene& scene, const Solution& solution, const std::vector<ControlPoint>& points,
                    KeepField keep, KeepField in_checksum);
 
+/// The solution that a record was made of, given its field.
+Solution solution_of(const Record& record, Field displacement);
+
 /// SHA-256 over, little-endian and without gaps: int32 variant, int32 number of removed blocks, int32 each
-/// removed block, uint8 outcome, float64 residual, int32 iterations, float64 vertical displacement of each
+/// removed block, uint8 outcome, float64 residual, int32 iterations, uint8 extent of the collapse, int32
+/// number of moving blocks, int32 each moving block, float64 vertical displacement of each
 /// control point and, if the field is kept, float64 displacements (ux, uy) node after node.
 Sha256 scene_checksum(const Record& record, std::span<const double> field);
 

@@ -14,7 +14,7 @@
 namespace voussoir {
 
 inline constexpr char kFormatName[] = "voussoir database";
-inline constexpr int kSchemaVersion = 1;
+inline constexpr int kSchemaVersion = 2;
 inline constexpr std::size_t kPointNameWidth = 8;  ///< bytes, padded with zeros
 
 /// Paths of datasets.
@@ -42,6 +42,8 @@ inline constexpr char kRemoved[] = "scenes/removed";
 inline constexpr char kOutcome[] = "scenes/outcome";
 inline constexpr char kResidual[] = "scenes/residual";
 inline constexpr char kIterations[] = "scenes/iterations";
+inline constexpr char kCollapse[] = "scenes/collapse";
+inline constexpr char kMoving[] = "scenes/moving";
 inline constexpr char kChecksum[] = "scenes/checksum";
 inline constexpr char kField[] = "fields/displacement";
 inline constexpr char kChunkCrc[] = "fields/chunk_crc32";

@@ -17,6 +17,8 @@ struct SceneColumns {
   std::vector<std::uint8_t> outcome;
   std::vector<double> residual;
   std::vector<std::int32_t> iterations;
+  std::vector<std::uint8_t> collapse;
+  std::vector<std::uint8_t> moving;  ///< rows x blocks
   std::vector<std::uint8_t> checksum;
   std::vector<std::uint32_t> chunk_crc;
 };
@@ -27,13 +29,17 @@ std::size_t most_missing(const std::vector<Scene>& scenes) {
   return most;
 }
 
-void append(const Record& record, std::size_t removed_columns, SceneColumns& columns) {
+void append(const Record& record, std::size_t removed_columns, std::size_t blocks, SceneColumns& columns) {
   columns.vertical.insert(columns.vertical.end(), record.vertical.begin(), record.vertical.end());
   for (std::size_t i = 0; i < removed_columns; ++i)
     columns.removed.push_back(i < record.scene.removed.size() ? value(record.scene.removed[i]) : -1);
   columns.outcome.push_back(static_cast<std::uint8_t>(record.outcome));
   columns.residual.push_back(record.residual);
   columns.iterations.push_back(record.iterations);
+  columns.collapse.push_back(static_cast<std::uint8_t>(record.extent));
+  columns.moving.resize(columns.moving.size() + blocks, 0);
+  for (const BlockId block : record.moving)
+    columns.moving[columns.moving.size() - blocks + static_cast<std::size_t>(value(block))] = 1;
   columns.checksum.insert(columns.checksum.end(), record.checksum.begin(), record.checksum.end());
   columns.chunk_crc.push_back(crc32_of(record.packed_field));
 }
@@ -69,9 +75,14 @@ void write_columns(const SceneColumns& columns, KeepField fields, Hdf5Output& ou
   output.add_dataset(flat_dataset(dataset::kOutcome, ElementType::uint8, columns.outcome, "1",
                                   "0 standing, 1 collapsed, 2 unresolved"));
   output.add_dataset(flat_dataset(dataset::kResidual, ElementType::float64, columns.residual, "1",
-                                  "largest unbalanced nodal force over the largest nodal weight"));
+                                  "standing: largest unbalanced nodal force over the largest nodal weight; "
+                                  "collapsed: unbalanced force over the bridge's weight"));
   output.add_dataset(flat_dataset(dataset::kIterations, ElementType::int32, columns.iterations, "1",
-                                  "Newton iterations spent"));
+                                  "linear systems solved, or time steps of a collapse"));
+  output.add_dataset(flat_dataset(dataset::kCollapse, ElementType::uint8, columns.collapse, "1",
+                                  "what moves away: 0 nothing, 1 wall blocks only, 2 blocks of the arch"));
+  output.add_dataset(column_dataset(dataset::kMoving, ElementType::uint8, columns.moving, rows, "1",
+                                    "1 for each block that had moved away when the collapse was decided"));
   output.add_dataset(column_dataset(dataset::kChecksum, ElementType::uint8, columns.checksum, rows, "1",
                                     "SHA-256 of everything kept of the scene"));
   if (fields == KeepField::yes)
@@ -103,7 +114,7 @@ SceneColumns write_fields(const DatabaseContent& content, const RecordOfRow& rec
   const std::size_t removed_columns = most_missing(content.scenes);
   for (std::size_t row = 0; row < content.scenes.size(); ++row) {
     const Record record = record_of_row(row);
-    append(record, removed_columns, columns);
+    append(record, removed_columns, static_cast<std::size_t>(content.bridge.block_count()), columns);
     if (fields) output.add_chunk(fields, row, record.packed_field);
   }
   return columns;

@@ -34,7 +34,7 @@ struct Build {
 Build prepare(const BuildRequest& request, const SolverChoice& solver, Progress& progress) {
   Bridge bridge = make_bridge(request.bridge.description);
   auto wanted = parse_scene_list(request.scenes, bridge.layout);
-  const std::string settings = build_settings(solver, bridge, request.mirror);
+  const std::string settings = build_settings(solver, bridge, request.rules);
   Provenance provenance =
       make_provenance(request.bridge, settings, results_key(request.bridge.description, settings));
   return {request, solver, progress, std::move(bridge), std::move(wanted), std::move(provenance)};
@@ -86,10 +86,11 @@ void run_batch(const Build& build, std::span<const SolvingTask> batch, const Sce
 
 /// The fields that a stage starts from. They come out of the records, whether these were made just now or
 /// long ago.
-StartingFields read_starts(const std::vector<SolvingTask>& stage, const KnownRecords& known) {
+StartingFields read_starts(const std::vector<SolvingTask>& stage, const PlanRules& rules,
+                           const KnownRecords& known) {
   std::set<Scene> scenes;
   for (const SolvingTask& task : stage)
-    for (const Scene& start : starting_scenes(task.solved)) scenes.insert(start);
+    for (const Scene& start : starting_scenes(task.solved, rules)) scenes.insert(start);
   StartingFields starts;
   for (const Scene& scene : scenes) {
     const Solution solution = known.read_solution(scene);
@@ -115,7 +116,7 @@ void run_plan(const Build& build, const BuildPlan& plan, KnownRecords& known) {
   tbb::enumerable_thread_specific<SceneSolver> solvers(
       [&] { return build.solver.make_solver(build.bridge); });
   for (const auto& stage : plan.stages) {
-    const StartingFields starts = read_starts(stage, known);
+    const StartingFields starts = read_starts(stage, build.request.rules, known);
     const std::size_t size = batch_size(stage.size(), threads);
     arena.execute([&] {
       tbb::parallel_for(std::size_t{0}, (stage.size() + size - 1) / size, [&](std::size_t i) {
@@ -126,20 +127,12 @@ void run_plan(const Build& build, const BuildPlan& plan, KnownRecords& known) {
   }
 }
 
-void count(const Record& record, const BlockLayout& layout, BuildSummary& summary) {
-  ++summary.scenes;
-  if (record.outcome == Outcome::standing) ++summary.standing;
-  if (record.outcome == Outcome::collapsed) ++summary.collapsed;
-  if (record.outcome == Outcome::unresolved)
-    summary.unresolved.push_back({to_string(record.scene, layout), record.residual});
-}
-
 void write(const Build& build, const KnownRecords& known, BuildSummary& summary) {
   const DatabaseContent content{build.provenance, build.bridge, build.wanted, build.request.fields};
   const WrittenDatabase written = write_database(build.request.output, content, [&](std::size_t row) {
     Record record = known.read(build.wanted[row]);
     if (build.request.fields == KeepField::no) record.packed_field.clear();
-    count(record, build.bridge.layout, summary);
+    summary.outcomes.add(record, build.bridge.layout);
     return record;
   });
   summary.digest = written.digest;
@@ -156,7 +149,7 @@ void run(const Build& build, std::optional<Database> old, BuildSummary& summary)
   if (old) summary.reused = known.reuse(std::move(*old), build.wanted);
   if (summary.reused > 0)
     build.progress.say(fmt::format("{} scenes of the old file are still valid and are kept", summary.reused));
-  const BuildPlan plan = plan_build(build.wanted, build.bridge, build.request.mirror,
+  const BuildPlan plan = plan_build(build.wanted, build.bridge, build.request.rules,
                                     [&](const Scene& scene) { return known.contains(scene); });
   summary.computed = plan.records();
   build.progress.start(summary.resumed + summary.reused + summary.computed, summary.resumed + summary.reused);

@@ -6,6 +6,7 @@
 #include "core/bridge_file.h"
 #include "database/record.h"
 #include "generator/build_plan.h"
+#include "generator/outcome_counts.h"
 #include "generator/progress.h"
 #include "generator/scene_solving.h"
 
@@ -21,23 +22,15 @@ struct BuildRequest {
   std::string scenes = "all";  ///< as parse_scene_list reads it
   int threads = 0;             ///< 0: one for each core
   KeepField fields = KeepField::yes;
-  UseMirror mirror = UseMirror::yes;
+  PlanRules rules;
   std::string xdmf_scenes;  ///< scenes of the XDMF index beside the database; empty: no index
   bool force = false;       ///< build anew even if the file is up to date
-};
-
-struct UnresolvedScene {
-  std::string scene;
-  double residual = 0.0;  ///< as in Solution
 };
 
 struct BuildSummary {
   std::filesystem::path output;
   bool up_to_date = false;  ///< nothing had to be done
-  std::size_t scenes = 0;
-  std::size_t standing = 0;
-  std::size_t collapsed = 0;
-  std::vector<UnresolvedScene> unresolved;
+  OutcomeCounts outcomes;
   std::size_t computed = 0;          ///< records made by this run (with those that only start others)
   std::size_t resumed = 0;           ///< records kept from an interrupted build
   std::size_t reused = 0;            ///< records taken over from the file that was replaced

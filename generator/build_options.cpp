@@ -1,6 +1,8 @@
 #include "generator/build_options.h"
 
 #include <CLI/CLI.hpp>
+#include <functional>
+#include <map>
 
 #include "database/provenance.h"
 
@@ -16,7 +18,63 @@ constexpr const char* kFooter =
     "scene with\n"
     "ranges (10,1..20  0,*  10,4+2..4,*). An interrupted build goes on when the same command is run again; a "
     "file that is\n"
-    "up to date is left alone. Exit codes: 0 done, 1 could not be done, 2 bad usage or bad bridge file.";
+    "up to date is left alone.\n\n"
+    "--without takes names separated by ',': mirror-images, warm-starts, shared-analysis, lane-refill, "
+    "settled-contacts,\n"
+    "early-outcome. The database stays the same but for round-off; tools/benchmark accuracy shows what each "
+    "gains.\n\n"
+    "Exit codes: 0 done, 1 could not be done, 2 bad usage or bad bridge file.";
+
+/// What --without names.
+const std::map<std::string, std::function<void(BuildOptions&)>> kSwitchedOff = {
+    {"mirror-images", [](BuildOptions& o) { o.request.rules.mirror_images = false; }},
+    {"warm-starts", [](BuildOptions& o) { o.request.rules.warm_starts = false; }},
+    {"shared-analysis", [](BuildOptions& o) { o.motion.skips.shared_analysis = false; }},
+    {"lane-refill", [](BuildOptions& o) { o.motion.skips.lane_refill = false; }},
+    {"settled-contacts", [](BuildOptions& o) { o.motion.skips.settled_contacts = false; }},
+    {"early-outcome", [](BuildOptions& o) { o.motion.skips.early_outcome = false; }},
+};
+
+std::vector<std::string> switch_names() {
+  std::vector<std::string> names;
+  for (const auto& [name, apply] : kSwitchedOff) names.push_back(name);
+  return names;
+}
+
+void add_motion_options(CLI::App& app, DynamicSettings& motion) {
+  const std::map<std::string, Integrator> integrators = {{"implicit", Integrator::implicit_blocks},
+                                                         {"explicit", Integrator::central_differences}};
+  app.add_option_function<std::string>(
+         "--integrator",
+         [&motion, integrators](const std::string& name) { motion.integrator = integrators.at(name); },
+         "of scenes in motion: implicit in the blocks, or explicit: central differences with tiny steps "
+         "(slow)")
+      ->check(CLI::IsMember({"implicit", "explicit"}))
+      ->default_str("implicit");
+  app.add_option("--step", motion.step, "time step [s] of scenes in motion; default: 0.9 of the critical one")
+      ->check(CLI::PositiveNumber);
+  app.add_option("--ramp", motion.ramp, "gravity grows over this time [s]; 0: at once")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  app.add_option("--damping", motion.damping,
+                 "force per mass and velocity [1/s]; default: half-critical of the bridge's lowest frequency")
+      ->check(CLI::NonNegativeNumber);
+  app.add_option("--patience", motion.latest_decision,
+                 "a scene that neither rests nor falls within this time [s] is unresolved")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  app.add_option("--rest", motion.standing_unbalance,
+                 "a scene in motion stands when its unbalanced forces are this share of the bridge's weight")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+}
+
+SolverChoice chosen_solver(const std::string& name, const DynamicSettings& motion) {
+  if (name == "dynamic") return dynamic(motion);
+  QuasiStaticSettings newton;
+  newton.skips = motion.skips;
+  return quasi_static(newton, motion);
+}
 
 }  // namespace
 
@@ -27,10 +85,9 @@ BuildOptions parse_build_options(int argc, char** argv) {
   app.footer(kFooter);
   app.set_version_flag("--version", version_text("build-database"));
   std::string solver = "quasi-static";
-  std::string integrator = "implicit";
   std::string fields = "all";
   std::string format = "text";
-  bool no_mirror = false;
+  std::vector<std::string> without;
   app.add_option("bridge", options.bridge, "bridge file (TOML); default: the reference bridge");
   app.add_option("-o,--output", options.request.output, "database to write")->capture_default_str();
   app.add_option("--scenes", options.request.scenes, "which scenes, see below")->capture_default_str();
@@ -41,11 +98,7 @@ BuildOptions parse_build_options(int argc, char** argv) {
                  "quasi-static: Newton for scenes that stand, motion for the others; dynamic: motion for all")
       ->check(CLI::IsMember({"quasi-static", "dynamic"}))
       ->capture_default_str();
-  app.add_option(
-         "--integrator", integrator,
-         "with --solver dynamic: implicit in the blocks, or central differences with tiny steps (slow)")
-      ->check(CLI::IsMember({"implicit", "explicit"}))
-      ->capture_default_str();
+  add_motion_options(app, options.motion);
   app.add_option("--fields", fields, "displacements of all nodes are kept of all scenes or of none")
       ->check(CLI::IsMember({"all", "none"}))
       ->capture_default_str();
@@ -54,7 +107,10 @@ BuildOptions parse_build_options(int argc, char** argv) {
       ->capture_default_str();
   app.add_option("--xdmf", options.request.xdmf_scenes,
                  "also write an index (.xdmf, .views.h5) with which ParaView opens these scenes");
-  app.add_flag("--no-mirror", no_mirror, "solve every scene, even if its mirror image is solved");
+  app.add_option("--without", without,
+                 "what is normally skipped or shared is done for every scene, see below")
+      ->delimiter(',')
+      ->check(CLI::IsMember(switch_names()));
   app.add_flag("--force", options.request.force, "build anew even if the file is up to date");
   app.add_flag("--quiet", options.quiet, "no progress and no messages");
   try {
@@ -64,10 +120,8 @@ BuildOptions parse_build_options(int argc, char** argv) {
   }
   options.json = format == "json";
   options.request.fields = fields == "all" ? KeepField::yes : KeepField::no;
-  DynamicSettings motion;
-  if (integrator == "explicit") motion.integrator = Integrator::central_differences;
-  options.solver = solver == "dynamic" ? dynamic(motion) : quasi_static();
-  options.request.mirror = no_mirror ? UseMirror::no : UseMirror::yes;
+  for (const std::string& name : without) kSwitchedOff.at(name)(options);
+  options.solver = chosen_solver(solver, options.motion);
   return options;
 }
 

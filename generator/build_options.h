@@ -10,6 +10,7 @@ namespace voussoir {
 struct BuildOptions {
   std::optional<std::filesystem::path> bridge;  ///< nothing: the reference bridge
   BuildRequest request;                         ///< all but the bridge
+  DynamicSettings motion;                       ///< of scenes in motion
   SolverChoice solver;
   bool quiet = false;
   bool json = false;

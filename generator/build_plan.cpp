@@ -17,27 +17,28 @@ int stage_of(const Scene& scene) {
 }
 
 /// The scenes that need a record and have none: those wanted that are unknown and what they start from.
-std::set<Scene> missing_records(const std::vector<Scene>& wanted, const Bridge& bridge, UseMirror mirror,
-                                const std::function<bool(const Scene&)>& is_known) {
+std::set<Scene> missing_records(const std::vector<Scene>& wanted, const Bridge& bridge,
+                                const PlanRules& rules, const std::function<bool(const Scene&)>& is_known) {
   std::set<Scene> missing;
   for (auto scene = wanted.rbegin(); scene != wanted.rend(); ++scene)
     if (!is_known(*scene)) missing.insert(*scene);
   for (int pass = 1; pass < kStages; ++pass)  // pairs start from singles, singles from the intact bridge
     for (const Scene& scene : std::vector<Scene>(missing.begin(), missing.end()))
-      for (const Scene& start : starting_scenes(representative(scene, bridge, mirror)))
+      for (const Scene& start : starting_scenes(representative(scene, bridge, rules), rules))
         if (!is_known(start)) missing.insert(start);
   return missing;
 }
 
 }  // namespace
 
-Scene representative(const Scene& scene, const Bridge& bridge, UseMirror mirror) {
-  const bool mirrors = mirror == UseMirror::yes && bridge.symmetry;
+Scene representative(const Scene& scene, const Bridge& bridge, const PlanRules& rules) {
+  const bool mirrors = rules.mirror_images && bridge.symmetry;
   return mirrors ? std::min(scene, mirrored(scene, *bridge.symmetry)) : scene;
 }
 
-std::vector<Scene> starting_scenes(const Scene& solved) {
+std::vector<Scene> starting_scenes(const Scene& solved, const PlanRules& rules) {
   std::vector<Scene> scenes;
+  if (!rules.warm_starts) return scenes;
   if (!solved.removed.empty()) scenes.push_back(Scene{});
   if (solved.missing() > 1)
     for (const BlockId block : solved.removed) scenes.push_back(Scene{{block}});
@@ -51,11 +52,11 @@ std::size_t BuildPlan::records() const {
   return count;
 }
 
-BuildPlan plan_build(const std::vector<Scene>& wanted, const Bridge& bridge, UseMirror mirror,
+BuildPlan plan_build(const std::vector<Scene>& wanted, const Bridge& bridge, const PlanRules& rules,
                      const std::function<bool(const Scene&)>& is_known) {
   std::map<Scene, SolvingTask> tasks;
-  for (const Scene& scene : missing_records(wanted, bridge, mirror, is_known)) {
-    const Scene solved = representative(scene, bridge, mirror);
+  for (const Scene& scene : missing_records(wanted, bridge, rules, is_known)) {
+    const Scene solved = representative(scene, bridge, rules);
     SolvingTask& task = tasks[solved];
     task.solved = solved;
     if (scene == solved)

@@ -23,20 +23,24 @@ struct BuildPlan {
   std::size_t records() const;  ///< that the tasks of all stages give
 };
 
-enum class UseMirror { no, yes };
+/// What a build makes use of so that it solves less and starts nearer.
+struct PlanRules {
+  bool mirror_images = true;  ///< of a scene and its mirror image one is solved
+  bool warm_starts = true;    ///< searches start from the fields of intact and singles
+};
 
 /// The scene that is solved to answer for this one: the lexicographically smaller of the scene and its mirror
 /// image, or the scene itself if mirror images are not used or the bridge has no symmetry.
-Scene representative(const Scene& scene, const Bridge& bridge, UseMirror mirror);
+Scene representative(const Scene& scene, const Bridge& bridge, const PlanRules& rules);
 
 /// The scenes whose fields the solving of this one starts from (see StartingFields).
-std::vector<Scene> starting_scenes(const Scene& solved);
+std::vector<Scene> starting_scenes(const Scene& solved, const PlanRules& rules);
 
 /// A task for every wanted scene and for the intact bridge and the singles that wanted scenes start from,
 /// except for scenes that `is_known` already. With a mirror symmetry the lexicographically smaller of a scene
 /// and its image is solved, whatever scenes are wanted, so that a scene's record does not depend on the rest
 /// of the list.
-BuildPlan plan_build(const std::vector<Scene>& wanted, const Bridge& bridge, UseMirror mirror,
+BuildPlan plan_build(const std::vector<Scene>& wanted, const Bridge& bridge, const PlanRules& rules,
                      const std::function<bool(const Scene&)>& is_known);
 
 }  // namespace voussoir

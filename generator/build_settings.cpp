@@ -7,19 +7,23 @@
 namespace voussoir {
 namespace {
 
-constexpr const char* kMirrorUsed = "mirror_images = used\n";
-constexpr const char* kMirrorNotUsed = "mirror_images = not used\n";
+constexpr const char* kMirrorImages = "mirror_images";
+constexpr const char* kWarmStarts = "warm_starts";
+
+std::string line(const char* rule, bool used) {
+  return fmt::format("{} = {}\n", rule, used ? "used" : "not used");
+}
 
 }  // namespace
 
-std::string build_settings(const SolverChoice& solver, const Bridge& bridge, UseMirror mirror) {
-  const bool used = mirror == UseMirror::yes && bridge.symmetry.has_value();
-  return solver.settings + (used ? kMirrorUsed : kMirrorNotUsed) +
-         fmt::format("storage_step_m = {}\n", kStorageStep);
+std::string build_settings(const SolverChoice& solver, const Bridge& bridge, const PlanRules& rules) {
+  return solver.settings + line(kMirrorImages, rules.mirror_images && bridge.symmetry.has_value()) +
+         line(kWarmStarts, rules.warm_starts) + fmt::format("storage_step_m = {}\n", kStorageStep);
 }
 
-UseMirror mirror_use_in(const std::string& settings) {
-  return settings.find(kMirrorUsed) == std::string::npos ? UseMirror::no : UseMirror::yes;
+PlanRules rules_in(const std::string& settings) {
+  const auto used = [&](const char* rule) { return settings.find(line(rule, true)) != std::string::npos; };
+  return {.mirror_images = used(kMirrorImages), .warm_starts = used(kWarmStarts)};
 }
 
 }  // namespace voussoir

@@ -9,9 +9,9 @@
 namespace voussoir {
 
 /// "key = value" lines: everything beside the bridge that a database's content depends on.
-std::string build_settings(const SolverChoice& solver, const Bridge& bridge, UseMirror mirror);
+std::string build_settings(const SolverChoice& solver, const Bridge& bridge, const PlanRules& rules);
 
-/// What build_settings says about mirror images.
-UseMirror mirror_use_in(const std::string& settings);
+/// The rules that build_settings states.
+PlanRules rules_in(const std::string& settings);
 
 }  // namespace voussoir

@@ -51,15 +51,7 @@ ExistingDatabase examine_existing(const std::filesystem::path& output, const Pro
 }
 
 void summarise_existing(const Database& database, BuildSummary& summary) {
-  summary.scenes = database.table().rows;
-  for (std::size_t row = 0; row < summary.scenes; ++row) {
-    const Outcome outcome = static_cast<Outcome>(database.table().outcome[row]);
-    if (outcome == Outcome::standing) ++summary.standing;
-    if (outcome == Outcome::collapsed) ++summary.collapsed;
-    if (outcome == Outcome::unresolved)
-      summary.unresolved.push_back(
-          {to_string(database.table().scene(row), database.layout()), database.residual(row)});
-  }
+  summary.outcomes = count_outcomes(database);
   summary.bytes = std::filesystem::file_size(database.path());
   summary.digest = database.digest();
 }

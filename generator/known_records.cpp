@@ -33,10 +33,9 @@ std::optional<Record> KnownRecords::adopted(const Scene& scene) const {
     const Record record = old_->record(*row);
     const auto field = unpack_field(record.packed_field, bridge_->mesh.node_count());
     if (!field || scene_checksum(record, numbers_of(*field)) != record.checksum) return std::nullopt;
-    const Solution solution{record.outcome, *field, record.residual, record.iterations};
     if (fields_ == KeepField::yes && has_control_points_of(record, *field)) return record;
     const KeepField keep = starts_others(scene) ? KeepField::yes : fields_;
-    return make_record(scene, solution, bridge_->control_points, keep, fields_);
+    return make_record(scene, solution_of(record, *field), bridge_->control_points, keep, fields_);
   } catch (const InputError&) {  // a chunk that cannot be read
     return std::nullopt;
   }
@@ -60,7 +59,7 @@ Solution KnownRecords::read_solution(const Scene& scene) const {
   const Record record = read(scene);
   const auto field = unpack_field(record.packed_field, bridge_->mesh.node_count());
   if (!field) throw Failure(fmt::format("{}: holds a damaged field; delete it", journal_.path().string()));
-  return {record.outcome, *field, record.residual, record.iterations};
+  return solution_of(record, *field);
 }
 
 }  // namespace voussoir

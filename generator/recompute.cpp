@@ -31,14 +31,14 @@ std::vector<std::size_t> choose_rows(std::size_t rows, std::size_t count, std::u
   return chosen;
 }
 
-Solution recompute(const Scene& scene, const Database& database, const Bridge& bridge, UseMirror mirror,
+Solution recompute(const Scene& scene, const Database& database, const Bridge& bridge, const PlanRules& rules,
                    const SceneSolver& solver) {
-  const Scene solved = representative(scene, bridge, mirror);
+  const Scene solved = representative(scene, bridge, rules);
   StartingFields starts;
-  for (const Scene& start : starting_scenes(solved)) {
+  for (const Scene& start : starting_scenes(solved, rules)) {
     const auto row = database.has_fields() ? database.find(start) : std::nullopt;
     const Solution solution =
-        row ? database.solution(*row) : recompute(start, database, bridge, mirror, solver);
+        row ? database.solution(*row) : recompute(start, database, bridge, rules, solver);
     starts.add(start, solution.outcome, solution.displacement);
   }
   const auto start = starts.start_for(solved);

@@ -23,6 +23,7 @@ class Examination {
       check_variant();
       const auto field = take_field(record);
       check_checksum(record, field);
+      check_collapse(record);
       if (field) check_field(record, *field);
     } catch (const InputError& error) {
       report(error.what());
@@ -58,6 +59,11 @@ class Examination {
       report("its data do not have the stored checksum");
   }
 
+  void check_collapse(const Record& record) {
+    if (record.extent != collapse_extent(checked_.bridge.layout, record.moving))
+      report("its kind of collapse is not that of the blocks that move");
+  }
+
   void check_field(const Record& record, const Field& field) {
     check_.field_checked = true;
     check_presence(field);
@@ -91,7 +97,7 @@ class Examination {
     const Field clean = field.array().isNaN().select(0.0, field);
     const auto removed = removal_mask(scene_, checked_.bridge.layout.size());
     check_.unbalance = unbalanced_forces(checked_.system, removed, clean).cwiseAbs().maxCoeff() /
-                       checked_.system.largest_weight;
+                       checked_.system.largest_load;
     if (!(check_.unbalance <= checked_.most_unbalance))
       report(fmt::format("stands, but its field is out of equilibrium by {:.1e} of the largest nodal weight",
                          check_.unbalance));
@@ -107,6 +113,8 @@ class Examination {
     const std::string name = to_string(image, checked_.bridge.layout);
     if (other.outcome != record.outcome) report(fmt::format("its mirror image {} has another outcome", name));
     if (record.outcome != Outcome::standing && !checked_.mirror_images_used) return;
+    if (other.moving != mirrored(record.moving, *checked_.bridge.symmetry))
+      report(fmt::format("its mirror image {} has other moving blocks", name));
     const Field expected = mirrored(field, *checked_.bridge.symmetry);
     const double difference = (other.displacement - expected)
                                   .array()
@@ -138,7 +146,7 @@ double most_stored_unbalance(const EquilibriumSystem& system, std::string_view s
   assemble(system, none_removed, zero, kBonded, {tangent.valuePtr()});
   const Eigen::VectorXd row_sums = tangent.cwiseAbs() * Eigen::VectorXd::Ones(tangent.cols());
   return QuasiStaticSettings{}.loose_tolerance +
-         0.5 * kStorageStep * row_sums.maxCoeff() / system.largest_weight;
+         0.5 * kStorageStep * row_sums.maxCoeff() / system.largest_load;
 }
 
 SceneCheck check_scene(const CheckedDatabase& checked, std::size_t row) {

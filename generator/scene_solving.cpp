@@ -13,6 +13,7 @@ std::vector<Solution> solve_for_storage(const SceneSolver& solver, std::span<con
 Solution mirrored_solution(const Solution& solution, const MirrorSymmetry& symmetry) {
   Solution image = solution;
   image.displacement = to_storage_precision(mirrored(solution.displacement, symmetry));
+  image.moving = mirrored(solution.moving, symmetry);
   return image;
 }
 

@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 
+#include <charconv>
 #include <memory>
+#include <sstream>
 
 #include "core/combined_solver.h"
 #include "core/error.h"
@@ -13,7 +15,8 @@ namespace {
 
 std::string settings_text(const QuasiStaticSettings& settings) {
   const auto& [tolerance, round_off, loose_tolerance, most_warm_iterations, most_iterations,
-               most_falling_iterations, follow_falls, collapse_displacement] = settings;
+               most_falling_iterations, follow_falls, collapse_displacement, skips] = settings;
+  static_cast<void>(skips);  // stated with the motion's settings, which every solver has
   return fmt::format(
       "tolerance = {}\nround_off = {}\nloose_tolerance = {}\nmost_warm_iterations = {}\nmost_iterations = "
       "{}\n"
@@ -29,7 +32,8 @@ std::string or_automatic(const std::optional<double>& value) {
 std::string settings_text(const DynamicSettings& settings) {
   const auto& [integrator, step, ramp, damping, contact_damping, moment, earliest_decision, latest_decision,
                standing_unbalance, collapsing_unbalance, plain_unbalance, largest_standing_unbalance,
-               moving_sags, side_by_side] = settings;
+               moving_sags, skips, side_by_side] = settings;
+  static_cast<void>(side_by_side);  // like the other skips, it does not change the answer
   std::string text = fmt::format(
       "integrator = {}\nstep_s = {}\nramp_s = {}\ndamping_per_s = {}\ncontact_damping_s = {}\nmoment_s = "
       "{}\n",
@@ -39,7 +43,36 @@ std::string settings_text(const DynamicSettings& settings) {
                       earliest_decision, latest_decision, standing_unbalance);
   text += fmt::format("collapsing_unbalance = {}\nplain_unbalance = {}\nlargest_standing_unbalance = {}\n",
                       collapsing_unbalance, plain_unbalance, largest_standing_unbalance);
-  return text + fmt::format("moving_sags = {}\n", moving_sags);  // lanes do not change the answer
+  return text + fmt::format("moving_sags = {}\nearly_outcome = {}\n", moving_sags,
+                            skips.early_outcome ? "used" : "not used");
+}
+
+/// The value of a "key = value" line; empty if there is none.
+std::string value_of(std::string_view settings, const std::string& key) {
+  std::istringstream lines{std::string(settings)};
+  for (std::string line; std::getline(lines, line);)
+    if (line.starts_with(key + " = ")) return line.substr(key.size() + 3);
+  return {};
+}
+
+/// What parse_build_options can change of the motion, read back from its settings_text.
+DynamicSettings motion_in(std::string_view settings) {
+  const auto number = [&](const char* key, double& value) {
+    const std::string text = value_of(settings, key);
+    std::from_chars(text.data(), text.data() + text.size(), value);
+  };
+  const auto optional_number = [&](const char* key, std::optional<double>& value) {
+    if (value_of(settings, key) != "automatic") number(key, value.emplace());
+  };
+  DynamicSettings motion;
+  if (value_of(settings, "integrator") == "explicit") motion.integrator = Integrator::central_differences;
+  optional_number("step_s", motion.step);
+  number("ramp_s", motion.ramp);
+  optional_number("damping_per_s", motion.damping);
+  number("latest_decision_s", motion.latest_decision);
+  number("standing_unbalance", motion.standing_unbalance);
+  motion.skips.early_outcome = value_of(settings, "early_outcome") == "used";
+  return motion;
 }
 
 constexpr const char* kQuasiStatic = "solver = quasi-static\n";
@@ -70,9 +103,10 @@ SolverChoice dynamic(const DynamicSettings& motion) {
 }
 
 SolverChoice solver_with(std::string_view settings) {
-  DynamicSettings plain;
-  plain.integrator = Integrator::central_differences;
-  for (SolverChoice choice : {quasi_static(), dynamic(), dynamic(plain)})
+  const DynamicSettings motion = motion_in(settings);
+  QuasiStaticSettings newton;
+  newton.skips = motion.skips;
+  for (SolverChoice choice : {quasi_static(newton, motion), dynamic(motion)})
     if (settings.starts_with(choice.settings)) return choice;
   throw Failure("the database was built with solver settings that this program does not have");
 }

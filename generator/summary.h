@@ -10,9 +10,8 @@ namespace voussoir {
 /// A few lines for people; at most twenty of the unresolved scenes are listed.
 std::string to_text(const BuildSummary& summary);
 
-/// One line of JSON for programs: {"ok": true, "file", "up_to_date", "scenes", "standing", "collapsed",
-/// "unresolved", "unresolved_scenes": [{"scene", "residual"}], "computed", "resumed", "reused", "changes",
-/// "seconds", "bytes", "digest"}.
+/// One line of JSON for programs: {"ok": true, "file", "up_to_date", what OutcomeCounts has, "computed",
+/// "resumed", "reused", "changes", "seconds", "bytes", "digest"}.
 std::string to_json(const BuildSummary& summary);
 
 }  // namespace voussoir

@@ -52,16 +52,6 @@ void check_geometry(const Database& database, const Bridge& stored, VerifyReport
   check_digest(database, expected, report);
 }
 
-void count_outcomes(const Database& database, VerifyReport& report) {
-  report.digest = database.digest();
-  report.scenes = database.table().rows;
-  for (const std::uint8_t outcome : database.table().outcome) {
-    if (outcome == static_cast<std::uint8_t>(Outcome::standing)) ++report.standing;
-    if (outcome == static_cast<std::uint8_t>(Outcome::collapsed)) ++report.collapsed;
-    if (outcome == static_cast<std::uint8_t>(Outcome::unresolved)) ++report.unresolved;
-  }
-}
-
 void check_scenes(const CheckedDatabase& checked, int threads, VerifyReport& report) {
   std::vector<SceneCheck> checks(checked.database.table().rows);
   in_parallel(checks.size(), threads, [&](std::size_t row) { checks[row] = check_scene(checked, row); });
@@ -81,8 +71,8 @@ struct Recomputed {
 Recomputed recompute_row(const Database& database, const Bridge& bridge, std::size_t row,
                          const SceneSolver& solver) {
   const Scene scene = database.table().scene(row);
-  const UseMirror mirror = mirror_use_in(database.provenance().solver_settings);
-  const Solution solution = recompute(scene, database, bridge, mirror, solver);
+  const PlanRules rules = rules_in(database.provenance().solver_settings);
+  const Solution solution = recompute(scene, database, bridge, rules, solver);
   const auto stored = static_cast<Outcome>(database.table().outcome[row]);
   const std::string name = to_string(scene, bridge.layout);
   if (solution.outcome != stored)
@@ -111,11 +101,12 @@ void check_recomputed(const VerifyRequest& request, const Database& database, co
 
 void check_content(const VerifyRequest& request, VerifyReport& report) {
   const Database database = Database::open(request.database);
-  count_outcomes(database, report);
+  report.digest = database.digest();
+  report.outcomes = count_outcomes(database);
   const Bridge bridge = bridge_of(database);
   check_geometry(database, bridge, report);
   const EquilibriumSystem system(bridge);
-  const bool mirrors = mirror_use_in(database.provenance().solver_settings) == UseMirror::yes;
+  const bool mirrors = rules_in(database.provenance().solver_settings).mirror_images;
   report.most_unbalance = most_stored_unbalance(system, database.provenance().solver_settings);
   check_scenes({database, bridge, system, report.most_unbalance, mirrors}, request.threads, report);
   if (request.recompute > 0) check_recomputed(request, database, bridge, report);

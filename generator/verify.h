@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "generator/outcome_counts.h"
 #include "generator/scene_solving.h"
 
 namespace voussoir {
@@ -23,10 +24,7 @@ struct VerifyRequest {
 
 struct VerifyReport {
   std::string digest;  ///< as the file states it
-  std::size_t scenes = 0;
-  std::size_t standing = 0;
-  std::size_t collapsed = 0;
-  std::size_t unresolved = 0;
+  OutcomeCounts outcomes;
   std::size_t fields = 0;          ///< stored fields that were checked
   double largest_unbalance = 0.0;  ///< of the standing scenes' stored fields, over the largest nodal weight
   double most_unbalance = 0.0;     ///< that rounding and the solver's tolerance explain
@@ -48,7 +46,7 @@ VerifyReport verify_database(const VerifyRequest& request);
 /// Lines for people; at most twenty problems.
 std::string to_text(const VerifyReport& report, const std::filesystem::path& database);
 
-/// One line: {"ok", "digest", "scenes", "standing", "collapsed", "unresolved", "fields", "largest_unbalance",
+/// One line: {"ok", "digest", what OutcomeCounts has, "fields", "largest_unbalance",
 /// "most_unbalance", "mirror_pairs", "recomputed", "largest_recomputed_difference_m", "problems"}.
 std::string to_json(const VerifyReport& report);
 

@@ -23,34 +23,28 @@ std::string problem_text(const std::vector<std::string>& problems) {
 std::string to_text(const VerifyReport& report, const std::filesystem::path& database) {
   std::string text =
       fmt::format("{}: {}\n", database.string(), report.ok() ? "whole and consistent" : "NOT in order");
-  text += fmt::format("  digest       {}\n", report.digest);
-  text += fmt::format("  scenes       {} ({} standing, {} collapsed, {} unresolved)\n", report.scenes,
-                      report.standing, report.collapsed, report.unresolved);
+  text += fmt::format("  digest      {}\n", report.digest);
+  text += fmt::format("  scenes      {}\n", report.outcomes.scenes) + to_text(report.outcomes);
   text += fmt::format(
-      "  fields       {} checked, largest unbalanced force {:.1e} of a weight (up to {:.1e} is round-off)\n",
+      "  fields      {} checked, largest unbalanced force {:.1e} of a weight (up to {:.1e} is round-off)\n",
       report.fields, report.largest_unbalance, report.most_unbalance);
-  text += fmt::format("  mirror pairs {} compared\n", report.mirror_pairs);
+  text += fmt::format("  mirrored    {} pairs compared\n", report.mirror_pairs);
   if (report.recomputed > 0)
-    text += fmt::format("  recomputed   {} scenes, largest difference {:.1e} m\n", report.recomputed,
+    text += fmt::format("  recomputed  {} scenes, largest difference {:.1e} m\n", report.recomputed,
                         report.largest_recomputed_difference);
   return text + problem_text(report.problems);
 }
 
 std::string to_json(const VerifyReport& report) {
-  const nlohmann::ordered_json json = {
-      {"ok", report.ok()},
-      {"digest", report.digest},
-      {"scenes", report.scenes},
-      {"standing", report.standing},
-      {"collapsed", report.collapsed},
-      {"unresolved", report.unresolved},
-      {"fields", report.fields},
-      {"largest_unbalance", report.largest_unbalance},
-      {"most_unbalance", report.most_unbalance},
-      {"mirror_pairs", report.mirror_pairs},
-      {"recomputed", report.recomputed},
-      {"largest_recomputed_difference_m", report.largest_recomputed_difference},
-      {"problems", report.problems}};
+  nlohmann::ordered_json json = {{"ok", report.ok()}, {"digest", report.digest}};
+  json.update(to_json(report.outcomes));
+  json.update({{"fields", report.fields},
+               {"largest_unbalance", report.largest_unbalance},
+               {"most_unbalance", report.most_unbalance},
+               {"mirror_pairs", report.mirror_pairs},
+               {"recomputed", report.recomputed},
+               {"largest_recomputed_difference_m", report.largest_recomputed_difference},
+               {"problems", report.problems}});
   return json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 

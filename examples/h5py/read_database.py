@@ -15,7 +15,8 @@ import sys
 import h5py
 import numpy
 
-STANDING = 0
+STANDING = 0     # scenes/outcome
+LOCAL, ARCH = 1, 2  # scenes/collapse
 
 # What the content digest covers, in its order (scenes/checksum stands for all that is kept of the scenes).
 DIGEST_ORDER = [
@@ -50,6 +51,8 @@ def scene_checksum(file, row):
     digest.update(struct.pack("<ii", file["scenes/variant"][row], len(removed)) + removed.astype("<i4").tobytes())
     digest.update(struct.pack("<Bdi", file["scenes/outcome"][row], file["scenes/residual"][row],
                               file["scenes/iterations"][row]))
+    moving = numpy.flatnonzero(file["scenes/moving"][row])
+    digest.update(struct.pack("<Bi", file["scenes/collapse"][row], len(moving)) + moving.astype("<i4").tobytes())
     digest.update(file["control/vertical_displacement"][row].tobytes())
     if "fields" in file:
         digest.update(file["fields/displacement"][row].tobytes())
@@ -84,6 +87,8 @@ def main(path):
         wrong = [row for row in range(rows) if (scene_checksum(file, row) != file["scenes/checksum"][row]).any()]
         digest_right = content_digest(file) == file.attrs["content_digest"].decode()
         print(f"checksums: {rows - len(wrong)} of {rows} right; content digest {'right' if digest_right else 'WRONG'}")
+        extent = file["scenes/collapse"][...]
+        print(f"collapses: {numpy.sum(extent == ARCH)} of the arch, {numpy.sum(extent == LOCAL)} of wall blocks only")
         print("largest change of a vertical displacement when one block is missing:")
         for change, scene, point in largest_changes(file, 5):
             print(f"  {scene:>6}  {1000 * change:8.4f} mm at {point}")

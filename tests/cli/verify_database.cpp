@@ -23,7 +23,11 @@ std::filesystem::path build_small(const test::TemporaryFolder& folder,
 
 TEST_CASE("verify-database finds nothing wrong with a fresh database and scenes solved anew are the same") {
   for (const std::vector<std::string>& more : std::vector<std::vector<std::string>>{
-           {}, {"--fields", "none"}, {"--no-mirror"}, {"--solver", "dynamic"}}) {
+           {},
+           {"--fields", "none"},
+           {"--without", "mirror-images,warm-starts"},
+           {"--solver", "dynamic"},
+           {"--solver", "dynamic", "--ramp", "0.2", "--damping", "30.5", "--step", "2e-4"}}) {
     const test::TemporaryFolder folder;
     const auto path = build_small(folder, more);
     const ProgramResult result =

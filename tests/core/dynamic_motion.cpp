@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
@@ -7,22 +6,14 @@
 #include "core/bridge.h"
 #include "core/critical_step.h"
 #include "core/motion_step.h"
+#include "tools/validation/assemblies.h"
 
 namespace voussoir {
 namespace {
 
 using One = Lanes<1>;
-
-/// A course of blocks of 1 m x 0.5 m that nothing holds and nothing pulls.
-Bridge floating_course(int blocks, double friction_angle) {
-  BridgeDescription description;
-  description.wall = {.length = static_cast<double>(blocks), .courses = 1, .bond = Bond::stack};
-  description.spans.clear();
-  description.supports = {.base = Support::free, .sides = Support::free};
-  description.joints.friction_angle = friction_angle;
-  description.gravity = 0.0;
-  return make_bridge(description);
-}
+using validation::block_on_wedge;
+using validation::floating_course;
 
 void run(const MotionModel& model, int steps, Motion<One>& motion) {
   for (int i = 0; i < steps; ++i) {
@@ -67,53 +58,6 @@ Motion<One> collision(const MotionModel& model) {
   motion.frames[1].velocity = {-0.5, -0.2};
   motion.frames[1].spin = -1.0;
   return motion;
-}
-
-/// A block of 1 m x 0.5 m on the upper side of a wedge of this slope.
-Bridge block_on_wedge(double slope, double friction_angle) {
-  constexpr double kLength = 6.0;
-  const Point along(-std::cos(slope), std::sin(slope));
-  const Point up(std::sin(slope), std::cos(slope));
-  const Point foot(kLength, 0.0);
-  const Point corner = foot + 4.0 * along;
-  BridgeDescription description;
-  description.wall.length = kLength;
-  description.joints.friction_angle = friction_angle;
-  description.supports.sides = Support::free;
-  Bridge bridge{.description = description,
-                .layout = {},
-                .mesh = {},
-                .joints = {},
-                .control_points = {},
-                .symmetry = {}};
-  Block wedge;
-  wedge.index = {1, 1};
-  wedge.polygon = {Point(0.0, 0.0), foot, Point(0.0, kLength * std::tan(slope))};
-  Block block;
-  block.index = {1, 2};
-  block.polygon = {corner, corner + 0.5 * up, corner + along + 0.5 * up, corner + along};
-  bridge.layout.blocks = {wedge, block};
-  bridge.mesh = make_mesh(bridge.layout, description.mesh, 0.5 * kLength);
-  bridge.joints = find_joints(bridge.mesh, description.joint_tolerance);
-  return bridge;
-}
-
-/// Speed down the slope [m/s] at two moments after gravity has come over 0.1 s.
-std::array<double, 2> speeds_on_wedge(double slope, double friction_angle) {
-  const Bridge bridge = block_on_wedge(slope, friction_angle);
-  REQUIRE(bridge.joints.size() >= 1);
-  const MotionModel model(bridge, 2e-4, 0.0, 1e-4);
-  Motion<One> motion = at_rest<One>(model);
-  std::array<double, 2> speeds{};
-  for (int i = 1; i <= 2000; ++i) {
-    motion.load = std::min(1.0, i / 500.0);
-    run(model, 1, motion);
-    const Pair<One>& v = motion.frames[1].velocity;
-    if (i == 1000) speeds[0] = v.x * std::cos(slope) - v.y * std::sin(slope);
-  }
-  const Pair<One>& v = motion.frames[1].velocity;
-  speeds[1] = v.x * std::cos(slope) - v.y * std::sin(slope);
-  return speeds;
 }
 
 constexpr double kThirtyFive = 35.0 * std::numbers::pi / 180.0;
@@ -192,19 +136,13 @@ TEST_CASE("Friction and damping never add energy to colliding blocks (second law
   }
 }
 
-TEST_CASE("A block on a slope below the friction angle stays (closed form)") {
-  const std::array<double, 2> speeds = speeds_on_wedge(30.0 * std::numbers::pi / 180.0, kThirtyFive);
-  CHECK(std::abs(speeds[1]) < 2e-2);
-}
-
-TEST_CASE("A block on a slope above the friction angle slides with g (sin a - mu cos a) (closed form)") {
-  for (const double degrees : {20.0, 30.0}) {
-    const double slope = degrees * std::numbers::pi / 180.0;
-    const double mu = 0.2;
-    const std::array<double, 2> speeds = speeds_on_wedge(slope, std::atan(mu));
-    const double expected = 9.81 * (std::sin(slope) - mu * std::cos(slope));
-    CHECK((speeds[1] - speeds[0]) / 0.2 == Approx(expected).epsilon(0.01));
-  }
+TEST_CASE("A block's moment of inertia is that of its area, whatever its triangles (closed form)") {
+  const Bridge coarse = floating_course(1, kThirtyFive);
+  BridgeDescription description = coarse.description;
+  description.mesh.refinement = 2;
+  const double expected = 0.5 * 2400.0 * (1.0 + 0.25) / 12.0;  // m (b^2 + h^2) / 12
+  CHECK(make_block_bodies(coarse)[0].inertia == Approx(expected).epsilon(1e-12));
+  CHECK(make_block_bodies(make_bridge(description))[0].inertia == Approx(expected).epsilon(1e-12));
 }
 
 TEST_CASE("The shear of contacts survives a new search (the same run without searches)") {

@@ -23,29 +23,7 @@ Eigen::VectorXd control_displacements(const Bridge& bridge, QuasiStaticSolver& s
   return d.array().isNaN().select(0.0, d);
 }
 
-/// A column of blocks on a clamped base, so stiff that only the joints give way.
-Bridge column(int courses) {
-  BridgeDescription description;
-  description.spans.clear();
-  description.wall = {
-      .length = 1.0, .courses = courses, .course_height = 0.5, .block_length = 1.0, .bond = Bond::stack};
-  description.supports.sides = Support::free;
-  description.control_points.arch = false;
-  description.material.young_modulus = 1e16;
-  return make_bridge(description);
-}
-
 }  // namespace
-
-TEST_CASE("A column settles by the weight above each joint over the joint's stiffness", "[solver]") {
-  const int courses = 6;
-  const Bridge bridge = column(courses);
-  const Solution solution = QuasiStaticSolver(bridge).solve(Scene{});
-  REQUIRE(solution.outcome == Outcome::standing);
-  double settlement = 0.0;  // joint r carries the courses above it: closed form
-  for (int joint = 1; joint < courses; ++joint) settlement += (courses - joint) * 0.5 * 2400.0 * 9.81 / 1e9;
-  CHECK(solution.displacement(1, value(bridge.control_points[0].node)) == Approx(-settlement).epsilon(1e-5));
-}
 
 TEST_CASE("The intact reference bridge has the published displacements within half a per cent", "[solver]") {
   const Bridge bridge = test::reference_bridge();

@@ -254,7 +254,7 @@ TEST_CASE("Another schema version is refused with both versions") {
     const std::int32_t later = 7;
     H5Awrite(version.get(), H5T_STD_I32LE, &later);
   }
-  CHECK_THAT(forged.refusal(), Catch::Contains("schema version 7 where 1 was expected"));
+  CHECK_THAT(forged.refusal(), Catch::Contains("schema version 7 where 2 was expected"));
 }
 
 TEST_CASE("Indices that point outside of their tables are refused") {

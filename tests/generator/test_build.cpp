@@ -49,12 +49,13 @@ std::string text_of(const std::filesystem::path& path) {
 TEST_CASE("A build holds all scenes and leaves nothing but the database behind") {
   const Site site;
   const BuildSummary summary = site.build();
-  CHECK(summary.scenes == 1 + 38 + 38 * 37 / 2);
-  CHECK(summary.standing + summary.collapsed + summary.unresolved.size() == summary.scenes);
-  CHECK(summary.computed == summary.scenes);
+  CHECK(summary.outcomes.scenes == 1 + 38 + 38 * 37 / 2);
+  const OutcomeCounts& outcomes = summary.outcomes;
+  CHECK(outcomes.standing + outcomes.collapsed + outcomes.unresolved.size() == outcomes.scenes);
+  CHECK(summary.computed == summary.outcomes.scenes);
   CHECK(std::distance(std::filesystem::directory_iterator(site.folder.path()), {}) == 1);
   CHECK(site.open().digest() == summary.digest);
-  CHECK(site.open().table().rows == summary.scenes);
+  CHECK(site.open().table().rows == summary.outcomes.scenes);
 }
 
 TEST_CASE("The digest is the same for 1, 2 and 5 threads") {
@@ -71,7 +72,7 @@ TEST_CASE("A build interrupted at any scene goes on where it stopped and ends wi
     REQUIRE_THROWS_AS(site.build(test::failing_solver(scenes)), Failure);
     CHECK_FALSE(std::filesystem::exists(site.request.output));
     const BuildSummary summary = site.build();
-    CHECK(summary.resumed + summary.computed == summary.scenes);
+    CHECK(summary.resumed + summary.computed == summary.outcomes.scenes);
     CHECK(summary.resumed + 2 * 2 * kLargestBatch >= static_cast<std::size_t>(scenes));
     CHECK(summary.digest == digest_of_reference());
   }
@@ -105,7 +106,7 @@ TEST_CASE("Mirror images are recorded with mirrored fields, bit by bit") {
 
 TEST_CASE("Without mirror images every scene is solved and the digest says so") {
   Site site;
-  site.request.mirror = UseMirror::no;
+  site.request.rules.mirror_images = false;
   CHECK(site.build().digest != digest_of_reference());
   const Database database = site.open();
   const Bridge bridge = make_bridge(site.request.bridge.description);
@@ -166,7 +167,7 @@ TEST_CASE("Forced, a build computes everything anew") {
   site.build();
   site.request.force = true;
   const BuildSummary summary = site.build();
-  CHECK(summary.computed == summary.scenes);
+  CHECK(summary.computed == summary.outcomes.scenes);
   CHECK(summary.reused == 0);
   CHECK(summary.digest == digest_of_reference());
 }
@@ -177,7 +178,7 @@ TEST_CASE("When only remarks of the bridge file change every record is kept and 
   site.request.bridge.text += "# a remark\n";
   const BuildSummary summary = site.build(test::failing_solver(1));
   CHECK(summary.changes == std::vector<std::string>{"the bridge file"});
-  CHECK(summary.reused == summary.scenes);
+  CHECK(summary.reused == summary.outcomes.scenes);
   CHECK(summary.computed == 0);
   CHECK(site.open().bridge_text() == site.request.bridge.text);
   CHECK(summary.digest != digest_of_reference());
@@ -200,7 +201,7 @@ TEST_CASE("When the material changes everything is computed anew") {
   site.request.bridge.description.material.density = 2500.0;
   site.request.bridge.text += "[material]\ndensity_kg_m3 = 2500\n";
   const BuildSummary summary = site.build();
-  CHECK(summary.computed == summary.scenes);
+  CHECK(summary.computed == summary.outcomes.scenes);
   CHECK(summary.reused == 0);
 }
 
@@ -211,7 +212,7 @@ TEST_CASE("When the list of scenes grows only new scenes are computed") {
   site.request.scenes = "all";
   const BuildSummary summary = site.build();
   CHECK(summary.reused == 39);
-  CHECK(summary.computed == summary.scenes - 39);
+  CHECK(summary.computed == summary.outcomes.scenes - 39);
   CHECK(summary.digest == digest_of_reference());
 }
 
@@ -256,7 +257,7 @@ TEST_CASE("An interrupted build of another bridge is not mixed in") {
   site.request.bridge.text += "[material]\ndensity_kg_m3 = 2500\n";
   const BuildSummary summary = site.build();
   CHECK(summary.resumed == 0);
-  CHECK(summary.computed == summary.scenes);
+  CHECK(summary.computed == summary.outcomes.scenes);
 }
 
 TEST_CASE("A second builder of the same file is told that there is one already") {

@@ -72,7 +72,7 @@ std::vector<Stretch> scene_stretches(const Database& database, const std::string
   const std::size_t rows = database.table().rows;
   for (const char* path :
        {dataset::kVertical, dataset::kVariant, dataset::kRemoved, dataset::kOutcome, dataset::kResidual,
-        dataset::kIterations, dataset::kChecksum, dataset::kChunkCrc}) {
+        dataset::kIterations, dataset::kCollapse, dataset::kMoving, dataset::kChecksum, dataset::kChunkCrc}) {
     const ByteView whole = database.dataset_bytes(path);
     const std::size_t width = whole.size() / rows;
     for (std::size_t row = 0; row < rows; ++row)
@@ -115,7 +115,7 @@ TEST_CASE("A database just built is in order and its scenes come out the same wh
   const FewScenes few;
   const VerifyReport report = few.verify_with(few.bytes, 6);
   CHECK(report.problems == std::vector<std::string>{});
-  CHECK(report.scenes == 6);
+  CHECK(report.outcomes.scenes == 6);
   CHECK(report.fields == 6);
   CHECK(report.recomputed == 6);
   CHECK(report.largest_recomputed_difference == 0.0);
@@ -165,8 +165,8 @@ TEST_CASE("Fields that are out of equilibrium are found although every checksum 
   const BridgeFile file = read_bridge_file(test::example_bridge("small"));
   test::write_made_up_database(folder / "made-up.h5", file, all_scenes(38, 1));
   const VerifyReport report = verify_database({folder / "made-up.h5"});
-  CHECK(report.scenes == 39);
-  REQUIRE(report.problems.size() >= report.standing);
+  CHECK(report.outcomes.scenes == 39);
+  REQUIRE(report.problems.size() >= report.outcomes.standing);
   CHECK_THAT(report.problems.front(),
              Catch::Contains("scene intact: stands, but its field is out of equilibrium"));
 }

@@ -19,7 +19,7 @@ inline BridgeFile small_bridge_file() {
 }
 
 /// Millimetres that vary from node to node and with the removed blocks; every seventh scene is said to have
-/// collapsed.
+/// collapsed, with one block that moves away.
 inline Solution made_up_solution(const Bridge& bridge, const Scene& scene) {
   double phase = 0.0;
   for (const BlockId id : scene.removed) phase = 1.7 * phase + 0.37 * (value(id) + 1);
@@ -33,8 +33,11 @@ inline Solution made_up_solution(const Bridge& bridge, const Scene& scene) {
     field.middleCols(gone.begin, gone.size()).setConstant(std::numeric_limits<double>::quiet_NaN());
   }
   const bool collapsed = static_cast<int>(10.0 * phase) % 7 == 3;
-  return {collapsed ? Outcome::collapsed : Outcome::standing, to_storage_precision(field),
-          1e-11 * (1.0 + phase), 5 + scene.missing()};
+  Solution solution{collapsed ? Outcome::collapsed : Outcome::standing, to_storage_precision(field),
+                    1e-11 * (1.0 + phase), 5 + scene.missing()};
+  if (collapsed) solution.moving = {BlockId{static_cast<std::int32_t>(10.0 * phase) % bridge.block_count()}};
+  solution.extent = collapse_extent(bridge.layout, solution.moving);
+  return solution;
 }
 
 inline Provenance made_up_provenance(const BridgeFile& file) {

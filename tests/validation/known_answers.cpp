@@ -1,0 +1,77 @@
+#include <catch2/catch.hpp>
+
+#include "core/error.h"
+#include "tools/validation/report.h"
+
+using namespace voussoir;
+using namespace voussoir::validation;
+
+namespace {
+
+void check(const StudyResult& result) {
+  INFO(result.title);
+  CHECK(result.failure.empty());
+  CHECK(!(result.findings.cases.empty() && result.findings.hard_cases.empty()));
+  for (const Case& known : result.findings.cases) {
+    INFO(known.name << ", " << known.quantity << ": expected " << known.expected << ", computed "
+                    << known.computed << ", error " << known.error);
+    CHECK(known.within());
+  }
+  for (const HardCase& hard : result.findings.hard_cases) {
+    INFO(hard.sweep << ", " << hard.setting << ", " << hard.scene << ": " << hard.verdict);
+    CHECK(hard.correct);
+  }
+}
+
+void run_and_check(const std::vector<Study>& studies) {
+  REQUIRE(!studies.empty());
+  for (const StudyResult& result : run_studies(studies, 2, [](const StudyResult&) {})) check(result);
+}
+
+}  // namespace
+
+TEST_CASE("The quick studies' known answers are within tolerance and their hard cases correct", "[validation]") {
+  run_and_check(chosen_studies({}, true));
+}
+
+TEST_CASE("All studies' known answers are within tolerance and their hard cases correct", "[validation][long]") {
+  run_and_check(chosen_studies({}, false));
+}
+
+TEST_CASE("An answer outside its tolerance, or NaN, is marked and counted (made-up results)", "[validation]") {
+  const Case right = relative_case({.name = "a", .quantity = "q", .expected = 2.0, .source = "s", .computed = 2.01},
+                                   0.01, "why");
+  const Case wrong = relative_case({.name = "a", .quantity = "q", .expected = 2.0, .source = "s", .computed = 2.1},
+                                   0.01, "why");
+  const Case not_a_number =
+      absolute_case({.name = "a", .quantity = "q", .expected = 2.0, .source = "s", .computed = std::nan("")}, 1.0, "");
+  const Case compared = comparison({.name = "a", .quantity = "q", .expected = 2.0, .source = "s", .computed = 4.0}, "");
+  CHECK(right.error == Approx(0.005));
+  CHECK(right.within());
+  CHECK_FALSE(wrong.within());
+  CHECK_FALSE(not_a_number.within());
+  CHECK(compared.within());
+  StudyResult result;
+  result.findings.cases = {right, wrong, not_a_number, compared};
+  result.findings.hard_cases = {HardCase{.correct = false}};
+  const Tally sum = tally({result});
+  CHECK(sum.cases == 3);
+  CHECK(sum.within == 1);
+  CHECK(sum.comparisons == 1);
+  CHECK(sum.correct == 0);
+  CHECK_FALSE(sum.all_good());
+  CHECK(to_text({result}).find("OUTSIDE") != std::string::npos);
+}
+
+TEST_CASE("A study that throws is reported and does not stop the others", "[validation]") {
+  const Study broken{.name = "broken", .title = "t", .run = []() -> Findings { throw Failure("no luck"); }};
+  const Study sound{.name = "sound", .title = "t", .run = [] { return Findings{}; }};
+  const std::vector<StudyResult> results = run_studies({broken, sound}, 1, [](const StudyResult&) {});
+  CHECK(results[0].failure == "no luck");
+  CHECK(results[1].failure.empty());
+  CHECK(tally(results).failures == 1);
+}
+
+TEST_CASE("A filter that fits no study is refused with the studies' names", "[validation]") {
+  CHECK_THROWS_WITH(chosen_studies({"nonsense"}, false), Catch::Contains("nonsense") && Catch::Contains("patch"));
+}

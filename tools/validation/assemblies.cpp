@@ -1,0 +1,123 @@
+#include "tools/validation/assemblies.h"
+
+#include <Eigen/Geometry>
+#include <random>
+
+#include "core/joint_kinematics.h"
+#include "core/triangle_element.h"
+
+namespace voussoir::validation {
+
+Bridge assemble_blocks(BridgeDescription description, const std::vector<Polygon>& polygons) {
+  Bridge bridge;
+  for (std::size_t i = 0; i < polygons.size(); ++i) {
+    Block block;
+    block.index = {1, static_cast<int>(i) + 1};
+    block.polygon = polygons[i];
+    bridge.layout.blocks.push_back(block);
+  }
+  bridge.mesh = make_mesh(bridge.layout, description.mesh, 0.5 * description.wall.length);
+  bridge.joints = find_joints(bridge.mesh, description.joint_tolerance);
+  bridge.description = std::move(description);
+  return bridge;
+}
+
+void disturb_inner_nodes(double spacing, double share, Bridge& bridge) {
+  std::vector<bool> inside(static_cast<std::size_t>(bridge.mesh.node_count()), true);
+  for (const BoundaryEdge& edge : bridge.mesh.edges) inside[static_cast<std::size_t>(value(edge.from))] = false;
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> way(-share * spacing, share * spacing);
+  for (int node = 0; node < bridge.mesh.node_count(); ++node)
+    if (inside[static_cast<std::size_t>(node)]) bridge.mesh.nodes.col(node) += Point(way(random), way(random));
+}
+
+Polygon rectangle(const Point& corner, double width, double height) {
+  return {corner, corner + Point(width, 0.0), corner + Point(width, height), corner + Point(0.0, height)};
+}
+
+Polygon strip(double length, double depth, int parts) {
+  Polygon polygon;
+  for (int i = 0; i <= parts; ++i) polygon.emplace_back(length * i / parts, 0.0);
+  for (int i = parts; i >= 0; --i) polygon.emplace_back(length * i / parts, depth);
+  return polygon;
+}
+
+Polygon turned(const Polygon& polygon, double angle, const Point& shift) {
+  const Eigen::Matrix2d turn = Eigen::Rotation2Dd(angle).toRotationMatrix();
+  Polygon result;
+  for (const Point& corner : polygon) result.push_back(turn * corner + shift);
+  return result;
+}
+
+Bridge block_on_wedge(double slope, double friction_angle, double size) {
+  const double length = 6.0 * size;
+  const Point along(-std::cos(slope), std::sin(slope));
+  const Point up(std::sin(slope), std::cos(slope));
+  const Point foot(length, 0.0);
+  const Point corner = foot + 4.0 * size * along;
+  BridgeDescription description;
+  description.wall.length = length;
+  description.joints.friction_angle = friction_angle;
+  description.joint_tolerance *= size;
+  description.supports.sides = Support::free;
+  return assemble_blocks(description, {{Point(0.0, 0.0), foot, Point(0.0, length * std::tan(slope))},
+                                       {corner, corner + 0.5 * size * up, corner + size * (along + 0.5 * up),
+                                        corner + size * along}});
+}
+
+Bridge floating_course(int blocks, double friction_angle) {
+  BridgeDescription description;
+  description.wall = {.length = static_cast<double>(blocks), .courses = 1, .bond = Bond::stack};
+  description.spans.clear();
+  description.supports = {.base = Support::free, .sides = Support::free};
+  description.joints.friction_angle = friction_angle;
+  description.gravity = 0.0;
+  return make_bridge(description);
+}
+
+Bridge column(int courses, double young_modulus) {
+  BridgeDescription description;
+  description.spans.clear();
+  description.wall = {
+      .length = 1.0, .courses = courses, .course_height = 0.5, .block_length = 1.0, .bond = Bond::stack};
+  description.supports.sides = Support::free;
+  description.control_points.arch = false;
+  description.material.young_modulus = young_modulus;
+  return make_bridge(description);
+}
+
+Field boundary_tractions(const Bridge& bridge, const Eigen::Vector3d& stress) {
+  Field forces = Field::Zero(2, bridge.mesh.node_count());
+  for (const BoundaryEdge& edge : bridge.mesh.edges) {
+    const Point along = bridge.mesh.position(edge.to) - bridge.mesh.position(edge.from);
+    const Point normal(along.y(), -along.x());  // times the length
+    const Point half = 0.5 * bridge.description.material.thickness *
+                       Point(stress[0] * normal.x() + stress[2] * normal.y(),
+                             stress[2] * normal.x() + stress[1] * normal.y());
+    forces.col(value(edge.from)) += half;
+    forces.col(value(edge.to)) += half;
+  }
+  return forces;
+}
+
+Point joint_force(const Bridge& bridge, const Field& displacement, BlockId first, BlockId second) {
+  Point force = Point::Zero();
+  for (const Joint& joint : bridge.joints) {
+    const bool forward = joint.first == first && joint.second == second;
+    if (!forward && !(joint.first == second && joint.second == first)) continue;
+    Vector8d q;
+    q << displacement.col(value(joint.first_edge.from)), displacement.col(value(joint.first_edge.to)),
+        displacement.col(value(joint.second_edge.from)), displacement.col(value(joint.second_edge.to));
+    const JointKinematics kinematics = joint_kinematics(make_joint_frame(joint, bridge.mesh), q);
+    const Vector8d nodal =
+        kinematics.gradient.transpose() *
+        integrate_joint(bridge.description.joints, joint.length * bridge.description.material.thickness,
+                        kinematics.state)
+            .force;
+    const Point on_second = -(nodal.segment<2>(4) + nodal.segment<2>(6));
+    force += forward ? on_second : Point(-on_second);
+  }
+  return force;
+}
+
+}  // namespace voussoir::validation
