@@ -54,8 +54,8 @@ PaperCases read_paper_cases(const std::filesystem::path& path) {
   try {
     return cases_of_file(json::parse(stream));
   } catch (const json::exception& error) {
-    throw InputError(fmt::format("{}: {}, expected a file like examples/cases/paper.json", path.string(),
-                                 error.what()));
+    throw InputError(
+        fmt::format("{}: {}, expected a file like examples/cases/paper.json", path.string(), error.what()));
   }
 }
 

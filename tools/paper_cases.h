@@ -23,12 +23,12 @@ struct FieldCase {
 };
 
 struct PaperCases {
-  std::string source;                      ///< the paper
-  PaperCase example;                       ///< Figs. 4, 6 and 7
-  std::vector<FieldCase> fields;           ///< Figs. 8 to 16
-  std::vector<PaperCase> one_block;        ///< Table 2
-  std::vector<PaperCase> two_blocks;       ///< Table 3
-  std::optional<PaperCase> hard_pair;      ///< what the paper calls hard to find
+  std::string source;                       ///< the paper
+  PaperCase example;                        ///< Figs. 4, 6 and 7
+  std::vector<FieldCase> fields;            ///< Figs. 8 to 16
+  std::vector<PaperCase> one_block;         ///< Table 2
+  std::vector<PaperCase> two_blocks;        ///< Table 3
+  std::optional<PaperCase> hard_pair;       ///< what the paper calls hard to find
   std::string collapse_in_paper;            ///< what it says of local collapses
   std::vector<std::string> local_collapse;  ///< scenes to compare with that
   // What the paper says of its model, if it does.

@@ -23,14 +23,16 @@ std::string reproduce(const Options& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("Reproduces the paper's figures and tables from a database: one page, and a CSV file for each.",
-               "reproduce-paper");
+  CLI::App app(
+      "Reproduces the paper's figures and tables from a database: one page, and a CSV file for each.",
+      "reproduce-paper");
   app.footer("Example: reproduce-paper -d bridge.h5 -o paper");
   Options options;
   app.add_option("-d,--database", options.database, "default: $VOUSSOIR_DATABASE, else ./bridge.h5");
   app.add_option("-o,--output", options.folder, "folder, default ./paper");
   app.add_option("--cases", options.cases, "file of cases, for another bridge; default: the paper's");
-  app.add_option("--trials", options.settings.trials, "seeds of each case, default 50")->check(CLI::Range(1, 100000));
+  app.add_option("--trials", options.settings.trials, "seeds of each case, default 50")
+      ->check(CLI::Range(1, 100000));
   app.add_option("--random-scenes", options.settings.random_scenes, "of the operating curves, default 150")
       ->check(CLI::Range(1, 100000));
   app.add_option("--seed", options.settings.seed, "default 1");

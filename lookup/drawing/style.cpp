@@ -73,7 +73,7 @@ dd{margin:0;min-width:0;overflow-wrap:anywhere}
 white-space:pre-line;background:var(--text);color:var(--page);pointer-events:none}
 #tip[hidden]{display:none}
 @media(max-width:640px){td:last-child:not(.number){min-width:19rem}body{padding:1rem .9rem 3rem}h1{font-size:1.4rem}dl{grid-template-columns:1fr}dd{margin-bottom:.4em}
-svg text{font-size:16px}svg text.small{font-size:15px}.panorama text{font-size:26px}.panorama text.small{font-size:23px}.panorama text.label{font-size:24px}.panorama text.tiny{display:none}
+svg text{font-size:16px}svg text.small{font-size:15px}.panorama text{font-size:26px}.panorama text.small{font-size:25px}.panorama text.label{font-size:24px}.panorama text.tiny{display:none}
 .pictures svg{overflow:visible}}
 @media print{@page{size:A4;margin:15mm}html{font-size:10.5pt}body{max-width:none;padding:0}
 .figures{grid-template-columns:1fr 1fr;gap:1rem}figure,table tr{break-inside:avoid}h2,h3{break-after:avoid}

@@ -39,7 +39,7 @@ Exhibit course_exhibit(const std::vector<CourseSuccess>& courses);
 /// True if at least half of the seeds end at the truth, which is what "found" means on the page.
 bool found(const CaseResult& result);
 
-/// What became of a scene: "stands", "local collapse: 3 blocks move".
+/// What became of a scene: "stands", "collapses (locally, 3 blocks move away; ..)".
 std::string outcome_in_words(const Subject& subject, const std::string& scene);
 
 }  // namespace voussoir

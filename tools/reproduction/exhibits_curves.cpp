@@ -20,9 +20,10 @@ struct Ranking {
   Success OperatingPoint::*success;
 };
 
-constexpr std::array<Ranking, 3> kRankings = {Ranking{"Eq. 1", 2, &OperatingPoint::misfit},
-                                              Ranking{"posterior, noise known", 1, &OperatingPoint::known},
-                                              Ranking{"posterior, noise unknown", 3, &OperatingPoint::unknown}};
+constexpr std::array<Ranking, 3> kRankings = {
+    Ranking{"Eq. 1", 2, &OperatingPoint::misfit},
+    Ranking{"posterior, noise known", 1, &OperatingPoint::known},
+    Ranking{"posterior, noise unknown", 3, &OperatingPoint::unknown}};
 
 /// One way to succeed.
 struct Measure {
@@ -31,9 +32,10 @@ struct Measure {
   bool for_misfit;  ///< Eq. 1 gives no set
 };
 
-constexpr std::array<Measure, 3> kMeasures = {Measure{"truth first [%]", &Success::first, true},
-                                              Measure{"truth among the first five [%]", &Success::in_five, true},
-                                              Measure{"truth in the 95 % set [%]", &Success::in_credible, false}};
+constexpr std::array<Measure, 3> kMeasures = {
+    Measure{"truth first [%]", &Success::first, true},
+    Measure{"truth among the first five [%]", &Success::in_five, true},
+    Measure{"truth in the 95 % set [%]", &Success::in_credible, false}};
 
 Chart operating_chart(const std::vector<OperatingPoint>& curve, const Measure& measure) {
   Chart chart{measure.title, {"noise [%]"}, {measure.title, AxisScale::linear, {{0.0, 100.0}}}, {}};
@@ -75,9 +77,10 @@ Exhibit operating_exhibit(const std::vector<OperatingPoint>& curve, const std::s
   for (const Measure& measure : kMeasures)
     pictures += "<div>" + chart_html(operating_chart(curve, measure)) + "</div>\n";
   return {{id, title,
-           fmt::format("{} random standing scenes at each level, the same at all; candidates are all scenes with as "
-                       "many missing blocks. Uniform relative noise on every control point.",
-                       curve.front().misfit.trials),
+           fmt::format(
+               "{} random standing scenes at each level, the same at all; candidates are all scenes with as "
+               "many missing blocks. Uniform relative noise on every control point.",
+               curve.front().misfit.trials),
            pictures + "</div>\n", operating_table(curve), true}};
 }
 
@@ -93,7 +96,8 @@ Exhibit course_exhibit(const std::vector<CourseSuccess>& courses) {
                           misfit.y.back(), known.y.back()});
   }
   return {{"courses", "Which courses are easy",
-           fmt::format("Every block of the wall whose removal leaves the bridge standing, missing alone, at {:.0f} % noise, "
+           fmt::format("Every block of the wall whose removal leaves the bridge standing, missing alone, at "
+                       "{:.0f} % noise, "
                        "five trials each.",
                        kPerCent * kComparedNoise),
            chart_html({"Success by course",

@@ -96,10 +96,10 @@ Exhibit example_exhibit(const Subject& subject) {
   Profile noisy{fmt::format("with {:.0f} % noise", 100.0 * example.noise), 2, Mark::dots,
                 simulate_readings(subject.database.table().row(row), noise, random).displacement};
   for (double& value : noisy.mm) value *= kMillimetres;
-  const std::vector<Profile> profiles = {{"intact", 0, Mark::line, subject.settlements_mm(0)},
-                                         {"without " + as_printed(example.scene), 1, Mark::dashes,
-                                          subject.settlements_mm(row)},
-                                         noisy};
+  const std::vector<Profile> profiles = {
+      {"intact", 0, Mark::line, subject.settlements_mm(0)},
+      {"without " + as_printed(example.scene), 1, Mark::dashes, subject.settlements_mm(row)},
+      noisy};
   return {{"figure-4", fmt::format("Fig. 4: displacements of intact and of {}", as_printed(example.scene)),
            fmt::format("Uniform noise relative to each displacement, seed {}. Without {}, {}.",
                        subject.settings.seed, as_printed(example.scene),
@@ -129,10 +129,11 @@ Exhibit field_exhibit(const Subject& subject, const FieldCase& field) {
 }
 
 std::string outcome_in_words(const Subject& subject, const std::string& scene) {
-  const auto outcome = static_cast<Outcome>(subject.database.table().outcome[subject.row(scene)]);
-  if (outcome == Outcome::standing) return "stands";
-  return outcome == Outcome::collapsed ? "collapses; its field is a moment of the fall"
-                                       : "has no solution in the database";
+  const Record record = subject.database.record(subject.row(scene));
+  if (record.outcome == Outcome::standing) return "stands";
+  if (record.outcome == Outcome::unresolved) return "has no solution in the database";
+  return fmt::format("collapses ({}, {} blocks move away; its field is a moment of the fall)",
+                     record.extent == CollapseExtent::arch ? "the arch" : "locally", record.moving.size());
 }
 
 }  // namespace voussoir

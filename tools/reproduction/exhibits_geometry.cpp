@@ -31,7 +31,8 @@ std::string point_element(const Subject& subject, const BridgeFrame& frame, std:
   if (number != 1 && number % kNamedEvery != 0) return text;
   if (top) return text + text_element(at + Point(0.0, -8.0), "middle", "label", point.name);
   const bool left = at.x() < 0.5 * frame.width;  // names stand in the opening
-  return text + text_element(at + Point(left ? 6.0 : -6.0, 10.0), left ? "start" : "end", "label", point.name);
+  return text +
+         text_element(at + Point(left ? 6.0 : -6.0, 10.0), left ? "start" : "end", "label", point.name);
 }
 
 Drawing draw_geometry(const Subject& subject) {
@@ -61,7 +62,8 @@ Table block_table(const BlockLayout& layout) {
 Exhibit geometry_exhibit(const Subject& subject) {
   const BlockLayout& layout = subject.database.layout();
   const std::string caption = fmt::format(
-      "{} blocks, {} of them in the arch, and {} control points (T on top, A on the intrados). Course 0 is the "
+      "{} blocks, {} of them in the arch, and {} control points (T on top, A on the intrados). Course 0 is "
+      "the "
       "arch; positions count from the left.",
       layout.size(), layout.count_in_course(0), subject.database.control_points().size());
   return {{"figure-1", "Fig. 1: blocks and control points", caption, panorama_html(draw_geometry(subject)),
@@ -147,8 +149,8 @@ Exhibit mesh_exhibit(const Subject& subject) {
        {MeshRule{"plain blocks (two)", 1}, MeshRule{"voussoirs (three)", 3},
         MeshRule{"legs and the top course (four)", 4}, MeshRule{"blocks cut by the arch (as few as fit)", 5}})
     legend.push_back({rule.name, rule.colour, Mark::band, {}, {}});
-  return {{"figure-2", "Fig. 2: triangles", caption,
-           legend_html(legend) + panorama_html(draw_mesh(subject)), mesh_table(subject, whole), true}};
+  return {{"figure-2", "Fig. 2: triangles", caption, legend_html(legend) + panorama_html(draw_mesh(subject)),
+           mesh_table(subject, whole), true}};
 }
 
 }  // namespace

@@ -40,8 +40,8 @@ Misfits objective_of(const Subject& subject) {
   const SceneTable& table = subject.few;
   const std::size_t truth = subject.row(subject.cases.example.scene);
   Misfits result{table.scene(truth).removed.front(),
-                   std::vector<double>(subject.database.layout().size(), std::nan("")),
-                   std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+                 std::vector<double>(subject.database.layout().size(), std::nan("")),
+                 std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
   const Measurements measured = as_measurements(table.row(truth));
   for (std::size_t row = 0; row < table.rows; ++row) {
     if (missing_blocks(table, row) != 1) continue;
@@ -101,7 +101,10 @@ Chart objective_chart(const Subject& subject, const Misfits& objective) {
     if (!std::isnan(f)) ceiling = std::max(ceiling, std::ceil(f));
   }
   truth.notes = {"(" + to_string(layout[objective.truth].index) + ")"};
-  Chart chart{"Eq. 1 over the place of the block", {"centre of the missing block, x [m]"}, {"f_v"}, {wall, arch, truth}};
+  Chart chart{"Eq. 1 over the place of the block",
+              {"centre of the missing block, x [m]"},
+              {"f_v"},
+              {wall, arch, truth}};
   chart.y.range = {floor, ceiling};
   return chart;
 }
@@ -114,7 +117,10 @@ Chart found_chart(const std::vector<GenerationsAtNoise>& runs) {
     series.x.push_back(noise_per_cent(run.noise));
     series.y.push_back(kPerCent * share(static_cast<int>(run.generations.size()), run.seeds));
   }
-  return {"Share of seeds that end at the truth", {"noise [%]"}, {"seeds that end at the truth [%]", {}, {{0.0, 100.0}}}, {series}};
+  return {"Share of seeds that end at the truth",
+          {"noise [%]"},
+          {"seeds that end at the truth [%]", {}, {{0.0, 100.0}}},
+          {series}};
 }
 
 Chart generations_chart(const Subject& subject, const std::vector<GenerationsAtNoise>& runs) {
@@ -134,7 +140,10 @@ Chart generations_chart(const Subject& subject, const std::vector<GenerationsAtN
       paper.y.push_back(std::stod(printed.paper));
     }
   if (paper.x.empty()) paper.name.clear();
-  return {"Generations to convergence against noise", {"noise [%]"}, {"generations to convergence"}, {band, median, paper}};
+  return {"Generations to convergence against noise",
+          {"noise [%]"},
+          {"generations to convergence"},
+          {band, median, paper}};
 }
 
 std::string paper_result(const PaperCase& printed) {
@@ -163,40 +172,50 @@ Exhibit objective_exhibit(const Subject& subject) {
   const BlockLayout& layout = subject.database.layout();
   Table table{{"block", "course x1", "position x2", "f_v"}, {}};
   for (std::size_t i = 0; i < layout.size(); ++i)
-    table.rows.push_back({to_string(layout.blocks[i].index), static_cast<double>(layout.blocks[i].index.course),
+    table.rows.push_back({to_string(layout.blocks[i].index),
+                          static_cast<double>(layout.blocks[i].index.course),
                           static_cast<double>(layout.blocks[i].index.position), objective.value[i]});
   const double depth = objective.value[static_cast<std::size_t>(value(objective.truth))];
-  return {{"figure-6",
-           fmt::format("Fig. 6: objective over all blocks, {} missing", as_printed(subject.cases.example.scene)),
-           fmt::format("Eq. 1 without noise, over the control points that both scenes have. At the truth f_v = {:.4g}; the next block has {:.4g}. Values are "
-                       "truncated for the colours as the bar says and at the truth in the chart.",
-                       depth, objective.lowest),
-           panorama_html(draw_objective(subject, objective)) + chart_html(objective_chart(subject, objective)),
-           table, true}};
+  return {
+      {"figure-6",
+       fmt::format("Fig. 6: objective over all blocks, {} missing", as_printed(subject.cases.example.scene)),
+       fmt::format("Eq. 1 without noise, over the control points that both scenes have. At the truth f_v = "
+                   "{:.4g}; the next block has {:.4g}. Values are "
+                   "truncated for the colours as the bar says and at the truth in the chart.",
+                   depth, objective.lowest),
+       panorama_html(draw_objective(subject, objective)) + chart_html(objective_chart(subject, objective)),
+       table, true}};
 }
 
 Exhibit generations_exhibit(const Subject& subject, const std::vector<GenerationsAtNoise>& runs) {
-  Table table{{"noise [%]", "seeds", "seeds that end at the truth", "generations, 10 %", "generations, median", "generations, 90 %"}, {}};
+  Table table{{"noise [%]", "seeds", "seeds that end at the truth", "generations, 10 %",
+               "generations, median", "generations, 90 %"},
+              {}};
   for (const GenerationsAtNoise& run : runs)
     table.rows.push_back({noise_per_cent(run.noise), static_cast<double>(run.seeds),
                           static_cast<double>(run.generations.size()), quantile(run.generations, 0.1),
                           quantile(run.generations, 0.5), quantile(run.generations, 0.9)});
   const GeneticSettings settings;
-  return {{"figure-7", fmt::format("Fig. 7: noise against generations, {} missing", as_printed(subject.cases.example.scene)),
-           fmt::format("Genetic search with the paper's settings (population {}, crossover {}, mutation {}), {} seeds at "
-                       "each level, {} generations each. A run counts as found if its best scene in the end is the truth.",
-                       settings.population, settings.crossover, settings.mutation, subject.settings.trials,
-                       settings.most_generations),
-           "<div class=\"figures\"><div>" + chart_html(generations_chart(subject, runs)) + "</div><div>" +
-               chart_html(found_chart(runs)) + "</div></div>",
-           table, true}};
+  return {
+      {"figure-7",
+       fmt::format("Fig. 7: noise against generations, {} missing", as_printed(subject.cases.example.scene)),
+       fmt::format(
+           "Genetic search with the paper's settings (population {}, crossover {}, mutation {}), {} seeds at "
+           "each level, {} generations each. A run counts as found if its best scene in the end is the "
+           "truth.",
+           settings.population, settings.crossover, settings.mutation, subject.settings.trials,
+           settings.most_generations),
+       "<div class=\"figures\"><div>" + chart_html(generations_chart(subject, runs)) + "</div><div>" +
+           chart_html(found_chart(runs)) + "</div></div>",
+       table, true}};
 }
 
 Exhibit table_exhibit(const Subject& subject, const std::vector<CaseResult>& results, const std::string& id,
                       const std::string& title) {
-  Table table{{"missing", "noise [%]", "paper: generations", "seeds that succeed [%]", "generations, median",
-               "generations, 10 %", "generations, 90 %", "seeds at the minimum of Eq. 1 [%]", "against the paper"},
-              {}};
+  Table table{
+      {"missing", "noise [%]", "paper: generations", "seeds that succeed [%]", "generations, median",
+       "generations, 10 %", "generations, 90 %", "seeds at the minimum of Eq. 1 [%]", "against the paper"},
+      {}};
   for (const CaseResult& result : results) {
     const int trials = result.paper_objective.trials;
     table.rows.push_back({as_printed(result.paper_case.scene), noise_per_cent(result.paper_case.noise),
@@ -205,16 +224,21 @@ Exhibit table_exhibit(const Subject& subject, const std::vector<CaseResult>& res
                           quantile(result.generations, 0.9), kPerCent * share(result.genetic_minimum, trials),
                           comparison(result)});
   }
-  return {{id, title,
-           fmt::format("{} seeds a case. A seed succeeds if the genetic search ends at the true blocks; a case counts "
-                       "as found if half of its seeds succeed. Where the search reaches the minimum of Eq. 1 and "
-                       "that is not the truth, no search by Eq. 1 can find it.",
-                       subject.settings.trials),
-           "", table, true, TableView::open}};
+  return {
+      {id, title,
+       fmt::format(
+           "{} seeds a case. A seed succeeds if the genetic search ends at the true blocks; a case counts "
+           "as found if half of its seeds succeed. Where the search reaches the minimum of Eq. 1 and "
+           "that is not the truth, no search by Eq. 1 can find it.",
+           subject.settings.trials),
+       "", table, true, TableView::open}};
 }
 
-Exhibit posterior_exhibit(const std::vector<CaseResult>& results, const std::string& id, const std::string& title) {
-  Table table{{"missing", "noise [%]", "Eq. 1: first [%]", "Eq. 1: in five [%]", "known: first [%]", "known: in five [%]", "known: in the 95 % set [%]", "unknown: first [%]", "unknown: in five [%]", "unknown: in the 95 % set [%]"},
+Exhibit posterior_exhibit(const std::vector<CaseResult>& results, const std::string& id,
+                          const std::string& title) {
+  Table table{{"missing", "noise [%]", "Eq. 1: first [%]", "Eq. 1: in five [%]", "known: first [%]",
+               "known: in five [%]", "known: in the 95 % set [%]", "unknown: first [%]",
+               "unknown: in five [%]", "unknown: in the 95 % set [%]"},
               {}};
   for (const CaseResult& r : results) {
     std::vector<Cell> row = {as_printed(r.paper_case.scene), noise_per_cent(r.paper_case.noise)};
@@ -229,7 +253,8 @@ Exhibit posterior_exhibit(const std::vector<CaseResult>& results, const std::str
     table.rows.push_back(row);
   }
   return {{id, title,
-           "Every scene with as many missing blocks is scored: by Eq. 1, by its posterior probability when shape and "
+           "Every scene with as many missing blocks is scored: by Eq. 1, by its posterior probability when "
+           "shape and "
            "level of the noise are known, and when nothing of it is known (unknown).",
            "", table, true, TableView::open}};
 }

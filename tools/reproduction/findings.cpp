@@ -21,7 +21,8 @@ double share(int count, int trials) {
 /// How many standard errors the second share lies above the first (pooled, two binomial samples).
 double standard_errors_above(int low, int low_trials, int high, int high_trials) {
   const double pooled = share(low + high, low_trials + high_trials);
-  const double variance = pooled * (1.0 - pooled) * (1.0 / std::max(1, low_trials) + 1.0 / std::max(1, high_trials));
+  const double variance =
+      pooled * (1.0 - pooled) * (1.0 / std::max(1, low_trials) + 1.0 / std::max(1, high_trials));
   const double difference = share(high, high_trials) - share(low, low_trials);
   return variance > 0.0 ? difference / std::sqrt(variance) : 0.0;
 }
@@ -59,8 +60,10 @@ Finding arch_blocks_mask(const PairSuccess& with_arch, const PairSuccess& withou
   const Success& without = without_arch.misfit;
   const double distance = standard_errors_above(with.first, with.trials, without.first, without.trials);
   return {"A missing arch block hides a second missing block", distance > kCertain,
-          fmt::format("At {:.0f} % noise Eq. 1 puts the true pair first in {:.0f} % of {} random pairs with an arch block "
-                      "and in {:.0f} % of {} without ({:+.1f} standard errors); the arch block itself is in the first pair "
+          fmt::format("At {:.0f} % noise Eq. 1 puts the true pair first in {:.0f} % of {} random pairs with "
+                      "an arch block "
+                      "and in {:.0f} % of {} without ({:+.1f} standard errors); the arch block itself is in "
+                      "the first pair "
                       "in {:.0f} %. The posterior that knows the noise: {:.0f} % and {:.0f} %.",
                       kPerCent * kComparedNoise, kPerCent * share(with.first, with.trials), with.trials,
                       kPerCent * share(without.first, without.trials), without.trials, distance,
@@ -77,11 +80,13 @@ Finding high_blocks_are_easier(const std::vector<CourseSuccess>& courses) {
     success.first += courses[i].misfit.first;
   }
   const double distance = standard_errors_above(half[0].first, half[0].trials, half[1].first, half[1].trials);
-  return {"Blocks in high courses are easier to find", distance > kCertain,
-          fmt::format("At {:.0f} % noise Eq. 1 puts the true block first in {:.0f} % of {} trials in the upper half of the "
-                      "courses and in {:.0f} % of {} in the lower ({:+.1f} standard errors).",
-                      kPerCent * kComparedNoise, kPerCent * share(half[1].first, half[1].trials), half[1].trials,
-                      kPerCent * share(half[0].first, half[0].trials), half[0].trials, distance)};
+  return {
+      "Blocks in high courses are easier to find", distance > kCertain,
+      fmt::format("At {:.0f} % noise Eq. 1 puts the true block first in {:.0f} % of {} trials in the upper "
+                  "half of the "
+                  "courses and in {:.0f} % of {} in the lower ({:+.1f} standard errors).",
+                  kPerCent * kComparedNoise, kPerCent * share(half[1].first, half[1].trials), half[1].trials,
+                  kPerCent * share(half[0].first, half[0].trials), half[0].trials, distance)};
 }
 
 Finding pair_is_hard(const PaperCase& pair, const std::vector<CaseResult>& two_blocks) {
@@ -96,12 +101,14 @@ Finding pair_is_hard(const PaperCase& pair, const std::vector<CaseResult>& two_b
       continue;
     }
     others.push_back(success);
-    list += fmt::format("{}{} {:.0f} %", list.empty() ? "" : ", ", as_printed(result.paper_case.scene), kPerCent * success);
+    list += fmt::format("{}{} {:.0f} %", list.empty() ? "" : ", ", as_printed(result.paper_case.scene),
+                        kPerCent * success);
   }
   const auto harder = std::count_if(others.begin(), others.end(), [&](double other) { return other < own; });
   const bool holds = own < 0.5 && 2 * harder < static_cast<std::ptrdiff_t>(others.size());
   return {as_printed(pair.scene) + " is hard to find", holds,
-          fmt::format("At {:.0f} % noise {:.0f} % of the seeds find it; {} of {} other pairs of the table are harder ({}).",
+          fmt::format("At {:.0f} % noise {:.0f} % of the seeds find it; {} of {} other pairs of the table "
+                      "are harder ({}).",
                       kPerCent * pair.noise, kPerCent * own, harder, others.size(), list)};
 }
 
@@ -113,16 +120,21 @@ Finding noise_raises_generations(const std::vector<GenerationsAtNoise>& runs) {
       generations.push_back(count);
     }
   const double correlation = noise.size() >= 2 ? rank_correlation(noise, generations) : 0.0;
-  const double distance = correlation * std::sqrt(static_cast<double>(std::max<std::size_t>(1, noise.size()) - 1));
+  const double distance =
+      correlation * std::sqrt(static_cast<double>(std::max<std::size_t>(1, noise.size()) - 1));
   const GenerationsAtNoise& first = runs.front();
   const GenerationsAtNoise& last = runs.back();
   return {"Noise raises the number of generations", distance > kCertain,
-          fmt::format("Over the {} runs that find the truth the rank correlation of noise and generations is {:+.2f} ({:+.1f} "
-                      "standard errors). What noise lowers is the share of runs that find it: {:.0f} % at {:.0f} % noise, "
+          fmt::format("Over the {} runs that find the truth the rank correlation of noise and generations is "
+                      "{:+.2f} ({:+.1f} "
+                      "standard errors). What noise lowers is the share of runs that find it: {:.0f} % at "
+                      "{:.0f} % noise, "
                       "{:.0f} % at {:.0f} %.",
                       noise.size(), correlation, distance,
-                      kPerCent * share(static_cast<int>(first.generations.size()), first.seeds), kPerCent * first.noise,
-                      kPerCent * share(static_cast<int>(last.generations.size()), last.seeds), kPerCent * last.noise)};
+                      kPerCent * share(static_cast<int>(first.generations.size()), first.seeds),
+                      kPerCent * first.noise,
+                      kPerCent * share(static_cast<int>(last.generations.size()), last.seeds),
+                      kPerCent * last.noise)};
 }
 
 Table to_table(const std::vector<Finding>& findings) {

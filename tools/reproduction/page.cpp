@@ -20,10 +20,14 @@ struct Results {
 };
 
 Results run_experiments(const Subject& subject) {
-  return {run_cases(subject, subject.cases.one_block), run_cases(subject, subject.cases.two_blocks),
-          generations_against_noise(subject),          operating_curve(subject, 1),
-          operating_curve(subject, 2),                 success_by_course(subject),
-          success_of_pairs(subject, true),             success_of_pairs(subject, false)};
+  return {run_cases(subject, subject.cases.one_block),
+          run_cases(subject, subject.cases.two_blocks),
+          generations_against_noise(subject),
+          operating_curve(subject, 1),
+          operating_curve(subject, 2),
+          success_by_course(subject),
+          success_of_pairs(subject, true),
+          success_of_pairs(subject, false)};
 }
 
 Exhibit table_only(const std::string& id, const std::string& title, const std::string& caption, Table table) {
@@ -38,7 +42,8 @@ Chapter findings_chapter(const Subject& subject, const Results& results) {
   Chapter chapter{"findings", "What holds and what does not", "", {}};
   chapter.exhibits.push_back(table_only(
       "findings-table", "The paper's findings in words",
-      "A statement holds if the numbers differ in its direction by more than two standard errors; the statement about a "
+      "A statement holds if the numbers differ in its direction by more than two standard errors; the "
+      "statement about a "
       "pair, if fewer than half of the seeds find it and fewer than half of the other pairs are harder.",
       to_table(findings)));
   chapter.exhibits.push_back(table_only("differences", "Where this run differs from the paper, and why", "",
@@ -65,14 +70,15 @@ Chapter chapter_of(const Subject& subject, const Results& results, bool pairs) {
 }
 
 Chapter beyond_chapter(const Results& results) {
-  return {"beyond",
-          "What the paper does not have",
-          "",
-          {posterior_exhibit(results.one_block, "table-2-posterior", "The cases of Table 2 by exact posterior"),
-           posterior_exhibit(results.two_blocks, "table-3-posterior", "The cases of Table 3 by exact posterior"),
-           operating_exhibit(results.curve_one, "operating-one", "Operating curves: one missing block"),
-           operating_exhibit(results.curve_two, "operating-two", "Operating curves: two missing blocks"),
-           course_exhibit(results.courses)}};
+  return {
+      "beyond",
+      "What the paper does not have",
+      "",
+      {posterior_exhibit(results.one_block, "table-2-posterior", "The cases of Table 2 by exact posterior"),
+       posterior_exhibit(results.two_blocks, "table-3-posterior", "The cases of Table 3 by exact posterior"),
+       operating_exhibit(results.curve_one, "operating-one", "Operating curves: one missing block"),
+       operating_exhibit(results.curve_two, "operating-two", "Operating curves: two missing blocks"),
+       course_exhibit(results.courses)}};
 }
 
 std::string source_html(const Subject& subject) {
@@ -80,14 +86,16 @@ std::string source_html(const Subject& subject) {
   const auto& settings = subject.settings;
   return section_html(
       "made", "How this page was made",
-      terms_html({{"Database digest", subject.database.digest()},
-                  {"Bridge", subject.database.bridge_name()},
-                  {"Scenes", fmt::format("{}", subject.database.table().rows)},
-                  {"Program", fmt::format("version {}, {}", provenance.program_version, provenance.compiler)},
-                  {"Seeds", fmt::format("{} seeds a case from {}, {} random scenes a level", settings.trials,
-                                        settings.seed, settings.random_scenes)},
-                  {"Numbers", "all from this run; the file of the same name as a figure's anchor (figure-6.csv) has them "
-                              "with all digits"}}));
+      terms_html(
+          {{"Database digest", subject.database.digest()},
+           {"Bridge", subject.database.bridge_name()},
+           {"Scenes", fmt::format("{}", subject.database.table().rows)},
+           {"Program", fmt::format("version {}, {}", provenance.program_version, provenance.compiler)},
+           {"Seeds", fmt::format("{} seeds a case from {}, {} random scenes a level", settings.trials,
+                                 settings.seed, settings.random_scenes)},
+           {"Numbers",
+            "all from this run; the file of the same name as a figure's anchor (figure-6.csv) has them "
+            "with all digits"}}));
 }
 
 }  // namespace
@@ -110,7 +118,8 @@ std::string reproduction_page(const Subject& subject, const std::vector<Chapter>
     for (const Exhibit& exhibit : chapter.exhibits) figures.push_back(exhibit.figure);
     body += section_html(chapter.id, chapter.heading, chapter.text + figures_html(figures));
   }
-  return html_page("Missing blocks of a masonry arch bridge: the paper reproduced", body + source_html(subject));
+  return html_page("Missing blocks of a masonry arch bridge: the paper reproduced",
+                   body + source_html(subject));
 }
 
 void write_reproduction(const Subject& subject, const std::vector<Chapter>& chapters,

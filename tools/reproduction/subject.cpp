@@ -17,6 +17,7 @@ SceneTable rows_with_at_most_one(const SceneTable& table) {
   few.vertical = table.vertical.first(few.rows * table.points);
   few.removed = table.removed.first(few.rows * table.most_missing);
   few.outcome = table.outcome.first(few.rows);
+  if (!table.collapse.empty()) few.collapse = table.collapse.first(few.rows);
   return few;
 }
 

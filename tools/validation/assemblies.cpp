@@ -24,11 +24,13 @@ Bridge assemble_blocks(BridgeDescription description, const std::vector<Polygon>
 
 void disturb_inner_nodes(double spacing, double share, Bridge& bridge) {
   std::vector<bool> inside(static_cast<std::size_t>(bridge.mesh.node_count()), true);
-  for (const BoundaryEdge& edge : bridge.mesh.edges) inside[static_cast<std::size_t>(value(edge.from))] = false;
+  for (const BoundaryEdge& edge : bridge.mesh.edges)
+    inside[static_cast<std::size_t>(value(edge.from))] = false;
   std::mt19937 random(11);
   std::uniform_real_distribution<double> way(-share * spacing, share * spacing);
   for (int node = 0; node < bridge.mesh.node_count(); ++node)
-    if (inside[static_cast<std::size_t>(node)]) bridge.mesh.nodes.col(node) += Point(way(random), way(random));
+    if (inside[static_cast<std::size_t>(node)])
+      bridge.mesh.nodes.col(node) += Point(way(random), way(random));
 }
 
 Polygon rectangle(const Point& corner, double width, double height) {
