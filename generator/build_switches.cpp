@@ -8,8 +8,8 @@
 namespace voussoir {
 
 std::span<const BuildSwitch> build_switches() {
-  // Where the same numbers are computed in another way nothing changes; where a search goes another way to the same
-  // equilibrium, or contacts are added up in another order, two solutions of the same scene differ.
+  // Where the same numbers are computed in another way nothing changes; where a search goes another way to
+  // the same equilibrium, or contacts are added up in another order, two solutions of the same scene differ.
   constexpr double kNothing = 0.0;
   static constexpr std::array kSwitches = {
       BuildSwitch{"early-outcome", kSameDisplacement,

@@ -58,7 +58,8 @@ class Clustering {
 
   const float* farthest(const std::vector<std::size_t>& sample, const float* from) const {
     const std::vector<float> found = squares(sample, from);
-    return row(sample[static_cast<std::size_t>(std::max_element(found.begin(), found.end()) - found.begin())]);
+    return row(
+        sample[static_cast<std::size_t>(std::max_element(found.begin(), found.end()) - found.begin())]);
   }
 
   void split(std::vector<std::size_t> rows) {

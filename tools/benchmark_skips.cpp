@@ -76,10 +76,10 @@ std::string to_markdown(const std::vector<SkipRow>& rows) {
       "| skip | ms a scene with | without | gain | largest change [m] | stated bound [m] | other outcomes |\n"
       "|---|---|---|---|---|---|---|\n";
   for (const SkipRow& row : rows)
-    text += fmt::format("| {} | {:.2f} | {:.2f} | {:.2f} x | {:.1e} | {:.0e} | {} |\n", row.name,
-                        1e3 * row.seconds_with, 1e3 * row.seconds_without,
-                        row.seconds_without / row.seconds_with, row.largest_change, row.stated_change,
-                        row.other_outcomes);
+    text +=
+        fmt::format("| {} | {:.2f} | {:.2f} | {:.2f} x | {:.1e} | {:.0e} | {} |\n", row.name,
+                    1e3 * row.seconds_with, 1e3 * row.seconds_without, row.seconds_without / row.seconds_with,
+                    row.largest_change, row.stated_change, row.other_outcomes);
   return text;
 }
 
