@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/error.h"
 #include "lookup/drawing/page.h"
 #include "lookup/report.h"
 #include "lookup/report_pictures.h"
@@ -19,10 +20,10 @@ std::string verdict_html(const Answer& answer, const Library& library) {
   for (const std::string& sentence : verdict(answer, library))
     html += paragraph(sentence, html.empty() ? "lead" : "");
   if (answer.posterior && !answer.posterior->credible.empty())
-    html += paragraph(fmt::format("Number of missing blocks: {}. {:.0f} % of the probability is held by {} scene{}.",
-                                  missing_in_words(*answer.posterior), 100.0 * kCredibleShare,
-                                  answer.posterior->credible.size(),
-                                  answer.posterior->credible.size() == 1 ? "" : "s"));
+    html += paragraph(
+        fmt::format("Number of missing blocks: {}. {:.0f} % of the probability is held by {} scene{}.",
+                    missing_in_words(*answer.posterior), 100.0 * kCredibleShare,
+                    answer.posterior->credible.size(), answer.posterior->credible.size() == 1 ? "" : "s"));
   std::string same;
   for (const Scene& scene : answer.candidates.front().same_readings)
     same += (same.empty() ? "" : "; ") + to_string(scene, library.layout);
@@ -40,9 +41,14 @@ Figure candidates_figure(const Answer& answer, const Library& library) {
                           std::string(to_string(candidate.outcome)),
                           place_in_words(candidate.scene, library.layout)});
   }
-  return {"candidates", "Scenes that may explain the readings",
+  return {"candidates",
+          "Scenes that may explain the readings",
           "A scene is a set of missing blocks, named (course, position from the left); course 0 is the arch.",
-          "", table, true, TableView::open, 5};
+          "",
+          table,
+          true,
+          TableView::open,
+          5};
 }
 
 std::string level_in_words(const NoiseModel& noise) {
@@ -59,12 +65,15 @@ std::string unknowns_in_words(const Nuisance& nuisance) {
 void add_noise_terms(const Answer& answer, const LookupSettings& settings, Terms& terms) {
   terms.emplace_back("Noise model", std::string(to_string(settings.noise.shape)));
   terms.emplace_back("Noise level", level_in_words(settings.noise));
-  if (answer.noise) terms.emplace_back("Noise, if the first scene is the truth", noise_in_words(*answer.noise));
+  if (answer.noise)
+    terms.emplace_back("Noise, if the first scene is the truth", noise_in_words(*answer.noise));
   if (settings.noise.floor > 0.0)
     terms.emplace_back("Absolute part of the noise", fmt::format("{:.3g} mm", 1e3 * settings.noise.floor));
-  terms.emplace_back("Allowance for the model's error",
-                     fmt::format("{:.3g} % of the change that a missing block makes", 100.0 * settings.noise.model_error));
-  terms.emplace_back("Sensors that fail by themselves", fmt::format("{:.3g} %", 100.0 * settings.noise.silence));
+  terms.emplace_back(
+      "Allowance for the model's error",
+      fmt::format("{:.3g} % of the change that a missing block makes", 100.0 * settings.noise.model_error));
+  terms.emplace_back("Sensors that fail by themselves",
+                     fmt::format("{:.3g} %", 100.0 * settings.noise.silence));
   if (settings.nuisance.any()) terms.emplace_back("Also unknown", unknowns_in_words(settings.nuisance));
 }
 
@@ -80,30 +89,39 @@ std::string search_in_words(const LookupSettings& settings) {
   if (settings.search != Search::genetic) return std::string(to_string(settings.search));
   const GeneticSettings& genetic = settings.genetic;
   return fmt::format("genetic (population {}, crossover {:g}, mutation {:g}, {} generations, seed {})",
-                     genetic.population, genetic.crossover, genetic.mutation, genetic.most_generations, genetic.seed);
+                     genetic.population, genetic.crossover, genetic.mutation, genetic.most_generations,
+                     genetic.seed);
 }
 
 std::string assumptions_html(const Answer& answer, const LookupSettings& settings, const Library& library,
                              const Source& source) {
-  Terms terms = {{"Measurements", fmt::format("{}: {} of {} control points have a reading", source.measurements,
-                                              answer.readings, library.points.size())},
-                 {"Database", fmt::format("{} (bridge '{}')", source.database, source.bridge)},
-                 {"Database digest", source.digest},
-                 {"Scenes searched",
-                  fmt::format("{}; left out because they have no solution: {}", answer.searched, answer.unresolved)},
-                 {"Objective", settings.objective == Objective::paper
-                                   ? "the misfit log(sum |measured - scene|) alone, which gives no probabilities"
-                                   : "posterior probability of each scene"},
-                 {"Search", search_in_words(settings)},
-                 {"Numbers of missing blocks considered", weights_in_words(settings.prior)}};
+  Terms terms = {
+      {"Measurements", fmt::format("{}: {} of {} control points have a reading", source.measurements,
+                                   answer.readings, library.points.size())},
+      {"Database", fmt::format("{} (bridge '{}')", source.database, source.bridge)},
+      {"Database digest", source.digest},
+      {"Scenes searched",
+       fmt::format("{}; left out because they have no solution: {}", answer.searched, answer.unresolved)},
+      {"Objective", settings.objective == Objective::paper
+                        ? "the misfit log(sum |measured - scene|) alone, which gives no probabilities"
+                        : "posterior probability of each scene"},
+      {"Search", search_in_words(settings)},
+      {"Numbers of missing blocks considered", weights_in_words(settings.prior)}};
   if (settings.objective == Objective::posterior) add_noise_terms(answer, settings, terms);
   return terms_html(terms) +
-         paragraph("Probabilities hold under these assumptions. What the model of the bridge leaves out is counted "
-                   "only through the allowance for the model's error.",
-                   "muted");
+         paragraph(
+             "Probabilities hold under these assumptions. What the model of the bridge leaves out is counted "
+             "only through the allowance for the model's error.",
+             "muted");
 }
 
 }  // namespace
+
+std::string picture_report(const Answer& answer, const Library& library, const Measurements& measurements) {
+  if (answer.candidates.empty())
+    throw Failure("no scene explains the measurements: there is no picture to draw, only a page");
+  return svg_file(draw_bridge({answer, library, measurements}));
+}
 
 std::string page_report(const Answer& answer, const LookupSettings& settings, const Library& library,
                         const Measurements& measurements, const Source& source) {
@@ -111,17 +129,19 @@ std::string page_report(const Answer& answer, const LookupSettings& settings, co
       section_html("assumed", "What was assumed", assumptions_html(answer, settings, library, source));
   const std::string title = fmt::format("Missing blocks of bridge '{}'", source.bridge);
   if (answer.candidates.empty())
-    return html_page(title, paragraph("No scene in this database explains these measurements: every scene lacks a "
-                                      "block that has a reading.",
-                                      "lead") +
-                                assumed);
+    return html_page(title,
+                     paragraph("No scene in this database explains these measurements: every scene lacks a "
+                               "block that has a reading.",
+                               "lead") +
+                         assumed);
   const ReportPictures pictures{answer, library, measurements};
   return html_page(
-      title, verdict_html(answer, library) + figures_html({bridge_figure(pictures)}) +
-                 section_html("ranked", "Candidates", figures_html({candidates_figure(answer, library)})) +
-                 section_html("readings", "Readings against the first candidate",
-                              figures_html(profile_figures(pictures)) + figures_html(residual_figures(pictures))) +
-                 assumed);
+      title,
+      verdict_html(answer, library) + figures_html({bridge_figure(pictures)}) +
+          section_html("ranked", "Candidates", figures_html({candidates_figure(answer, library)})) +
+          section_html("readings", "Readings against the first candidate",
+                       figures_html(profile_figures(pictures)) + figures_html(residual_figures(pictures))) +
+          assumed);
 }
 
 }  // namespace voussoir

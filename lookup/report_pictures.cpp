@@ -18,7 +18,7 @@ constexpr double kMillimetres = 1e3;
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kWorthColour = 0.001;  // blocks less likely to be missing look like any stone
 constexpr double kPictureWidth = 1040.0;
-constexpr double kReadingsHeight = 1.1;  // [m] above the bridge, for the top's readings
+constexpr double kReadingsHeight = 1.1;   // [m] above the bridge, for the top's readings
 constexpr double kLongestReading = 0.75;  // [m] on the bridge's scale
 constexpr double kDisc = 3.0;
 constexpr const char* kAcross = "control point, from left to right";
@@ -50,8 +50,9 @@ double band_of(const ReportPictures& report, const SensorResidual& residual) {
 
 std::string band_in_words(const ReportPictures& report) {
   if (!report.answer.noise) return "";
-  return fmt::format(" The band is the noise, {}{}.", noise_in_words(*report.answer.noise),
-                     report.answer.noise->shape == NoiseShape::uniform ? "" : ", two standard deviations each way");
+  return fmt::format(
+      " The band is the noise, {}{}.", noise_in_words(*report.answer.noise),
+      report.answer.noise->shape == NoiseShape::uniform ? "" : ", two standard deviations each way");
 }
 
 // -- the bridge ---------------------------------------------------------------------------------------------
@@ -88,7 +89,8 @@ std::string point_tip(const ReportPictures& report, std::size_t point) {
   const std::string& name = report.library.points[point].name;
   const double reading = report.measurements.displacement[point];
   const double expected = best_fit(report)[point];
-  if (std::isnan(reading)) return fmt::format("{}\n{}", name, report.measurements.silent[point] ? "no reading" : "no sensor");
+  if (std::isnan(reading))
+    return fmt::format("{}\n{}", name, report.measurements.silent[point] ? "no reading" : "no sensor");
   return fmt::format("{}\nreading {:.4g} mm\nfirst candidate {:.4g} mm{}", name, kMillimetres * reading,
                      kMillimetres * expected, disagrees(report, point) ? "\ndisagrees with the rest" : "");
 }
@@ -118,24 +120,6 @@ double largest_reading(const ReportPictures& report) {
   return largest;
 }
 
-Drawing draw_bridge(const ReportPictures& report) {
-  const BridgeFrame frame = frame_of(report.library.layout, kPictureWidth, kReadingsHeight, 0.15);
-  const bool with_bar = report.answer.posterior.has_value();
-  Drawing drawing{frame.width, frame.height + (with_bar ? kColourBarHeight : 0.0),
-                  "The bridge; each block coloured by the probability that it is missing", ""};
-  drawing.elements = ground_element(report.library.layout, frame) +
-                     block_elements(report.library.layout, frame, [&](BlockId id) { return block_look(report, id); }) +
-                     best_scene_marks(report, frame);
-  const double longest = largest_reading(report);
-  const double units = longest > 0.0 ? kLongestReading * frame.scale / longest : 0.0;
-  for (std::size_t point = 0; point < report.library.points.size(); ++point)
-    drawing.elements += reading_element(report, frame, point, units);
-  if (with_bar)
-    drawing.elements += colour_bar({"probability that the block is missing", {"0", "25 %", "50 %", "75 %", "100 %"}},
-                                   drawing.width, drawing.height);
-  return drawing;
-}
-
 Table block_table(const ReportPictures& report) {
   Table table{{"block", "probability", "where"}, {}};
   if (!report.answer.posterior) {
@@ -159,7 +143,8 @@ std::vector<std::size_t> points_of(const ReportPictures& report, bool arch) {
   return points;
 }
 
-Chart profile_chart(const ReportPictures& report, const std::vector<std::size_t>& points, const std::string& label) {
+Chart profile_chart(const ReportPictures& report, const std::vector<std::size_t>& points,
+                    const std::string& label) {
   Series readings{"reading", 1, Mark::points, {}, {}};
   Series fit{"first candidate", 0, Mark::line, {}, {}};
   Series band{report.answer.noise ? "noise" : "", 0, Mark::band, {}, {}};
@@ -172,7 +157,8 @@ Chart profile_chart(const ReportPictures& report, const std::vector<std::size_t>
     fit.x.push_back(number);
     fit.y.push_back(expected);
     const SensorResidual* const residual = residual_of(report, points[i]);
-    const double half = residual != nullptr && report.answer.noise ? kMillimetres * band_of(report, *residual) : kNan;
+    const double half =
+        residual != nullptr && report.answer.noise ? kMillimetres * band_of(report, *residual) : kNan;
     band.x.push_back(number);
     band.y.push_back(expected - half);
     band.upper.push_back(expected + half);
@@ -231,26 +217,53 @@ std::vector<PointSet> point_sets(const ReportPictures& report) {
   for (const bool arch : {false, true}) {
     const std::vector<std::size_t> points = points_of(report, arch);
     if (!points.empty())
-      sets.push_back({fmt::format("{}, {} to {}", arch ? "Arch" : "Top", report.library.points[points.front()].name,
-                                  report.library.points[points.back()].name),
-                      arch ? "arch" : "top", points});
+      sets.push_back(
+          {fmt::format("{}, {} to {}", arch ? "Arch" : "Top", report.library.points[points.front()].name,
+                       report.library.points[points.back()].name),
+           arch ? "arch" : "top", points});
   }
   return sets;
 }
 
 }  // namespace
 
+Drawing draw_bridge(const ReportPictures& report) {
+  const BridgeFrame frame = frame_of(report.library.layout, kPictureWidth, kReadingsHeight, 0.15);
+  const bool with_bar = report.answer.posterior.has_value();
+  Drawing drawing{frame.width, frame.height + (with_bar ? kColourBarHeight : 0.0),
+                  "The bridge; each block coloured by the probability that it is missing", ""};
+  drawing.elements =
+      ground_element(report.library.layout, frame) +
+      block_elements(report.library.layout, frame, [&](BlockId id) { return block_look(report, id); }) +
+      best_scene_marks(report, frame);
+  const double longest = largest_reading(report);
+  const double units = longest > 0.0 ? kLongestReading * frame.scale / longest : 0.0;
+  for (std::size_t point = 0; point < report.library.points.size(); ++point)
+    drawing.elements += reading_element(report, frame, point, units);
+  if (with_bar)
+    drawing.elements +=
+        colour_bar({"probability that the block is missing", {"0", "25 %", "50 %", "75 %", "100 %"}},
+                   drawing.width, drawing.height);
+  return drawing;
+}
+
 Figure bridge_figure(const ReportPictures& report) {
   const bool probabilities = report.answer.posterior.has_value();
   const double longest = kMillimetres * largest_reading(report);
-  return {"bridge", "The bridge and what is missing",
-          fmt::format("{} Outlined: the first candidate. Blue lines hang from the control points by their readings (the "
-                      "longest is {:.3g} mm; the top's hang from above the bridge); a hollow point has no reading, an "
-                      "orange one disagrees with the rest.",
-                      probabilities ? "Blocks that are missing with less than 0.1 % have the colour of stone."
-                                    : "With this objective there are no probabilities.",
-                      longest),
-          panorama_html(draw_bridge(report)), block_table(report), true, TableView::printed};
+  return {
+      "bridge",
+      "The bridge and what is missing",
+      fmt::format(
+          "{} Outlined: the first candidate. Blue lines hang from the control points by their readings (the "
+          "longest is {:.3g} mm; the top's hang from above the bridge); a hollow point has no reading, an "
+          "orange one disagrees with the rest.",
+          probabilities ? "Blocks that are missing with less than 0.1 % have the colour of stone."
+                        : "With this objective there are no probabilities.",
+          longest),
+      panorama_html(draw_bridge(report)),
+      block_table(report),
+      true,
+      TableView::printed};
 }
 
 std::vector<Figure> profile_figures(const ReportPictures& report) {
@@ -266,11 +279,12 @@ std::vector<Figure> residual_figures(const ReportPictures& report) {
   if (report.answer.residuals.empty()) return {};
   std::vector<Figure> figures;
   for (const PointSet& set : point_sets(report))
-    figures.push_back({"residual-" + set.id, "Residuals: " + set.title,
-                       "Reading minus first candidate, in units of the noise at that sensor (the bound of uniform "
-                       "noise, else the standard deviation).",
-                       chart_html(residual_chart(report, set.points, set.title)),
-                       residual_table(report, set.points), false, TableView::printed});
+    figures.push_back(
+        {"residual-" + set.id, "Residuals: " + set.title,
+         "Reading minus first candidate, in units of the noise at that sensor (the bound of uniform "
+         "noise, else the standard deviation).",
+         chart_html(residual_chart(report, set.points, set.title)), residual_table(report, set.points), false,
+         TableView::printed});
   return figures;
 }
 

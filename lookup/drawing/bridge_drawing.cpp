@@ -9,8 +9,8 @@
 namespace voussoir {
 namespace {
 
-constexpr double kSide = 0.25;       // [m] free at the left and right
-constexpr double kBarShare = 0.5;    // of the frame's width
+constexpr double kSide = 0.25;     // [m] free at the left and right
+constexpr double kBarShare = 0.5;  // of the frame's width
 constexpr double kBarThickness = 12.0;
 
 struct Box {
@@ -51,7 +51,8 @@ std::string block_elements(const BlockLayout& layout, const BridgeFrame& frame,
   std::string elements;
   for (std::size_t i = 0; i < layout.size(); ++i) {
     const BlockLook block = look(BlockId{static_cast<std::int32_t>(i)});
-    elements += path_element(block.css_class, closed_path(placed(layout.blocks[i].polygon, frame)), block.tip);
+    elements +=
+        path_element(block.css_class, closed_path(placed(layout.blocks[i].polygon, frame)), block.tip);
   }
   return elements;
 }
@@ -75,11 +76,14 @@ std::string colour_bar(const ColourBar& bar, double width, double height) {
   const double top = height - kColourBarHeight + 32.0;
   std::string elements = text_element({0.5 * width, top - 8.0}, "middle", "", bar.title);
   for (int level = 0; level < kColourLevels; ++level)
-    elements += fmt::format("<rect class=\"m{}\" x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{}\"/>\n", level,
-                            left + length * level / kColourLevels, top, length / kColourLevels, kBarThickness);
+    elements +=
+        fmt::format("<rect class=\"m{}\" x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{}\"/>\n", level,
+                    left + length * level / kColourLevels, top, length / kColourLevels, kBarThickness);
   for (std::size_t i = 0; i < bar.marks.size(); ++i) {
-    const double share = static_cast<double>(i) / static_cast<double>(std::max<std::size_t>(1, bar.marks.size() - 1));
-    elements += text_element({left + length * share, top + kBarThickness + 20.0}, "middle", "small", bar.marks[i]);
+    const double share =
+        static_cast<double>(i) / static_cast<double>(std::max<std::size_t>(1, bar.marks.size() - 1));
+    elements +=
+        text_element({left + length * share, top + kBarThickness + 20.0}, "middle", "small", bar.marks[i]);
   }
   return elements;
 }

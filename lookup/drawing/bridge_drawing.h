@@ -48,7 +48,7 @@ std::string ground_element(const BlockLayout& layout, const BridgeFrame& frame);
 
 /// The colour levels from left to right, with what their ends and marks between mean.
 struct ColourBar {
-  std::string title;              ///< with its unit
+  std::string title;               ///< with its unit
   std::vector<std::string> marks;  ///< evenly spaced from the lowest to the highest level
 };
 

@@ -64,9 +64,8 @@ using Bands = std::array<std::string, kColourLevels>;
 
 /// Adds the parts of a triangle within each level.
 void add_triangle(const std::array<Shade, 3>& triangle, Bands& bands) {
-  const auto [low, high] = std::minmax_element(triangle.begin(), triangle.end(), [](const Shade& a, const Shade& b) {
-    return a.share < b.share;
-  });
+  const auto [low, high] = std::minmax_element(
+      triangle.begin(), triangle.end(), [](const Shade& a, const Shade& b) { return a.share < b.share; });
   const int last = colour_level(high->share);
   for (int level = colour_level(low->share); level <= last; ++level) {
     std::vector<Shade> part(triangle.begin(), triangle.end());
@@ -92,8 +91,9 @@ class FieldPainter {
     std::string elements = ground_element(picture_.layout, frame_) + bands();
     for (std::size_t block = 0; block < picture_.layout.size(); ++block) elements += outline(block);
     if (!picture_.heading.empty())
-      elements += text_element({0.5 * frame_.width, 17.0}, "middle", "strong",
-                               fmt::format("{}; displacements drawn {:g} times larger", picture_.heading, factor_));
+      elements +=
+          text_element({0.5 * frame_.width, 17.0}, "middle", "strong",
+                       fmt::format("{}; displacements drawn {:g} times larger", picture_.heading, factor_));
     elements += colour_bar({"vertical displacement [mm]", marks()}, frame_.width, height);
     return {frame_.width, height, "Deformed bridge, coloured by vertical displacement", elements};
   }
@@ -151,8 +151,9 @@ class FieldPainter {
   std::vector<std::string> marks() const {
     std::vector<std::string> texts;
     for (int i = 0; i < kBarMarks; ++i)
-      texts.push_back(fmt::format("{:.3g}", kMillimetres * (range_.highest - (range_.highest - range_.lowest) * i /
-                                                                                 (kBarMarks - 1))));
+      texts.push_back(fmt::format(
+          "{:.3g}",
+          kMillimetres * (range_.highest - (range_.highest - range_.lowest) * i / (kBarMarks - 1))));
     return texts;
   }
 

@@ -14,8 +14,8 @@ struct FieldPicture {
   const BlockLayout& layout;
   const Mesh& mesh;
   Scene scene;
-  Field field;           ///< [m] NaN at nodes of missing blocks
-  std::string heading;   ///< written above the bridge, before the scale; may be empty
+  Field field;            ///< [m] NaN at nodes of missing blocks
+  std::string heading;    ///< written above the bridge, before the scale; may be empty
   double width = 1040.0;  ///< units of the frame
 };
 

@@ -5,11 +5,12 @@
 
 namespace voussoir::validation {
 
-/// Blocks of any shape, numbered as in `polygons`, meshed by the bridges' rule. Supports act at y = 0, x = 0 and
-/// x = description.wall.length, as in a bridge. No control points.
+/// Blocks of any shape, numbered as in `polygons`, meshed by the bridges' rule. Supports act at y = 0, x = 0
+/// and x = description.wall.length, as in a bridge. No control points.
 Bridge assemble_blocks(BridgeDescription description, const std::vector<Polygon>& polygons);
 
-/// Moves the nodes inside blocks at random by up to `share` of `spacing` [m], and leaves the boundaries alone.
+/// Moves the nodes inside blocks at random by up to `share` of `spacing` [m], and leaves the boundaries
+/// alone.
 void disturb_inner_nodes(double spacing, double share, Bridge& bridge);
 
 /// Rectangle with its lower left corner at `corner` and extra corners every `spacing` along both long sides.
@@ -28,7 +29,13 @@ Bridge floating_course(int blocks, double friction_angle);
 /// A column of square-edged blocks of 1 m x 0.5 m on a clamped one, free at the sides.
 Bridge column(int courses, double young_modulus = 2.5e10);
 
-/// Forces that a constant Piola stress (xx, yy, xy) [Pa] does on the outline of all blocks, node by node [N]: a dead load.
+/// A semicircular ring of mean radius 1 m with curved faces (chords of less than 6 degrees) and radial
+/// joints, on two clamped footings; `thickness` in m. Tangential stiffness is the normal one, E is 100 p_n x
+/// 1 m.
+Bridge semicircular_ring(int voussoirs, double thickness, double friction, double normal_stiffness);
+
+/// Forces that a constant Piola stress (xx, yy, xy) [Pa] does on the outline of all blocks, node by node [N]:
+/// a dead load.
 Field boundary_tractions(const Bridge& bridge, const Eigen::Vector3d& stress);
 
 /// Force that block `first` gives block `second` through their joints [N].

@@ -25,11 +25,9 @@ Eigen::Matrix3Xd stresses(const Bridge& bridge, const Field& field) {
   Eigen::Matrix3Xd result(3, static_cast<Eigen::Index>(mesh.triangles.size()));
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     const auto& n = mesh.triangles[t].nodes;
-    const TriangleShape shape =
-        triangle_shape(mesh.position(n[0]), mesh.position(n[1]), mesh.position(n[2]));
-    result.col(static_cast<Eigen::Index>(t)) =
-        triangle_stress(shape, plane_moduli(bridge.description.material),
-                        corner_displacements(mesh.triangles[t], field));
+    const TriangleShape shape = triangle_shape(mesh.position(n[0]), mesh.position(n[1]), mesh.position(n[2]));
+    result.col(static_cast<Eigen::Index>(t)) = triangle_stress(
+        shape, plane_moduli(bridge.description.material), corner_displacements(mesh.triangles[t], field));
   }
   return result;
 }
@@ -72,7 +70,8 @@ Case solved_patch() {
                         .expected = 0.0,
                         .source = "exact",
                         .computed = spread},
-                       1e-6, "strains of 1e-7 make the stress differ by as much from Hooke's law; Newton 1e-8");
+                       1e-6,
+                       "strains of 1e-7 make the stress differ by as much from Hooke's law; Newton 1e-8");
 }
 
 Case imposed_patch() {
@@ -83,7 +82,8 @@ Case imposed_patch() {
   const EquilibriumSystem system(bridge);
   const Field forces = unbalanced_forces(system, {false}, field);
   std::vector<bool> inside(static_cast<std::size_t>(bridge.mesh.node_count()), true);
-  for (const BoundaryEdge& edge : bridge.mesh.edges) inside[static_cast<std::size_t>(value(edge.from))] = false;
+  for (const BoundaryEdge& edge : bridge.mesh.edges)
+    inside[static_cast<std::size_t>(value(edge.from))] = false;
   double largest = 0.0;
   for (int node = 0; node < bridge.mesh.node_count(); ++node)
     if (inside[static_cast<std::size_t>(node)]) largest = std::max(largest, forces.col(node).norm());
@@ -133,7 +133,8 @@ Case pulled_bar() {
                        1e-6, "strain 4e-7: large-displacement strain differs from the linear one by as much");
 }
 
-Case hanging_weight(const std::string& name, const Bridge& bridge, double modulus, const std::string& source) {
+Case hanging_weight(const std::string& name, const Bridge& bridge, double modulus,
+                    const std::string& source) {
   return relative_case({.name = name,
                         .quantity = "mean displacement of the top [m]",
                         .expected = -self_weight(bridge) * kBarHeight * kBarHeight / (2.0 * modulus),

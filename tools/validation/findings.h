@@ -19,7 +19,7 @@ struct Case {
   double expected = 0.0;
   std::string source = {};  ///< of the expected value
   double computed = 0.0;
-  double error = 0.0;               ///< relative, or absolute where the expected value is zero
+  double error = 0.0;                    ///< relative, or absolute where the expected value is zero
   std::optional<double> tolerance = {};  ///< of the error; empty: a comparison, without a mark
   std::string reason = {};               ///< why this tolerance, or why there is none
 
@@ -39,8 +39,8 @@ struct HardCase {
   std::string setting = {};  ///< its value, with the unit
   std::string scene = {};
   std::string verdict = {};
-  std::string expected = {};            ///< and how it is known
-  std::optional<double> error = {};     ///< of the signal (of d for the intact bridge) against the tightest run
+  std::string expected = {};         ///< and how it is known
+  std::optional<double> error = {};  ///< of the signal (of d for the intact bridge) against the tightest run
   int iterations = 0;
   bool correct = false;
 };
@@ -69,7 +69,7 @@ struct Findings {
 
 /// A group of runs that belong together.
 struct Study {
-  std::string name = {};   ///< short, for filters: "arch-thickness"
+  std::string name = {};  ///< short, for filters: "arch-thickness"
   std::string title = {};
   bool quick = true;  ///< part of every test run
   std::function<Findings()> run = {};

@@ -18,8 +18,8 @@ constexpr double kGravity = 9.81;
 struct MovingBlocks {
   MovingBlocks(const Bridge& bridge, double size, double share_of_critical, double contact_damping)
       : model(bridge,
-              share_of_critical * critical_step(bridge, make_block_bodies(bridge), Integrator::implicit_blocks,
-                                                contact_damping),
+              share_of_critical * critical_step(bridge, make_block_bodies(bridge),
+                                                Integrator::implicit_blocks, contact_damping),
               0.0, contact_damping),
         motion(at_rest<One>(model)),
         margin(0.02 * size) {}
@@ -42,8 +42,9 @@ struct Slide {
   double speed;         ///< at the end [m/s]
 };
 
-/// Gravity comes over 0.1 s, then the block is watched for 0.3 s; times grow with the root of the size. Contacts are
-/// damped, for a block that slides with its joint partly open chatters on it otherwise (mu = 0.7).
+/// Gravity comes over 0.1 s, then the block is watched for 0.3 s; times grow with the root of the size.
+/// Contacts are damped, for a block that slides with its joint partly open chatters on it otherwise (mu =
+/// 0.7).
 Slide slide(double slope, double friction_angle, double size) {
   const Bridge bridge = block_on_wedge(slope, friction_angle, size);
   const double unit = std::sqrt(size);
@@ -66,14 +67,16 @@ Slide slide(double slope, double friction_angle, double size) {
 }
 
 Case sliding_case(double slope, double mu, double size) {
-  return relative_case(
-      {.name = fmt::format("Block on an incline of {:.0f} deg, mu = {}, size {:g}", slope / kDegree, mu, size),
-       .quantity = "acceleration [m/s2]",
-       .expected = kGravity * (std::sin(slope) - mu * std::cos(slope)),
-       .source = "g (sin a - mu cos a)",
-       .computed = slide(slope, std::atan(mu), size).acceleration},
-      1e-3, "contacts resist what they see 1 ms later, so friction follows a change of the pressure by that much of a "
-            "second");
+  return relative_case({.name = fmt::format("Block on an incline of {:.0f} deg, mu = {}, size {:g}",
+                                            slope / kDegree, mu, size),
+                        .quantity = "acceleration [m/s2]",
+                        .expected = kGravity * (std::sin(slope) - mu * std::cos(slope)),
+                        .source = "g (sin a - mu cos a)",
+                        .computed = slide(slope, std::atan(mu), size).acceleration},
+                       1e-3,
+                       "contacts resist what they see 1 ms later, so friction follows a change of the "
+                       "pressure by that much of a "
+                       "second");
 }
 
 Findings incline() {
@@ -89,8 +92,10 @@ Findings incline() {
         kGravity * std::sin(degrees * kDegree) / 290.0,
         "it sways on its elastic joint: g sin a / omega with omega = sqrt(p_t A / m) = 290 1/s"));
   }
-  for (const double size : {1.0, 0.1, 0.001}) findings.cases.push_back(sliding_case(30.0 * kDegree, 0.2, size));
-  for (const double degrees : {20.0, 40.0}) findings.cases.push_back(sliding_case(degrees * kDegree, 0.2, 1.0));
+  for (const double size : {1.0, 0.1, 0.001})
+    findings.cases.push_back(sliding_case(30.0 * kDegree, 0.2, size));
+  for (const double degrees : {20.0, 40.0})
+    findings.cases.push_back(sliding_case(degrees * kDegree, 0.2, 1.0));
   findings.cases.push_back(sliding_case(40.0 * kDegree, 0.7, 1.0));
   return findings;
 }
@@ -111,37 +116,37 @@ Findings impact() {
   }
   const double stiffness = 0.5 * bridge.description.joints.normal_stiffness;  // face of 0.5 m x 1 m
   const double duration = std::numbers::pi * std::sqrt(0.5 * mass / stiffness);
-  const std::string reason = "the blocks' own vibrations, which the step damps, take a share of p_n L / E = 1e-4";
+  const std::string reason =
+      "the blocks' own vibrations, which the step damps, take a share of p_n L / E = 1e-4";
   Findings findings;
-  findings.cases = {
-      absolute_case({.name = "Elastic impact of two equal blocks",
-                     .quantity = "speed of the first afterwards over its speed before",
-                     .expected = 0.0,
-                     .source = "momentum and energy: the blocks exchange their speeds",
-                     .computed = static_cast<double>(blocks.frame(0).velocity.x) / kSpeed},
-                    1e-3, reason),
-      relative_case({.name = "Elastic impact of two equal blocks",
-                     .quantity = "speed of the second afterwards over the first's before",
-                     .expected = 1.0,
-                     .source = "momentum and energy: the blocks exchange their speeds",
-                     .computed = static_cast<double>(blocks.frame(1).velocity.x) / kSpeed},
-                    1e-3, reason),
-      relative_case({.name = "Elastic impact of two equal blocks",
-                     .quantity = "time in contact [s]",
-                     .expected = duration,
-                     .source = "half a period of two masses on the joint, pi sqrt(m / 2 p_n A)",
-                     .computed = touching},
-                    0.01, "two steps of a 300th of the duration")};
+  findings.cases = {absolute_case({.name = "Elastic impact of two equal blocks",
+                                   .quantity = "speed of the first afterwards over its speed before",
+                                   .expected = 0.0,
+                                   .source = "momentum and energy: the blocks exchange their speeds",
+                                   .computed = static_cast<double>(blocks.frame(0).velocity.x) / kSpeed},
+                                  1e-3, reason),
+                    relative_case({.name = "Elastic impact of two equal blocks",
+                                   .quantity = "speed of the second afterwards over the first's before",
+                                   .expected = 1.0,
+                                   .source = "momentum and energy: the blocks exchange their speeds",
+                                   .computed = static_cast<double>(blocks.frame(1).velocity.x) / kSpeed},
+                                  1e-3, reason),
+                    relative_case({.name = "Elastic impact of two equal blocks",
+                                   .quantity = "time in contact [s]",
+                                   .expected = duration,
+                                   .source = "half a period of two masses on the joint, pi sqrt(m / 2 p_n A)",
+                                   .computed = touching},
+                                  0.01, "two steps of a 300th of the duration")};
   return findings;
 }
 
-/// A slender block on a clamped slab; b and h are half its width and height. It stands on two narrow feet, so that it
-/// strikes the slab with its far corner, as Housner assumes.
+/// A slender block on a clamped slab; b and h are half its width and height. It stands on two narrow feet, so
+/// that it strikes the slab with its far corner, as Housner assumes.
 struct Rocker {
   double half_width = 0.2;
   double half_height = 1.0;
-  double foot = 0.02;        ///< width of a foot [m]
-  double hollow = 0.002;     ///< height of a foot [m]
+  double foot = 0.02;     ///< width of a foot [m]
+  double hollow = 0.002;  ///< height of a foot [m]
   double normal_stiffness = 1e13;
 
   double slenderness() const { return std::atan(half_width / half_height); }
@@ -227,23 +232,23 @@ Findings rocking() {
     const double start = share * alpha;
     const Rocking rocked = rock(rocker, start, 2.0 / bounce);
     const std::string name = fmt::format("Rocking block, released at {} of its slenderness", share);
-    findings.cases.push_back(
-        relative_case({.name = name,
-                       .quantity = "quarter period [s]",
-                       .expected = std::acosh(1.0 / (1.0 - share)) / rocker.rate(),
-                       .source = "Housner 1963, T/4 = acosh(1 / (1 - theta/alpha)) / p",
-                       .computed = rocked.quarter_period},
-                      0.25 * alpha * alpha + 4.0 * rocker.inset(start) / rocker.half_width,
-                      "Housner's formula is linear in the slenderness, alpha^2 / 4 = 1 %; the corner gives way by less"));
-    findings.cases.push_back(
-        relative_case({.name = name,
-                       .quantity = "angular speed after the impact over that before",
-                       .expected = 1.0 - drop,
-                       .source = "Housner 1963, 1 - 3/2 sin^2 alpha",
-                       .computed = std::sqrt(rocker.lift(rocked.rebound) / rocker.lift(start))},
-                      drop * rocker.foot / rocker.half_width,
-                      "it strikes with a foot, not with a corner: half the width is uncertain by half a foot, 5 %, and "
-                      "the drop by twice that"));
+    findings.cases.push_back(relative_case(
+        {.name = name,
+         .quantity = "quarter period [s]",
+         .expected = std::acosh(1.0 / (1.0 - share)) / rocker.rate(),
+         .source = "Housner 1963, T/4 = acosh(1 / (1 - theta/alpha)) / p",
+         .computed = rocked.quarter_period},
+        0.25 * alpha * alpha + 4.0 * rocker.inset(start) / rocker.half_width,
+        "Housner's formula is linear in the slenderness, alpha^2 / 4 = 1 %; the corner gives way by less"));
+    findings.cases.push_back(relative_case(
+        {.name = name,
+         .quantity = "angular speed after the impact over that before",
+         .expected = 1.0 - drop,
+         .source = "Housner 1963, 1 - 3/2 sin^2 alpha",
+         .computed = std::sqrt(rocker.lift(rocked.rebound) / rocker.lift(start))},
+        drop * rocker.foot / rocker.half_width,
+        "it strikes with a foot, not with a corner: half the width is uncertain by half a foot, 5 %, and "
+        "the drop by twice that"));
   }
   return findings;
 }

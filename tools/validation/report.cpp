@@ -37,9 +37,9 @@ nlohmann::json json_of(const Case& c) {
 }
 
 nlohmann::json json_of(const HardCase& c) {
-  return {{"sweep", c.sweep},       {"setting", c.setting},       {"scene", c.scene},
-          {"verdict", c.verdict},   {"expected", c.expected},     {"error", number_or_null(c.error)},
-          {"correct", c.correct},   {"iterations", c.iterations}};
+  return {{"sweep", c.sweep},     {"setting", c.setting},      {"scene", c.scene},
+          {"verdict", c.verdict}, {"expected", c.expected},    {"error", number_or_null(c.error)},
+          {"correct", c.correct}, {"iterations", c.iterations}};
 }
 
 }  // namespace
@@ -54,8 +54,9 @@ std::string mark(const HardCase& hard) {
 }
 
 std::string to_sentence(const Tally& t) {
-  std::string text = fmt::format("{} of {} known answers within tolerance, {} comparisons, {} of {} hard cases correct",
-                                 t.within, t.cases, t.comparisons, t.correct, t.hard_cases);
+  std::string text =
+      fmt::format("{} of {} known answers within tolerance, {} comparisons, {} of {} hard cases correct",
+                  t.within, t.cases, t.comparisons, t.correct, t.hard_cases);
   if (t.failures > 0) text += fmt::format(", {} studies failed to run", t.failures);
   return text;
 }

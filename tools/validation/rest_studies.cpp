@@ -53,8 +53,8 @@ Bridge table(double normal_stiffness, double young_modulus) {
   description.joints = {.normal_stiffness = normal_stiffness,
                         .tangential_stiffness = normal_stiffness,
                         .friction_angle = std::atan(2.0)};
-  return assemble_blocks(description, {rectangle({10.0, 0.0}, kWidth, 0.5),
-                                       rectangle({10.0, 0.5}, kWidth, kHeight)});
+  return assemble_blocks(description,
+                         {rectangle({10.0, 0.0}, kWidth, 0.5), rectangle({10.0, 0.5}, kWidth, kHeight)});
 }
 
 /// The weight in a table that is tilted by an angle [rad].
@@ -68,12 +68,13 @@ Field tilted_weight(const Bridge& bridge, double angle) {
 double topples_at(double normal_stiffness) {
   const Bridge bridge = table(normal_stiffness, 100.0 * normal_stiffness);
   return last_true(0.0, std::atan(1.0), 1e-6, [&](double angle) {
-    return QuasiStaticSolver(bridge, {}, tilted_weight(bridge, angle)).solve(Scene{}).outcome == Outcome::standing;
+    return QuasiStaticSolver(bridge, {}, tilted_weight(bridge, angle)).solve(Scene{}).outcome ==
+           Outcome::standing;
   });
 }
 
-/// Angle [rad] at which a rigid block topples off an elastic joint without tension: the resultant N keeps a third of
-/// the closed width a from the edge, and the block leans by 2 N / (p_n a^2); the best a.
+/// Angle [rad] at which a rigid block topples off an elastic joint without tension: the resultant N keeps a
+/// third of the closed width a from the edge, and the block leans by 2 N / (p_n a^2); the best a.
 double topples_on_elastic_joint(double normal_stiffness) {
   const double normal = kWidth * kHeight * 2400.0 * 9.81 * std::cos(std::atan(kWidth / kHeight));
   double best = 0.0;

@@ -39,7 +39,7 @@ bool fits(const Study& study, const std::string& word) {
 
 std::vector<Study> all_studies() {
   std::vector<Study> all;
-  for (auto group : {elasticity_studies(), rest_studies(), motion_studies()})
+  for (auto group : {elasticity_studies(), rest_studies(), motion_studies(), arch_studies()})
     std::move(group.begin(), group.end(), std::back_inserter(all));
   return all;
 }
@@ -47,11 +47,13 @@ std::vector<Study> all_studies() {
 std::vector<Study> chosen_studies(const std::vector<std::string>& words, bool quick_only) {
   const std::vector<Study> all = all_studies();
   for (const std::string& word : words)
-    if (std::none_of(all.begin(), all.end(), [&](const Study& s) { return fits(s, word); })) refuse(word, all);
+    if (std::none_of(all.begin(), all.end(), [&](const Study& s) { return fits(s, word); }))
+      refuse(word, all);
   std::vector<Study> chosen;
   for (const Study& study : all) {
-    const bool named = words.empty() || std::any_of(words.begin(), words.end(),
-                                                    [&](const std::string& word) { return fits(study, word); });
+    const bool named = words.empty() || std::any_of(words.begin(), words.end(), [&](const std::string& word) {
+                         return fits(study, word);
+                       });
     if (named && (study.quick || !quick_only)) chosen.push_back(study);
   }
   return chosen;
