@@ -161,7 +161,11 @@ void refuse_heap(ByteView content, std::size_t index_size) {
   Taker taker(content);
   taker.skip(1);  // version
   if ((taker.take<std::uint8_t>() & 1U) != 0) taker.skip(index_size);
-  if (taker.take<std::uint64_t>() != kUndefined) refuse("links or attributes outside of their object header");
+  if (taker.take<std::uint64_t>() != kUndefined)
+    refuse(
+        "links or attributes outside of their object header, as older versions and other programs write "
+        "them: build the "
+        "database again");
 }
 
 }  // namespace
