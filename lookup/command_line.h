@@ -16,10 +16,6 @@ namespace voussoir {
 /// Throws Failure naming the command that builds one if there is none.
 std::filesystem::path find_database(const std::optional<std::string>& given);
 
-/// Tells the system that the whole table of displacements will be read, so that its pages come in one go
-/// instead of one by one. Only a hint.
-void expect_whole_table(const SceneTable& table);
-
 /// Parses the command line, runs the program and turns exceptions into messages on the standard error and
 /// exit codes: 0 done, 1 could not be done, 2 bad usage or bad input. An answer goes to the standard output
 /// only when it is whole.

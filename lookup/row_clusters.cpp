@@ -14,7 +14,7 @@ constexpr int kHalvingRounds = 3;     // of moving the centres to the middle of 
 constexpr int kRounds = 6;
 
 /// Squared distances of many rows from one.
-VOUSSOIR_VECTORISED
+VOUSSOIR_FOR_EVERY_PROCESSOR
 void find_squares(const float* const* rows, std::size_t count, const float* from, std::size_t stride,
                   float* squares) {
   for (std::size_t row = 0; row < count; ++row) {
@@ -58,7 +58,8 @@ class Clustering {
 
   const float* farthest(const std::vector<std::size_t>& sample, const float* from) const {
     const std::vector<float> found = squares(sample, from);
-    return row(sample[static_cast<std::size_t>(std::max_element(found.begin(), found.end()) - found.begin())]);
+    return row(
+        sample[static_cast<std::size_t>(std::max_element(found.begin(), found.end()) - found.begin())]);
   }
 
   void split(std::vector<std::size_t> rows) {

@@ -7,8 +7,8 @@
 
 namespace voussoir {
 
-/// Rows lack displacements (NaN) in few patterns, since these come from few missing blocks: readings are compared
-/// with each pattern once.
+/// Rows lack displacements (NaN) in few patterns, since these come from few missing blocks: readings are
+/// compared with each pattern once.
 class RowPatterns {
  public:
   /// `rows` are rows of `points` numbers.
@@ -20,7 +20,7 @@ class RowPatterns {
 
  private:
   std::size_t count_ = 0;
-  std::vector<std::uint64_t> lacks_;     // words x patterns: a bit for each point
+  std::vector<std::uint64_t> lacks_;    // words x patterns: a bit for each point
   std::vector<std::uint32_t> pattern_;  // of each row
 };
 

@@ -29,7 +29,8 @@ void plain_rows_within(const SketchCluster& cluster, std::span<const std::uint8_
                        float limit, float reach, std::vector<RowBound>& found) {
   for (std::size_t row = 0; row < cluster.step.size(); ++row) {
     if (cluster.distance[row / kGroup * kGroup] < reach) return;
-    const std::int8_t* const steps = cluster.steps + row / kGroup * kGroup * sides.size() + row % kGroup * kSideBySide;
+    const std::int8_t* const steps =
+        cluster.steps + row / kGroup * kGroup * sides.size() + row % kGroup * kSideBySide;
     std::int32_t sum = 0;
     for (std::size_t i = 0; i < sides.size(); ++i)
       sum += sides[i] * steps[i / kSideBySide * kSideBySide * kGroup + i % kSideBySide];
@@ -97,8 +98,7 @@ __attribute__((target("avx2"))) void avx2_sides(const float* readings, const flo
           _mm256_cmp_ps(_mm256_loadu_ps(readings + at), _mm256_loadu_ps(centre + at), _CMP_GT_OQ));
     };
     const __m256i words = _mm256_permute4x64_epi64(_mm256_packs_epi32(is_above(i), is_above(i + 8)), 0xD8);
-    const __m128i bytes =
-        _mm_packs_epi16(_mm256_castsi256_si128(words), _mm256_extracti128_si256(words, 1));
+    const __m128i bytes = _mm_packs_epi16(_mm256_castsi256_si128(words), _mm256_extracti128_si256(words, 1));
     const auto load = [&](const std::uint8_t* from) __attribute__((target("avx2"))) {
       return _mm_loadu_si128(reinterpret_cast<const __m128i*>(from + i));
     };
@@ -108,7 +108,7 @@ __attribute__((target("avx2"))) void avx2_sides(const float* readings, const flo
 }
 #endif
 
-VOUSSOIR_VECTORISED
+VOUSSOIR_FOR_EVERY_PROCESSOR
 void find_distances(const float* readings, const std::int32_t* is_read, const float* centres,
                     std::size_t count, std::size_t stride, float* distances) {
   for (std::size_t row = 0; row < count; ++row) {
@@ -165,14 +165,13 @@ std::span<const std::uint8_t> SketchReadings::sides(std::span<const float> centr
   return sides_;
 }
 
-void append_rows_within(const SketchCluster& cluster, SketchReadings& readings, std::span<const float> centre, float distance,
-                        float limit, std::vector<RowBound>& found) {
+void append_rows_within(const SketchCluster& cluster, SketchReadings& readings, std::span<const float> centre,
+                        float distance, float limit, std::vector<RowBound>& found) {
   const float start = readings.least(distance);
   const float reach = (start - limit) * kRoundedDown;
   const auto sides = readings.sides(centre);
 #ifdef VOUSSOIR_HAS_AVX2
-  if (__builtin_cpu_supports("avx2"))
-    return avx2_rows_within(cluster, sides, start, limit, reach, found);
+  if (__builtin_cpu_supports("avx2")) return avx2_rows_within(cluster, sides, start, limit, reach, found);
 #endif
   plain_rows_within(cluster, sides, start, limit, reach, found);
 }

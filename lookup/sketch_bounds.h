@@ -9,14 +9,15 @@
 namespace voussoir {
 
 inline constexpr std::size_t kGroup = 8;          ///< rows whose bounds are worked out together
-inline constexpr std::size_t kSideBySide = 4;         ///< of a row side by side
+inline constexpr std::size_t kSideBySide = 4;     ///< of a row side by side
 inline constexpr std::size_t kSketchPlaces = 16;  ///< points are filled up to a whole number of these
 
 /// Sketches of rows near one centre, in descending order of their distance from it; a whole number of groups.
 struct SketchCluster {
-  const std::int8_t* steps;  ///< of each group, for each four points 4 x 8 numbers, those of the first row first
-  std::span<const float> step;      ///< [m] of each row
-  std::span<const float> start;     ///< [m] of each row: step * (sum of its numbers) - what rounding took away
+  const std::int8_t*
+      steps;  ///< of each group, for each four points 4 x 8 numbers, those of the first row first
+  std::span<const float> step;   ///< [m] of each row
+  std::span<const float> start;  ///< [m] of each row: step * (sum of its numbers) - what rounding took away
   std::span<const float> distance;  ///< [m] of each row from the centre, at least
 };
 
@@ -41,8 +42,8 @@ class SketchReadings {
   /// The sum itself is not below this if this class says that it is `distance`.
   float least(float distance) const { return distance * kRoundedDown - rounding_; }
 
-  /// For each place 2 where the reading lies above the centre, 0 where it does not, 1 where there is none. Good
-  /// until the next call.
+  /// For each place 2 where the reading lies above the centre, 0 where it does not, 1 where there is none.
+  /// Good until the next call.
   std::span<const std::uint8_t> sides(std::span<const float> centre);
 
  private:
@@ -55,14 +56,15 @@ class SketchReadings {
 };
 
 /// Appends the rows of a cluster whose bounds are not above a limit. The bound of a row is
-/// `distance` - step * (sum of (side - 1) * number of steps) - what rounding took away; rows nearer to the centre
-/// than distance - limit are not looked at.
-void append_rows_within(const SketchCluster& cluster, SketchReadings& readings, std::span<const float> centre, float distance,
-                        float limit, std::vector<RowBound>& found);
+/// `distance` - step * (sum of (side - 1) * number of steps) - what rounding took away; rows nearer to the
+/// centre than distance - limit are not looked at.
+void append_rows_within(const SketchCluster& cluster, SketchReadings& readings, std::span<const float> centre,
+                        float distance, float limit, std::vector<RowBound>& found);
 
 /// Where the number of steps of a row's point stands among those of all rows.
 constexpr std::size_t sketch_place(std::size_t row, std::size_t point, std::size_t places) {
-  return row / kGroup * kGroup * places + (point / kSideBySide * kGroup + row % kGroup) * kSideBySide + point % kSideBySide;
+  return row / kGroup * kGroup * places + (point / kSideBySide * kGroup + row % kGroup) * kSideBySide +
+         point % kSideBySide;
 }
 
 /// Asks the processor to fetch values that will soon be needed.

@@ -7,7 +7,7 @@
 namespace voussoir {
 namespace {
 
-constexpr double kLargestByte = 127.0;  // steps above or below the centre
+constexpr double kLargestByte = 127.0;     // steps above or below the centre
 constexpr double kSinglePrecision = 1e-6;  // share of a distance that bounds may lose by it
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 

@@ -1,5 +1,6 @@
 #pragma once
-/// @file Rows of displacements in clusters, each row as a centre and a few bytes: bounds of sums of differences.
+/// @file Rows of displacements in clusters, each row as a centre and a few bytes: bounds of sums of
+/// differences.
 
 #include <cstdint>
 #include <span>
@@ -13,9 +14,9 @@ namespace voussoir {
 /// f(r) = sum |reading - r| is convex, so with a cluster's centre m and the sides s (1, -1) of the readings
 ///     f(r) >= f(m) - sum |r - m|         (stored: one number a row),
 ///     f(r) >= f(m) - sum s (r - m)       (r - m stored in steps of one byte, with what rounding took away).
-/// The second is close as long as r - m is small against the noise, for then few readings change sides between m
-/// and r. A cluster's rows stand in descending order of the first number, so that those ruled out by it are not
-/// looked at.
+/// The second is close as long as r - m is small against the noise, for then few readings change sides
+/// between m and r. A cluster's rows stand in descending order of the first number, so that those ruled out
+/// by it are not looked at.
 class Sketches {
  public:
   /// `rows` are rows of `points` numbers [m], NaN where there is no displacement.
@@ -46,15 +47,15 @@ class Sketches {
   void add_cluster(std::span<const double> rows, std::size_t points, std::span<const std::size_t> members);
   void add_sketch(std::size_t row, std::span<const double> difference, double distance);
 
-  std::size_t stride_;                    // points and what fills them up
-  std::vector<float> centre_;             // clusters x stride [m]
-  std::vector<float> radius_;             // [m] of each cluster
-  std::vector<std::size_t> first_slot_;   // of each cluster, and the end of the last
+  std::size_t stride_;                   // points and what fills them up
+  std::vector<float> centre_;            // clusters x stride [m]
+  std::vector<float> radius_;            // [m] of each cluster
+  std::vector<std::size_t> first_slot_;  // of each cluster, and the end of the last
   // One value a slot; the last slots of a cluster's last group are empty.
   std::vector<std::uint32_t> row_;
-  std::vector<float> distance_;       // [m] from the centre, rounded up; -infinity in empty slots
-  std::vector<float> step_;           // [m]
-  std::vector<float> start_;          // [m] see SketchCluster; infinity in empty slots
+  std::vector<float> distance_;  // [m] from the centre, rounded up; -infinity in empty slots
+  std::vector<float> step_;      // [m]
+  std::vector<float> start_;     // [m] see SketchCluster; infinity in empty slots
   std::vector<std::int8_t> sketch_;
 };
 
