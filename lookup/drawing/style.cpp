@@ -77,7 +77,7 @@ svg text{font-size:16px}svg text.small{font-size:15px}.panorama text{font-size:2
 .pictures svg{overflow:visible}}
 @media print{@page{size:A4;margin:15mm}html{font-size:10.5pt}body{max-width:none;padding:0}
 .figures{grid-template-columns:1fr 1fr;gap:1rem}figure,table tr{break-inside:avoid}h2,h3{break-after:avoid}
-.scroll{overflow:visible;max-height:none}summary{display:none}details.printed::details-content{content-visibility:visible;display:block}
+.scroll,details .scroll{overflow:visible;max-height:none}summary{display:none}details.printed::details-content{content-visibility:visible;display:block}
 #tip{display:none}}
 )";
 

@@ -141,6 +141,7 @@ test('Printed on A4 all tables are there and nothing is cut off', async () => {
   assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth));
   for (const id of ['bridge', 'candidates', 'residual-top', 'residual-arch'])
     assert.ok((await page.locator(`#${id} table`).boundingBox()).height > 20, id);
+  assert.ok(await page.$$eval('#bridge .scroll, #residual-arch .scroll', boxes => boxes.every(box => box.scrollHeight <= box.clientHeight)));
   const pdf = (await page.pdf({format: 'A4', preferCSSPageSize: true})).toString('latin1');
   const pages = (pdf.match(/\/Type\s*\/Page\b/g) ?? []).length;
   assert.ok(pages >= 2 && pages <= 8, `${pages} pages`);
