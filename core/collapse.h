@@ -21,8 +21,8 @@ std::string_view to_string(CollapseExtent extent);
 /// The extent of a collapse in which just these blocks move away.
 CollapseExtent collapse_extent(const BlockLayout& layout, const std::vector<BlockId>& moving);
 
-/// Blocks of which a node has moved further than `distance` [m], ascending. Removed blocks, whose displacement
-/// is NaN, are none of them.
+/// Blocks of which a node has moved further than `distance` [m], ascending. Removed blocks, whose
+/// displacement is NaN, are none of them.
 std::vector<BlockId> blocks_moved_beyond(double distance, const Mesh& mesh, const Field& displacement);
 
 }  // namespace voussoir

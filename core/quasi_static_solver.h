@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/bridge.h"
+#include "core/joint_law.h"
 #include "core/skips.h"
 #include "core/solution.h"
 
@@ -22,6 +23,7 @@ struct QuasiStaticSettings {
   int most_falling_iterations = 40;    ///< factorisations of a fall
   bool follow_falls = true;            ///< false: a search without hope ends there, `unresolved`
   double collapse_displacement = 0.1;  ///< [m] a standing bridge moves less; beyond it blocks are falling
+  JointRule joint_rule = JointRule::exact;
   Skips skips;
 };
 

@@ -1,18 +1,18 @@
 #pragma once
-/// @file What solvers leave out because a scene does not need it. Each can be switched on its own, so that its
-/// gain and what it changes can be measured (tools/benchmark_accuracy.h).
+/// @file What solvers leave out because a scene does not need it. Each can be switched on its own, so that
+/// its gain and what it changes can be measured (tools/benchmark_accuracy.h).
 
 namespace voussoir {
 
 struct Skips {
-  bool shared_analysis = true;   ///< ordering and fill are found once for all scenes. Changes nothing
-  bool lane_refill = true;       ///< a lane that finishes takes the next scene at once, instead of waiting for
-                                 ///< the others. Changes nothing
+  bool shared_analysis = true;  ///< ordering and fill are found once for all scenes. Changes nothing
+  bool lane_refill = true;      ///< a lane that finishes takes the next scene at once, instead of waiting for
+                                ///< the others. Changes nothing
   bool settled_contacts = true;  ///< contacts are looked for anew when blocks have moved, instead of in every
                                  ///< step. Changes round-off
-  bool early_outcome = true;     ///< Newton's search without hope ends after three steps instead of thirty, and
-                                 ///< a plain collapse at its stated moment instead of at the earliest decision.
-                                 ///< Changes fields of standing scenes by less than the solver's tolerance
+  bool early_outcome = true;  ///< Newton's search without hope ends after three steps instead of thirty, and
+                              ///< a plain collapse at its stated moment instead of at the earliest decision.
+                              ///< Changes fields of standing scenes by less than the solver's tolerance
 };
 
 }  // namespace voussoir

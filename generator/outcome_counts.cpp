@@ -43,7 +43,8 @@ std::string to_text(const OutcomeCounts& counts) {
                       counts.arch_collapses, counts.local_collapses);
   text += fmt::format("  unresolved  {}\n", counts.unresolved.size());
   for (std::size_t i = 0; i < std::min(counts.unresolved.size(), kMostListed); ++i)
-    text += fmt::format("    {}, residual {:.1e}\n", counts.unresolved[i].scene, counts.unresolved[i].residual);
+    text +=
+        fmt::format("    {}, residual {:.1e}\n", counts.unresolved[i].scene, counts.unresolved[i].residual);
   if (counts.unresolved.size() > kMostListed)
     text += fmt::format("    and {} more\n", counts.unresolved.size() - kMostListed);
   return text;

@@ -34,9 +34,10 @@ int run(const Options& options) {
     for (const Study& study : studies) std::cout << fmt::format("{:<20} {}\n", study.name, study.title);
     return 0;
   }
-  const std::vector<StudyResult> results = run_studies(studies, options.threads, [](const StudyResult& result) {
-    std::cerr << fmt::format("{} ({:.1f} s)\n", result.title, result.seconds);
-  });
+  const std::vector<StudyResult> results =
+      run_studies(studies, options.threads, [](const StudyResult& result) {
+        std::cerr << fmt::format("{} ({:.1f} s)\n", result.title, result.seconds);
+      });
   std::cout << (options.format == "json" ? to_json(results) : to_text(results));
   return tally(results).all_good() ? 0 : 1;
 }

@@ -30,22 +30,26 @@ void run_and_check(const std::vector<Study>& studies) {
 
 }  // namespace
 
-TEST_CASE("The quick studies' known answers are within tolerance and their hard cases correct", "[validation]") {
+TEST_CASE("The quick studies' known answers are within tolerance and their hard cases correct",
+          "[validation]") {
   run_and_check(chosen_studies({}, true));
 }
 
-TEST_CASE("All studies' known answers are within tolerance and their hard cases correct", "[validation][long]") {
+TEST_CASE("All studies' known answers are within tolerance and their hard cases correct",
+          "[validation][long]") {
   run_and_check(chosen_studies({}, false));
 }
 
-TEST_CASE("An answer outside its tolerance, or NaN, is marked and counted (made-up results)", "[validation]") {
-  const Case right = relative_case({.name = "a", .quantity = "q", .expected = 2.0, .source = "s", .computed = 2.01},
-                                   0.01, "why");
-  const Case wrong = relative_case({.name = "a", .quantity = "q", .expected = 2.0, .source = "s", .computed = 2.1},
-                                   0.01, "why");
-  const Case not_a_number =
-      absolute_case({.name = "a", .quantity = "q", .expected = 2.0, .source = "s", .computed = std::nan("")}, 1.0, "");
-  const Case compared = comparison({.name = "a", .quantity = "q", .expected = 2.0, .source = "s", .computed = 4.0}, "");
+TEST_CASE("An answer outside its tolerance, or NaN, is marked and counted (made-up results)",
+          "[validation]") {
+  const Case right = relative_case(
+      {.name = "a", .quantity = "q", .expected = 2.0, .source = "s", .computed = 2.01}, 0.01, "why");
+  const Case wrong = relative_case(
+      {.name = "a", .quantity = "q", .expected = 2.0, .source = "s", .computed = 2.1}, 0.01, "why");
+  const Case not_a_number = absolute_case(
+      {.name = "a", .quantity = "q", .expected = 2.0, .source = "s", .computed = std::nan("")}, 1.0, "");
+  const Case compared =
+      comparison({.name = "a", .quantity = "q", .expected = 2.0, .source = "s", .computed = 4.0}, "");
   CHECK(right.error == Approx(0.005));
   CHECK(right.within());
   CHECK_FALSE(wrong.within());
@@ -73,5 +77,6 @@ TEST_CASE("A study that throws is reported and does not stop the others", "[vali
 }
 
 TEST_CASE("A filter that fits no study is refused with the studies' names", "[validation]") {
-  CHECK_THROWS_WITH(chosen_studies({"nonsense"}, false), Catch::Contains("nonsense") && Catch::Contains("patch"));
+  CHECK_THROWS_WITH(chosen_studies({"nonsense"}, false),
+                    Catch::Contains("nonsense") && Catch::Contains("patch"));
 }

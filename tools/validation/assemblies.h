@@ -29,6 +29,11 @@ Bridge floating_course(int blocks, double friction_angle);
 /// A column of square-edged blocks of 1 m x 0.5 m on a clamped one, free at the sides.
 Bridge column(int courses, double young_modulus = 2.5e10);
 
+/// A semicircular ring of mean radius 1 m with curved faces (chords of less than 6 degrees) and radial
+/// joints, on two clamped footings; `thickness` in m. Tangential stiffness is the normal one, E is 100 p_n x
+/// 1 m.
+Bridge semicircular_ring(int voussoirs, double thickness, double friction, double normal_stiffness);
+
 /// Forces that a constant Piola stress (xx, yy, xy) [Pa] does on the outline of all blocks, node by node [N]:
 /// a dead load.
 Field boundary_tractions(const Bridge& bridge, const Eigen::Vector3d& stress);

@@ -14,4 +14,7 @@ std::vector<Study> motion_studies();
 /// Blocks at rest: stack, tilting table.
 std::vector<Study> rest_studies();
 
+/// The semicircular arch: least thickness, friction.
+std::vector<Study> arch_studies();
+
 }  // namespace voussoir::validation
