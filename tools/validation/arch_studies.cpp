@@ -27,7 +27,8 @@ struct Published {
 constexpr std::array<Published, 8> kPublished = {
     {{7, .0962}, {9, .1021}, {11, .1049}, {13, .1028}, {15, .1063}, {21, .1068}, {31, .1072}, {51, .1074}}};
 
-/// Compliance of the joints, made dimensionless: the settlement under a column as high as the radius, over the radius.
+/// Compliance of the joints, made dimensionless: the settlement under a column as high as the radius, over
+/// the radius.
 double compliance(double normal_stiffness) {
   return kSpecificWeight / normal_stiffness;
 }
@@ -55,8 +56,8 @@ double least_thickness_by_newton(int voussoirs, double friction, double normal_s
 struct Limit {
   std::vector<double> roots;  ///< cube roots of the compliance
   std::vector<double> thickness;
-  double rigid = 0.0;    ///< extrapolated with the polynomial through all but the softest point
-  double spread = 0.0;   ///< how far straight and curved extrapolation differ
+  double rigid = 0.0;   ///< extrapolated with the polynomial through all but the softest point
+  double spread = 0.0;  ///< how far straight and curved extrapolation differ
 };
 
 Limit find_limit(int voussoirs, double friction, const std::vector<double>& stiffnesses, double high) {
@@ -67,13 +68,14 @@ Limit find_limit(int voussoirs, double friction, const std::vector<double>& stif
   }
   const std::size_t order = std::max<std::size_t>(3, stiffnesses.size() - 1);
   limit.rigid = extrapolated(limit.roots, limit.thickness, order);
-  limit.spread = std::abs(extrapolated(limit.roots, limit.thickness, 3) -
-                          extrapolated(limit.roots, limit.thickness, 2));
+  limit.spread =
+      std::abs(extrapolated(limit.roots, limit.thickness, 3) - extrapolated(limit.roots, limit.thickness, 2));
   return limit;
 }
 
 const char* const kExtrapolation =
-    "hinges of elastic joints cost a share of (rho g R / p_n)^(1/3); what curving the extrapolation changes, and the "
+    "hinges of elastic joints cost a share of (rho g R / p_n)^(1/3); what curving the extrapolation changes, "
+    "and the "
     "digits of the source";
 
 Series series_of(const std::string& label, const Limit& limit) {
@@ -85,12 +87,13 @@ Series series_of(const std::string& label, const Limit& limit) {
 }
 
 Case statics_case(const Published& published) {
-  return absolute_case({.name = fmt::format("Semicircular arch, {} rigid voussoirs, high friction", published.voussoirs),
-                        .quantity = "least t/R, by statics",
-                        .expected = published.thickness,
-                        .source = "Cocchetti and Rizzi 2020",
-                        .computed = least_thickness(published.voussoirs, kHighFriction, VoussoirShape::curved).value_or(0.0)},
-                       kPublishedDigits, "four digits are published");
+  return absolute_case(
+      {.name = fmt::format("Semicircular arch, {} rigid voussoirs, high friction", published.voussoirs),
+       .quantity = "least t/R, by statics",
+       .expected = published.thickness,
+       .source = "Cocchetti and Rizzi 2020",
+       .computed = least_thickness(published.voussoirs, kHighFriction, VoussoirShape::curved).value_or(0.0)},
+      kPublishedDigits, "four digits are published");
 }
 
 /// The statics that other cases lean on, against what is published.
@@ -98,13 +101,13 @@ Findings ring_statics() {
   Findings findings;
   constexpr int kMany = 1601;
   for (const Published& published : kPublished) findings.cases.push_back(statics_case(published));
-  findings.cases.push_back(absolute_case(
-      {.name = "Semicircular arch, 1601 rigid voussoirs, high friction",
-       .quantity = "least t/R, by statics",
-       .expected = 0.1075,
-       .source = "Milankovitch, continuous arch",
-       .computed = least_thickness(kMany, kHighFriction, VoussoirShape::curved).value_or(0.0)},
-      kPublishedDigits, "four digits are published"));
+  findings.cases.push_back(
+      absolute_case({.name = "Semicircular arch, 1601 rigid voussoirs, high friction",
+                     .quantity = "least t/R, by statics",
+                     .expected = 0.1075,
+                     .source = "Milankovitch, continuous arch",
+                     .computed = least_thickness(kMany, kHighFriction, VoussoirShape::curved).value_or(0.0)},
+                    kPublishedDigits, "four digits are published"));
   const auto stands = [](double mu) { return ring_stands(kMany, 0.6, mu, VoussoirShape::curved); };
   const double least_friction = first_true(0.2, 0.5, 1e-7, stands);
   findings.cases.push_back(absolute_case({.name = "Semicircular arch, 1601 rigid voussoirs",
@@ -120,10 +123,11 @@ Findings ring_statics() {
        .source = kPublishedFriction,
        .computed = least_thickness(kMany, 0.309216, VoussoirShape::weight_on_mean_line).value_or(0.0)},
       kPublishedDigits, "four digits are published"));
-  findings.notes = {fmt::format(
-      "The published 0.2006 at mu = 0.3092 has the weight on the ring's mean line; with the weight where it is, statics "
-      "gives {:.4f}.",
-      least_thickness(kMany, 0.309216, VoussoirShape::curved).value_or(0.0))};
+  findings.notes = {
+      fmt::format("The published 0.2006 at mu = 0.3092 has the weight on the ring's mean line; with the "
+                  "weight where it is, statics "
+                  "gives {:.4f}.",
+                  least_thickness(kMany, 0.309216, VoussoirShape::curved).value_or(0.0))};
   return findings;
 }
 
@@ -135,21 +139,22 @@ Findings ring_thickness() {
   double cost = 0.0;
   for (const Published& published : kPublished) {
     const Limit limit = find_limit(published.voussoirs, kHighFriction, {1e9, 1e10, 1e11}, 0.25);
-    findings.cases.push_back(
-        absolute_case({.name = fmt::format("Semicircular arch, {} voussoirs, high friction", published.voussoirs),
-                       .quantity = "least t/R that stands, extrapolated to rigid joints",
-                       .expected = published.thickness,
-                       .source = kPublishedRing,
-                       .computed = limit.rigid},
-                      limit.spread + kPublishedDigits, kExtrapolation));
+    findings.cases.push_back(absolute_case(
+        {.name = fmt::format("Semicircular arch, {} voussoirs, high friction", published.voussoirs),
+         .quantity = "least t/R that stands, extrapolated to rigid joints",
+         .expected = published.thickness,
+         .source = kPublishedRing,
+         .computed = limit.rigid},
+        limit.spread + kPublishedDigits, kExtrapolation));
     plot.series.push_back(series_of(fmt::format("{} voussoirs", published.voussoirs), limit));
     cost = (limit.thickness.front() - limit.rigid) / limit.roots.front();
   }
   findings.plots = {plot};
-  findings.notes = {fmt::format(
-      "Finite joint stiffness makes a semicircular arch need about {:.2f} (rho g R / p_n)^(1/3) more t/R than rigid "
-      "voussoirs do: {:.3f} at R = 3.75 m and p_n = 1e9 Pa/m.",
-      cost, cost * std::cbrt(3.75 * compliance(1e9)))};
+  findings.notes = {
+      fmt::format("Finite joint stiffness makes a semicircular arch need about {:.2f} (rho g R / p_n)^(1/3) "
+                  "more t/R than rigid "
+                  "voussoirs do: {:.3f} at R = 3.75 m and p_n = 1e9 Pa/m.",
+                  cost, cost * std::cbrt(3.75 * compliance(1e9)))};
   return findings;
 }
 
@@ -157,12 +162,13 @@ constexpr int kFrictionRing = 31;
 
 Case friction_case(double mu, const Limit& limit) {
   const double expected = least_thickness(kFrictionRing, mu, VoussoirShape::curved).value_or(0.0);
-  return absolute_case({.name = fmt::format("Semicircular arch, {} voussoirs, mu = {}", kFrictionRing, mu),
-                        .quantity = "least t/R that stands, extrapolated to rigid joints",
-                        .expected = expected,
-                        .source = "statics of rigid voussoirs, which gives the published ends of the mixed mode",
-                        .computed = limit.rigid},
-                       limit.spread + kPublishedDigits, kExtrapolation);
+  return absolute_case(
+      {.name = fmt::format("Semicircular arch, {} voussoirs, mu = {}", kFrictionRing, mu),
+       .quantity = "least t/R that stands, extrapolated to rigid joints",
+       .expected = expected,
+       .source = "statics of rigid voussoirs, which gives the published ends of the mixed mode",
+       .computed = limit.rigid},
+      limit.spread + kPublishedDigits, kExtrapolation);
 }
 
 /// With less friction than any thickness can stand on.
@@ -183,9 +189,11 @@ Findings ring_friction() {
   Series computed{.label = "computed, extrapolated to rigid joints", .line = false};
   Series statics{.label = "statics of rigid voussoirs"};
   for (double mu = 0.3105; mu < 0.48; mu += 0.0025)
-    if (const auto t = least_thickness(kFrictionRing, mu, VoussoirShape::curved)) statics.points.emplace_back(mu, *t);
+    if (const auto t = least_thickness(kFrictionRing, mu, VoussoirShape::curved))
+      statics.points.emplace_back(mu, *t);
   for (const double mu : {0.45, 0.38, 0.35, 0.32}) {
-    const Limit limit = find_limit(kFrictionRing, mu, {1e8, std::sqrt(1e17), 1e9, std::sqrt(1e19), 1e10}, 0.6);
+    const Limit limit =
+        find_limit(kFrictionRing, mu, {1e8, std::sqrt(1e17), 1e9, std::sqrt(1e19), 1e10}, 0.6);
     findings.cases.push_back(friction_case(mu, limit));
     computed.points.emplace_back(mu, limit.rigid);
   }
@@ -235,10 +243,17 @@ Findings ring_in_motion() {
 }  // namespace
 
 std::vector<Study> arch_studies() {
-  return {{.name = "arch-statics", .title = "Semicircular arch: rigid voussoirs", .run = ring_statics},
-          {.name = "arch-thickness", .title = "Semicircular arch: least thickness", .quick = false, .run = ring_thickness},
-          {.name = "arch-friction", .title = "Semicircular arch: friction", .quick = false, .run = ring_friction},
-          {.name = "arch-motion", .title = "Semicircular arch: Newton against motion", .quick = false, .run = ring_in_motion}};
+  return {
+      {.name = "arch-statics", .title = "Semicircular arch: rigid voussoirs", .run = ring_statics},
+      {.name = "arch-thickness",
+       .title = "Semicircular arch: least thickness",
+       .quick = false,
+       .run = ring_thickness},
+      {.name = "arch-friction", .title = "Semicircular arch: friction", .quick = false, .run = ring_friction},
+      {.name = "arch-motion",
+       .title = "Semicircular arch: Newton against motion",
+       .quick = false,
+       .run = ring_in_motion}};
 }
 
 }  // namespace voussoir::validation

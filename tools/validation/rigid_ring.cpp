@@ -78,13 +78,14 @@ bool ring_stands(int voussoirs, double thickness, double friction, VoussoirShape
     const double angle = std::numbers::pi * j / voussoirs;
     const double s = std::sin(angle);
     const double c = std::cos(angle);
-    // Normal force N = H s + W c, shear force T = -H c + W s, moment -(M - W's moment): N at radius r has moment -r N.
+    // Normal force N = H s + W c, shear force T = -H c + W s, moment -(M - W's moment): N at radius r has
+    // moment -r N.
     for (const double side : {1.0, -1.0}) {
       const double radius = 1.0 + side * 0.5 * thickness;
-      possible = cut(possible, side * Point(-radius * s, 1.0),
-                     side * (above.moment + radius * above.size * c));
-      possible = cut(possible, {-side * c - friction * s, 0.0},
-                     friction * above.size * c - side * above.size * s);
+      possible =
+          cut(possible, side * Point(-radius * s, 1.0), side * (above.moment + radius * above.size * c));
+      possible =
+          cut(possible, {-side * c - friction * s, 0.0}, friction * above.size * c - side * above.size * s);
     }
   }
   return !possible.empty();
