@@ -40,6 +40,10 @@ double moment_of_inertia(const Bridge& bridge, const IndexRange& triangles, cons
   return bridge.description.material.density * bridge.description.material.thickness * sum;
 }
 
+double lumped_moment_of_inertia(const BlockBody& body) {
+  return body.arms.dot(body.masses.cwiseProduct(body.arms));
+}
+
 void set_masses(const Mesh& mesh, const Eigen::VectorXd& masses, BlockBody& body) {
   const int n = body.nodes.size();
   body.masses.resize(2 * n);
@@ -97,7 +101,7 @@ std::vector<bool> held_components(const Bridge& bridge) {
   return held;
 }
 
-std::vector<BlockBody> make_block_bodies(const Bridge& bridge) {
+std::vector<BlockBody> make_block_bodies(const Bridge& bridge, RotationalInertia inertia) {
   const Eigen::VectorXd masses = lumped_masses(bridge);
   const std::vector<bool> held = held_components(bridge);
   std::vector<BlockBody> bodies;
@@ -109,7 +113,8 @@ std::vector<BlockBody> make_block_bodies(const Bridge& bridge) {
     for (int t = range.begin; t < range.end; ++t)
       add_stiffness(bridge, bridge.mesh.triangles[static_cast<std::size_t>(t)], body);
     set_masses(bridge.mesh, masses, body);
-    body.inertia = moment_of_inertia(bridge, range, body.centre);
+    body.inertia = inertia == RotationalInertia::exact ? moment_of_inertia(bridge, range, body.centre)
+                                                       : lumped_moment_of_inertia(body);
     set_supports(held, body);
     bodies.push_back(std::move(body));
   }
@@ -135,7 +140,7 @@ Eigen::MatrixXd step_response(const BlockBody& body, double step) {
 Eigen::MatrixXd deformation_response(const BlockBody& body, double step) {
   const Eigen::MatrixXd response = step_response(body, step);
   if (body.held) return response;
-  return response - rigid_response(body, body.arms.dot(body.masses.cwiseProduct(body.arms)));
+  return response - rigid_response(body, lumped_moment_of_inertia(body));
 }
 
 Eigen::MatrixXd motion_response(const BlockBody& body, double step) {

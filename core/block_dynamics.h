@@ -6,10 +6,7 @@
 /// u_i), with the centre c, the rotation R and the deformation u, which has no part that moves the block as a
 /// whole.
 ///
-///   centre and rotation:  central differences under the resultant and the moment of all forces, with the
-///   block's true
-///                         moment of inertia (masses lumped at the corners of a block have up to three times
-///                         as much)
+///   centre and rotation:  central differences under the resultant and the moment of all forces
 ///   deformation:          (M + dt^2 K) u_new = M (u + dt du/dt) + dt^2 R^T f
 ///
 /// The deformation's own vibrations (hundreds of hertz and more) are damped by the step, its response to slow
@@ -23,10 +20,18 @@
 
 namespace voussoir {
 
+/// Which moment of inertia turns a block.
+enum class RotationalInertia {
+  exact,  ///< of its area: how blocks rock and topple
+  lumped  ///< of the masses lumped at its nodes, up to three times as much for a block of two triangles.
+          ///< Central differences on the nodes move like that, and where only the state of rest counts it
+          ///< allows steps half as large again
+};
+
 struct BlockBody {
   IndexRange nodes;
   double mass = 0.0;          ///< [kg]
-  double inertia = 0.0;       ///< moment of inertia of the triangles about the centre [kg m2]
+  double inertia = 0.0;       ///< moment of inertia about the centre [kg m2]
   Point centre;               ///< of mass, at rest [m]
   bool held = false;          ///< a support holds some of its nodes
   bool free_x = true;         ///< no node is held in x, so that all horizontal forces on it must balance
@@ -38,7 +43,8 @@ struct BlockBody {
 };
 
 /// The bodies of all blocks of a bridge.
-std::vector<BlockBody> make_block_bodies(const Bridge& bridge);
+std::vector<BlockBody> make_block_bodies(const Bridge& bridge,
+                                         RotationalInertia inertia = RotationalInertia::exact);
 
 /// Lumped masses of the nodes [kg].
 Eigen::VectorXd lumped_masses(const Bridge& bridge);

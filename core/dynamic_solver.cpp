@@ -43,10 +43,11 @@ struct DynamicSolver::Workspace {
   Workspace(const Bridge& bridge, const DynamicSettings& settings_)
       : settings(settings_),
         natural(natural_motion(bridge)),
-        critical(voussoir::critical_step(bridge, make_block_bodies(bridge), settings.integrator,
-                                         settings.contact_damping)),
+        critical(voussoir::critical_step(bridge, make_block_bodies(bridge, settings.inertia),
+                                         settings.integrator, settings.contact_damping)),
         model(bridge, checked_step(settings, critical),
-              settings.damping.value_or(2.0 * kDampingShare * natural.frequency), settings.contact_damping),
+              settings.damping.value_or(2.0 * kDampingShare * natural.frequency), settings.contact_damping,
+              settings.inertia),
         margin(kSearchMargin * mean_block_size(bridge)) {}
 
   long steps_until(double time) const { return std::lround(std::ceil(time / model.step)); }

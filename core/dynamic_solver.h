@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "core/block_dynamics.h"
 #include "core/bridge.h"
 #include "core/critical_step.h"
 #include "core/skips.h"
@@ -17,6 +18,7 @@ namespace voussoir {
 /// Times in seconds of the bridge's own time.
 struct DynamicSettings {
   Integrator integrator = Integrator::implicit_blocks;
+  RotationalInertia inertia = RotationalInertia::lumped;
   std::optional<double> step;  ///< empty: 0.9 times the critical step
   double ramp = 0.3;           ///< gravity grows from 0 as 3 x^2 - 2 x^3, x = time / ramp; 0: at once
   std::optional<double>

@@ -148,8 +148,8 @@ void clear_held(const EquilibriumSystem& system, Field& forces) {
 
 }  // namespace
 
-EquilibriumSystem::EquilibriumSystem(const Bridge& bridge_, const Field& dead_load)
-    : bridge(&bridge_), moduli(plane_moduli(bridge_.description.material)) {
+EquilibriumSystem::EquilibriumSystem(const Bridge& bridge_, const Field& dead_load, JointRule rule)
+    : bridge(&bridge_), joint_rule(rule), moduli(plane_moduli(bridge_.description.material)) {
   const Mesh& mesh = bridge->mesh;
   weight.setZero(mesh.node_count());
   const double specific = bridge->description.material.density * bridge->description.gravity *
@@ -187,8 +187,8 @@ Field unbalanced_forces(const EquilibriumSystem& system, const std::vector<bool>
     if (!present(removed, joint.first) || !present(removed, joint.second)) continue;
     const JointKinematics kinematics =
         joint_kinematics(system.joints[j], gathered(displacement, corners(joint)));
-    const JointResponse response =
-        integrate_joint(bridge.description.joints, joint.length * thickness, kinematics.state);
+    const JointResponse response = integrate_joint(bridge.description.joints, joint.length * thickness,
+                                                   kinematics.state, system.joint_rule);
     subtract_at(forces, corners(joint), kinematics.gradient.transpose().lazyProduct(response.force).eval());
   }
   clear_held(system, forces);
@@ -215,8 +215,8 @@ Field assemble(const EquilibriumSystem& system, const std::vector<bool>& removed
     if (!present(removed, joint.first) || !present(removed, joint.second)) continue;
     const Vector8d q = gathered(displacement, corners(joint));
     const JointKinematics kinematics = joint_kinematics(system.joints[j], q);
-    JointResponse response =
-        integrate_joint(bridge.description.joints, joint.length * thickness, kinematics.state);
+    JointResponse response = integrate_joint(bridge.description.joints, joint.length * thickness,
+                                             kinematics.state, system.joint_rule);
     subtract_at(forces, corners(joint), kinematics.gradient.transpose().lazyProduct(response.force).eval());
     if (bonding > 0.0)
       response.tangent = (1.0 - bonding) * response.tangent +

@@ -21,9 +21,11 @@ namespace voussoir {
 struct EquilibriumSystem {
   /// `dead_load`: forces on the nodes beside the blocks' weight [N], 2 x nodes, of fixed direction; empty for
   /// none. Those on removed blocks and held components do not act.
-  explicit EquilibriumSystem(const Bridge& bridge, const Field& dead_load = {});
+  explicit EquilibriumSystem(const Bridge& bridge, const Field& dead_load = {},
+                             JointRule rule = JointRule::exact);
 
   const Bridge* bridge;  ///< outlives the system
+  JointRule joint_rule;
   PlaneModuli moduli;
   std::vector<TriangleShape> triangles;
   std::vector<JointFrame> joints;

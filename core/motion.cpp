@@ -39,7 +39,8 @@ void set_pair(Pair<T>& pair, int i, double x, double y) {
 
 }  // namespace
 
-MotionModel::MotionModel(const Bridge& bridge_, double step_, double damping_, double contact_damping_)
+MotionModel::MotionModel(const Bridge& bridge_, double step_, double damping_, double contact_damping_,
+                         RotationalInertia inertia)
     : bridge(&bridge_),
       step(step_),
       damping(damping_),
@@ -47,7 +48,7 @@ MotionModel::MotionModel(const Bridge& bridge_, double step_, double damping_, d
       gravity(bridge_.description.gravity),
       material(contact_material(bridge_)),
       search(bridge_.mesh, bridge_.joints),
-      bodies(make_block_bodies(bridge_)),
+      bodies(make_block_bodies(bridge_, inertia)),
       masses(lumped_masses(bridge_)),
       held(held_components(bridge_)),
       moduli(plane_moduli(bridge_.description.material)) {

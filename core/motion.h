@@ -14,7 +14,8 @@ namespace voussoir {
 
 /// What all scenes of a bridge share at one time step.
 struct MotionModel {
-  MotionModel(const Bridge& bridge, double step, double damping, double contact_damping);
+  MotionModel(const Bridge& bridge, double step, double damping, double contact_damping,
+              RotationalInertia inertia = RotationalInertia::exact);
 
   const Bridge* bridge;    ///< outlives the model
   double step;             ///< dt [s]

@@ -18,7 +18,7 @@ struct QuasiStaticSolver::Workspace {
 
   Workspace(const Bridge& bridge, QuasiStaticSettings settings_, const Field& dead_load)
       : settings(settings_),
-        system(bridge, dead_load),
+        system(bridge, dead_load, settings.joint_rule),
         linear(system.pattern),
         tangents(static_cast<std::size_t>(system.pattern.nonZeros())),
         steps(static_cast<std::size_t>(system.unknown_count())),

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/bridge.h"
+#include "core/joint_law.h"
 #include "core/skips.h"
 #include "core/solution.h"
 
@@ -23,6 +24,7 @@ struct QuasiStaticSettings {
   bool follow_falls = true;          ///< false: a search without hope ends there, `unresolved`
   double collapse_displacement =
       0.1;  ///< [m] beyond it, and beyond ten sags of the bonded scene, blocks are falling
+  JointRule joint_rule = JointRule::exact;
   Skips skips;
 };
 

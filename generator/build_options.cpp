@@ -1,10 +1,10 @@
 #include "generator/build_options.h"
 
 #include <CLI/CLI.hpp>
-#include <functional>
 #include <map>
 
 #include "database/provenance.h"
+#include "generator/build_switches.h"
 
 namespace voussoir {
 namespace {
@@ -25,19 +25,9 @@ constexpr const char* kFooter =
     "gains.\n\n"
     "Exit codes: 0 done, 1 could not be done, 2 bad usage or bad bridge file.";
 
-/// What --without names.
-const std::map<std::string, std::function<void(BuildOptions&)>> kSwitchedOff = {
-    {"mirror-images", [](BuildOptions& o) { o.request.rules.mirror_images = false; }},
-    {"warm-starts", [](BuildOptions& o) { o.request.rules.warm_starts = false; }},
-    {"shared-analysis", [](BuildOptions& o) { o.motion.skips.shared_analysis = false; }},
-    {"lane-refill", [](BuildOptions& o) { o.motion.skips.lane_refill = false; }},
-    {"settled-contacts", [](BuildOptions& o) { o.motion.skips.settled_contacts = false; }},
-    {"early-outcome", [](BuildOptions& o) { o.motion.skips.early_outcome = false; }},
-};
-
 std::vector<std::string> switch_names() {
   std::vector<std::string> names;
-  for (const auto& [name, apply] : kSwitchedOff) names.push_back(name);
+  for (const BuildSwitch& each : build_switches()) names.emplace_back(each.name);
   return names;
 }
 
@@ -67,13 +57,6 @@ void add_motion_options(CLI::App& app, DynamicSettings& motion) {
                  "a scene in motion stands when its unbalanced forces are this share of the bridge's weight")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
-}
-
-SolverChoice chosen_solver(const std::string& name, const DynamicSettings& motion) {
-  if (name == "dynamic") return dynamic(motion);
-  QuasiStaticSettings newton;
-  newton.skips = motion.skips;
-  return quasi_static(newton, motion);
 }
 
 }  // namespace
@@ -120,8 +103,10 @@ BuildOptions parse_build_options(int argc, char** argv) {
   }
   options.json = format == "json";
   options.request.fields = fields == "all" ? KeepField::yes : KeepField::no;
-  for (const std::string& name : without) kSwitchedOff.at(name)(options);
-  options.solver = chosen_solver(solver, options.motion);
+  for (const std::string& name : without)
+    build_switch(name).switch_off(options.request.rules, options.motion.skips);
+  options.solver =
+      solver == "dynamic" ? dynamic(options.motion) : quasi_static_with(options.motion.skips, options.motion);
   return options;
 }
 

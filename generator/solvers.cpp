@@ -15,14 +15,15 @@ namespace {
 
 std::string settings_text(const QuasiStaticSettings& settings) {
   const auto& [tolerance, round_off, loose_tolerance, most_warm_iterations, most_iterations,
-               most_falling_iterations, follow_falls, collapse_displacement, skips] = settings;
+               most_falling_iterations, follow_falls, collapse_displacement, joint_rule, skips] = settings;
   static_cast<void>(skips);  // stated with the motion's settings, which every solver has
   return fmt::format(
       "tolerance = {}\nround_off = {}\nloose_tolerance = {}\nmost_warm_iterations = {}\nmost_iterations = "
       "{}\n"
-      "most_falling_iterations = {}\nfollow_falls = {}\ncollapse_displacement_m = {}\n",
+      "most_falling_iterations = {}\nfollow_falls = {}\ncollapse_displacement_m = {}\njoint_integration = "
+      "{}\n",
       tolerance, round_off, loose_tolerance, most_warm_iterations, most_iterations, most_falling_iterations,
-      follow_falls, collapse_displacement);
+      follow_falls, collapse_displacement, to_string(joint_rule));
 }
 
 std::string or_automatic(const std::optional<double>& value) {
@@ -30,14 +31,16 @@ std::string or_automatic(const std::optional<double>& value) {
 }
 
 std::string settings_text(const DynamicSettings& settings) {
-  const auto& [integrator, step, ramp, damping, contact_damping, moment, earliest_decision, latest_decision,
-               standing_unbalance, collapsing_unbalance, plain_unbalance, largest_standing_unbalance,
-               moving_sags, skips, side_by_side] = settings;
+  const auto& [integrator, inertia, step, ramp, damping, contact_damping, moment, earliest_decision,
+               latest_decision, standing_unbalance, collapsing_unbalance, plain_unbalance,
+               largest_standing_unbalance, moving_sags, skips, side_by_side] = settings;
   static_cast<void>(side_by_side);  // like the other skips, it does not change the answer
   std::string text = fmt::format(
-      "integrator = {}\nstep_s = {}\nramp_s = {}\ndamping_per_s = {}\ncontact_damping_s = {}\nmoment_s = "
+      "integrator = {}\ninertia = {}\nstep_s = {}\nramp_s = {}\ndamping_per_s = {}\ncontact_damping_s = "
+      "{}\nmoment_s = "
       "{}\n",
-      integrator == Integrator::implicit_blocks ? "implicit" : "explicit", or_automatic(step), ramp,
+      integrator == Integrator::implicit_blocks ? "implicit" : "explicit",
+      inertia == RotationalInertia::exact ? "exact" : "lumped", or_automatic(step), ramp,
       or_automatic(damping), contact_damping, moment);
   text += fmt::format("earliest_decision_s = {}\nlatest_decision_s = {}\nstanding_unbalance = {}\n",
                       earliest_decision, latest_decision, standing_unbalance);
@@ -88,6 +91,12 @@ SolverChoice quasi_static(const QuasiStaticSettings& newton, const DynamicSettin
           }};
 }
 
+SolverChoice quasi_static_with(const Skips& skips, DynamicSettings motion) {
+  QuasiStaticSettings newton;
+  newton.skips = motion.skips = skips;
+  return quasi_static(newton, motion);
+}
+
 SolverChoice dynamic(const DynamicSettings& motion) {
   return {kDynamic + settings_text(motion), [motion](const Bridge& bridge) -> SceneSolver {
             const auto solver = std::make_shared<DynamicSolver>(bridge, motion);
@@ -104,9 +113,7 @@ SolverChoice dynamic(const DynamicSettings& motion) {
 
 SolverChoice solver_with(std::string_view settings) {
   const DynamicSettings motion = motion_in(settings);
-  QuasiStaticSettings newton;
-  newton.skips = motion.skips;
-  for (SolverChoice choice : {quasi_static(newton, motion), dynamic(motion)})
+  for (SolverChoice choice : {quasi_static_with(motion.skips, motion), dynamic(motion)})
     if (settings.starts_with(choice.settings)) return choice;
   throw Failure("the database was built with solver settings that this program does not have");
 }

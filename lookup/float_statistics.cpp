@@ -6,13 +6,10 @@
 #include <cstring>
 #include <limits>
 
-#include "lookup/lanes.h"
+#include "lookup/float_lanes.h"
 
 namespace voussoir {
 namespace {
-
-using FloatLanes = float __attribute__((vector_size(kFloatLanes * sizeof(float))));
-using FloatMask = std::int32_t __attribute__((vector_size(kFloatLanes * sizeof(float))));
 
 constexpr float kLog2 = 0.69314718F;
 
@@ -20,14 +17,6 @@ constexpr float kLog2 = 0.69314718F;
 struct FloatView {
   std::vector<float> reading, slope, offset;
 };
-
-VOUSSOIR_INLINE void load(const float* from, FloatLanes& lanes) {
-  std::memcpy(&lanes, from, sizeof(FloatLanes));
-}
-
-VOUSSOIR_INLINE void make_absolute(FloatLanes& lanes) {
-  lanes = reinterpret_cast<FloatLanes>(reinterpret_cast<FloatMask>(lanes) & INT32_MAX);
-}
 
 VOUSSOIR_INLINE float logarithm(float x) {
   const auto bits = std::bit_cast<std::int32_t>(x);

@@ -4,12 +4,10 @@
 #include <cstddef>
 #include <vector>
 
+#include "lookup/float_lanes.h"
 #include "lookup/row_statistics.h"
 
 namespace voussoir {
-
-/// Eight numbers at a time.
-inline constexpr std::size_t kFloatLanes = 8;
 
 /// Column by column; where a product of scales leaves the range of numbers its logarithm is -infinity, which
 /// is on the safe side of a bound.

@@ -19,7 +19,9 @@ std::string locate(const voussoir::LocateDamageOptions& options) {
                                 database.digest()};
   if (options.page)
     voussoir::write_file(*options.page,
-                         voussoir::page_report(answer, settings, library, measurements, source));
+                         options.page->extension() == ".svg"
+                             ? voussoir::picture_report(answer, library, measurements)
+                             : voussoir::page_report(answer, settings, library, measurements, source));
   return voussoir::report(answer, settings, library, source, options.format);
 }
 

@@ -112,7 +112,9 @@ void add_options(CLI::App& app, LocateDamageOptions& options) {
       {{"text", ReportFormat::text}, {"json", ReportFormat::json}, {"csv", ReportFormat::csv}},
       "text (default), json or csv");
   app.add_option("--report", options.page,
-                 "also write a page (HTML) with pictures, tables and what was assumed, complete in itself")
+                 "also write a page (HTML) with pictures, tables and what was assumed, complete in itself; "
+                 "for a name "
+                 "that ends in .svg only the picture of the bridge")
       ->option_text("FILE");
   add_search_options(app, options);
   add_noise_options(app, options);

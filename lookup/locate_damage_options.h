@@ -2,6 +2,7 @@
 /// @file The command line of locate-damage.
 
 #include <CLI/CLI.hpp>
+#include <filesystem>
 #include <optional>
 #include <string>
 
@@ -15,7 +16,7 @@ struct LocateDamageOptions {
   std::optional<std::string> database;
   LookupSettings settings;
   ReportFormat format = ReportFormat::text;
-  std::optional<std::string> page;  ///< file to write the report page to
+  std::optional<std::filesystem::path> page;  ///< file to write the report page or picture to
   // Texts and units of the command line, which finish() turns into settings.
   std::string noise_level;
   std::string noise_model = "auto";

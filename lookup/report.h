@@ -35,6 +35,10 @@ std::string csv_report(const Answer& answer, const Library& library);
 std::string page_report(const Answer& answer, const LookupSettings& settings, const Library& library,
                         const Measurements& measurements, const Source& source);
 
+/// The page's picture of the bridge alone, as a file of its own (SVG). Throws Failure if there is no
+/// candidate to show.
+std::string picture_report(const Answer& answer, const Library& library, const Measurements& measurements);
+
 /// Names of settings as the command line has them.
 std::string_view to_string(Objective objective);
 std::string_view to_string(Search search);

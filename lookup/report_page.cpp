@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/error.h"
 #include "lookup/drawing/page.h"
 #include "lookup/report.h"
 #include "lookup/report_pictures.h"
@@ -115,6 +116,12 @@ std::string assumptions_html(const Answer& answer, const LookupSettings& setting
 }
 
 }  // namespace
+
+std::string picture_report(const Answer& answer, const Library& library, const Measurements& measurements) {
+  if (answer.candidates.empty())
+    throw Failure("no scene explains the measurements: there is no picture to draw, only a page");
+  return svg_file(draw_bridge({answer, library, measurements}));
+}
 
 std::string page_report(const Answer& answer, const LookupSettings& settings, const Library& library,
                         const Measurements& measurements, const Source& source) {

@@ -120,26 +120,6 @@ double largest_reading(const ReportPictures& report) {
   return largest;
 }
 
-Drawing draw_bridge(const ReportPictures& report) {
-  const BridgeFrame frame = frame_of(report.library.layout, kPictureWidth, kReadingsHeight, 0.15);
-  const bool with_bar = report.answer.posterior.has_value();
-  Drawing drawing{frame.width, frame.height + (with_bar ? kColourBarHeight : 0.0),
-                  "The bridge; each block coloured by the probability that it is missing", ""};
-  drawing.elements =
-      ground_element(report.library.layout, frame) +
-      block_elements(report.library.layout, frame, [&](BlockId id) { return block_look(report, id); }) +
-      best_scene_marks(report, frame);
-  const double longest = largest_reading(report);
-  const double units = longest > 0.0 ? kLongestReading * frame.scale / longest : 0.0;
-  for (std::size_t point = 0; point < report.library.points.size(); ++point)
-    drawing.elements += reading_element(report, frame, point, units);
-  if (with_bar)
-    drawing.elements +=
-        colour_bar({"probability that the block is missing", {"0", "25 %", "50 %", "75 %", "100 %"}},
-                   drawing.width, drawing.height);
-  return drawing;
-}
-
 Table block_table(const ReportPictures& report) {
   Table table{{"block", "probability", "where"}, {}};
   if (!report.answer.posterior) {
@@ -246,6 +226,26 @@ std::vector<PointSet> point_sets(const ReportPictures& report) {
 }
 
 }  // namespace
+
+Drawing draw_bridge(const ReportPictures& report) {
+  const BridgeFrame frame = frame_of(report.library.layout, kPictureWidth, kReadingsHeight, 0.15);
+  const bool with_bar = report.answer.posterior.has_value();
+  Drawing drawing{frame.width, frame.height + (with_bar ? kColourBarHeight : 0.0),
+                  "The bridge; each block coloured by the probability that it is missing", ""};
+  drawing.elements =
+      ground_element(report.library.layout, frame) +
+      block_elements(report.library.layout, frame, [&](BlockId id) { return block_look(report, id); }) +
+      best_scene_marks(report, frame);
+  const double longest = largest_reading(report);
+  const double units = longest > 0.0 ? kLongestReading * frame.scale / longest : 0.0;
+  for (std::size_t point = 0; point < report.library.points.size(); ++point)
+    drawing.elements += reading_element(report, frame, point, units);
+  if (with_bar)
+    drawing.elements +=
+        colour_bar({"probability that the block is missing", {"0", "25 %", "50 %", "75 %", "100 %"}},
+                   drawing.width, drawing.height);
+  return drawing;
+}
 
 Figure bridge_figure(const ReportPictures& report) {
   const bool probabilities = report.answer.posterior.has_value();

@@ -17,6 +17,9 @@ struct ReportPictures {
 
 /// The bridge: blocks coloured by the probability that they are missing, the first candidate's blocks
 /// outlined, readings hanging from their control points.
+Drawing draw_bridge(const ReportPictures& report);
+
+/// The same with its caption and table.
 Figure bridge_figure(const ReportPictures& report);
 
 /// Readings, the first candidate's displacements and the noise band about them: on top and on the arch, as

@@ -3,115 +3,52 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
-#ifdef __x86_64__
-#define VOUSSOIR_HAS_AVX2
-#include <immintrin.h>
-#endif
 
 #include "lookup/exhaustive_search.h"
+#include "lookup/misfit.h"
 
 namespace voussoir {
 namespace {
 
-constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
-constexpr std::size_t kSegment = 8;    // places that share a step: what one instruction sums up
-constexpr std::size_t kRegister = 32;  // bytes: sketches are filled up to a whole number of them
-constexpr std::size_t kBlock = 32;     // rows whose bounds are looked at together first
-constexpr double kLargestByte = 255.0;
-constexpr double kRange = 0.3;           // of bytes, as a share of the segment's largest intact displacement:
-                                         // readings with up to 15 % of noise stay within it
-constexpr double kLeastRange = 1e-4;     // [m] for segments that hardly move
-constexpr float kSafety = 1.0F - 1e-5F;  // bounds are computed in single precision
-constexpr double kWorthwhile = 0.25;     // share of rows left beyond which scoring all of them is faster
+constexpr std::size_t kMostRows = 96;    // of a cluster, before rows move to the nearest centre
+constexpr double kLeastMovement = 1e-4;  // [m] of points that hardly move, when rows are compared
+constexpr std::size_t kNearest = 8;      // clusters first looked at
+constexpr std::size_t kProbes = 2;       // rows scored first, for each one wanted
+constexpr std::size_t kRowsAhead = 6;    // rows that are fetched while others are scored
+constexpr std::size_t kClustersAhead = 2;
+constexpr double kWorthwhile = 0.25;  // share of rows left beyond which scoring all of them is faster
+constexpr double kFarthest = 1e6;     // [m] readings beyond it are not for single precision
+constexpr float kAnything = std::numeric_limits<float>::max();
 
-double byte_of(double value, double base, double step) {
-  return std::clamp(std::round((value - base) / step), 0.0, kLargestByte);
+/// The displacements of some rows, one after the other.
+std::vector<double> gather(const SceneTable& table, std::span<const std::size_t> rows) {
+  std::vector<double> values;
+  for (const std::size_t row : rows)
+    values.insert(values.end(), table.row(row).begin(), table.row(row).end());
+  return values;
 }
 
-/// What rounding takes from a value drawn to the range of bytes [m].
-double rounding_error(double value, double base, double step) {
-  const double drawn = std::clamp((value - base) / step, 0.0, kLargestByte);
-  return step * std::abs(drawn - std::round(drawn));
-}
-
-/// Points in descending order of their intact displacement, so that neighbours can share a step.
-std::vector<std::size_t> places(std::span<const double> intact) {
-  std::vector<std::size_t> order(intact.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return std::abs(intact[a]) > std::abs(intact[b]); });
-  order.resize((order.size() + kRegister - 1) / kRegister * kRegister, kNone);
-  return order;
-}
-
-/// What the distance of many sketches to one needs; all arrays have a whole number of registers.
-struct Comparison {
-  const std::uint8_t* sketches;
-  const std::uint8_t* query;
-  const std::uint8_t* mask;
-  const std::uint64_t* weight;  // of each segment
-  std::size_t places;           // of a sketch
-};
-
-/// The sum over segments of weight * (sum of |byte - byte| in the segment), for sketches `first` up to
-/// `last`.
-void plain_distances(const Comparison& comparison, std::size_t first, std::size_t last, float* distances) {
-  for (std::size_t i = first; i < last; ++i) {
-    const std::uint8_t* const sketch = comparison.sketches + i * comparison.places;
-    std::uint64_t sum = 0;
-    for (std::size_t place = 0; place < comparison.places; ++place)
-      sum += comparison.weight[place / kSegment] *
-             static_cast<std::uint64_t>(
-                 std::abs((sketch[place] & comparison.mask[place]) - comparison.query[place]));
-    distances[i] = static_cast<float>(sum);
+/// Clusters of rows by their movements against the intact bridge, in relation to the square root of what is
+/// usual: so noise that is proportional to movement makes them count.
+RowClusters alike(std::span<const double> rows, std::span<const double> intact, std::size_t most) {
+  const std::size_t stride = (intact.size() + kSketchPlaces - 1) / kSketchPlaces * kSketchPlaces;
+  std::vector<float> values(rows.size() / intact.size() * stride, 0.0F);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const std::size_t point = i % intact.size();
+    if (!std::isnan(rows[i]))
+      values[i / intact.size() * stride + point] =
+          static_cast<float>((rows[i] - intact[point]) / std::sqrt(std::abs(intact[point]) + kLeastMovement));
   }
+  return cluster_rows(values, stride, most);
 }
 
-#ifdef VOUSSOIR_HAS_AVX2
-__attribute__((target("avx2"))) void avx2_distances(const Comparison& comparison, std::size_t first,
-                                                    std::size_t last, float* distances) {
-  const auto at = [](const void* bytes, std::size_t offset) {
-    return reinterpret_cast<const __m256i*>(static_cast<const std::uint8_t*>(bytes) + offset);
-  };
-  for (std::size_t i = first; i < last; ++i) {
-    const std::uint8_t* const sketch = comparison.sketches + i * comparison.places;
-    __m256i sum = _mm256_setzero_si256();
-    for (std::size_t place = 0; place < comparison.places; place += kRegister) {
-      const __m256i bytes = _mm256_and_si256(_mm256_loadu_si256(at(sketch, place)),
-                                             _mm256_loadu_si256(at(comparison.mask, place)));
-      const __m256i parts = _mm256_sad_epu8(bytes, _mm256_loadu_si256(at(comparison.query, place)));
-      sum = _mm256_add_epi64(sum, _mm256_mul_epu32(parts, _mm256_loadu_si256(at(comparison.weight, place))));
-    }
-    const __m128i half = _mm_add_epi64(_mm256_castsi256_si128(sum), _mm256_extracti128_si256(sum, 1));
-    distances[i] = static_cast<float>(_mm_cvtsi128_si64(half) + _mm_extract_epi64(half, 1));
-  }
-}
-#endif
-
-void sketch_distances(const Comparison& comparison, std::size_t first, std::size_t last, float* distances) {
-#ifdef VOUSSOIR_HAS_AVX2
-  if (__builtin_cpu_supports("avx2")) return avx2_distances(comparison, first, last, distances);
-#endif
-  plain_distances(comparison, first, last, distances);
+Sketches sketches_of(std::span<const double> rows, std::span<const double> intact) {
+  return {rows, intact.size(), alike(rows, intact, kMostRows)};
 }
 
-/// Lower bounds of the sums of all rows.
-struct SketchBounds {
-  std::vector<float> row;
-  std::vector<float> block;  // the smallest of each block of rows
-
-  /// Calls a function with the positions of bounds not above a limit that may fall on the way, until it gives
-  /// false.
-  template <typename Limit, typename Function>
-  void for_each_below(Limit limit, Function function) const {
-    for (std::size_t b = 0; b < block.size(); ++b) {
-      if (block[b] > limit()) continue;
-      for (std::size_t i = b * kBlock; i < std::min(row.size(), (b + 1) * kBlock); ++i)
-        if (row[i] <= limit() && !function(i)) return;
-    }
-  }
-};
+bool lower(const RowBound& a, const RowBound& b) {
+  return a.bound < b.bound;
+}
 
 /// Keeps the smallest sums seen.
 class BestSums {
@@ -136,119 +73,109 @@ class BestSums {
   std::vector<double> heap_;
 };
 
-/// Positions of the `count` smallest bounds.
-std::vector<std::size_t> smallest(const SketchBounds& bounds, std::size_t count) {
-  std::vector<std::size_t> heap;
-  const auto less = [&](std::size_t a, std::size_t b) { return bounds.row[a] < bounds.row[b]; };
-  const auto limit = [&] {
-    return heap.size() < count ? std::numeric_limits<float>::infinity() : bounds.row[heap.front()];
-  };
-  bounds.for_each_below(limit, [&](std::size_t i) {
-    heap.push_back(i);
-    std::push_heap(heap.begin(), heap.end(), less);
-    if (heap.size() <= count) return true;
-    std::pop_heap(heap.begin(), heap.end(), less);
-    heap.pop_back();
-    return true;
-  });
-  return heap;
-}
-
-SketchBounds lower_bounds(const Comparison& comparison, const std::vector<float>& row_error, float unit,
-                          double error, double worst_row_error) {
-  SketchBounds bounds{std::vector<float>(row_error.size()), {}};
-  for (std::size_t first = 0; first < row_error.size(); first += kBlock) {
-    const std::size_t last = std::min(row_error.size(), first + kBlock);
-    sketch_distances(comparison, first, last, bounds.row.data());
-    float smallest_of_block = std::numeric_limits<float>::infinity();
-    for (std::size_t i = first; i < last; ++i) {
-      const float rounding =
-          static_cast<float>(error) + std::min(row_error[i], static_cast<float>(worst_row_error));
-      bounds.row[i] = unit * bounds.row[i] * kSafety - rounding / kSafety;
-      smallest_of_block = std::min(smallest_of_block, bounds.row[i]);
-    }
-    bounds.block.push_back(smallest_of_block);
-  }
-  return bounds;
-}
-
 }  // namespace
+
+/// One search on its way.
+struct SketchIndex::Query {
+  std::span<const double> exact;
+  SketchReadings readings;
+  BestSums best;
+  std::vector<std::uint64_t> lacking;  // of each pattern
+  std::vector<float> distances;        // [m] of each cluster's centre
+  std::vector<RowBound> found{};       // rows that may be among the best
+  std::vector<RowBound> within{};      // of one cluster
+  std::vector<ScoredRow> scored{};
+
+  bool matters(std::size_t i) const {
+    return i < found.size() && static_cast<double>(found[i].bound) <= best.limit();
+  }
+  float limit() const {
+    const auto rounded = static_cast<float>(best.limit());
+    return std::isfinite(rounded) ? std::nextafter(rounded, kAnything) : kAnything;
+  }
+};
 
 SketchIndex::SketchIndex(const SceneTable& table, std::span<const std::size_t> rows,
                          std::span<const double> intact)
     : table_(table),
       rows_(rows.begin(), rows.end()),
-      order_(places(intact)),
-      base_(order_.size(), 0.0),
-      weight_(order_.size() / kSegment, 1),
-      bytes_(rows.size() * order_.size(), 0),
-      row_error_(rows.size(), 0.0F) {
-  constexpr double kFinest = 65536.0;  // units in the largest step
-  const auto range = [&](std::size_t segment) {
-    const std::size_t first = order_[segment * kSegment];
-    return first == kNone ? kLeastRange : std::max(kLeastRange, kRange * std::abs(intact[first]));
-  };
-  unit_ = range(0) / kLargestByte / kFinest;
-  for (std::size_t segment = 0; segment < weight_.size(); ++segment)
-    weight_[segment] = static_cast<std::uint64_t>(std::ceil(range(segment) / kLargestByte / unit_));
-  for (std::size_t place = 0; place < order_.size(); ++place)
-    if (order_[place] != kNone) base_[place] = intact[order_[place]] - 0.5 * kLargestByte * step(place);
-  for (std::size_t i = 0; i < rows_.size(); ++i) {
-    const std::span<const double> row = table.row(rows_[i]);
-    double error = 0.0;
-    for (std::size_t place = 0; place < order_.size(); ++place) {
-      if (order_[place] == kNone || std::isnan(row[order_[place]]))
-        continue;  // no displacement: any byte will do
-      const double value = row[order_[place]];
-      bytes_[i * order_.size() + place] =
-          static_cast<std::uint8_t>(byte_of(value, base_[place], step(place)));
-      error += rounding_error(value, base_[place], step(place));
-    }
-    row_error_[i] = std::nextafter(static_cast<float>(error), std::numeric_limits<float>::infinity());
+      patterns_(gather(table, rows), table.points),
+      sketches_(sketches_of(gather(table, rows), intact)) {}
+
+/// Clusters whose centres are nearest to the readings.
+std::vector<RowBound> SketchIndex::nearest_clusters(const Query& query) const {
+  std::vector<RowBound> nearest(std::min(kNearest, query.distances.size()), {0, kAnything});
+  for (std::size_t i = 0; i < query.distances.size(); ++i) {
+    if (query.distances[i] >= nearest.back().bound) continue;
+    nearest.back() = {static_cast<std::uint32_t>(i), query.distances[i]};
+    for (std::size_t place = nearest.size() - 1; place > 0 && lower(nearest[place], nearest[place - 1]);
+         --place)
+      std::swap(nearest[place], nearest[place - 1]);
   }
+  return nearest;
 }
 
-double SketchIndex::step(std::size_t place) const {
-  return static_cast<double>(weight_[place / kSegment]) * unit_;
+/// Finds the rows of a cluster whose sums may be within the limit.
+void SketchIndex::look_at(std::size_t cluster, float limit, Query& query) const {
+  query.within.clear();
+  sketches_.append_within(query.readings, cluster, query.distances[cluster], limit, query.within);
+  for (const RowBound& one : query.within)
+    if (query.lacking[patterns_.of(one.row)] == 0) query.found.push_back(one);
 }
 
-SketchIndex::Query SketchIndex::sketch(std::span<const double> readings) const {
-  Query query{std::vector<std::uint8_t>(order_.size(), 0), std::vector<std::uint8_t>(order_.size(), 0)};
-  for (std::size_t place = 0; place < order_.size(); ++place) {
-    if (order_[place] == kNone || std::isnan(readings[order_[place]])) continue;
-    const double value = readings[order_[place]];
-    query.bytes[place] = static_cast<std::uint8_t>(byte_of(value, base_[place], step(place)));
-    query.mask[place] = static_cast<std::uint8_t>(kLargestByte);
-    query.error += rounding_error(value, base_[place], step(place));
-    query.worst_row_error += 0.5 * step(place);
+void SketchIndex::score(const RowBound& one, Query& query) const {
+  query.scored.push_back({rows_[one.row], sum_of_differences(query.exact, row(one))});
+  query.best.add(query.scored.back().sum);
+}
+
+/// Scores rows of the nearest clusters, so that there is a limit; gives how many of those found.
+std::size_t SketchIndex::probe(const std::vector<RowBound>& nearest, std::size_t count, Query& query) const {
+  for (const RowBound& cluster : nearest) look_at(cluster.row, kAnything, query);
+  auto& found = query.found;
+  const std::size_t probes = std::min(found.size(), kProbes * count);
+  std::nth_element(found.begin(), found.begin() + static_cast<std::ptrdiff_t>(probes), found.end(), lower);
+  for (std::size_t i = 0; i < probes; ++i) fetch(row(found[i]));
+  for (std::size_t i = 0; i < probes; ++i) score(found[i], query);
+  return probes;
+}
+
+/// Looks at all other clusters that may hold rows within the limit.
+void SketchIndex::look_at_others(const std::vector<RowBound>& nearest, Query& query) const {
+  const float limit = query.limit();
+  std::vector<std::size_t> others;
+  for (std::size_t i = 0; i < query.distances.size(); ++i)
+    if (sketches_.may_hold(i, query.readings, query.distances[i], limit)) others.push_back(i);
+  std::erase_if(others, [&](std::size_t cluster) {
+    return std::any_of(nearest.begin(), nearest.end(),
+                       [&](const RowBound& one) { return one.row == cluster; });
+  });
+  for (std::size_t i = 0; i < others.size(); ++i) {
+    if (i + kClustersAhead < others.size()) sketches_.expect(others[i + kClustersAhead]);
+    look_at(others[i], limit, query);
   }
-  return query;
 }
 
 SketchIndex::Result SketchIndex::search(std::span<const double> readings, std::size_t count) const {
   if (count == 0) return {};
-  const Query query = sketch(readings);
-  const Comparison comparison{bytes_.data(), query.bytes.data(), query.mask.data(), weight_.data(),
-                              order_.size()};
-  const SketchBounds bounds =
-      lower_bounds(comparison, row_error_, static_cast<float>(unit_), query.error, query.worst_row_error);
-  BestSums best(count);
-  std::vector<ScoredRow> scored;
-  const auto score = [&](std::size_t i) {
-    scored.push_back({rows_[i], sum_of_differences(readings, table_.row(rows_[i]))});
-    best.add(scored.back().sum);
+  const auto score_all = [&] {
+    return Result{exhaustive_search(readings, table_, rows_, count), rows_.size(), true};
   };
-  const std::vector<std::size_t> probes = smallest(bounds, count);
-  for (const std::size_t i : probes) score(i);
+  if (std::any_of(readings.begin(), readings.end(), [](double value) { return std::abs(value) > kFarthest; }))
+    return score_all();
+  const SketchReadings prepared(readings);
+  Query query{readings, prepared, BestSums(count), patterns_.lacking(readings),
+              prepared.distances(sketches_.centres())};
+  const std::vector<RowBound> nearest = nearest_clusters(query);
+  const std::size_t probes = probe(nearest, count, query);
+  look_at_others(nearest, query);
   const auto most = static_cast<std::size_t>(kWorthwhile * static_cast<double>(rows_.size()));
-  bounds.for_each_below([&] { return best.limit(); },
-                        [&](std::size_t i) {
-                          if (std::find(probes.begin(), probes.end(), i) == probes.end()) score(i);
-                          return scored.size() <= most;
-                        });
-  if (scored.size() > most) return {exhaustive_search(readings, table_, rows_, count), rows_.size(), true};
-  const std::size_t number = scored.size();
-  return {best_rows(std::move(scored), count), number, false};
+  for (std::size_t i = probes; i < query.found.size(); ++i) {
+    if (query.matters(i + kRowsAhead)) fetch(row(query.found[i + kRowsAhead]));
+    if (query.matters(i)) score(query.found[i], query);
+    if (query.scored.size() > most) return score_all();
+  }
+  const std::size_t scored = query.scored.size();
+  return {best_rows(std::move(query.scored), count), scored, false};
 }
 
 }  // namespace voussoir

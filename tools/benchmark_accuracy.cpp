@@ -14,6 +14,8 @@
 namespace voussoir {
 namespace {
 
+constexpr const char* kDefaultMesh = "split edges";
+
 double processor_seconds() {
   return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
 }
@@ -94,23 +96,36 @@ class Bench {
     add({.solver = "quasi-static",
          .integrator = "-",
          .step = "1e-08",
+         .joints = "exact",
          .ramp = "-",
          .mesh = fmt::format("refined {}x", options.reference_refinement),
          .variation = "reference"},
         reference_);
   }
 
-  void quasi_static(double tolerance, bool from_intact, bool is_default) {
-    QuasiStaticSettings settings;
-    settings.tolerance = tolerance;
+  void quasi_static(const QuasiStaticSettings& settings, bool from_intact, const std::string& variation) {
     add({.solver = "quasi-static",
          .integrator = "-",
-         .step = fmt::format("{:.0e}", tolerance),
+         .step = fmt::format("{:.0e}", settings.tolerance),
+         .joints = std::string(to_string(settings.joint_rule)),
          .ramp = "-",
-         .mesh = "paper's",
-         .variation = from_intact ? "" : "no warm start",
-         .is_default = is_default},
+         .mesh = kDefaultMesh,
+         .variation = variation,
+         .is_default = variation.empty()},
         quasi_static_readings(bridge_, scenes_, settings, from_intact));
+  }
+
+  /// The default solver on another mesh.
+  void mesh(const MeshDescription& mesh, const std::string& name) {
+    BridgeDescription description = bridge_.description;
+    description.mesh = mesh;
+    add({.solver = "quasi-static",
+         .integrator = "-",
+         .step = "1e-08",
+         .joints = "exact",
+         .ramp = "-",
+         .mesh = name},
+        quasi_static_readings(make_bridge(description), scenes_, {}, true));
   }
 
   void dynamic(double ramp, std::optional<double> step, double unbalance, int side_by_side) {
@@ -124,8 +139,9 @@ class Bench {
     add({.solver = "dynamic",
          .integrator = "implicit blocks",
          .step = fmt::format("{}, {:.0e}", step ? fmt::format("{:.1e} s", *step) : "0.9 critical", unbalance),
+         .joints = "exact",
          .ramp = fmt::format("{} s", ramp),
-         .mesh = "paper's",
+         .mesh = kDefaultMesh,
          .variation = side_by_side == 1 ? "one scene at a time" : ""},
         dynamic_readings(bridge_, scenes_, settings));
   }
@@ -138,8 +154,9 @@ class Bench {
     add({.solver = "dynamic",
          .integrator = "central differences",
          .step = "0.9 critical",
+         .joints = "exact",
          .ramp = "0.3 s",
-         .mesh = "paper's",
+         .mesh = kDefaultMesh,
          .variation = "first scene only"},
         dynamic_readings(bridge_, two, settings));
   }
@@ -180,9 +197,13 @@ Series series_of(const std::vector<AccuracyRow>& rows, const std::string& name, 
 std::vector<AccuracyRow> measure_accuracy(const BridgeDescription& description,
                                           const AccuracyOptions& options) {
   Bench bench(description, options);
-  bench.quasi_static(1e-8, true, true);
-  bench.quasi_static(1e-8, false, false);
-  bench.quasi_static(1e-5, true, false);
+  bench.quasi_static({}, true, "");
+  bench.quasi_static({}, false, "no warm start");
+  bench.quasi_static({.tolerance = 1e-5}, true, "loose tolerance");
+  for (const JointRule rule : {JointRule::gauss_16, JointRule::lobatto_3})
+    bench.quasi_static({.joint_rule = rule}, true, "points in joints");
+  bench.mesh({.split_at_corners = false}, "whole edges");
+  bench.mesh({.refinement = 1}, "refined 1x");
   for (const double ramp : {0.1, 0.3, 1.0, 3.0}) bench.dynamic(ramp, std::nullopt, 1e-6, 4);
   for (const double unbalance : {2.3e-4, 1e-8}) bench.dynamic(0.3, std::nullopt, unbalance, 4);
   bench.dynamic(0.3, 1e-4, 1e-6, 4);
@@ -193,12 +214,13 @@ std::vector<AccuracyRow> measure_accuracy(const BridgeDescription& description,
 
 std::string to_markdown(const std::vector<AccuracyRow>& rows) {
   std::string text =
-      "| solver | integrator | step, tolerance | ramp | mesh | variation | s a scene | signal error | "
+      "| solver | integrator | step, tolerance | joint integration | ramp | mesh | variation | s a scene | "
+      "signal error | "
       "largest error [um] |\n"
-      "|---|---|---|---|---|---|---|---|---|\n";
+      "|---|---|---|---|---|---|---|---|---|---|\n";
   for (const AccuracyRow& row : rows)
-    text += fmt::format("| {} | {} | {} | {} | {} | {}{} | {:.4f} | {:.2f} % | {:.2f} |\n", row.solver,
-                        row.integrator, row.step, row.ramp, row.mesh, row.variation,
+    text += fmt::format("| {} | {} | {} | {} | {} | {} | {}{} | {:.4f} | {:.2f} % | {:.2f} |\n", row.solver,
+                        row.integrator, row.step, row.joints, row.ramp, row.mesh, row.variation,
                         row.is_default ? "**default**" : "", row.seconds, 100.0 * row.signal_error,
                         1e6 * row.largest_error);
   return text;

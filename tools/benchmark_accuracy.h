@@ -12,7 +12,8 @@ namespace voussoir {
 struct AccuracyRow {
   std::string solver;
   std::string integrator;
-  std::string step;  ///< time step or tolerance
+  std::string step;    ///< time step or tolerance
+  std::string joints;  ///< how the joint law is integrated
   std::string ramp;
   std::string mesh;
   std::string variation;       ///< what is switched off, if anything
@@ -24,7 +25,7 @@ struct AccuracyRow {
 
 struct AccuracyOptions {
   std::vector<std::string> scenes = {"10,4", "6,4", "2,6", "4,10", "8,12", "4,2+11,3", "4,10+2,6"};
-  int reference_refinement = 1;  ///< of the mesh of the quasi-static reference
+  int reference_refinement = 2;  ///< of the mesh of the quasi-static reference
   bool plain = false;            ///< also plain central differences: minutes a scene, one scene only
 };
 

@@ -6,19 +6,9 @@
 #include <vector>
 
 #include "lookup/lookup.h"
+#include "tools/paper_cases.h"
 
 namespace voussoir {
-
-/// A row of the paper's Table 2 or 3.
-struct PaperCase {
-  std::string scene;
-  double noise = 0.0;  ///< [-]
-  std::string paper;   ///< generations to convergence as printed there, "-" for not found
-};
-
-/// Table 2 (one block) and Table 3 (two blocks).
-const std::vector<PaperCase>& paper_table_2();
-const std::vector<PaperCase>& paper_table_3();
 
 /// How a ranking did over noisy trials.
 struct Success {
@@ -37,6 +27,24 @@ struct CaseResult {
   int genetic_minimum = 0;       ///< trials in which it reaches the exhaustive minimum of Eq. 1
   std::vector<int> generations;  ///< to convergence, of the trials that found the truth, sorted
 };
+
+/// The library's row of a scene such as "10,4". Throws InputError for a scene that the bridge does not have,
+/// Failure if the library has it not.
+std::size_t row_of(const Library& library, const std::string& scene);
+
+/// The probabilities of the eligible scenes. With `noise` default-constructed nothing is known of the noise.
+Posterior posterior_of(const Library& library, const Measurements& measured, const Eligible& eligible,
+                       const NoiseModel& noise, const Prior& prior);
+
+/// Counts where the truth comes in the order of probabilities and whether it is in the credible set.
+void count_posterior(std::size_t truth, const Posterior& posterior, Success& success);
+
+/// The five scenes that fit best by the paper's Eq. 1.
+std::vector<ScoredRow> best_by_misfit(const Library& library, const Measurements& measured,
+                                      const Eligible& eligible);
+
+/// Counts where the truth comes among the best by misfit.
+void count_misfit(std::size_t truth, const std::vector<ScoredRow>& best, Success& success);
 
 /// Noisy readings of a case's scene, and each method's answer among the scenes with as many missing blocks.
 CaseResult run_case(const Library& library, const PaperCase& paper_case, int trials, std::uint64_t seed);

@@ -78,6 +78,7 @@ void print_calibration(const Library& library, const std::string& title, NoiseSh
 
 std::string benchmark(const Options& options) {
   const auto database = voussoir::Database::open(voussoir::find_database(options.database));
+  const voussoir::PaperCases cases = voussoir::read_paper_cases(voussoir::paper_cases_file());
   const Library library{database.table(), database.control_points(), database.layout()};
   fmt::print(
       "Columns: Eq. 1 = the paper's objective; right = posterior with the true noise model; deflt = "
@@ -85,8 +86,8 @@ std::string benchmark(const Options& options) {
       "knowing nothing of the noise;\n95 % = truth in the credible set; GA true, GA min = genetic search "
       "ends at "
       "the truth, at the minimum of Eq. 1; generations = median (10..90 %)\n\n");
-  print_table(library, "Table 2", voussoir::paper_table_2(), options);
-  print_table(library, "Table 3", voussoir::paper_table_3(), options);
+  print_table(library, "Table 2", cases.one_block, options);
+  print_table(library, "Table 3", cases.two_blocks, options);
   print_calibration(library, "uniform noise, model right", NoiseShape::uniform, NoiseShape::uniform, true,
                     options);
   print_calibration(library, "Gaussian noise, model right", NoiseShape::gaussian, NoiseShape::gaussian, true,

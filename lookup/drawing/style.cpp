@@ -27,6 +27,8 @@ svg text.strong{font-weight:600}
 .block{stroke:var(--edge);stroke-width:.7}
 .outline{fill:transparent;stroke:var(--edge);stroke-width:.6}
 .mark{fill:none;stroke:var(--text);stroke-width:2.2}
+svg text.tiny{font-size:8.5px;fill:var(--muted);pointer-events:none}
+.mesh{fill-opacity:.3;stroke:var(--edge);stroke-width:.6}
 svg text.label{font-size:12px;font-weight:600;paint-order:stroke;stroke:var(--page);stroke-width:3.5px;pointer-events:none}
 .silent{fill:var(--page);stroke:var(--muted);stroke-width:1.2}
 .line{fill:none;stroke-width:1.8;stroke-linejoin:round}
@@ -49,6 +51,7 @@ a{color:var(--s1)}
 figure{margin:0;min-width:0}
 figcaption{font-size:.9rem;margin:.3em 0}
 .figures{display:grid;grid-template-columns:repeat(auto-fit,minmax(min(100%,420px),1fr));gap:1.8rem 1.6rem;margin:1.2em 0}
+.thirds{grid-template-columns:repeat(auto-fit,minmax(min(100%,300px),1fr))}
 .wide{grid-column:1/-1}
 .pictures{display:grid;gap:.8rem}
 .legend{display:flex;flex-wrap:wrap;gap:.1rem 1.1rem;margin:.2em 0 .4em;padding:0;list-style:none;font-size:.85rem}
@@ -59,7 +62,8 @@ table{border-collapse:collapse;font-size:.88rem;font-variant-numeric:tabular-num
 th{text-align:left;vertical-align:bottom;font-weight:600;border-bottom:1px solid var(--edge);padding:.25em .8em .25em 0}
 td{vertical-align:top;border-bottom:1px solid var(--grid);padding:.2em .8em .2em 0}
 table{overflow-wrap:normal}td:last-child:not(.number){min-width:11rem}
-td.number,th.number{text-align:right;white-space:nowrap}
+td.number,th.number{text-align:right}
+td.number{white-space:nowrap}
 summary{cursor:pointer;color:var(--s1);font-size:.88rem}
 dl{display:grid;grid-template-columns:max-content 1fr;gap:.2em 1.2em;margin:.6em 0}
 dt{color:var(--muted)}
@@ -69,7 +73,7 @@ dd{margin:0;min-width:0;overflow-wrap:anywhere}
 white-space:pre-line;background:var(--text);color:var(--page);pointer-events:none}
 #tip[hidden]{display:none}
 @media(max-width:640px){td:last-child:not(.number){min-width:19rem}body{padding:1rem .9rem 3rem}h1{font-size:1.4rem}dl{grid-template-columns:1fr}dd{margin-bottom:.4em}
-svg text{font-size:16px}svg text.small{font-size:15px}.panorama text{font-size:26px}.panorama text.small{font-size:23px}.panorama text.label{font-size:24px}
+svg text{font-size:16px}svg text.small{font-size:15px}.panorama text{font-size:26px}.panorama text.small{font-size:25px}.panorama text.label{font-size:24px}.panorama text.tiny{display:none}
 .pictures svg{overflow:visible}}
 @media print{@page{size:A4;margin:15mm}html{font-size:10.5pt}body{max-width:none;padding:0}
 .figures{grid-template-columns:1fr 1fr;gap:1rem}figure,table tr{break-inside:avoid}h2,h3{break-after:avoid}

@@ -201,6 +201,15 @@ TEST_CASE("locate-damage writes its answer as a page beside the usual answer") {
     CHECK_THAT(html, Contains("<title>Block (" + to_string(block.index) + ")"));
 }
 
+TEST_CASE("A report named .svg is the picture of the bridge alone") {
+  const std::string picture = (desk().folder / "bridge.svg").string();
+  REQUIRE(desk().locate(desk().readings_of("4,2"), {"--report", picture}).exit_code == 0);
+  std::ifstream stream(picture);
+  const std::string svg{std::istreambuf_iterator<char>(stream), {}};
+  CHECK(svg.starts_with("<svg "));
+  CHECK_THAT(svg, Contains("(4,2)</text>") && !Contains("<html"));
+}
+
 TEST_CASE("A report that cannot be written is a failure, and then there is no answer either") {
   const ProgramResult result = desk().locate(desk().readings_of("4,2"), {"--report", "/nowhere/report.html"});
   CHECK(result.exit_code == 1);

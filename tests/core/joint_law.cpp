@@ -40,6 +40,27 @@ TEST_CASE("Joint forces equal a fine quadrature of the point law", "[joint]") {
   }
 }
 
+TEST_CASE(
+    "Every rule is exact where a joint sticks, and sixteen points come near it elsewhere (exact integration)",
+    "[joint]") {
+  const JointMaterial material;
+  const JointState sticking = {-1e-4, 2e-5, -3e-4, -1e-5};
+  const Eigen::Vector4d force = integrate_joint(material, 0.7, sticking).force;
+  for (const JointRule rule : {JointRule::exact, JointRule::lobatto_3, JointRule::gauss_16})
+    CHECK((integrate_joint(material, 0.7, sticking, rule).force - force).norm() < 1e-12 * force.norm());
+  std::mt19937 generator(3);
+  double coarse = 0.0;
+  double fine = 0.0;
+  for (int trial = 0; trial < 200; ++trial) {
+    const JointState state = random_state(generator);
+    const Eigen::Vector4d exact = integrate_joint(material, 0.7, state).force;
+    coarse += (integrate_joint(material, 0.7, state, JointRule::lobatto_3).force - exact).norm();
+    fine += (integrate_joint(material, 0.7, state, JointRule::gauss_16).force - exact).norm();
+  }
+  CHECK(fine < 0.1 * coarse);
+  CHECK(coarse > 0.0);
+}
+
 TEST_CASE("The joint tangent is the derivative of the joint force", "[joint]") {
   std::mt19937 generator(2);
   const JointMaterial material;

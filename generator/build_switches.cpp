@@ -1,0 +1,33 @@
+#include "generator/build_switches.h"
+
+#include <algorithm>
+#include <array>
+
+#include "generator/verify.h"
+
+namespace voussoir {
+
+std::span<const BuildSwitch> build_switches() {
+  // Where the same numbers are computed in another way nothing changes; where a search goes another way to
+  // the same equilibrium, or contacts are added up in another order, two solutions of the same scene differ.
+  constexpr double kNothing = 0.0;
+  static constexpr std::array kSwitches = {
+      BuildSwitch{"early-outcome", kSameDisplacement,
+                  [](PlanRules&, Skips& skips) { skips.early_outcome = false; }},
+      BuildSwitch{"lane-refill", kNothing, [](PlanRules&, Skips& skips) { skips.lane_refill = false; }},
+      BuildSwitch{"mirror-images", kSameDisplacement,
+                  [](PlanRules& rules, Skips&) { rules.mirror_images = false; }},
+      BuildSwitch{"settled-contacts", kSameDisplacement,
+                  [](PlanRules&, Skips& skips) { skips.settled_contacts = false; }},
+      BuildSwitch{"shared-analysis", kNothing,
+                  [](PlanRules&, Skips& skips) { skips.shared_analysis = false; }},
+      BuildSwitch{"warm-starts", kSameDisplacement,
+                  [](PlanRules& rules, Skips&) { rules.warm_starts = false; }}};
+  return kSwitches;
+}
+
+const BuildSwitch& build_switch(std::string_view name) {
+  return *std::ranges::find(build_switches(), name, &BuildSwitch::name);
+}
+
+}  // namespace voussoir

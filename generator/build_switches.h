@@ -1,0 +1,25 @@
+#pragma once
+/// @file The names of what a build skips or shares, each of which can be switched off.
+
+#include <span>
+#include <string_view>
+
+#include "core/skips.h"
+#include "generator/build_plan.h"
+
+namespace voussoir {
+
+struct BuildSwitch {
+  std::string_view name;
+  /// Without it no control displacement changes by more than this [m], and no outcome.
+  double largest_change;
+  void (*switch_off)(PlanRules& rules, Skips& skips);
+};
+
+/// In alphabetical order.
+std::span<const BuildSwitch> build_switches();
+
+/// Precondition: there is a switch of this name.
+const BuildSwitch& build_switch(std::string_view name);
+
+}  // namespace voussoir

@@ -1,0 +1,184 @@
+#include "lookup/row_clusters.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "lookup/float_lanes.h"
+
+namespace voussoir {
+namespace {
+
+constexpr std::size_t kSample = 256;  // rows from which two centres are found
+constexpr int kHalvingRounds = 3;     // of moving the centres to the middle of their rows, here and below
+constexpr int kRounds = 6;
+
+/// Squared distances of many rows from one.
+VOUSSOIR_VECTORISED
+void find_squares(const float* const* rows, std::size_t count, const float* from, std::size_t stride,
+                  float* squares) {
+  for (std::size_t row = 0; row < count; ++row) {
+    FloatLanes sum{}, a, b;
+    for (std::size_t i = 0; i < stride; i += kFloatLanes) {
+      load(rows[row] + i, a);
+      load(from + i, b);
+      sum += (a - b) * (a - b);
+    }
+    squares[row] = sum_of(sum);
+  }
+}
+
+class Clustering {
+ public:
+  Clustering(std::span<const float> values, std::size_t stride, std::size_t most)
+      : values_(values), stride_(stride), most_(most), cluster_(values.size() / stride, 0) {}
+
+  RowClusters run() {
+    std::vector<std::size_t> all(cluster_.size());
+    std::iota(all.begin(), all.end(), std::size_t{0});
+    if (!all.empty()) split(std::move(all));
+    for (int round = 0; round < kRounds; ++round) {
+      move_centres();
+      assign();
+    }
+    return result();
+  }
+
+ private:
+  const float* row(std::size_t index) const { return values_.data() + index * stride_; }
+  const float* centre(std::size_t cluster) const { return centres_.data() + cluster * stride_; }
+
+  std::vector<float> squares(const std::vector<std::size_t>& rows, const float* from) const {
+    std::vector<const float*> pointers;
+    for (const std::size_t index : rows) pointers.push_back(row(index));
+    std::vector<float> result(rows.size());
+    find_squares(pointers.data(), rows.size(), from, stride_, result.data());
+    return result;
+  }
+
+  const float* farthest(const std::vector<std::size_t>& sample, const float* from) const {
+    const std::vector<float> found = squares(sample, from);
+    return row(
+        sample[static_cast<std::size_t>(std::max_element(found.begin(), found.end()) - found.begin())]);
+  }
+
+  void split(std::vector<std::size_t> rows) {
+    if (rows.size() > most_) {
+      std::vector<std::size_t> other = halve(rows);
+      if (!rows.empty() && !other.empty()) {
+        split(std::move(rows));
+        split(std::move(other));
+        return;
+      }
+      rows.insert(rows.end(), other.begin(), other.end());
+    }
+    for (const std::size_t index : rows) cluster_[index] = clusters_;
+    ++clusters_;
+  }
+
+  /// Takes the farther half out of `rows`.
+  std::vector<std::size_t> halve(std::vector<std::size_t>& rows) const {
+    std::vector<std::size_t> sample;
+    const std::size_t step = (rows.size() + kSample - 1) / kSample;
+    for (std::size_t i = 0; i < rows.size(); i += step) sample.push_back(rows[i]);
+    const float* const first = farthest(sample, row(rows.front()));
+    const float* const second = farthest(sample, first);
+    std::vector<float> one(first, first + stride_), two(second, second + stride_);
+    for (int round = 0; round < kHalvingRounds; ++round) move_to_middles(sample, one, two);
+    const std::vector<float> to_one = squares(rows, one.data());
+    const std::vector<float> to_two = squares(rows, two.data());
+    std::vector<std::size_t> near, far;
+    for (std::size_t i = 0; i < rows.size(); ++i) (to_one[i] < to_two[i] ? near : far).push_back(rows[i]);
+    rows = std::move(near);
+    return far;
+  }
+
+  void move_to_middles(const std::vector<std::size_t>& sample, std::vector<float>& one,
+                       std::vector<float>& two) const {
+    const std::vector<float> to_one = squares(sample, one.data());
+    const std::vector<float> to_two = squares(sample, two.data());
+    std::vector<float> sums[2] = {std::vector<float>(stride_, 0.0F), std::vector<float>(stride_, 0.0F)};
+    float count[2] = {0.0F, 0.0F};
+    for (std::size_t i = 0; i < sample.size(); ++i) {
+      const int side = to_one[i] < to_two[i] ? 0 : 1;
+      ++count[side];
+      for (std::size_t k = 0; k < stride_; ++k) sums[side][k] += row(sample[i])[k];
+    }
+    for (std::size_t k = 0; k < stride_; ++k) {
+      one[k] = sums[0][k] / std::max(count[0], 1.0F);
+      two[k] = sums[1][k] / std::max(count[1], 1.0F);
+    }
+  }
+
+  void move_centres() {
+    centres_.assign(clusters_ * stride_, 0.0F);
+    std::vector<float> count(clusters_, 0.0F);
+    for (std::size_t index = 0; index < cluster_.size(); ++index) {
+      ++count[cluster_[index]];
+      for (std::size_t k = 0; k < stride_; ++k) centres_[cluster_[index] * stride_ + k] += row(index)[k];
+    }
+    for (std::size_t cluster = 0; cluster < clusters_; ++cluster)
+      for (std::size_t k = 0; k < stride_; ++k)
+        centres_[cluster * stride_ + k] /= std::max(count[cluster], 1.0F);
+  }
+
+  /// Puts every row to its nearest centre. A centre twice as far from the row's own centre as the row is
+  /// cannot be nearer to it.
+  void assign() {
+    std::vector<std::vector<std::size_t>> members(clusters_);
+    for (std::size_t index = 0; index < cluster_.size(); ++index) members[cluster_[index]].push_back(index);
+    std::vector<const float*> all;
+    for (std::size_t cluster = 0; cluster < clusters_; ++cluster) all.push_back(centre(cluster));
+    std::vector<float> apart(clusters_);
+    for (std::size_t own = 0; own < clusters_; ++own) {
+      find_squares(all.data(), clusters_, centre(own), stride_, apart.data());
+      std::vector<std::size_t> others(clusters_);
+      std::iota(others.begin(), others.end(), std::size_t{0});
+      std::sort(others.begin(), others.end(), [&](std::size_t a, std::size_t b) {
+        return apart[a] != apart[b] ? apart[a] < apart[b] : a < b;
+      });
+      const std::vector<float> from_own = squares(members[own], centre(own));
+      for (std::size_t i = 0; i < members[own].size(); ++i) {
+        float least = from_own[i];
+        for (const std::size_t other : others) {
+          if (apart[other] >= 4.0F * from_own[i]) break;
+          float square = 0.0F;
+          const float* const candidate = centre(other);
+          find_squares(&candidate, 1, row(members[own][i]), stride_, &square);
+          if (square < least) {
+            least = square;
+            cluster_[members[own][i]] = other;
+          }
+        }
+      }
+    }
+  }
+
+  RowClusters result() const {
+    std::vector<std::vector<std::size_t>> members(clusters_);
+    for (std::size_t index = 0; index < cluster_.size(); ++index) members[cluster_[index]].push_back(index);
+    RowClusters result;
+    for (const auto& rows : members) {
+      if (rows.empty()) continue;
+      result.begin.push_back(result.order.size());
+      result.order.insert(result.order.end(), rows.begin(), rows.end());
+    }
+    result.begin.push_back(result.order.size());
+    return result;
+  }
+
+  std::span<const float> values_;
+  std::size_t stride_;
+  std::size_t most_;
+  std::size_t clusters_ = 0;
+  std::vector<std::size_t> cluster_;  // of each row
+  std::vector<float> centres_;
+};
+
+}  // namespace
+
+RowClusters cluster_rows(std::span<const float> values, std::size_t stride, std::size_t most) {
+  return Clustering(values, stride, most).run();
+}
+
+}  // namespace voussoir

@@ -1,0 +1,27 @@
+#pragma once
+/// @file What each skip of a build gains and changes.
+
+#include <string>
+#include <vector>
+
+#include "core/bridge_file.h"
+
+namespace voussoir {
+
+struct SkipRow {
+  std::string name;
+  double seconds_with = 0.0;  ///< of processor time a scene
+  double seconds_without = 0.0;
+  double largest_change = 0.0;  ///< of a control displacement, over all scenes [m]
+  double stated_change = 0.0;   ///< its bound [m]
+  std::size_t other_outcomes = 0;
+};
+
+/// Builds the database of some scenes (as --scenes takes them) once with all skips and once without each. The
+/// builds with all skips frame the others, and their mean is what the others are compared with.
+std::vector<SkipRow> measure_skips(const BridgeFile& bridge, const std::string& scenes);
+
+/// As a table in Markdown.
+std::string to_markdown(const std::vector<SkipRow>& rows);
+
+}  // namespace voussoir
