@@ -138,13 +138,16 @@ FloatStatistics float_statistics(const Observation& observation, const SceneTabl
                                  std::span<const std::size_t> rows) {
   const std::size_t stride = (table.points + kFloatLanes - 1) / kFloatLanes * kFloatLanes;
   const FloatView view = view_of(observation, stride);
-  // Whole registers are read: of the table's last row, from a copy that is as long.
-  std::vector<double> last(stride, 0.0);
-  std::copy_n(table.row(table.rows - 1).begin(), table.points, last.begin());
-  const std::size_t inside = rows.empty() || rows.back() + 1 < table.rows ? rows.size() : rows.size() - 1;
+  // Whole registers are read; where that would go beyond the table, from a copy that is long enough.
+  std::size_t inside = rows.size();
+  while (inside > 0 && rows[inside - 1] * table.points + stride > table.vertical.size()) --inside;
   return collected(observation, rows.size(), [&](float inverse_unit, const Columns& columns) {
     collect_some(view, inverse_unit, table.vertical.data(), rows.data(), inside, table.points, columns);
-    if (inside < rows.size()) collect_row(view, inverse_unit, last.data(), inside, columns);
+    std::vector<double> copy(stride, 0.0);
+    for (std::size_t i = inside; i < rows.size(); ++i) {
+      std::copy_n(table.row(rows[i]).begin(), table.points, copy.begin());
+      collect_row(view, inverse_unit, copy.data(), i, columns);
+    }
   });
 }
 
