@@ -3,8 +3,6 @@
 #include <oneapi/tbb/enumerable_thread_specific.h>
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/info.h>
-#include <oneapi/tbb/parallel_for.h>
-#include <oneapi/tbb/task_arena.h>
 
 #include <algorithm>
 
@@ -14,6 +12,7 @@
 #include "generator/build_settings.h"
 #include "generator/existing_database.h"
 #include "generator/known_records.h"
+#include "generator/parallel.h"
 #include "generator/results_key.h"
 #include "generator/scene_list.h"
 #include "generator/start_field.h"
@@ -121,11 +120,9 @@ void run_plan(const Build& build, const BuildPlan& plan, KnownRecords& known) {
   for (const auto& stage : plan.stages) {
     const StartingFields starts = read_starts(stage, build.request.rules, known);
     const std::size_t size = batch_size(stage.size(), threads);
-    arena.execute([&] {
-      tbb::parallel_for(std::size_t{0}, (stage.size() + size - 1) / size, [&](std::size_t i) {
-        const std::span batch = std::span(stage).subspan(i * size, std::min(size, stage.size() - i * size));
-        run_batch(build, batch, solvers.local(), starts, known);
-      });
+    for_each_index(arena, (stage.size() + size - 1) / size, [&](std::size_t i) {
+      const std::span batch = std::span(stage).subspan(i * size, std::min(size, stage.size() - i * size));
+      run_batch(build, batch, solvers.local(), starts, known);
     });
   }
 }
