@@ -1,6 +1,7 @@
 #include "core/critical_step.h"
 
 #include <Eigen/SparseCholesky>
+#include <algorithm>
 #include <cmath>
 
 #include "core/equilibrium.h"
@@ -95,6 +96,15 @@ Eigen::VectorXd masses_of_unknowns(const Bridge& bridge, const EquilibriumSystem
   return result;
 }
 
+/// How far the largest block sinks between two neighbours that hold it by shear alone, over faces as high as
+/// itself [m].
+double slump(const Bridge& bridge) {
+  double largest = 0.0;
+  for (const Block& block : bridge.layout.blocks) largest = std::max(largest, area(block.polygon));
+  const BridgeDescription& d = bridge.description;
+  return d.material.density * d.gravity * std::sqrt(largest) / (2.0 * d.joints.tangential_stiffness);
+}
+
 }  // namespace
 
 double critical_step(const Bridge& bridge, const std::vector<BlockBody>& bodies, Integrator integrator,
@@ -132,7 +142,9 @@ NaturalMotion natural_motion(const Bridge& bridge) {
     squared = mode.dot(inertia) / mode.dot(masses.cwiseProduct(mode));
     mode.normalize();
   }
-  return {.frequency = std::sqrt(squared), .sag = sag.cwiseAbs().maxCoeff(), .work = 0.5 * load.dot(sag)};
+  return {.frequency = std::sqrt(squared),
+          .sag = std::max(sag.cwiseAbs().maxCoeff(), slump(bridge)),
+          .work = 0.5 * load.dot(sag)};
 }
 
 }  // namespace voussoir

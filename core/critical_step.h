@@ -21,8 +21,9 @@ double critical_step(const Bridge& bridge, const std::vector<BlockBody>& bodies,
 /// The linear bridge, all joints closed and sticking, under its weight.
 struct NaturalMotion {
   double frequency;  ///< the lowest, by inverse iteration [rad/s]
-  double sag;        ///< largest displacement under the weight [m]
-  double work;       ///< half the work of the weight on the displacement [J]
+  double sag;   ///< largest displacement under the weight, or what a block sinks that two neighbours hold by
+                ///< shear alone if that is more (joints that are very soft in shear) [m]
+  double work;  ///< half the work of the weight on the displacement [J]
 };
 
 NaturalMotion natural_motion(const Bridge& bridge);

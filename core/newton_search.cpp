@@ -11,6 +11,8 @@ constexpr double kLeastBonding =
     1e-3;  ///< first help for loose blocks: a thousandth of the joints' stiffness
 constexpr double kBondingFactor = 10.0;  ///< more help for a step out of bounds, less after a step
 constexpr int kMostHalvings = 4;
+constexpr double kFallingSags =
+    10.0;  ///< a scene that moves further than this many times the sag of the bonded one falls
 constexpr double kMovingShare = 0.1;  ///< of the way of the block that has fallen: further means moving away
 
 /// How a phase behaves.
@@ -131,6 +133,7 @@ bool NewtonSearch::within_bounds(bool regular, const Eigen::VectorXd& step) cons
 void NewtonSearch::take_step(const Eigen::VectorXd& step) {
   const double bound = manner(phase_).rise * *std::max_element(recent_.begin(), recent_.end());
   const Field before = displacement_;
+  const bool bonded_from_rest = steps_ == 0 && bonding_ >= 1.0;
   bonding_ = bonding_ > kLeastBonding ? bonding_ / kBondingFactor : 0.0;
   double factor = 1.0;
   double norm = 0.0;
@@ -139,12 +142,13 @@ void NewtonSearch::take_step(const Eigen::VectorXd& step) {
     for (int i = 0; i < system_->unknown_count(); ++i)
       displacement_.data()[system_->component[static_cast<std::size_t>(i)]] += factor * step[i];
     evaluate();
-    norm = unbalanced_.norm();
+    norm = (unbalanced_ / system_->largest_load).norm();  // squares of tiny loads would vanish
     if (norm < bound) break;
   }
   last_step_ = factor * step.cwiseAbs().maxCoeff();
   std::rotate(recent_.begin(), recent_.begin() + 1, recent_.end());
   recent_.back() = norm;
+  if (bonded_from_rest) bonded_sag_ = last_step_;
   if (steps_++ == 0) first_norm_ = norm;
 }
 
@@ -166,9 +170,14 @@ bool NewtonSearch::in_equilibrium() const {
   return r <= settings_->tolerance || (at_round_off && r <= settings_->loose_tolerance);
 }
 
+/// Soft joints let a standing bridge move further than the setting says; not further than many bonded sags.
+double NewtonSearch::falling_displacement() const {
+  return std::max(settings_->collapse_displacement, kFallingSags * bonded_sag_);
+}
+
 bool NewtonSearch::fallen() const {
   const double largest = largest_displacement();
-  return !std::isfinite(largest) || largest > settings_->collapse_displacement;
+  return !std::isfinite(largest) || largest > falling_displacement();
 }
 
 Solution NewtonSearch::solution() const {
@@ -179,8 +188,7 @@ Solution NewtonSearch::solution() const {
   if (fallen()) {
     const Bridge& bridge = *system_->bridge;
     solution.outcome = Outcome::collapsed;
-    solution.moving =
-        blocks_moved_beyond(kMovingShare * settings_->collapse_displacement, bridge.mesh, displacement_);
+    solution.moving = blocks_moved_beyond(kMovingShare * falling_displacement(), bridge.mesh, displacement_);
     solution.extent = collapse_extent(bridge.layout, solution.moving);
   } else if (in_equilibrium()) {
     solution.outcome = Outcome::standing;

@@ -45,6 +45,7 @@ class NewtonSearch {
   bool exhausted() const;
   bool in_equilibrium() const;
   bool fallen() const;
+  double falling_displacement() const;
   double residual() const;
   double largest_displacement() const { return displacement_.cwiseAbs().maxCoeff(); }
   Field at_rest() const { return Field::Zero(2, displacement_.cols()); }
@@ -62,6 +63,7 @@ class NewtonSearch {
   double last_step_ = 0.0;  ///< largest component [m]
   std::array<double, kMemory>
       recent_{};             ///< the last norms of `unbalanced_`: a step may rise to the worst of them
+  double bonded_sag_ = 0.0;  ///< largest displacement after the bonded first step from rest [m]; 0 before
   double first_norm_ = 0.0;  ///< after the start's first step
   int steps_ = 0;            ///< since the start
   int phase_iterations_ = 0;

@@ -20,9 +20,10 @@ struct QuasiStaticSettings {
   int most_warm_iterations =
       12;                    ///< factorisations from a given start before the search starts again from zero
   int most_iterations = 30;  ///< factorisations of a search from zero
-  int most_falling_iterations = 40;    ///< factorisations of a fall
-  bool follow_falls = true;            ///< false: a search without hope ends there, `unresolved`
-  double collapse_displacement = 0.1;  ///< [m] a standing bridge moves less; beyond it blocks are falling
+  int most_falling_iterations = 40;  ///< factorisations of a fall
+  bool follow_falls = true;          ///< false: a search without hope ends there, `unresolved`
+  double collapse_displacement =
+      0.1;  ///< [m] beyond it, and beyond ten sags of the bonded scene, blocks are falling
   JointRule joint_rule = JointRule::exact;
   Skips skips;
 };

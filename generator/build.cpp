@@ -31,12 +31,15 @@ struct Build {
   Provenance provenance;
 };
 
+Provenance provenance_of(const BuildRequest& request, const SolverChoice& solver, const Bridge& bridge) {
+  const std::string settings = build_settings(solver, bridge, request.rules);
+  return make_provenance(request.bridge, settings, results_key(request.bridge.description, settings));
+}
+
 Build prepare(const BuildRequest& request, const SolverChoice& solver, Progress& progress) {
   Bridge bridge = make_bridge(request.bridge.description);
   auto wanted = parse_scene_list(request.scenes, bridge.layout);
-  const std::string settings = build_settings(solver, bridge, request.rules);
-  Provenance provenance =
-      make_provenance(request.bridge, settings, results_key(request.bridge.description, settings));
+  Provenance provenance = provenance_of(request, solver, bridge);
   return {request, solver, progress, std::move(bridge), std::move(wanted), std::move(provenance)};
 }
 
@@ -172,6 +175,10 @@ void write_index(const Build& build) {
 }
 
 }  // namespace
+
+Provenance provenance_of(const BuildRequest& request, const SolverChoice& solver) {
+  return provenance_of(request, solver, make_bridge(request.bridge.description));
+}
 
 BuildSummary build_database(const BuildRequest& request, const SolverChoice& solver, Progress& progress) {
   const auto started = std::chrono::steady_clock::now();

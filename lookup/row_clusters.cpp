@@ -14,7 +14,7 @@ constexpr int kHalvingRounds = 3;     // of moving the centres to the middle of 
 constexpr int kRounds = 6;
 
 /// Squared distances of many rows from one.
-VOUSSOIR_VECTORISED
+VOUSSOIR_FOR_EVERY_PROCESSOR
 void find_squares(const float* const* rows, std::size_t count, const float* from, std::size_t stride,
                   float* squares) {
   for (std::size_t row = 0; row < count; ++row) {

@@ -17,4 +17,15 @@ std::vector<Study> rest_studies();
 /// The semicircular arch: least thickness, friction.
 std::vector<Study> arch_studies();
 
+/// The reference bridge: what its discretisation costs.
+std::vector<Study> bridge_studies();
+
+/// Walls that were tested: comparisons.
+std::vector<Study> wall_studies();
+
+/// Hard cases.
+std::vector<Study> material_sweeps();
+std::vector<Study> geometry_sweeps();
+std::vector<Study> solver_sweeps();
+
 }  // namespace voussoir::validation
