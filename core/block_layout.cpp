@@ -65,6 +65,9 @@ std::vector<double> joints_of_course(const WallDescription& wall, int course) {
 std::vector<Polygon> cut_by_spans(const Polygon& rectangle, const BridgeDescription& description) {
   std::vector<Polygon> parts = {rectangle};
   for (const SpanDescription& span : description.spans) {
+    if (rectangle[1].x() <= span.centre_x - span.extrados_radius() ||
+        rectangle[0].x() >= span.centre_x + span.extrados_radius())
+      continue;  // beside the span
     std::vector<Polygon> remaining;
     for (const Polygon& part : parts)
       for (Polygon& piece : subtract(part, enclosed_by_extrados(span), description.wall.smallest_piece))

@@ -17,11 +17,15 @@ namespace voussoir {
 namespace {
 
 constexpr std::uintmax_t kLargestFile = 1 << 20;  ///< [bytes] a bridge file is a page or two
+constexpr std::size_t kLongestLine = 4096;        ///< [bytes] bounds how deep dotted keys nest
 constexpr double kDegree = std::numbers::pi / 180.0;
-constexpr double kMost = 1e15;  ///< largest value of any setting
+constexpr double kMost = 1e15;            ///< largest value of any setting
+constexpr double kSmallestLength = 1e-3;  ///< [m] of any part: joints are found within 1e-6 m
+constexpr double kLargestLength = 1e5;    ///< [m] of anything
 constexpr int kMostCourses = 1000;
 constexpr int kMostVoussoirs = 1000;
 constexpr double kMostBlocks = 20000;
+constexpr double kMostPieces = 300000;  ///< blocks, each counted four times a level of refinement
 
 /// Reads the keys of one table; remembers which were read, so that the others can be refused.
 class Section {
@@ -41,6 +45,7 @@ class Section {
     target = *number;
   }
   void positive(const char* key, double& target) { number(key, target, 0.0, kMost, false); }
+  void length(const char* key, double& target) { number(key, target, kSmallestLength, kLargestLength, true); }
   void not_negative(const char* key, double& target) { number(key, target, 0.0, kMost, true); }
 
   void count(const char* key, int& target, int least, int most) {
@@ -136,10 +141,10 @@ class Section {
 };
 
 void read_wall(Section section, WallDescription& wall) {
-  section.positive("length_m", wall.length);
+  section.length("length_m", wall.length);
   section.count("courses", wall.courses, 0, kMostCourses);
-  section.positive("course_height_m", wall.course_height);
-  section.positive("block_length_m", wall.block_length);
+  section.length("course_height_m", wall.course_height);
+  section.length("block_length_m", wall.block_length);
   section.choice("bond", wall.bond, {{"running", Bond::running}, {"stack", Bond::stack}});
   section.positive("smallest_piece_m2", wall.smallest_piece);
   section.refuse_unknown_keys();
@@ -147,10 +152,10 @@ void read_wall(Section section, WallDescription& wall) {
 
 SpanDescription read_span(Section section) {
   SpanDescription span;
-  section.number("centre_x_m", span.centre_x, -kMost, kMost, true);
-  section.not_negative("centre_y_m", span.centre_y);
-  section.positive("intrados_radius_m", span.intrados_radius);
-  section.positive("ring_thickness_m", span.ring_thickness);
+  section.number("centre_x_m", span.centre_x, -kLargestLength, kLargestLength, true);
+  section.number("centre_y_m", span.centre_y, 0.0, kLargestLength, true);
+  section.length("intrados_radius_m", span.intrados_radius);
+  section.length("ring_thickness_m", span.ring_thickness);
   section.count("voussoirs", span.voussoirs, 3, kMostVoussoirs);
   section.refuse_unknown_keys();
   return span;
@@ -195,15 +200,26 @@ void read_mesh(Section section, MeshDescription& mesh) {
   section.refuse_unknown_keys();
 }
 
-/// Spans must lie in the wall and beside each other; the wall must not have absurdly many blocks.
-void check_geometry(const BridgeDescription& description, const std::vector<long>& span_lines,
-                    const std::string& file, long wall_line) {
+/// The bridge must not have absurdly many blocks or triangles.
+void check_size(const BridgeDescription& description, const std::string& file, long wall_line) {
   const WallDescription& wall = description.wall;
-  const double blocks = wall.courses * (wall.length / wall.block_length + 1.0);
+  double blocks = wall.courses * (wall.length / wall.block_length + 1.0);
+  for (const SpanDescription& span : description.spans) blocks += span.voussoirs + 2;
   if (blocks > kMostBlocks)
     throw InputError(at_line(
         file, wall_line,
-        fmt::format("the wall would have {:.0f} blocks: expected at most {:.0f}", blocks, kMostBlocks)));
+        fmt::format("the bridge would have {:.0f} blocks: expected at most {:.0f}", blocks, kMostBlocks)));
+  if (blocks * std::pow(4.0, description.mesh.refinement) > kMostPieces)
+    throw InputError(at_line(
+        file, wall_line,
+        fmt::format("{:.0f} blocks are too many for a refinement of {}: expected at most {:.0f}", blocks,
+                    description.mesh.refinement, kMostPieces / std::pow(4.0, description.mesh.refinement))));
+}
+
+/// Spans must lie in the wall and beside each other.
+void check_geometry(const BridgeDescription& description, const std::vector<long>& span_lines,
+                    const std::string& file) {
+  const WallDescription& wall = description.wall;
   for (std::size_t i = 0; i < description.spans.size(); ++i) {
     const SpanDescription& span = description.spans[i];
     const double left = span.centre_x - span.extrados_radius();
@@ -218,6 +234,18 @@ void check_geometry(const BridgeDescription& description, const std::vector<long
       throw InputError(
           at_line(file, span_lines[i],
                   "the ring overlaps the one before: expected spans from left to right, side by side"));
+  }
+}
+
+/// The parser keeps the depth of values within bounds, but not that of keys a.b.c.
+void check_lines(std::string_view text, const std::string& file) {
+  long line = 1;
+  for (std::size_t start = 0; start < text.size(); ++line) {
+    const std::size_t end = std::min(text.find('\n', start), text.size());
+    if (end - start > kLongestLine)
+      throw InputError(at_line(
+          file, line, fmt::format("a line of {} bytes: expected at most {}", end - start, kLongestLine)));
+    start = end + 1;
   }
 }
 
@@ -246,13 +274,15 @@ BridgeDescription interpret(const toml::table& root, const std::string& file) {
     }
   }
   top.refuse_unknown_keys();
-  check_geometry(description, span_lines, file, top.line_of("wall"));
+  check_size(description, file, top.line_of("wall"));
+  check_geometry(description, span_lines, file);
   return description;
 }
 
 }  // namespace
 
 BridgeFile parse_bridge_file(std::string_view text, const std::string& name) {
+  check_lines(text, name);
   try {
     const toml::table root = toml::parse(text, name);
     return {name, std::string(text), interpret(root, name)};

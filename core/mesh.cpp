@@ -1,5 +1,6 @@
 #include "core/mesh.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
@@ -13,10 +14,14 @@ constexpr double kTouching = 1e-6;  ///< [m] a corner this close to an edge touc
 
 /// Corners of other blocks that touch the block's boundary away from its own corners.
 std::vector<Point> touching_corners(const Polygon& polygon, const std::vector<Block>& blocks) {
+  Eigen::AlignedBox2d box;
+  for (const Point& p : polygon) box.extend(p);
+  const auto is_far = [&](const Point& p) { return box.squaredExteriorDistance(p) > kTouching * kTouching; };
   std::vector<Point> touching;
   for (const Block& block : blocks)
     for (const Point& p : block.polygon)
-      if (distance_to_boundary(polygon, p) < kTouching && distance_to_corner(polygon, p) > kTouching)
+      if (!is_far(p) && distance_to_boundary(polygon, p) < kTouching &&
+          distance_to_corner(polygon, p) > kTouching)
         touching.push_back(p);
   return touching;
 }

@@ -1,12 +1,12 @@
 #pragma once
 /// @file Reading HDF5 files that may hold anything: every type, rank, size and place is checked before it is
-/// used.
+/// used, and the HDF5 library takes no part (database/hdf5_format.h).
 
 #include <filesystem>
 #include <optional>
 
 #include "core/error.h"
-#include "database/hdf5_handle.h"
+#include "database/hdf5_format.h"
 #include "database/mapped_file.h"
 #include "database/schema.h"
 
@@ -23,11 +23,7 @@ struct DatasetView {
 
 /// One chunk a row, shuffled and deflated: fields/displacement.
 struct ChunkedDataset {
-  ChunkedDataset(Hdf5Handle opened) : handle(std::move(opened)) {}
-  ~ChunkedDataset();
-  ChunkedDataset(ChunkedDataset&&) noexcept = default;
-  ChunkedDataset& operator=(ChunkedDataset&&) noexcept = default;
-  Hdf5Handle handle;
+  std::vector<ByteView> chunks;  ///< as they are stored, in place in the mapped file
 };
 
 inline constexpr std::uint64_t kFlat = 0;
@@ -38,9 +34,6 @@ class Hdf5File {
   /// Throws Failure if the file cannot be read, InputError if it is no whole HDF5 file of the kind that
   /// build-database writes (superblock version 2 or 3, all of whose structures carry checksums).
   explicit Hdf5File(const std::filesystem::path& path);
-  ~Hdf5File();
-  Hdf5File(Hdf5File&&) noexcept = default;
-  Hdf5File& operator=(Hdf5File&&) = delete;
 
   const std::filesystem::path& path() const { return path_; }
 
@@ -72,12 +65,16 @@ class Hdf5File {
 
  private:
   void check_numbers(const DatasetView& found, ElementType type, std::uint64_t columns) const;
-  Hdf5Handle open_dataset(const char* dataset_path) const;
-  bool has_hard_link(const std::string& link_path) const;
+  std::uint64_t root() const;
+  const hdf5_format::StoredAttribute& attribute(const char* name) const;
+  /// Address of a dataset's object header, or nothing.
+  std::optional<std::uint64_t> find(const char* dataset_path) const;
+  hdf5_format::ObjectHeader header_at(std::uint64_t address, const std::string& what) const;
+  hdf5_format::ObjectHeader dataset_header(const char* dataset_path) const;
 
   std::filesystem::path path_;
   MappedFile mapped_;
-  Hdf5Handle file_;
+  hdf5_format::ObjectHeader root_;
 };
 
 }  // namespace voussoir

@@ -39,10 +39,14 @@ Hdf5Handle make_space(const std::vector<std::uint64_t>& shape) {
   return {H5Screate_simple(static_cast<int>(extents.size()), extents.data(), nullptr), H5Sclose};
 }
 
-/// Time stamps would make the bytes of equal databases differ.
-Hdf5Handle without_times(hid_t property_class) {
+/// How groups and datasets are made. Time stamps would make the bytes of equal databases differ; attributes
+/// and links stay in the object header, where the reader looks for them, however many there are.
+Hdf5Handle plain_object(hid_t property_class) {
+  constexpr unsigned kMostInHeader = 1000;
   Hdf5Handle properties(H5Pcreate(property_class), H5Pclose);
   H5Pset_obj_track_times(properties.get(), false);
+  H5Pset_attr_phase_change(properties.get(), kMostInHeader, 0);
+  if (property_class != H5P_DATASET_CREATE) H5Pset_link_phase_change(properties.get(), kMostInHeader, 0);
   return properties;
 }
 
@@ -51,7 +55,7 @@ Hdf5Handle create_file(const std::filesystem::path& path) {
   H5Pset_libver_bounds(access.get(), H5F_LIBVER_V110, H5F_LIBVER_V110);  // all metadata carries checksums
   H5Pset_alignment(access.get(), 1, kAlignment);
   H5Pset_file_locking(access.get(), false, true);
-  const Hdf5Handle creation = without_times(H5P_FILE_CREATE);
+  const Hdf5Handle creation = plain_object(H5P_FILE_CREATE);
   return {H5Fcreate(path.c_str(), H5F_ACC_TRUNC, creation.get(), access.get()), H5Fclose};
 }
 
@@ -97,7 +101,7 @@ void Hdf5Output::describe(const Hdf5Handle& object, const std::string& units, co
 void Hdf5Output::ensure_group(const std::string& dataset_path) {
   const std::string group = dataset_path.substr(0, dataset_path.find('/'));
   if (H5Lexists(file_.get(), group.c_str(), H5P_DEFAULT) > 0) return;
-  const Hdf5Handle creation = without_times(H5P_GROUP_CREATE);
+  const Hdf5Handle creation = plain_object(H5P_GROUP_CREATE);
   const Hdf5Handle made(H5Gcreate2(file_.get(), group.c_str(), H5P_DEFAULT, creation.get(), H5P_DEFAULT),
                         H5Gclose);
   check(static_cast<bool>(made), "cannot be written");
@@ -107,7 +111,7 @@ void Hdf5Output::add_dataset(const DatasetValue& value) {
   ensure_group(value.path);
   const Hdf5Handle type = make_type(value);
   const Hdf5Handle space = make_space(value.shape);
-  const Hdf5Handle creation = without_times(H5P_DATASET_CREATE);
+  const Hdf5Handle creation = plain_object(H5P_DATASET_CREATE);
   const Hdf5Handle made(H5Dcreate2(file_.get(), value.path.c_str(), type.get(), space.get(), H5P_DEFAULT,
                                    creation.get(), H5P_DEFAULT),
                         H5Dclose);
@@ -120,7 +124,7 @@ void Hdf5Output::add_dataset(const DatasetValue& value) {
 Hdf5Handle Hdf5Output::add_field_dataset(std::uint64_t rows, std::uint64_t nodes) {
   ensure_group(dataset::kField);
   const Hdf5Handle space = make_space({rows, nodes, 2});
-  const Hdf5Handle creation = without_times(H5P_DATASET_CREATE);
+  const Hdf5Handle creation = plain_object(H5P_DATASET_CREATE);
   const std::array<hsize_t, 3> chunk = {1, nodes, 2};
   H5Pset_chunk(creation.get(), 3, chunk.data());
   H5Pset_shuffle(creation.get());
@@ -152,7 +156,7 @@ void Hdf5Output::add_field_view(const std::string& name, const std::string& data
   H5Sselect_hyperslab(source.get(), H5S_SELECT_SET, source_start.data(), nullptr, source_count.data(),
                       nullptr);
   H5Sselect_hyperslab(view.get(), H5S_SELECT_SET, view_start.data(), nullptr, view_count.data(), nullptr);
-  const Hdf5Handle creation = without_times(H5P_DATASET_CREATE);
+  const Hdf5Handle creation = plain_object(H5P_DATASET_CREATE);
   H5Pset_virtual(creation.get(), view.get(), database.c_str(), dataset::kField, source.get());
   H5Sselect_all(view.get());
   const Hdf5Handle made(H5Dcreate2(file_.get(), name.c_str(), H5T_IEEE_F64LE, view.get(), H5P_DEFAULT,

@@ -5,6 +5,8 @@
 
 #include "build_information.h"
 #include "core/error.h"
+#include "database/schema.h"
+#include "database/sha256.h"
 #include "solver_revision.h"
 
 namespace voussoir {
@@ -63,6 +65,16 @@ std::vector<std::string> differences(const Provenance& now, const Provenance& be
 std::string version_text(const std::string& program) {
   return fmt::format("{} {}\ncompiler: {}\nflags: {}\nsolver revision: {}", program, kVersion, kCompiler,
                      kCompileFlags, kSolverRevision);
+}
+
+std::string describe(const Provenance& provenance) {
+  std::string text = fmt::format("schema version: {}\nresults key: {}\nsolver settings:\n", kSchemaVersion,
+                                 provenance.results_key);
+  for (const std::string& line : lines_of(provenance.solver_settings)) text += "  " + line + "\n";
+  text += fmt::format("bridge: {}\nbridge SHA-256: {}\nbridge text:\n", provenance.bridge_name,
+                      to_hexadecimal(sha256(provenance.bridge_text)));
+  for (const std::string& line : lines_of(provenance.bridge_text)) text += "  " + line + "\n";
+  return text;
 }
 
 std::string to_text(const Provenance& provenance) {

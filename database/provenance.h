@@ -32,6 +32,9 @@ std::vector<std::string> differences(const Provenance& now, const Provenance& be
 /// "0.1.0", compiler, flags and solver revision on lines of their own, as `--version` prints them.
 std::string version_text(const std::string& program);
 
+/// All of it in lines for people, the text of the bridge file last.
+std::string describe(const Provenance& provenance);
+
 /// The provenance as bytes (for the journal's header) and back; nothing if the bytes are no provenance.
 std::string to_text(const Provenance& provenance);
 std::optional<Provenance> parse_provenance(const std::string& text);

@@ -3,8 +3,6 @@
 #include <oneapi/tbb/enumerable_thread_specific.h>
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/info.h>
-#include <oneapi/tbb/parallel_for.h>
-#include <oneapi/tbb/task_arena.h>
 
 #include <algorithm>
 
@@ -14,6 +12,7 @@
 #include "generator/build_settings.h"
 #include "generator/existing_database.h"
 #include "generator/known_records.h"
+#include "generator/parallel.h"
 #include "generator/results_key.h"
 #include "generator/scene_list.h"
 #include "generator/start_field.h"
@@ -31,12 +30,15 @@ struct Build {
   Provenance provenance;
 };
 
+Provenance provenance_of(const BuildRequest& request, const SolverChoice& solver, const Bridge& bridge) {
+  const std::string settings = build_settings(solver, bridge, request.rules);
+  return make_provenance(request.bridge, settings, results_key(request.bridge.description, settings));
+}
+
 Build prepare(const BuildRequest& request, const SolverChoice& solver, Progress& progress) {
   Bridge bridge = make_bridge(request.bridge.description);
   auto wanted = parse_scene_list(request.scenes, bridge.layout);
-  const std::string settings = build_settings(solver, bridge, request.rules);
-  Provenance provenance =
-      make_provenance(request.bridge, settings, results_key(request.bridge.description, settings));
+  Provenance provenance = provenance_of(request, solver, bridge);
   return {request, solver, progress, std::move(bridge), std::move(wanted), std::move(provenance)};
 }
 
@@ -118,11 +120,9 @@ void run_plan(const Build& build, const BuildPlan& plan, KnownRecords& known) {
   for (const auto& stage : plan.stages) {
     const StartingFields starts = read_starts(stage, build.request.rules, known);
     const std::size_t size = batch_size(stage.size(), threads);
-    arena.execute([&] {
-      tbb::parallel_for(std::size_t{0}, (stage.size() + size - 1) / size, [&](std::size_t i) {
-        const std::span batch = std::span(stage).subspan(i * size, std::min(size, stage.size() - i * size));
-        run_batch(build, batch, solvers.local(), starts, known);
-      });
+    for_each_index(arena, (stage.size() + size - 1) / size, [&](std::size_t i) {
+      const std::span batch = std::span(stage).subspan(i * size, std::min(size, stage.size() - i * size));
+      run_batch(build, batch, solvers.local(), starts, known);
     });
   }
 }
@@ -172,6 +172,10 @@ void write_index(const Build& build) {
 }
 
 }  // namespace
+
+Provenance provenance_of(const BuildRequest& request, const SolverChoice& solver) {
+  return provenance_of(request, solver, make_bridge(request.bridge.description));
+}
 
 BuildSummary build_database(const BuildRequest& request, const SolverChoice& solver, Progress& progress) {
   const auto started = std::chrono::steady_clock::now();

@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "core/bridge_file.h"
+#include "database/provenance.h"
 #include "database/record.h"
 #include "generator/build_plan.h"
 #include "generator/outcome_counts.h"
@@ -39,6 +40,9 @@ struct BuildSummary {
   std::uintmax_t bytes = 0;
   std::string digest;
 };
+
+/// What the database of this request will state of its origin.
+Provenance provenance_of(const BuildRequest& request, const SolverChoice& solver);
 
 /// Builds the database of a bridge. The content does not depend on threads, interruptions or what the file
 /// held before. Throws InputError for a bad list of scenes and Failure if files cannot be written; every

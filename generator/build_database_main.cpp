@@ -13,24 +13,36 @@ namespace {
 
 int run(BuildOptions options) {
   options.request.bridge = options.bridge ? read_bridge_file(*options.bridge) : reference_bridge_file();
+  if (options.version) {
+    std::cout << version_text("build-database") << '\n'
+              << describe(provenance_of(options.request, options.solver));
+    return std::cout.flush() ? 0 : 1;
+  }
   Progress progress(options.quiet ? Progress::Mode::quiet : Progress::Mode::automatic);
   const BuildSummary summary = build_database(options.request, options.solver, progress);
   std::cout << (options.json ? to_json(summary) : to_text(summary)) << std::flush;
   return std::cout ? 0 : 1;
 }
 
+/// For people on stderr; for schedulers, with --format json, also as a line on stdout.
+int fail(const std::string& message, bool json, int exit_code) {
+  std::cerr << "build-database: " << message << '\n';
+  if (json) std::cout << failure_to_json(message);
+  return exit_code;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   std::signal(SIGXFSZ, SIG_IGN);  // a file size limit shows as an error of write(), as a full disk does
+  bool json = false;
   try {
     BuildOptions options = parse_build_options(argc, argv);
+    json = options.json;
     return options.exit_code ? *options.exit_code : run(std::move(options));
   } catch (const InputError& error) {
-    std::cerr << "build-database: " << error.what() << '\n';
-    return 2;
+    return fail(error.what(), json, 2);
   } catch (const std::exception& error) {
-    std::cerr << "build-database: " << error.what() << '\n';
-    return 1;
+    return fail(error.what(), json, 1);
   }
 }

@@ -3,7 +3,6 @@
 #include <CLI/CLI.hpp>
 #include <map>
 
-#include "database/provenance.h"
 #include "generator/build_switches.h"
 
 namespace voussoir {
@@ -23,7 +22,9 @@ constexpr const char* kFooter =
     "settled-contacts,\n"
     "early-outcome. The database stays the same but for round-off; tools/benchmark accuracy shows what each "
     "gains.\n\n"
-    "Exit codes: 0 done, 1 could not be done, 2 bad usage or bad bridge file.";
+    "Exit codes: 0 done, 1 could not be done, 2 bad usage or bad bridge file. With --format json the last "
+    "line of "
+    "stdout is\none JSON object, {\"ok\": true, ...} or {\"ok\": false, \"error\": ...}.";
 
 std::vector<std::string> switch_names() {
   std::vector<std::string> names;
@@ -66,7 +67,8 @@ BuildOptions parse_build_options(int argc, char** argv) {
   CLI::App app("Computes the database of a bridge: the displacements of every scene with missing blocks.",
                "build-database");
   app.footer(kFooter);
-  app.set_version_flag("--version", version_text("build-database"));
+  app.add_flag("--version", options.version,
+               "print versions, compiler, flags, settings and bridge as the database would state them");
   std::string solver = "quasi-static";
   std::string fields = "all";
   std::string format = "text";

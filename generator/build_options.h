@@ -12,6 +12,7 @@ struct BuildOptions {
   BuildRequest request;                         ///< all but the bridge
   DynamicSettings motion;                       ///< of scenes in motion
   SolverChoice solver;
+  bool version = false;  ///< only tell what would be built with what
   bool quiet = false;
   bool json = false;
   std::optional<int> exit_code;  ///< set if the program is to end at once (--help, --version, bad usage)

@@ -9,7 +9,8 @@
 namespace voussoir {
 namespace {
 
-constexpr std::size_t kMostCombinations = 1'000'000;  ///< of one item: some hundred megabytes of scenes
+constexpr std::size_t kMostCombinations = 1'000'000;  ///< of one range: some hundred megabytes of scenes
+constexpr std::size_t kMostPairs = 10'000'000;        ///< of a bridge: 4,472 blocks, a gigabyte of scenes
 
 struct NumberRange {
   int first = 0;
@@ -99,11 +100,19 @@ std::vector<Scene> scenes_of_range(std::string_view item, const BlockLayout& lay
   return scenes;
 }
 
+std::vector<Scene> up_to_pairs(std::string_view item, const BlockLayout& layout) {
+  if (layout.size() * layout.size() / 2 > kMostPairs)
+    throw InputError(
+        fmt::format("--scenes: '{}' of a bridge with {} blocks stands for more than {} scenes: name fewer",
+                    item, layout.size(), kMostPairs));
+  return all_scenes(layout.size(), 2);
+}
+
 std::vector<Scene> scenes_of_item(std::string_view item, const BlockLayout& layout) {
-  if (item == "all") return all_scenes(layout.size(), 2);
+  if (item == "all") return up_to_pairs(item, layout);
   if (item == "singles") return all_scenes(layout.size(), 1);
   if (item == "pairs") {
-    auto scenes = all_scenes(layout.size(), 2);
+    auto scenes = up_to_pairs(item, layout);
     std::erase_if(scenes, [](const Scene& scene) { return scene.missing() != 2; });
     return scenes;
   }

@@ -3,14 +3,13 @@
 #include <oneapi/tbb/enumerable_thread_specific.h>
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/info.h>
-#include <oneapi/tbb/parallel_for.h>
-#include <oneapi/tbb/task_arena.h>
 
 #include <algorithm>
 
 #include "core/error.h"
 #include "database/content_digest.h"
 #include "generator/build_settings.h"
+#include "generator/parallel.h"
 #include "generator/recompute.h"
 #include "generator/scene_check.h"
 #include "generator/stored_bridge.h"
@@ -25,7 +24,8 @@ void in_parallel(std::size_t count, int threads, const Work& work) {
   if (threads <= 0) threads = tbb::info::default_concurrency();
   const tbb::global_control allowed(tbb::global_control::max_allowed_parallelism,
                                     static_cast<std::size_t>(threads));
-  tbb::task_arena(threads).execute([&] { tbb::parallel_for(std::size_t{0}, count, work); });
+  tbb::task_arena arena(threads);
+  for_each_index(arena, count, work);
 }
 
 void check_digest(const Database& database, const std::vector<DatasetValue>& expected, VerifyReport& report) {

@@ -16,10 +16,6 @@ namespace voussoir {
 /// Throws Failure naming the command that builds one if there is none.
 std::filesystem::path find_database(const std::optional<std::string>& given);
 
-/// Tells the system that the whole table of displacements will be read, so that its pages come in one go
-/// instead of one by one. Only a hint.
-void expect_whole_table(const SceneTable& table);
-
 /// Writes a whole text to a file. Throws Failure naming the file if it cannot be written.
 void write_file(const std::filesystem::path& file, const std::string& text);
 

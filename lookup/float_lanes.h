@@ -13,9 +13,38 @@ VOUSSOIR_INLINE void load(const float* from, FloatLanes& lanes) {
   std::memcpy(&lanes, from, sizeof(FloatLanes));
 }
 
+VOUSSOIR_INLINE void load(const double* from, FloatLanes& lanes) {
+  using DoubleLanes = double __attribute__((vector_size(kFloatLanes * sizeof(double))));
+  DoubleLanes doubles;
+  std::memcpy(&doubles, from, sizeof doubles);
+  lanes = __builtin_convertvector(doubles, FloatLanes);
+}
+
 /// lanes = |lanes|
 VOUSSOIR_INLINE void make_absolute(FloatLanes& lanes) {
   lanes = reinterpret_cast<FloatLanes>(reinterpret_cast<FloatMask>(lanes) & INT32_MAX);
+}
+
+/// The first `size` lanes.
+VOUSSOIR_INLINE void load_some(const float* from, std::size_t size, FloatLanes& lanes) {
+  if (size == kFloatLanes) return load(from, lanes);
+  for (std::size_t i = 0; i < size; ++i) lanes[i] = from[i];
+}
+VOUSSOIR_INLINE void store_some(const FloatLanes& lanes, std::size_t size, float* to) {
+  std::memcpy(to, &lanes, size == kFloatLanes ? sizeof lanes : size * sizeof(float));
+}
+
+/// x = log(x) within 1e-5 for positive normal numbers; anything for others.
+VOUSSOIR_INLINE void make_approximate_logarithm(FloatLanes& x) {
+  constexpr float kLog2 = 0.69314718F;
+  constexpr std::int32_t kRootHalfBits = 0x3F3504F3;
+  const FloatMask bits = reinterpret_cast<FloatMask>(x);
+  const FloatMask exponent = (bits - kRootHalfBits) >> 23;  // x = 2^exponent f with f in [sqrt(1/2), sqrt(2))
+  const FloatLanes f = reinterpret_cast<FloatLanes>(bits - (exponent << 23));
+  const FloatLanes s = (f - 1.0F) / (f + 1.0F);
+  const FloatLanes q = s * s;
+  x = __builtin_convertvector(exponent, FloatLanes) * kLog2 +
+      2.0F * s * (1.0F + q * (1.0F / 3.0F + q * (1.0F / 5.0F)));
 }
 
 VOUSSOIR_INLINE float sum_of(const FloatLanes& lanes) {

@@ -18,63 +18,82 @@ struct FloatView {
   std::vector<float> reading, slope, offset;
 };
 
-VOUSSOIR_INLINE float logarithm(float x) {
-  const auto bits = std::bit_cast<std::int32_t>(x);
-  const std::int32_t exponent = (bits - 0x3F3504F3) >> 23;  // x = 2^exponent f with f in [sqrt(1/2), sqrt(2))
-  const auto f = std::bit_cast<float>(bits - (exponent << 23));
-  const float s = (f - 1.0F) / (f + 1.0F);
-  const float q = s * s;
-  return static_cast<float>(exponent) * kLog2 + 2.0F * s * (1.0F + q * (1.0F / 3.0F + q * (1.0F / 5.0F)));
-}
+/// Where the statistics of a row go, with the product of scales in place of the sum of their logarithms.
+struct Columns {
+  float* sum_absolute;
+  float* sum_square;
+  float* largest;
+  double* product;
+};
 
-VOUSSOIR_VECTORISED
-void collect(const FloatView& view, float inverse_unit, const float* table, std::size_t rows,
-             std::size_t stride, FloatStatistics& result, double* products) {
-  for (std::size_t row = 0; row < rows; ++row) {
-    FloatLanes sum_absolute{}, sum_square{}, largest{};
-    FloatLanes product = FloatLanes{} + 1.0F;
-    for (std::size_t i = 0; i < stride; i += kFloatLanes) {
-      FloatLanes reading, predicted, slope, offset;
-      load(view.reading.data() + i, reading);
-      load(table + row * stride + i, predicted);
-      load(view.slope.data() + i, slope);
-      load(view.offset.data() + i, offset);
-      FloatLanes movement = predicted;
-      make_absolute(movement);
-      const FloatLanes scale = slope * movement + offset;
-      FloatLanes error = reading - predicted;
-      make_absolute(error);
-      const FloatMask has_reading = reading == reading;
-      const FloatLanes z = has_reading ? error / scale : FloatLanes{};
-      sum_absolute += z;
-      sum_square += z * z;
-      largest = z > largest ? z : largest;
-      product *= has_reading ? scale * inverse_unit : FloatLanes{} + 1.0F;
-    }
-    float absolute = 0.0F, square = 0.0F, most = 0.0F;
-    double all = 1.0;
-    for (std::size_t lane = 0; lane < kFloatLanes; ++lane) {
-      absolute += sum_absolute[lane];
-      square += sum_square[lane];
-      most = std::max(most, largest[lane]);
-      all *= static_cast<double>(product[lane]);
-    }
-    result.sum_absolute[row] = absolute;
-    result.sum_square[row] = square;
-    result.largest[row] = most;
-    products[row] = all;
+template <typename Number>
+VOUSSOIR_INLINE void collect_row(const FloatView& view, float inverse_unit, const Number* row,
+                                 std::size_t i_row, const Columns& columns) {
+  FloatLanes sum_absolute{}, sum_square{}, largest{};
+  FloatLanes product = FloatLanes{} + 1.0F;
+  for (std::size_t i = 0; i < view.reading.size(); i += kFloatLanes) {
+    FloatLanes reading, predicted, slope, offset;
+    load(view.reading.data() + i, reading);
+    load(row + i, predicted);
+    load(view.slope.data() + i, slope);
+    load(view.offset.data() + i, offset);
+    FloatLanes movement = predicted;
+    make_absolute(movement);
+    const FloatLanes scale = slope * movement + offset;
+    FloatLanes error = reading - predicted;
+    make_absolute(error);
+    const FloatMask has_reading = reading == reading;
+    const FloatLanes z = has_reading ? error / scale : FloatLanes{};
+    sum_absolute += z;
+    sum_square += z * z;
+    largest = z > largest ? z : largest;
+    product *= has_reading ? scale * inverse_unit : FloatLanes{} + 1.0F;
   }
+  float most = 0.0F;
+  double all = 1.0;
+  for (std::size_t lane = 0; lane < kFloatLanes; ++lane) {
+    most = std::max(most, largest[lane]);
+    all *= static_cast<double>(product[lane]);
+  }
+  columns.sum_absolute[i_row] = sum_of(sum_absolute);
+  columns.sum_square[i_row] = sum_of(sum_square);
+  columns.largest[i_row] = most;
+  columns.product[i_row] = all;
 }
 
-VOUSSOIR_VECTORISED
+VOUSSOIR_FOR_EVERY_PROCESSOR
+void collect(const FloatView& view, float inverse_unit, const float* table, std::size_t rows,
+             std::size_t stride, const Columns& columns) {
+  for (std::size_t i = 0; i < rows; ++i) collect_row(view, inverse_unit, table + i * stride, i, columns);
+}
+
+VOUSSOIR_FOR_EVERY_PROCESSOR
+void collect_some(const FloatView& view, float inverse_unit, const double* table, const std::size_t* rows,
+                  std::size_t count, std::size_t stride, const Columns& columns) {
+  for (std::size_t i = 0; i < count; ++i)
+    collect_row(view, inverse_unit, table + rows[i] * stride, i, columns);
+}
+
+VOUSSOIR_FOR_EVERY_PROCESSOR
 void make_logs(float* values, std::size_t count) {
-  for (std::size_t i = 0; i < count; ++i) values[i] = logarithm(values[i]);
+  for (std::size_t i = 0; i < count; i += kFloatLanes) {
+    const std::size_t size = std::min(kFloatLanes, count - i);
+    FloatLanes lanes{};
+    load_some(values + i, size, lanes);
+    make_approximate_logarithm(lanes);
+    store_some(lanes, size, values + i);
+  }
 }
 
 std::vector<float> padded(const std::vector<double>& values, std::size_t stride, float filling) {
   std::vector<float> result(values.begin(), values.end());
   result.resize(stride, filling);
   return result;
+}
+
+FloatView view_of(const Observation& observation, std::size_t stride) {
+  return {padded(observation.reading, stride, std::numeric_limits<float>::quiet_NaN()),
+          padded(observation.slope, stride, 0.0F), padded(observation.offset, stride, 1.0F)};
 }
 
 /// Logarithms of products of any size, -infinity for those out of range.
@@ -87,33 +106,49 @@ std::vector<float> logs_of(const std::vector<double>& products, float shift) {
     const bool in_range = e > -1023 && e < 1024;
     exponent[i] = in_range ? static_cast<float>(e) * kLog2 + shift : -std::numeric_limits<float>::infinity();
   }
-  make_approximate_logs(mantissa);
+  make_logs(mantissa.data(), mantissa.size());
   for (std::size_t i = 0; i < products.size(); ++i) exponent[i] += mantissa[i];
   return exponent;
+}
+
+/// What `run` collects for so many rows.
+template <typename Run>
+FloatStatistics collected(const Observation& observation, std::size_t rows, Run run) {
+  const std::vector<float> zeros(rows, 0.0F);
+  FloatStatistics result{zeros, zeros, zeros, {}};
+  std::vector<double> products(rows);
+  run(static_cast<float>(1.0 / observation.unit),
+      Columns{result.sum_absolute.data(), result.sum_square.data(), result.largest.data(), products.data()});
+  result.log_scale = logs_of(
+      products, static_cast<float>(static_cast<double>(observation.count) * std::log(observation.unit)));
+  return result;
 }
 
 }  // namespace
 
 FloatStatistics float_statistics(const Observation& observation, const std::vector<float>& vertical,
                                  std::size_t rows, std::size_t stride) {
-  const FloatView view{padded(observation.reading, stride, std::numeric_limits<float>::quiet_NaN()),
-                       padded(observation.slope, stride, 0.0F), padded(observation.offset, stride, 1.0F)};
-  const std::vector<float> zeros(rows, 0.0F);
-  FloatStatistics result{zeros, zeros, zeros, {}};
-  std::vector<double> products(rows);
-  collect(view, static_cast<float>(1.0 / observation.unit), vertical.data(), rows, stride, result,
-          products.data());
-  result.log_scale = logs_of(
-      products, static_cast<float>(static_cast<double>(observation.count) * std::log(observation.unit)));
-  return result;
+  const FloatView view = view_of(observation, stride);
+  return collected(observation, rows, [&](float inverse_unit, const Columns& columns) {
+    collect(view, inverse_unit, vertical.data(), rows, stride, columns);
+  });
 }
 
-float approximate_log(float x) {
-  return logarithm(x);
-}
-
-void make_approximate_logs(std::vector<float>& values) {
-  make_logs(values.data(), values.size());
+FloatStatistics float_statistics(const Observation& observation, const SceneTable& table,
+                                 std::span<const std::size_t> rows) {
+  const std::size_t stride = (table.points + kFloatLanes - 1) / kFloatLanes * kFloatLanes;
+  const FloatView view = view_of(observation, stride);
+  // Whole registers are read; where that would go beyond the table, from a copy that is long enough.
+  std::size_t inside = rows.size();
+  while (inside > 0 && rows[inside - 1] * table.points + stride > table.vertical.size()) --inside;
+  return collected(observation, rows.size(), [&](float inverse_unit, const Columns& columns) {
+    collect_some(view, inverse_unit, table.vertical.data(), rows.data(), inside, table.points, columns);
+    std::vector<double> copy(stride, 0.0);
+    for (std::size_t i = inside; i < rows.size(); ++i) {
+      std::copy_n(table.row(rows[i]).begin(), table.points, copy.begin());
+      collect_row(view, inverse_unit, copy.data(), i, columns);
+    }
+  });
 }
 
 }  // namespace voussoir

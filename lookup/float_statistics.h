@@ -23,9 +23,8 @@ struct FloatStatistics {
 FloatStatistics float_statistics(const Observation& observation, const std::vector<float>& vertical,
                                  std::size_t rows, std::size_t stride);
 
-/// log(x) within 1e-5 for positive normal numbers; in a form that compilers turn into instructions for many
-/// at once.
-float approximate_log(float x);
-void make_approximate_logs(std::vector<float>& values);
+/// Of these rows of a table, rounded as they are read.
+FloatStatistics float_statistics(const Observation& observation, const SceneTable& table,
+                                 std::span<const std::size_t> rows);
 
 }  // namespace voussoir

@@ -3,32 +3,31 @@
 namespace voussoir {
 namespace {
 
-VOUSSOIR_VECTORISED
-void make_all_logarithms(double* values, std::size_t count) {
+/// Applies a function of lanes to all values.
+template <typename Function>
+VOUSSOIR_INLINE void make_each(double* values, std::size_t count, Function function) {
   Lanes lanes;
   std::size_t i = 0;
   for (; i + kLanes <= count; i += kLanes) {
     load(values + i, lanes);
-    make_logarithm(lanes);
+    function(lanes);
     store(lanes, values + i, kLanes);
   }
   load_some(values + i, count - i, lanes);
-  make_logarithm(lanes);
+  function(lanes);
   store(lanes, values + i, count - i);
 }
 
-VOUSSOIR_VECTORISED
+VOUSSOIR_FOR_EVERY_PROCESSOR
+void make_all_logarithms(double* values, std::size_t count) {
+  make_each(
+      values, count, [](Lanes & lanes) __attribute__((always_inline)) { make_logarithm(lanes); });
+}
+
+VOUSSOIR_FOR_EVERY_PROCESSOR
 void make_all_exponentials(double* values, std::size_t count) {
-  Lanes lanes;
-  std::size_t i = 0;
-  for (; i + kLanes <= count; i += kLanes) {
-    load(values + i, lanes);
-    make_exponential(lanes);
-    store(lanes, values + i, kLanes);
-  }
-  load_some(values + i, count - i, lanes);
-  make_exponential(lanes);
-  store(lanes, values + i, count - i);
+  make_each(
+      values, count, [](Lanes & lanes) __attribute__((always_inline)) { make_exponential(lanes); });
 }
 
 }  // namespace

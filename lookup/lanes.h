@@ -1,22 +1,15 @@
 #pragma once
-/// @file Four doubles side by side, and the attribute that compiles a loop over them for the newest common
-/// instruction set as well as for the oldest; both give the same bits (no contraction, the same order of
-/// sums).
+/// @file Arithmetic on kLanes doubles side by side, with NaN for what is not there.
 
 #include <cstdint>
 #include <cstring>
 
+#include "core/lanes.h"
+
 namespace voussoir {
 
-#if defined(__x86_64__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) && \
-    !defined(__clang__)
-#define VOUSSOIR_VECTORISED __attribute__((target_clones("avx2", "default")))
-#else
-#define VOUSSOIR_VECTORISED
-#endif
 #define VOUSSOIR_INLINE inline __attribute__((always_inline))
 
-inline constexpr std::size_t kLanes = 4;
 using Lanes = double __attribute__((vector_size(kLanes * sizeof(double))));
 using LaneMask = std::int64_t __attribute__((vector_size(kLanes * sizeof(double))));
 

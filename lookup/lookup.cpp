@@ -6,6 +6,7 @@
 #include "core/error.h"
 #include "lookup/exhaustive_search.h"
 #include "lookup/misfit.h"
+#include "lookup/posterior_screen.h"
 #include "lookup/row_statistics.h"
 
 namespace voussoir {
@@ -29,13 +30,14 @@ std::size_t intact_row(const SceneTable& table) {
   throw Failure("the database has no intact scene, which a lookup needs to know what can move");
 }
 
-std::vector<double> evidence(const Library& library, const Measurements& measurements,
-                             const Eligible& eligible, std::span<const double> intact,
-                             const LookupSettings& settings) {
-  if (settings.nuisance.any())
-    return log_evidence_with_nuisance(measurements, library.table, eligible.rows, intact, library.points,
-                                      settings.noise, settings.nuisance);
-  return log_evidence_of_rows(measurements, library.table, eligible.rows, intact, settings.noise);
+Posterior posterior_of(const Library& library, const Measurements& measurements, const Eligible& eligible,
+                       std::span<const double> intact, const LookupSettings& settings) {
+  if (!settings.nuisance.any())
+    return PosteriorScreen(library.table, eligible, settings.prior, library.layout.size())(
+        measurements, intact, settings.noise, settings.top);
+  const std::vector<double> evidence = log_evidence_with_nuisance(
+      measurements, library.table, eligible.rows, intact, library.points, settings.noise, settings.nuisance);
+  return posterior(library.table, eligible, evidence, settings.prior, library.layout.size());
 }
 
 std::vector<ScoredRow> run_genetic(const Library& library, const Measurements& measurements,
@@ -153,10 +155,7 @@ Answer locate_damage(const Library& library, const Measurements& measurements,
   answer.searched = eligible.rows.size();
   answer.unresolved = eligible.unresolved;
   const bool by_posterior = settings.objective == Objective::posterior;
-  if (by_posterior)
-    answer.posterior =
-        posterior(library.table, eligible, evidence(library, measurements, eligible, intact, settings),
-                  settings.prior, library.layout.size());
+  if (by_posterior) answer.posterior = posterior_of(library, measurements, eligible, intact, settings);
   std::vector<ScoredRow> found;
   if (by_posterior && settings.search == Search::exhaustive) {
     found = scored_by_posterior(library, measurements, eligible, *answer.posterior, settings.top);

@@ -37,7 +37,7 @@ VOUSSOIR_INLINE double sum_row(const double* readings, const double* prediction,
   return std::isnan(sum) ? std::numeric_limits<double>::infinity() : sum;
 }
 
-VOUSSOIR_VECTORISED
+VOUSSOIR_FOR_EVERY_PROCESSOR
 void sum_rows(const double* readings, const double* table, std::size_t rows, std::size_t points,
               double* sums) {
   for (std::size_t row = 0; row < rows; ++row) sums[row] = sum_row(readings, table + row * points, points);

@@ -49,6 +49,7 @@ int missing_blocks(const SceneTable& table, std::size_t row) {
 
 Eligible eligible_rows(const SceneTable& table, const std::vector<int>& missing) {
   Eligible result;
+  result.scenes.assign(table.most_missing + 1, 0);
   std::vector<bool> wanted(table.most_missing + 1, false);
   for (const int number : missing)
     if (number >= 0 && static_cast<std::size_t>(number) < wanted.size())
@@ -62,6 +63,7 @@ Eligible eligible_rows(const SceneTable& table, const std::vector<int>& missing)
     }
     result.rows.push_back(row);
     result.missing.push_back(static_cast<std::uint8_t>(lost));
+    ++result.scenes[static_cast<std::size_t>(lost)];
   }
   return result;
 }
@@ -71,14 +73,12 @@ std::vector<double> log_prior_by_missing(const SceneTable& table, const Eligible
   if (!prior.weight.empty() && prior.weight.size() != prior.missing.size())
     throw InputError(fmt::format("{} prior weights, expected {}: one for each number of missing blocks",
                                  prior.weight.size(), prior.missing.size()));
-  std::vector<double> scenes(table.most_missing + 1, 0.0);
-  for (const std::uint8_t missing : eligible.missing) ++scenes[missing];
   std::vector<double> result(table.most_missing + 1, kImpossible);
   for (std::size_t i = 0; i < prior.missing.size(); ++i) {
     const auto missing = static_cast<std::size_t>(prior.missing[i]);
     const double weight = prior.weight.empty() ? 1.0 : prior.weight[i];
-    if (missing < result.size() && scenes[missing] > 0.0)
-      result[missing] = std::log(weight / scenes[missing]);
+    if (missing < result.size() && eligible.scenes[missing] > 0)
+      result[missing] = std::log(weight / static_cast<double>(eligible.scenes[missing]));
   }
   return result;
 }

@@ -18,6 +18,7 @@ struct Prior {
 struct Eligible {
   std::vector<std::size_t> rows;
   std::vector<std::uint8_t> missing;  ///< of each of them, how many blocks
+  std::vector<std::size_t> scenes;    ///< how many of them lack 0, 1, 2... blocks
   std::size_t unresolved = 0;         ///< rows left out only because the solver gave no answer
 };
 Eligible eligible_rows(const SceneTable& table, const std::vector<int>& missing);

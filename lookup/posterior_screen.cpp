@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <numeric>
 
 #include "lookup/evidence.h"
 #include "lookup/float_statistics.h"
@@ -54,31 +55,43 @@ ShapeBound shape_bound(NoiseShape shape, std::size_t count, bool stated) {
   return {shape, static_cast<float>(unit.constant), 0.0F, static_cast<float>(unit.a), kInfinity};
 }
 
-/// The shape's own statistic, with what rounding may have added taken off.
-std::vector<float> least_sums(NoiseShape shape, const FloatStatistics& statistics, float count,
-                              float rounding) {
-  std::vector<float> sums = shape == NoiseShape::uniform   ? statistics.largest
-                            : shape == NoiseShape::laplace ? statistics.sum_absolute
-                                                           : statistics.sum_square;
-  const float loss = shape == NoiseShape::uniform   ? rounding
-                     : shape == NoiseShape::laplace ? count * rounding
-                                                    : 0.0F;
-  for (float& sum : sums) sum = std::max(sum * (1.0F - kRelativeError) - loss, kLeastSum);
-  if (shape != NoiseShape::gaussian) return sums;
-  for (float& sum :
-       sums) {  // the length of the vector of errors is off by at most sqrt(count) times the rounding
-    const float length = std::sqrt(sum) - std::sqrt(count) * rounding;
-    sum = std::max(length > 0.0F ? length * length * (1.0F - 4.0F * kRelativeError) : 0.0F, kLeastSum);
-  }
-  return sums;
+const std::vector<float>& sums_of(NoiseShape shape, const FloatStatistics& statistics) {
+  return shape == NoiseShape::uniform   ? statistics.largest
+         : shape == NoiseShape::laplace ? statistics.sum_absolute
+                                        : statistics.sum_square;
 }
 
-void raise_to(std::vector<float>& bounds, const ShapeBound& bound, std::vector<float> sums) {
-  std::vector<float> logs = sums;
-  if (bound.order > 0.0F) make_approximate_logs(logs);
-  for (std::size_t i = 0; i < bounds.size(); ++i) {
-    const float value = bound.constant - bound.order * logs[i] - bound.factor * sums[i];
-    bounds[i] = sums[i] <= bound.limit ? std::max(bounds[i], value) : bounds[i];
+/// How far below a sum of `count` errors' sizes (largest, squares) the true one may be: sum - share sum -
+/// loss. A vector of errors is off by e in length, at most sqrt(count) times the rounding; its square S by 2
+/// e sqrt(S) <= share S + e^2 / share.
+struct Loss {
+  float share;
+  float loss;
+};
+Loss loss_of(NoiseShape shape, float count, float rounding) {
+  if (shape == NoiseShape::uniform) return {kRelativeError, rounding};
+  if (shape == NoiseShape::laplace) return {kRelativeError, count * rounding};
+  constexpr float kShare = 1e-3F;
+  return {kRelativeError + kShare, count * rounding * rounding / kShare};
+}
+
+VOUSSOIR_FOR_EVERY_PROCESSOR
+void raise_to(const ShapeBound& bound, const Loss& loss, const float* sums, std::size_t count,
+              float* bounds) {
+  const FloatLanes none = FloatLanes{} - kInfinity, least = FloatLanes{} + kLeastSum;
+  for (std::size_t i = 0; i < count; i += kFloatLanes) {
+    const std::size_t size = std::min(kFloatLanes, count - i);
+    FloatLanes sum{}, old{};
+    load_some(sums + i, size, sum);
+    load_some(bounds + i, size, old);
+    sum = sum - loss.share * sum - loss.loss;
+    sum = sum < least ? least : sum;  // NaN stays
+    FloatLanes value = sum;
+    make_approximate_logarithm(value);
+    value = bound.constant - bound.order * value - bound.factor * sum;
+    value = sum <= bound.limit ? value : none;
+    value = value > old ? value : old;
+    store_some(value, size, bounds + i);
   }
 }
 
@@ -96,11 +109,13 @@ std::vector<float> upper_bounds(const Observation& observation, const FloatStati
   const float rounding = kRounding / static_cast<float>(noise.relative ? *noise.relative : 1.0);
   std::vector<float> bounds(statistics.largest.size(), -kInfinity);
   for (const NoiseShape shape : shapes_of(noise))
-    raise_to(bounds, shape_bound(shape, observation.count, noise.relative.has_value()),
-             least_sums(shape, statistics, count, rounding));
-  for (std::size_t i = 0; i < bounds.size(); ++i)
-    bounds[i] =
-        std::isnan(statistics.sum_absolute[i]) ? -kInfinity : bounds[i] - statistics.log_scale[i] + kLogError;
+    raise_to(shape_bound(shape, observation.count, noise.relative.has_value()),
+             loss_of(shape, count, rounding), sums_of(shape, statistics).data(), bounds.size(),
+             bounds.data());
+  for (std::size_t i = 0; i < bounds.size(); ++i) {
+    const bool possible = statistics.sum_absolute[i] == statistics.sum_absolute[i];
+    bounds[i] = possible ? bounds[i] - statistics.log_scale[i] + kLogError : -kInfinity;
+  }
   return bounds;
 }
 
@@ -112,16 +127,19 @@ PosteriorScreen::PosteriorScreen(const SceneTable& table, const Eligible& eligib
       eligible_(eligible),
       prior_(prior),
       block_count_(block_count),
-      stride_((table.points + kFloatLanes - 1) / kFloatLanes * kFloatLanes),
-      vertical_(eligible.rows.size() * stride_, std::numeric_limits<float>::quiet_NaN()) {
-  for (std::size_t i = 0; i < eligible.rows.size(); ++i) {
-    const std::span<const double> row = table.row(eligible.rows[i]);
-    std::transform(row.begin(), row.end(), vertical_.begin() + static_cast<std::ptrdiff_t>(i * stride_),
-                   [](double value) { return static_cast<float>(value); });
-  }
+      stride_((table.points + kFloatLanes - 1) / kFloatLanes * kFloatLanes) {
   const std::vector<double> by_missing = log_prior_by_missing(table, eligible, prior);
   for (const std::uint8_t missing : eligible.missing)
     log_prior_.push_back(static_cast<float>(by_missing[missing]));
+}
+
+void PosteriorScreen::keep_copy() {
+  vertical_.assign(eligible_.rows.size() * stride_, std::numeric_limits<float>::quiet_NaN());
+  for (std::size_t i = 0; i < eligible_.rows.size(); ++i) {
+    const std::span<const double> row = table_.row(eligible_.rows[i]);
+    std::transform(row.begin(), row.end(), vertical_.begin() + static_cast<std::ptrdiff_t>(i * stride_),
+                   [](double value) { return static_cast<float>(value); });
+  }
 }
 
 std::vector<double> PosteriorScreen::exact_evidence(const Measurements& measurements,
@@ -144,31 +162,57 @@ std::vector<double> PosteriorScreen::exact_evidence(const Measurements& measurem
   return result;
 }
 
+FloatStatistics PosteriorScreen::statistics(const Observation& observation) const {
+  if (vertical_.empty()) return float_statistics(observation, table_, eligible_.rows);
+  return float_statistics(observation, vertical_, eligible_.rows.size(), stride_);
+}
+
 std::vector<std::size_t> PosteriorScreen::rows_that_matter(const Measurements& measurements,
                                                            std::span<const double> intact,
-                                                           const NoiseModel& noise) const {
+                                                           const NoiseModel& noise, std::size_t count) const {
   const Observation observation = observe(measurements, intact, noise, noise.relative.value_or(1.0));
   if (observation.count == 0 || !bounds_apply(measurements, noise)) return eligible_.rows;
-  std::vector<float> bounds = upper_bounds(
-      observation, float_statistics(observation, vertical_, eligible_.rows.size(), stride_), noise);
-  std::size_t likeliest = 0;
-  for (std::size_t i = 0; i < bounds.size(); ++i) {
-    bounds[i] += log_prior_[i];
-    if (bounds[i] > bounds[likeliest] && bounds[i] < kInfinity) likeliest = i;
-  }
-  const std::vector<std::size_t> one = {eligible_.rows[likeliest]};
-  const double reached =
-      exact_evidence(measurements, one, intact, noise)[one.front()] + log_prior_[likeliest];
-  const double threshold = reached + std::log(kScreenedAway / static_cast<double>(eligible_.rows.size()));
+  std::vector<float> bounds = upper_bounds(observation, statistics(observation), noise);
+  for (std::size_t i = 0; i < bounds.size(); ++i) bounds[i] += log_prior_[i];
+  const double threshold = least_that_matters(bounds, count, measurements, intact, noise);
   std::vector<std::size_t> rows;
   for (std::size_t i = 0; i < bounds.size(); ++i)
-    if (bounds[i] >= threshold) rows.push_back(eligible_.rows[i]);
+    if (bounds[i] >= threshold && bounds[i] > -kInfinity) rows.push_back(eligible_.rows[i]);
   return rows;
 }
 
+/// Works out the `count` rows with the largest bounds: what is below all of them, or far below the best of
+/// them, does not matter.
+double PosteriorScreen::least_that_matters(const std::vector<float>& bounds, std::size_t count,
+                                           const Measurements& measurements, std::span<const double> intact,
+                                           const NoiseModel& noise) const {
+  std::vector<std::size_t> order(bounds.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  order.resize(std::min(count, order.size()));
+  const auto larger = [&](std::size_t a, std::size_t b) { return bounds[a] > bounds[b]; };
+  std::make_heap(order.begin(), order.end(), larger);
+  for (std::size_t i = order.size(); i < bounds.size(); ++i) {
+    if (bounds[i] <= bounds[order.front()]) continue;
+    std::pop_heap(order.begin(), order.end(), larger);
+    order.back() = i;
+    std::push_heap(order.begin(), order.end(), larger);
+  }
+  std::sort(order.begin(), order.end());
+  std::vector<std::size_t> rows;
+  for (const std::size_t i : order) rows.push_back(eligible_.rows[i]);
+  const std::vector<double> logs = exact_evidence(measurements, rows, intact, noise);
+  double best = -std::numeric_limits<double>::infinity(), least = -best;
+  for (const std::size_t i : order) {
+    const double value = logs[eligible_.rows[i]] + static_cast<double>(log_prior_[i]);
+    best = std::max(best, value);
+    least = std::min(least, value);
+  }
+  return std::min(least, best + std::log(kScreenedAway / static_cast<double>(eligible_.rows.size())));
+}
+
 Posterior PosteriorScreen::operator()(const Measurements& measurements, std::span<const double> intact,
-                                      const NoiseModel& noise) const {
-  const std::vector<std::size_t> rows = rows_that_matter(measurements, intact, noise);
+                                      const NoiseModel& noise, std::size_t count) const {
+  const std::vector<std::size_t> rows = rows_that_matter(measurements, intact, noise, count);
   return posterior(table_, eligible_, exact_evidence(measurements, rows, intact, noise), prior_,
                    block_count_);
 }

@@ -31,15 +31,22 @@ std::string verdict_html(const Answer& answer, const Library& library) {
   return "<div class=\"verdict\">" + html + "</div>\n";
 }
 
+/// Blanks at which no line breaks.
+std::string on_one_line(const std::string& text) {
+  std::string result;
+  for (const char c : text) result += c == ' ' ? std::string("\u00a0") : std::string(1, c);
+  return result;
+}
+
 Figure candidates_figure(const Answer& answer, const Library& library) {
   Table table{{"rank", "scene", "probability", "misfit (Eq. 1)", "behind the first", "outcome", "where"}, {}};
   for (std::size_t i = 0; i < answer.candidates.size(); ++i) {
     const Candidate& candidate = answer.candidates[i];
-    table.rows.push_back({static_cast<double>(i + 1), to_string(candidate.scene, library.layout),
-                          candidate.posterior ? percent(*candidate.posterior) : "none asked for",
-                          candidate.misfit, i == 0 ? "" : behind(candidate, answer.candidates.front()),
-                          std::string(to_string(candidate.outcome)),
-                          place_in_words(candidate.scene, library.layout)});
+    table.rows.push_back(
+        {static_cast<double>(i + 1), to_string(candidate.scene, library.layout),
+         candidate.posterior ? percent(*candidate.posterior) : "none asked for", candidate.misfit,
+         i == 0 ? "" : on_one_line(behind(candidate, answer.candidates.front())),
+         std::string(to_string(candidate.outcome)), place_in_words(candidate.scene, library.layout)});
   }
   return {"candidates",
           "Scenes that may explain the readings",

@@ -14,7 +14,7 @@ constexpr int kHalvingRounds = 3;     // of moving the centres to the middle of 
 constexpr int kRounds = 6;
 
 /// Squared distances of many rows from one.
-VOUSSOIR_VECTORISED
+VOUSSOIR_FOR_EVERY_PROCESSOR
 void find_squares(const float* const* rows, std::size_t count, const float* from, std::size_t stride,
                   float* squares) {
   for (std::size_t row = 0; row < count; ++row) {
@@ -122,43 +122,62 @@ class Clustering {
         centres_[cluster * stride_ + k] /= std::max(count[cluster], 1.0F);
   }
 
-  /// Puts every row to its nearest centre. A centre twice as far from the row's own centre as the row is
-  /// cannot be nearer to it.
+  std::vector<std::vector<std::size_t>> members() const {
+    std::vector<std::vector<std::size_t>> result(clusters_);
+    for (std::size_t index = 0; index < cluster_.size(); ++index) result[cluster_[index]].push_back(index);
+    return result;
+  }
+
+  /// Another cluster's centre and its squared distance from this one's.
+  struct Neighbour {
+    float square;
+    std::size_t cluster;
+    friend bool operator<(const Neighbour& a, const Neighbour& b) {
+      return a.square != b.square ? a.square < b.square : a.cluster < b.cluster;
+    }
+  };
+
+  std::vector<Neighbour> neighbours(std::size_t own, const std::vector<const float*>& centres) const {
+    std::vector<float> squares(clusters_);
+    find_squares(centres.data(), clusters_, centre(own), stride_, squares.data());
+    std::vector<Neighbour> result;
+    for (std::size_t i = 0; i < clusters_; ++i) result.push_back({squares[i], i});
+    std::sort(result.begin(), result.end());
+    return result;
+  }
+
+  /// The centre nearest to a row of a cluster. A centre twice as far from the row's own as the row is cannot
+  /// be nearer to it.
+  std::size_t nearest(std::size_t index, std::size_t own, float square,
+                      const std::vector<Neighbour>& neighbours) const {
+    float least = square;
+    for (const Neighbour& other : neighbours) {
+      if (other.square >= 4.0F * square) break;
+      const float* const candidate = centre(other.cluster);
+      float found = 0.0F;
+      find_squares(&candidate, 1, row(index), stride_, &found);
+      if (found < least) own = other.cluster;
+      least = std::min(least, found);
+    }
+    return own;
+  }
+
+  /// Puts every row to its nearest centre.
   void assign() {
-    std::vector<std::vector<std::size_t>> members(clusters_);
-    for (std::size_t index = 0; index < cluster_.size(); ++index) members[cluster_[index]].push_back(index);
-    std::vector<const float*> all;
-    for (std::size_t cluster = 0; cluster < clusters_; ++cluster) all.push_back(centre(cluster));
-    std::vector<float> apart(clusters_);
+    const auto old = members();
+    std::vector<const float*> centres;
+    for (std::size_t cluster = 0; cluster < clusters_; ++cluster) centres.push_back(centre(cluster));
     for (std::size_t own = 0; own < clusters_; ++own) {
-      find_squares(all.data(), clusters_, centre(own), stride_, apart.data());
-      std::vector<std::size_t> others(clusters_);
-      std::iota(others.begin(), others.end(), std::size_t{0});
-      std::sort(others.begin(), others.end(), [&](std::size_t a, std::size_t b) {
-        return apart[a] != apart[b] ? apart[a] < apart[b] : a < b;
-      });
-      const std::vector<float> from_own = squares(members[own], centre(own));
-      for (std::size_t i = 0; i < members[own].size(); ++i) {
-        float least = from_own[i];
-        for (const std::size_t other : others) {
-          if (apart[other] >= 4.0F * from_own[i]) break;
-          float square = 0.0F;
-          const float* const candidate = centre(other);
-          find_squares(&candidate, 1, row(members[own][i]), stride_, &square);
-          if (square < least) {
-            least = square;
-            cluster_[members[own][i]] = other;
-          }
-        }
-      }
+      const std::vector<Neighbour> others = neighbours(own, centres);
+      const std::vector<float> from_own = squares(old[own], centre(own));
+      for (std::size_t i = 0; i < old[own].size(); ++i)
+        cluster_[old[own][i]] = nearest(old[own][i], own, from_own[i], others);
     }
   }
 
   RowClusters result() const {
-    std::vector<std::vector<std::size_t>> members(clusters_);
-    for (std::size_t index = 0; index < cluster_.size(); ++index) members[cluster_[index]].push_back(index);
     RowClusters result;
-    for (const auto& rows : members) {
+    for (const auto& rows : members()) {
       if (rows.empty()) continue;
       result.begin.push_back(result.order.size());
       result.order.insert(result.order.end(), rows.begin(), rows.end());

@@ -100,7 +100,7 @@ struct Columns {
   double* exponent;
 };
 
-VOUSSOIR_VECTORISED
+VOUSSOIR_FOR_EVERY_PROCESSOR
 void collect(const View& view, const double* table, std::size_t rows, const Columns& columns) {
   for (std::size_t row = 0; row < rows; ++row) {
     const double* const prediction = table + row * view.points;

@@ -108,7 +108,7 @@ __attribute__((target("avx2"))) void avx2_sides(const float* readings, const flo
 }
 #endif
 
-VOUSSOIR_VECTORISED
+VOUSSOIR_FOR_EVERY_PROCESSOR
 void find_distances(const float* readings, const std::int32_t* is_read, const float* centres,
                     std::size_t count, std::size_t stride, float* distances) {
   for (std::size_t row = 0; row < count; ++row) {

@@ -81,7 +81,8 @@ void time_posteriors(const Library& library, const std::vector<Query>& queries, 
                      LookupTimings& timings) {
   const SceneTable& table = library.table;
   const Prior prior;
-  const PosteriorScreen screen(table, eligible, prior, library.layout.size());
+  PosteriorScreen screen(table, eligible, prior, library.layout.size());
+  screen.keep_copy();
   for (const bool stated : {true, false}) {
     const auto noise_of = [&](std::size_t i) {
       return stated ? NoiseModel{NoiseShape::uniform, queries[i].level} : NoiseModel{};

@@ -39,6 +39,10 @@ PaperCases cases_of_file(const json& file) {
     cases.collapse_in_paper = file.at("local_collapse").at("paper").get<std::string>();
     cases.local_collapse = file.at("local_collapse").at("scenes").get<std::vector<std::string>>();
   }
+  if (file.contains("noise_limit")) {
+    cases.noise_limit_in_paper = file.at("noise_limit").at("paper").get<std::string>();
+    cases.noise_limit_levels = file.at("noise_limit").at("levels").get<std::vector<double>>();
+  }
   cases.triangles = if_there<int>(file, "triangles");
   cases.top_mm = if_there<std::array<double, 2>>(file, "top_mm");
   cases.arch_mm = if_there<std::array<double, 2>>(file, "arch_mm");

@@ -29,6 +29,8 @@ struct PaperCases {
   std::vector<PaperCase> one_block;         ///< Table 2
   std::vector<PaperCase> two_blocks;        ///< Table 3
   std::optional<PaperCase> hard_pair;       ///< what the paper calls hard to find
+  std::string noise_limit_in_paper;         ///< what it says of noise that the search bears in Fig. 7
+  std::vector<double> noise_limit_levels;   ///< noise levels [-] to compare with that
   std::string collapse_in_paper;            ///< what it says of local collapses
   std::vector<std::string> local_collapse;  ///< scenes to compare with that
   // What the paper says of its model, if it does.

@@ -90,13 +90,26 @@ std::string line(const Series& series, const Axes& axes) {
   return path_element(line_class(series), data);
 }
 
-std::string band(const Series& series, const Axes& axes) {
+/// The outline of a band over the values from `begin` to `end`; over a single value a narrow column.
+std::string band_outline(const Series& series, const Axes& axes, std::size_t begin, std::size_t end) {
+  const Point half = end - begin == 1 ? Point(kDisc, 0.0) : Point(0.0, 0.0);
   std::vector<Point> outline;
-  for (std::size_t i = 0; i < series.x.size(); ++i)
-    if (drawable(series, i, axes)) outline.push_back(axes(series.x[i], series.y[i]));
-  for (std::size_t i = series.x.size(); i-- > 0;)
-    if (drawable(series, i, axes)) outline.push_back(axes(series.x[i], series.upper[i]));
-  return path_element(fmt::format("band f{}", series.colour), closed_path(outline));
+  for (std::size_t i = begin; i < end; ++i) outline.push_back(axes(series.x[i], series.y[i]) - half);
+  if (end - begin == 1) outline.push_back(outline.back() + 2.0 * half);
+  for (std::size_t i = end; i-- > begin;) outline.push_back(axes(series.x[i], series.upper[i]) + half);
+  if (end - begin == 1) outline.push_back(outline.back() - 2.0 * half);
+  return closed_path(outline);
+}
+
+std::string band(const Series& series, const Axes& axes) {
+  std::string data;
+  for (std::size_t i = 0; i < series.x.size();) {
+    std::size_t end = i;
+    while (end < series.x.size() && drawable(series, end, axes)) ++end;
+    if (end > i) data += band_outline(series, axes, i, end);
+    i = end + 1;
+  }
+  return path_element(fmt::format("band f{}", series.colour), data);
 }
 
 std::string tip_of(const Series& series, std::size_t i) {

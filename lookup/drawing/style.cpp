@@ -61,7 +61,7 @@ details .scroll{overflow-y:auto;max-height:30rem}
 table{border-collapse:collapse;font-size:.88rem;font-variant-numeric:tabular-nums;margin:.4em 0}
 th{text-align:left;vertical-align:bottom;font-weight:600;border-bottom:1px solid var(--edge);padding:.25em .8em .25em 0}
 td{vertical-align:top;border-bottom:1px solid var(--grid);padding:.2em .8em .2em 0}
-table{overflow-wrap:normal}td:last-child:not(.number){min-width:11rem}
+table{overflow-wrap:normal}td:last-child:not(.number){min-width:9rem}
 td.number,th.number{text-align:right}
 td.number{white-space:nowrap}
 summary{cursor:pointer;color:var(--s1);font-size:.88rem}
@@ -75,9 +75,9 @@ white-space:pre-line;background:var(--text);color:var(--page);pointer-events:non
 @media(max-width:640px){td:last-child:not(.number){min-width:19rem}body{padding:1rem .9rem 3rem}h1{font-size:1.4rem}dl{grid-template-columns:1fr}dd{margin-bottom:.4em}
 svg text{font-size:16px}svg text.small{font-size:15px}.panorama text{font-size:26px}.panorama text.small{font-size:25px}.panorama text.label{font-size:24px}.panorama text.tiny{display:none}
 .pictures svg{overflow:visible}}
-@media print{@page{size:A4;margin:15mm}html{font-size:10.5pt}body{max-width:none;padding:0}
+@media print{table{font-size:8.2pt}td,th{padding-right:.55em}@page{size:A4;margin:15mm}html{font-size:10.5pt}body{max-width:none;padding:0}
 .figures{grid-template-columns:1fr 1fr;gap:1rem}figure,table tr{break-inside:avoid}h2,h3{break-after:avoid}
-.scroll{overflow:visible;max-height:none}summary{display:none}details.printed::details-content{content-visibility:visible;display:block}
+.scroll,details .scroll{overflow:visible;max-height:none}summary{display:none}details.printed::details-content{content-visibility:visible;display:block}
 #tip{display:none}}
 )";
 

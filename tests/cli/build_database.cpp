@@ -6,6 +6,7 @@
 
 #include "database/database.h"
 #include "database/journal.h"
+#include "database/sha256.h"
 #include "tests/support/bridges.h"
 #include "tests/support/made_up_database.h"
 #include "tests/support/program.h"
@@ -49,7 +50,8 @@ bool is_one_line(const std::string& text) {
 
 }  // namespace
 
-TEST_CASE("build-database reports a whole build in one line of JSON and leaves only the database") {
+TEST_CASE("build-database reports a whole build in one line of JSON and leaves only the database",
+          "[whole-build]") {
   const Site site;
   const ProgramResult result = site.build();
   const auto json = json_of(result);
@@ -70,12 +72,13 @@ TEST_CASE("build-database run again says that the file is up to date and ends wi
   CHECK(again.at("computed") == 0);
 }
 
-TEST_CASE("The digest of real scenes is the same for 1, 2 and 5 threads") {
+TEST_CASE("The digest of real scenes is the same for 1, 2 and 5 threads", "[whole-build]") {
   for (const char* threads : {"1", "2", "5"})
     CHECK(json_of(Site().build_with({"--threads", threads})).at("digest") == undisturbed_digest());
 }
 
-TEST_CASE("A build killed at random moments at least 20 times ends with the digest of an undisturbed one") {
+TEST_CASE("A build killed at random moments at least 20 times ends with the digest of an undisturbed one",
+          "[whole-build]") {
   const std::string expected = undisturbed_digest();
   const Site site;
   std::mt19937 random(20);
@@ -102,7 +105,7 @@ TEST_CASE("A build killed at random moments at least 20 times ends with the dige
   CHECK(test::run("verify-database", {site.output.string()}).exit_code == 0);
 }
 
-TEST_CASE("When the disk is full the build says so, keeps what is done and goes on later") {
+TEST_CASE("When the disk is full the build says so, keeps what is done and goes on later", "[whole-build]") {
   const Site site;
   const ProgramResult full = site.build(test::file_size_limit(500'000));
   CHECK(full.exit_code == 1);
@@ -114,7 +117,7 @@ TEST_CASE("When the disk is full the build says so, keeps what is done and goes 
   CHECK(json.at("digest") == undisturbed_digest());
 }
 
-TEST_CASE("When only the finished file does not fit on the disk every scene is kept") {
+TEST_CASE("When only the finished file does not fit on the disk every scene is kept", "[whole-build]") {
   const Site site;
   json_of(site.build());
   const std::uintmax_t size = std::filesystem::file_size(site.output);
@@ -130,7 +133,7 @@ TEST_CASE("When only the finished file does not fit on the disk every scene is k
   CHECK(json.at("digest") == undisturbed_digest());
 }
 
-TEST_CASE("A full disk leaves the old database as it was") {
+TEST_CASE("A full disk leaves the old database as it was", "[whole-build]") {
   const Site site;
   json_of(site.build_with({"--scenes", "singles"}));
   const std::string before = Database::open(site.output).digest();
@@ -148,7 +151,7 @@ TEST_CASE("In a folder that cannot be written to the build says so and ends with
   CHECK_THAT(result.err, Catch::Contains("small.h5.partial: cannot be written: Permission denied"));
 }
 
-TEST_CASE("Of two builders of one file the second is told and the first is not disturbed") {
+TEST_CASE("Of two builders of one file the second is told and the first is not disturbed", "[whole-build]") {
   const Site site;
   {
     const Journal held =
@@ -201,6 +204,25 @@ TEST_CASE("build-database --help and --version end with 0 and say what they shou
   const ProgramResult version = test::run("build-database", {"--version"});
   CHECK(version.exit_code == 0);
   CHECK_THAT(version.out, Catch::Contains("compiler:") && Catch::Contains("solver revision:"));
+}
+
+TEST_CASE("build-database --version says just what the database that it would build states of its origin") {
+  const Site site;
+  json_of(site.build_with({"--scenes", "intact", "--solver", "dynamic"}));
+  const Provenance stated = Database::open(site.output).provenance();
+  const ProgramResult version = site.build_with({"--solver", "dynamic", "--version"});
+  CHECK(version.exit_code == 0);
+  CHECK_THAT(version.out, Catch::Contains(describe(stated)));
+  CHECK_THAT(version.out, Catch::Contains("build-database " + stated.program_version) &&
+                              Catch::Contains("compiler: " + stated.compiler) &&
+                              Catch::Contains("flags: " + stated.compile_flags) &&
+                              Catch::Contains("solver revision: " + stated.solver_revision) &&
+                              Catch::Contains("results key: " + stated.results_key) &&
+                              Catch::Contains("  name = \"small\"") &&
+                              Catch::Contains(to_hexadecimal(sha256(stated.bridge_text))));
+  const auto default_settings = test::run("build-database", {"--version"});
+  CHECK_THAT(default_settings.out,
+             Catch::Contains("bridge: reference") && !Catch::Contains(stated.results_key));
 }
 
 TEST_CASE("Progress is told in plain lines when stderr is no terminal and not at all when quiet") {

@@ -45,7 +45,7 @@ TEST_CASE("Bad bridge files are refused with file, line and what was expected", 
   };
   CHECK_THAT(message("[wall]\nlength_m = \"long\"\n"),
              Contains("b.toml:2:") && Contains("expected a number"));
-  CHECK_THAT(message("[wall]\nlength_m = -1\n"), Contains("b.toml:2:") && Contains("greater than 0"));
+  CHECK_THAT(message("[wall]\nlength_m = -1\n"), Contains("b.toml:2:") && Contains("at least 0.001"));
   CHECK_THAT(message("[wall]\n\ncourses = 2.5\n"), Contains("b.toml:3:") && Contains("whole number"));
   CHECK_THAT(message("[wall]\nlenght_m = 3\n"),
              Contains("b.toml:2:") && Contains("lenght_m") && Contains("length_m"));
@@ -56,7 +56,10 @@ TEST_CASE("Bad bridge files are refused with file, line and what was expected", 
   CHECK_THAT(message("spans = 3\n"), Contains("b.toml:1:") && Contains("[[spans]]"));
   CHECK_THAT(message("[[spans]]\ncentre_x_m = 1.0\n"), Contains("b.toml:1:") && Contains("ring reaches"));
   CHECK_THAT(message("[joints]\nnormal_stiffness_Pa_per_m = nan\n"), Contains("b.toml:2:"));
-  CHECK_THAT(message("[wall]\nblock_length_m = 1e-6\n"), Contains("b.toml:1:") && Contains("blocks"));
+  CHECK_THAT(message("[wall]\nblock_length_m = 1e-3\n"), Contains("b.toml:1:") && Contains("blocks"));
+  CHECK_THAT(message("[wall]\nblock_length_m = 1e-6\n"), Contains("b.toml:2:") && Contains("at least 0.001"));
+  CHECK_THAT(message("[wall]\ncourses = 120\n[mesh]\nrefinement = 5\n"),
+             Contains("b.toml:1:") && Contains("refinement of 5"));
   CHECK_THAT(message("[control_points]\ntop = false\narch = false\n"), Contains("no control points"));
   CHECK_THAT(message("= 3"), Contains("b.toml:1:"));
 }

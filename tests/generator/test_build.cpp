@@ -66,6 +66,18 @@ TEST_CASE("The digest is the same for 1, 2 and 5 threads") {
   }
 }
 
+TEST_CASE("The digest of real scenes is the same for 1 and for 4 threads") {
+  std::string expected;
+  for (const int threads : {1, 4}) {
+    Site site;
+    site.request.threads = threads;
+    site.request.scenes = "singles;4,*+5,1..2";
+    const std::string digest = site.build(quasi_static()).digest;
+    if (threads > 1) CHECK(digest == expected);
+    expected = digest;
+  }
+}
+
 TEST_CASE("A build interrupted at any scene goes on where it stopped and ends with the same digest") {
   for (const int scenes : {1, 2, 5, 20, 40, 100, 350}) {
     const Site site;

@@ -68,6 +68,8 @@ TEST_CASE("A chart's discs lie where the axes say, and what has no value is not 
   Chart chart{"test", {"x", AxisScale::linear, {{0.0, 10.0}}}, {"y", AxisScale::linear, {{0.0, 1.0}}}, {}};
   chart.series = {{"a <b>", 1, Mark::points, {0.0, 10.0, 5.0}, {0.0, 1.0, std::nan("")}},
                   {"line", 2, Mark::line, {1.0, 2.0, 3.0, 4.0, 5.0}, {0.1, 0.2, std::nan(""), 0.4, 0.5}}};
+  chart.series.push_back(
+      {"band", 3, Mark::band, {1.0, 2.0, 3.0, 4.0}, {0.0, 0.1, std::nan(""), 0.3}, {0.5, 0.6, 0.7, 0.8}});
   const Drawing drawing = draw(chart);
   CHECK(count(drawing.elements, "<circle") == 2);
   CHECK_THAT(drawing.elements, Contains("cx=\"62.0\" cy=\"254.0\""));  // the corner of the axes
@@ -75,6 +77,10 @@ TEST_CASE("A chart's discs lie where the axes say, and what has no value is not 
   const std::size_t line = drawing.elements.find("class=\"line s2\"");
   REQUIRE(line != std::string::npos);
   CHECK(count(drawing.elements.substr(line), "M") == 2);  // interrupted once
+  const std::size_t band = drawing.elements.find("class=\"band f3\"");
+  REQUIRE(band != std::string::npos);
+  CHECK(count(drawing.elements.substr(band, drawing.elements.find("/>", band) - band), "Z") ==
+        2);  // in two parts
   CHECK_THAT(svg_file(draw_with_legend(chart)), Contains("a &lt;b&gt;") && !Contains("<b>"));
 }
 

@@ -10,6 +10,7 @@ namespace voussoir {
 
 /// Topic, paper, here, why; only what the cases say of the paper is compared.
 Table differences(const Subject& subject, const std::vector<CaseResult>& one_block,
-                  const std::vector<CaseResult>& two_blocks);
+                  const std::vector<CaseResult>& two_blocks,
+                  const std::vector<GenerationsAtNoise>& generations);
 
 }  // namespace voussoir

@@ -105,7 +105,7 @@ Chart objective_chart(const Subject& subject, const Misfits& objective) {
               {"centre of the missing block, x [m]"},
               {"f_v"},
               {wall, arch, truth}};
-  chart.y.range = {floor, ceiling};
+  chart.y.range = {floor - 1.0, ceiling};
   return chart;
 }
 

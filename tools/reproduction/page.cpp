@@ -46,8 +46,9 @@ Chapter findings_chapter(const Subject& subject, const Results& results) {
       "statement about a "
       "pair, if fewer than half of the seeds find it and fewer than half of the other pairs are harder.",
       to_table(findings)));
-  chapter.exhibits.push_back(table_only("differences", "Where this run differs from the paper, and why", "",
-                                        differences(subject, results.one_block, results.two_blocks)));
+  chapter.exhibits.push_back(
+      table_only("differences", "Where this run differs from the paper, and why", "",
+                 differences(subject, results.one_block, results.two_blocks, results.generations)));
   return chapter;
 }
 
