@@ -87,7 +87,7 @@ Findings gaps() {
                  .value = fmt::format("{:.0e} m", gap),
                  .bridge = with_gaps(gap),
                  .scenes = scenes},
-                std::max(1e-4, 100.0 * gap / 5e-4), &exact, findings);
+                std::max(1e-4, gap / 5e-4), &exact, findings);
     if (const auto e = findings.hard_cases.back().error) error.points.emplace_back(gap, *e);
   }
   findings.notes = {
