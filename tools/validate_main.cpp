@@ -1,6 +1,7 @@
 /// @file validate: holds the solvers against known answers and hard cases.
 
 #include <CLI/CLI.hpp>
+#include <fstream>
 #include <iostream>
 #include <thread>
 
@@ -15,16 +16,26 @@ struct Options {
   bool list = false;
   int threads = static_cast<int>(std::thread::hardware_concurrency());
   std::string format = "text";
+  std::string page;
 };
 
 CLI::App& add_options(CLI::App& app, Options& options) {
-  app.footer("Example: validate arch table");
+  app.footer("Example: validate arch table --page arch.html");
   app.add_option("studies", options.studies, "only studies whose name contains one of these words");
   app.add_flag("--quick", options.quick, "only the studies that are part of every test run");
   app.add_flag("--list", options.list, "name the studies and end");
   app.add_option("--threads", options.threads, "default: one a core")->check(CLI::Range(1, 256));
-  app.add_option("--format", options.format)->check(CLI::IsMember({"text", "json"}))->capture_default_str();
+  app.add_option("--format", options.format)
+      ->check(CLI::IsMember({"text", "json", "markdown"}))
+      ->capture_default_str();
+  app.add_option("--page", options.page, "also write an HTML page with tables and plots to this file");
   return app;
+}
+
+std::string in_format(const std::string& format,
+                      const std::vector<voussoir::validation::StudyResult>& results) {
+  if (format == "json") return to_json(results);
+  return format == "markdown" ? to_markdown(results) : to_text(results);
 }
 
 int run(const Options& options) {
@@ -38,7 +49,9 @@ int run(const Options& options) {
       run_studies(studies, options.threads, [](const StudyResult& result) {
         std::cerr << fmt::format("{} ({:.1f} s)\n", result.title, result.seconds);
       });
-  std::cout << (options.format == "json" ? to_json(results) : to_text(results));
+  std::cout << in_format(options.format, results);
+  if (!options.page.empty() && !(std::ofstream(options.page) << to_page(results)))
+    throw voussoir::Failure(fmt::format("{}: cannot be written", options.page));
   return tally(results).all_good() ? 0 : 1;
 }
 

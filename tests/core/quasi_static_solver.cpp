@@ -48,6 +48,49 @@ TEST_CASE("Displacements are nearly proportional to the joints' compliance", "[s
   CHECK(vertical_mm(bridge, solution, "T20") == Approx(-36.0).epsilon(0.02));
 }
 
+TEST_CASE(
+    "A bridge on joints so soft that it sags by more than the limit of a fall stands (equilibrium anew)",
+    "[solver]") {
+  BridgeDescription soft;
+  soft.joints.normal_stiffness = 1e7;
+  soft.joints.tangential_stiffness = 1e6;
+  const Bridge bridge = make_bridge(soft);
+  const Solution solution = QuasiStaticSolver(bridge).solve(Scene{});
+  CHECK(solution.outcome == Outcome::standing);
+  CHECK(solution.displacement.cwiseAbs().maxCoeff() > QuasiStaticSettings{}.collapse_displacement);
+  CHECK(unbalanced_force(bridge, Scene{}, solution.displacement) < 1e-7);
+}
+
+TEST_CASE("Loads too small to be squared are carried like any other (proportionality)", "[solver]") {
+  BridgeDescription description = test::small_bridge().description;
+  const Scene scene = parse_scene("4,2", test::small_bridge().layout);
+  description.gravity = 1.0;
+  const Bridge usual_bridge = make_bridge(description);
+  const Solution usual = QuasiStaticSolver(usual_bridge).solve(scene);
+  description.gravity = 1e-300;
+  const Bridge bridge = make_bridge(description);
+  const Solution tiny = QuasiStaticSolver(bridge).solve(scene);
+  REQUIRE(tiny.outcome == Outcome::standing);
+  const Field scaled = test::without_nan(usual.displacement) * 1e-300;
+  // Strains of 1e-5 under usual gravity make the answer depart from proportionality by as much.
+  CHECK((test::without_nan(tiny.displacement) - scaled).cwiseAbs().maxCoeff() <
+        1e-3 * scaled.cwiseAbs().maxCoeff());
+}
+
+TEST_CASE("A dead load equal to the weight does what twice the gravity does (superposition of loads)",
+          "[solver]") {
+  BridgeDescription description = test::small_bridge().description;
+  const Bridge once = make_bridge(description);
+  Field weight = Field::Zero(2, once.mesh.node_count());
+  weight.row(1) = -EquilibriumSystem(once).weight.transpose();
+  description.gravity *= 2.0;
+  const Scene scene = parse_scene("4,2", once.layout);
+  const Field loaded = test::without_nan(QuasiStaticSolver(once, {}, weight).solve(scene).displacement);
+  const Bridge twice = make_bridge(description);
+  const Field heavy = test::without_nan(QuasiStaticSolver(twice).solve(scene).displacement);
+  CHECK((loaded - heavy).cwiseAbs().maxCoeff() < 1e-7 * heavy.cwiseAbs().maxCoeff());
+}
+
 TEST_CASE("A mirrored scene has the mirrored field", "[solver]") {
   const Bridge bridge = test::reference_bridge();
   QuasiStaticSolver solver(bridge);

@@ -1,6 +1,7 @@
 #include <catch2/catch.hpp>
 
 #include "core/error.h"
+#include "tools/validation/bisection.h"
 #include "tools/validation/report.h"
 
 using namespace voussoir;
@@ -65,6 +66,33 @@ TEST_CASE("An answer outside its tolerance, or NaN, is marked and counted (made-
   CHECK(sum.correct == 0);
   CHECK_FALSE(sum.all_good());
   CHECK(to_text({result}).find("OUTSIDE") != std::string::npos);
+}
+
+TEST_CASE("The page holds every case and plot and fetches nothing (made-up results)", "[validation]") {
+  StudyResult result;
+  result.findings.cases = {
+      absolute_case({.name = "a & b", .quantity = "q", .expected = 1.0, .computed = 1.0}, 1.0, "why")};
+  result.findings.hard_cases = {HardCase{.sweep = "sweep of sweeps", .verdict = "standing"}};
+  result.findings.notes = {"a limit"};
+  result.findings.plots = {{.title = "a plot",
+                            .x_label = "x",
+                            .y_label = "y",
+                            .series = {{.label = "line", .points = {{1.0, 2.0}, {2.0, 3.0}}}}}};
+  const std::string page = to_page({result});
+  for (const char* text : {"a &amp; b", "sweep of sweeps", "a limit", "a plot", "<svg"})
+    CHECK(page.find(text) != std::string::npos);
+  for (const char* text : {"src=", "=\"http", "@import"}) CHECK(page.find(text) == std::string::npos);
+  CHECK(to_markdown({result}).find("| a & b | q |") != std::string::npos);
+}
+
+TEST_CASE("Extrapolation to zero is exact for the polynomials that it is made for (closed form)",
+          "[validation]") {
+  const std::vector<double> x = {2.0, 1.0, 0.5, 0.25};
+  std::vector<double> y;
+  for (const double at : x) y.push_back(3.0 - 2.0 * at + 0.5 * at * at);
+  CHECK(extrapolated(x, y, 3) == Approx(3.0).epsilon(1e-12));
+  CHECK(extrapolated(x, y, 4) == Approx(3.0).epsilon(1e-12));
+  CHECK(extrapolated(x, y, 2) != Approx(3.0).epsilon(1e-3));
 }
 
 TEST_CASE("A study that throws is reported and does not stop the others", "[validation]") {

@@ -23,7 +23,8 @@ Eigen::VectorXd readings(const Bridge& bridge, const Field& field) {
 std::vector<Solution> solve_all(const Setting& setting) {
   std::vector<Scene> scenes;
   std::vector<SceneStart> starts;
-  for (const Expectation& e : setting.scenes) starts.push_back({parse_scene(e.scene, setting.bridge.layout), nullptr});
+  for (const Expectation& e : setting.scenes)
+    starts.push_back({parse_scene(e.scene, setting.bridge.layout), nullptr});
   return CombinedSolver(setting.bridge).solve(starts);
 }
 
@@ -34,8 +35,9 @@ Signals polished_signals(const Setting& setting, const std::vector<Solution>& so
   for (std::size_t i = 0; i < solutions.size(); ++i) {
     const std::string& name = setting.scenes[i].scene;
     if (solutions[i].outcome == Outcome::standing)
-      signals[name] = readings(setting.bridge,
-                               solver.solve(parse_scene(name, setting.bridge.layout), solutions[i].displacement).displacement);
+      signals[name] = readings(
+          setting.bridge,
+          solver.solve(parse_scene(name, setting.bridge.layout), solutions[i].displacement).displacement);
   }
   for (auto& [name, signal] : signals)
     if (name != "intact" && signals.contains("intact")) signal -= signals["intact"];

@@ -22,8 +22,8 @@ struct Setting {
   std::vector<Expectation> scenes;
 };
 
-/// The small example bridge, whose scenes the sweeps use: intact, a wall block missing (stands), an arch block missing
-/// (falls).
+/// The small example bridge, whose scenes the sweeps use: intact, a wall block missing (stands), an arch
+/// block missing (falls).
 BridgeDescription small_bridge();
 std::vector<Expectation> usual_scenes();
 
@@ -36,9 +36,9 @@ Signals tightest_signals(const Bridge& bridge, const std::vector<Expectation>& s
 /// L1 distance over L1 size, where both are numbers.
 double relative_difference(const Eigen::VectorXd& a, const Eigen::VectorXd& b);
 
-/// Solves the setting's scenes as build-database does. A verdict is correct if it is the expected one, and where that is
-/// standing, if the field is finite, in equilibrium (assembled anew from the field alone) and its signal within
-/// `tolerance` of the reference: the tightest run of the setting itself, or the one given.
+/// Solves the setting's scenes as build-database does. A verdict is correct if it is the expected one, and
+/// where that is standing, if the field is finite, in equilibrium (assembled anew from the field alone) and
+/// its signal within `tolerance` of the reference: the tightest run of the setting itself, or the one given.
 void run_setting(const Setting& setting, double tolerance, const Signals* reference, Findings& findings);
 
 }  // namespace voussoir::validation

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <map>
 #include <nlohmann/json.hpp>
 
 namespace voussoir::validation {
@@ -72,6 +73,26 @@ std::string to_text(const std::vector<StudyResult>& results) {
     text += '\n';
   }
   return text + to_sentence(tally(results)) + '\n';
+}
+
+std::string to_markdown(const std::vector<StudyResult>& results) {
+  std::string text =
+      "| case | quantity | expected | computed | error | tolerance |\n|---|---|---|---|---|---|\n";
+  std::map<std::string, std::pair<int, int>> sweeps;  // correct, all
+  for (const StudyResult& result : results) {
+    for (const Case& c : result.findings.cases)
+      text +=
+          fmt::format("| {} | {} | {:.5g} | {:.5g} | {:.1e} | {} |\n", c.name, c.quantity, c.expected,
+                      c.computed, c.error, c.tolerance ? fmt::format("{:.1e}", *c.tolerance) : "compared");
+    for (const HardCase& c : result.findings.hard_cases) {
+      sweeps[c.sweep].first += c.correct;
+      ++sweeps[c.sweep].second;
+    }
+  }
+  text += "\n| hard cases | correct |\n|---|---|\n";
+  for (const auto& [sweep, count] : sweeps)
+    text += fmt::format("| {} | {} of {} |\n", sweep, count.first, count.second);
+  return text + '\n' + to_sentence(tally(results)) + "\n";
 }
 
 std::string to_json(const std::vector<StudyResult>& results) {

@@ -1,5 +1,5 @@
 #pragma once
-/// @file Results as text and JSON.
+/// @file Results as text, JSON, Markdown and a page.
 
 #include "tools/validation/suite.h"
 
@@ -10,6 +10,12 @@ std::string to_text(const std::vector<StudyResult>& results);
 
 /// {"ok", "cases": [..], "hard_cases": [..], "notes": [..], "studies": [{"name", "seconds", "failure"}]}
 std::string to_json(const std::vector<StudyResult>& results);
+
+/// The known answers as a table without reasons, and the hard cases counted by sweep.
+std::string to_markdown(const std::vector<StudyResult>& results);
+
+/// One HTML file with tables and plots, which fetches nothing.
+std::string to_page(const std::vector<StudyResult>& results);
 
 /// "12 of 12 known answers within tolerance, ..."
 std::string to_sentence(const Tally& tally);

@@ -36,7 +36,8 @@ HardCase step_case(const Bridge& bridge, double share, double critical, const Ei
   } catch (const InputError&) {
     row.verdict = "refused";
   }
-  row.expected = share <= 1.0 ? "standing, d within 1 % of that of a tenth of the step" : "refused: not stable";
+  row.expected =
+      share <= 1.0 ? "standing, d within 1 % of that of a tenth of the step" : "refused: not stable";
   row.correct = share <= 1.0 ? row.verdict == "standing" && *row.error < 0.01 : row.verdict == "refused";
   return row;
 }
@@ -80,13 +81,14 @@ Findings starting_guesses() {
   const Field answer = solver.solve(scene).displacement;
   for (const auto& [name, start] : bad_starts(bridge, answer)) {
     const Solution solution = solver.solve(scene, start);
-    HardCase row{.sweep = "starting guess",
-                 .setting = name,
-                 .scene = kScene,
-                 .verdict = std::string(to_string(solution.outcome)),
-                 .expected = "standing, as from rest within 1e-6",
-                 .error = relative_difference(readings(bridge, solution.displacement), readings(bridge, answer)),
-                 .iterations = solution.iterations};
+    HardCase row{
+        .sweep = "starting guess",
+        .setting = name,
+        .scene = kScene,
+        .verdict = std::string(to_string(solution.outcome)),
+        .expected = "standing, as from rest within 1e-6",
+        .error = relative_difference(readings(bridge, solution.displacement), readings(bridge, answer)),
+        .iterations = solution.iterations};
     row.correct = solution.outcome == Outcome::standing && *row.error < 1e-6;
     findings.hard_cases.push_back(row);
   }
@@ -101,7 +103,8 @@ Findings single_precision() {
     const std::string name = reference ? "10,4" : kScene;
     QuasiStaticSolver solver(bridge);
     const Eigen::VectorXd intact = readings(bridge, solver.solve(Scene{}).displacement);
-    const Eigen::VectorXd damaged = readings(bridge, solver.solve(parse_scene(name, bridge.layout)).displacement);
+    const Eigen::VectorXd damaged =
+        readings(bridge, solver.solve(parse_scene(name, bridge.layout)).displacement);
     const Eigen::VectorXd rounded =
         damaged.cast<float>().cast<double>() - intact.cast<float>().cast<double>();
     HardCase row{.sweep = "single precision storage",
@@ -119,7 +122,10 @@ Findings single_precision() {
 }  // namespace
 
 std::vector<Study> solver_sweeps() {
-  return {{.name = "sweep-steps", .title = "Time steps up to and past the limit", .run = time_steps},
+  return {{.name = "sweep-steps",
+           .title = "Time steps up to and past the limit",
+           .quick = false,
+           .run = time_steps},
           {.name = "sweep-starts", .title = "Starting guesses far off", .run = starting_guesses},
           {.name = "sweep-storage", .title = "Single precision", .run = single_precision}};
 }

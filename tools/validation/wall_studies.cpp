@@ -19,14 +19,16 @@ Bridge shear_wall(double friction) {
   BridgeDescription description;
   description.wall.length = 100.0;
   description.supports.sides = Support::free;
-  description.material = {.young_modulus = 15.5e9, .poisson_ratio = 0.2, .density = 2400.0, .thickness = kThickness};
+  description.material = {
+      .young_modulus = 15.5e9, .poisson_ratio = 0.2, .density = 2400.0, .thickness = kThickness};
   description.joints = {
       .normal_stiffness = 5e9, .tangential_stiffness = 2e9, .friction_angle = std::atan(friction)};
   std::vector<Polygon> blocks = {rectangle({kLeft, 0.0}, kWidth, kFooting)};
   for (int course = 0; course < kCourses; ++course) {
     const double y = kFooting + 0.5 * kBlock * course;
     std::vector<double> x = {0.0};
-    for (double at = course % 2 == 0 ? kBlock : 0.5 * kBlock; at < kWidth - 1e-9; at += kBlock) x.push_back(at);
+    for (double at = course % 2 == 0 ? kBlock : 0.5 * kBlock; at < kWidth - 1e-9; at += kBlock)
+      x.push_back(at);
     x.push_back(kWidth);
     for (std::size_t i = 0; i + 1 < x.size(); ++i)
       blocks.push_back(rectangle({kLeft + x[i], y}, x[i + 1] - x[i], 0.5 * kBlock));
@@ -66,7 +68,8 @@ QuasiStaticSettings patient_newton() {
   return settings;
 }
 
-/// The force grows by steps that are halved when nothing stands, until they are a two-thousandth of the vertical force.
+/// The force grows by steps that are halved when nothing stands, until they are a two-thousandth of the
+/// vertical force.
 Response push(double friction, double vertical) {
   const Bridge bridge = shear_wall(friction);
   const NodeId corner{bridge.mesh.block_nodes.back().end - 1};
@@ -91,7 +94,7 @@ Response push(double friction, double vertical) {
 Findings shear_walls() {
   Findings findings;
   struct Tested {
-    double stress;  ///< [Pa]
+    double stress;                 ///< [Pa]
     std::vector<double> greatest;  ///< [kN]
   };
   for (const Tested& tested : {Tested{0.15e6, {21.9, 22.9}}, Tested{0.50e6, {41.5, 48.2}}}) {
@@ -107,21 +110,27 @@ Findings shear_walls() {
       furthest = std::max(furthest, response.curve.points.back().first);
       plot.series.push_back(response.curve);
       findings.cases.push_back(
-          comparison({.name = fmt::format("Dry-stone wall under {:.2f} MPa, tan phi = {:.2f}", tested.stress * 1e-6, friction),
+          comparison({.name = fmt::format("Dry-stone wall under {:.2f} MPa, tan phi = {:.2f}",
+                                          tested.stress * 1e-6, friction),
                       .quantity = "greatest horizontal force [kN]",
                       .expected = measured,
-                      .source = fmt::format("Lourenco et al. 2005, two walls: {} and {}", tested.greatest[0], tested.greatest[1]),
+                      .source = fmt::format("Lourenco et al. 2005, two walls: {} and {}", tested.greatest[0],
+                                            tested.greatest[1]),
                       .computed = 1e-3 * response.greatest},
-                     "joint data of the walls are uncertain (here p_n = 5e9, p_t = 2e9 Pa/m); the beam is free to turn"));
+                     "joint data of the walls are uncertain (here p_n = 5e9, p_t = 2e9 Pa/m); the beam is "
+                     "free to turn"));
     }
     for (const double peak : tested.greatest)
-      plot.series.push_back({.label = fmt::format("measured peak {} kN", peak), .points = {{0.0, peak}, {furthest, peak}}});
+      plot.series.push_back(
+          {.label = fmt::format("measured peak {} kN", peak), .points = {{0.0, peak}, {furthest, peak}}});
     findings.plots.push_back(plot);
   }
   findings.notes = {
-      "The beam on the walls is free to turn. Rocking about the toe then bounds the force by V b / 2h and the weight's share, "
+      "The beam on the walls is free to turn. Rocking about the toe then bounds the force by V b / 2h and "
+      "the weight's share, "
       "16 kN under 0.15 MPa, whatever the friction: the walls that took 22 kN cannot have been so free.",
-      "Newton's joints keep no history, and the force grows by steps until nothing stands: the curves end at the peak."};
+      "Newton's joints keep no history, and the force grows by steps until nothing stands: the curves end at "
+      "the peak."};
   return findings;
 }
 
