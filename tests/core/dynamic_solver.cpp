@@ -115,8 +115,8 @@ TEST_CASE(
   // the keystone. With slow gravity (the default) the half blocks hang by friction, see the case before.
   DynamicSettings sudden;
   sudden.ramp = 0.0;
-  sudden.damping = 10.0;  // a tenth of critical
-  sudden.latest_decision = 3.0;
+  sudden.damping = 5.0;  // a twentieth of critical
+  sudden.latest_decision = 6.0;
   const Bridge& bridge = reference();
   const BlockIndex keystone{0, 10};
   struct Case {
