@@ -8,7 +8,8 @@ namespace voussoir {
 
 TEST_CASE(
     "No skip changes an outcome, or a displacement by more than its stated bound (the scenes solved without "
-    "it)") {
+    "it)",
+    "[whole-build]") {
   const auto rows = measure_skips(read_bridge_file(test::example_bridge("small")), "singles;4,*+5,*;0,5+1,*");
   CHECK(rows.size() == build_switches().size() + 1);  // and fields that nobody asked for
   for (const SkipRow& row : rows) {
