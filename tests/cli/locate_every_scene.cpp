@@ -38,7 +38,7 @@ bool same_displacements(const SceneTable& table, std::size_t a, std::size_t b) {
 
 }  // namespace
 
-TEST_CASE("Noise-free readings of every standing scene are located exactly", "[locate]") {
+TEST_CASE("Noise-free readings of every standing scene are located exactly", "[locate][whole-build]") {
   // Oracle: the scene that the readings were taken from, for all singles and 1,000 pairs of the reference
   // bridge.
   const test::TemporaryFolder folder;
