@@ -1,5 +1,5 @@
 #pragma once
-/// @file Work side by side on TBB's threads.
+/// @file Work side by side on several threads.
 
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
@@ -7,46 +7,50 @@
 #include <cstddef>
 
 #ifdef __SANITIZE_THREAD__
-#include <sanitizer/tsan_interface.h>
+#include <atomic>
+#include <exception>
+#include <mutex>
+#include <thread>
+#include <vector>
 #endif
 
 namespace voussoir {
 
-/// What parallel_for promises, told to ThreadSanitizer, which cannot see it inside the TBB library: all
-/// before the call happens before every piece of work, and every piece before the return. Races between
-/// pieces still show.
-class HandOver {
- public:
 #ifdef __SANITIZE_THREAD__
-  void give() {
-    __tsan_release(&place_);
-  }
-  void take() {
-    __tsan_acquire(&place_);
-  }
-#else
-  void give() {}
-  void take() {}
-#endif
 
- private:
-  char place_ = 0;
-};
-
-/// Calls work(0) to work(count - 1) on the threads of the arena, in any order.
+/// The same on plain threads: ThreadSanitizer does not see how the TBB library, which was not compiled with
+/// it, hands work from thread to thread, and takes that for races. What the pieces of work do to each other
+/// still shows.
 template <class Work>
 void for_each_index(oneapi::tbb::task_arena& arena, std::size_t count, const Work& work) {
-  HandOver begin;
-  HandOver end;
-  begin.give();
-  arena.execute([&] {
-    oneapi::tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
-      begin.take();
-      work(i);
-      end.give();
-    });
-  });
-  end.take();
+  std::atomic<std::size_t> next = 0;
+  std::exception_ptr failure;
+  std::mutex mutex;
+  const auto run = [&] {
+    try {
+      for (std::size_t i = next++; i < count; i = next++) work(i);
+    } catch (...) {
+      const std::scoped_lock lock(mutex);
+      if (!failure) failure = std::current_exception();
+      next = count;
+    }
+  };
+  {
+    std::vector<std::jthread> threads;
+    for (int thread = 0; thread < arena.max_concurrency(); ++thread) threads.emplace_back(run);
+  }
+  if (failure) std::rethrow_exception(failure);
 }
+
+#else
+
+/// Calls work(0) to work(count - 1) on the threads of the arena, in any order. An exception ends the others'
+/// work soon and is thrown on.
+template <class Work>
+void for_each_index(oneapi::tbb::task_arena& arena, std::size_t count, const Work& work) {
+  arena.execute([&] { oneapi::tbb::parallel_for(std::size_t{0}, count, work); });
+}
+
+#endif
 
 }  // namespace voussoir
