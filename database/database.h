@@ -71,7 +71,7 @@ class Database {
   Record record(std::size_t row) const;            ///< as it stands in the file, its checksum not verified
   double residual(std::size_t row) const;          ///< as in Solution
   std::uint32_t chunk_crc(std::size_t row) const;  ///< stored CRC-32 of the record's packed field
-  std::int32_t variant(std::size_t row) const;     ///< kOnlyVariant in every file of schema version 1
+  std::int32_t variant(std::size_t row) const;     ///< kOnlyVariant in every file of this schema
   ByteView dataset_bytes(const char* path) const;  ///< a contiguous dataset (database/schema.h) as it stands
 
  private:

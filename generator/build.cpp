@@ -1,8 +1,6 @@
 #include "generator/build.h"
 
 #include <oneapi/tbb/enumerable_thread_specific.h>
-#include <oneapi/tbb/global_control.h>
-#include <oneapi/tbb/info.h>
 
 #include <algorithm>
 
@@ -110,17 +108,13 @@ std::size_t batch_size(std::size_t tasks, int threads) {
 }
 
 void run_plan(const Build& build, const BuildPlan& plan, KnownRecords& known) {
-  using namespace oneapi;
-  const int threads = build.request.threads > 0 ? build.request.threads : tbb::info::default_concurrency();
-  const tbb::global_control allowed(tbb::global_control::max_allowed_parallelism,
-                                    static_cast<std::size_t>(threads));
-  tbb::task_arena arena(threads);
-  tbb::enumerable_thread_specific<SceneSolver> solvers(
+  Crew crew(build.request.threads);
+  oneapi::tbb::enumerable_thread_specific<SceneSolver> solvers(
       [&] { return build.solver.make_solver(build.bridge); });
   for (const auto& stage : plan.stages) {
     const StartingFields starts = read_starts(stage, build.request.rules, known);
-    const std::size_t size = batch_size(stage.size(), threads);
-    for_each_index(arena, (stage.size() + size - 1) / size, [&](std::size_t i) {
+    const std::size_t size = batch_size(stage.size(), crew.size());
+    crew.for_each_index((stage.size() + size - 1) / size, [&](std::size_t i) {
       const std::span batch = std::span(stage).subspan(i * size, std::min(size, stage.size() - i * size));
       run_batch(build, batch, solvers.local(), starts, known);
     });

@@ -18,10 +18,9 @@ constexpr const char* kFooter =
     "ranges (10,1..20  0,*  10,4+2..4,*). An interrupted build goes on when the same command is run again; a "
     "file that is\n"
     "up to date is left alone.\n\n"
-    "--without takes names separated by ',': mirror-images, warm-starts, shared-analysis, lane-refill, "
-    "settled-contacts,\n"
-    "early-outcome. The database stays the same but for round-off; tools/benchmark accuracy shows what each "
-    "gains.\n\n"
+    "--without takes the names above, separated by ','. The database stays the same but for round-off; "
+    "tools/benchmark "
+    "accuracy shows\nwhat each gains.\n\n"
     "Exit codes: 0 done, 1 could not be done, 2 bad usage or bad bridge file. With --format json the last "
     "line of "
     "stdout is\none JSON object, {\"ok\": true, ...} or {\"ok\": false, \"error\": ...}.";
@@ -107,8 +106,7 @@ BuildOptions parse_build_options(int argc, char** argv) {
   options.request.fields = fields == "all" ? KeepField::yes : KeepField::no;
   for (const std::string& name : without)
     build_switch(name).switch_off(options.request.rules, options.motion.skips);
-  options.solver =
-      solver == "dynamic" ? dynamic(options.motion) : quasi_static_with(options.motion.skips, options.motion);
+  options.solver = solver == "dynamic" ? dynamic(options.motion) : quasi_static(options.motion);
   return options;
 }
 

@@ -1,6 +1,8 @@
 #pragma once
 /// @file Work side by side on several threads.
 
+#include <oneapi/tbb/global_control.h>
+#include <oneapi/tbb/info.h>
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
 
@@ -16,13 +18,33 @@
 
 namespace voussoir {
 
+/// A number of threads to work on; as many as they may be while the crew lives.
+class Crew {
+ public:
+  /// 0: one for each core.
+  explicit Crew(int threads)
+      : arena_(threads > 0 ? threads : oneapi::tbb::info::default_concurrency()),
+        allowed_(oneapi::tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(size())) {}
+
+  int size() const { return arena_.max_concurrency(); }
+
+  /// Calls work(0) to work(count - 1), in any order. An exception ends the others' work soon and is thrown
+  /// on.
+  template <class Work>
+  void for_each_index(std::size_t count, const Work& work);
+
+ private:
+  oneapi::tbb::task_arena arena_;
+  oneapi::tbb::global_control allowed_;
+};
+
 #ifdef __SANITIZE_THREAD__
 
-/// The same on plain threads: ThreadSanitizer does not see how the TBB library, which was not compiled with
+/// On plain threads: ThreadSanitizer does not see how the TBB library, which was not compiled with
 /// it, hands work from thread to thread, and takes that for races. What the pieces of work do to each other
 /// still shows.
 template <class Work>
-void for_each_index(oneapi::tbb::task_arena& arena, std::size_t count, const Work& work) {
+void Crew::for_each_index(std::size_t count, const Work& work) {
   std::atomic<std::size_t> next = 0;
   std::exception_ptr failure;
   std::mutex mutex;
@@ -37,18 +59,16 @@ void for_each_index(oneapi::tbb::task_arena& arena, std::size_t count, const Wor
   };
   {
     std::vector<std::jthread> threads;
-    for (int thread = 0; thread < arena.max_concurrency(); ++thread) threads.emplace_back(run);
+    for (int thread = 0; thread < size(); ++thread) threads.emplace_back(run);
   }
   if (failure) std::rethrow_exception(failure);
 }
 
 #else
 
-/// Calls work(0) to work(count - 1) on the threads of the arena, in any order. An exception ends the others'
-/// work soon and is thrown on.
 template <class Work>
-void for_each_index(oneapi::tbb::task_arena& arena, std::size_t count, const Work& work) {
-  arena.execute([&] { oneapi::tbb::parallel_for(std::size_t{0}, count, work); });
+void Crew::for_each_index(std::size_t count, const Work& work) {
+  arena_.execute([&] { oneapi::tbb::parallel_for(std::size_t{0}, count, work); });
 }
 
 #endif

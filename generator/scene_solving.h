@@ -24,10 +24,8 @@ struct SolverChoice {
 };
 
 /// Newton for scenes that stand, motion for the others (core/combined_solver.h).
-SolverChoice quasi_static(const QuasiStaticSettings& newton = {}, const DynamicSettings& motion = {});
-
-/// The same with some skips switched off.
-SolverChoice quasi_static_with(const Skips& skips, DynamicSettings motion = {});
+/// Newton has the motion's skips.
+SolverChoice quasi_static(const DynamicSettings& motion = {});
 
 /// Motion for all scenes: the reference.
 SolverChoice dynamic(const DynamicSettings& motion = {});

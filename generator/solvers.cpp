@@ -83,18 +83,14 @@ constexpr const char* kDynamic = "solver = dynamic\n";
 
 }  // namespace
 
-SolverChoice quasi_static(const QuasiStaticSettings& newton, const DynamicSettings& motion) {
+SolverChoice quasi_static(const DynamicSettings& motion) {
+  QuasiStaticSettings newton;
+  newton.skips = motion.skips;
   return {kQuasiStatic + settings_text(newton) + settings_text(motion),
           [newton, motion](const Bridge& bridge) -> SceneSolver {
             const auto solver = std::make_shared<CombinedSolver>(bridge, newton, motion);
             return [solver](std::span<const SceneStart> scenes) { return solver->solve(scenes); };
           }};
-}
-
-SolverChoice quasi_static_with(const Skips& skips, DynamicSettings motion) {
-  QuasiStaticSettings newton;
-  newton.skips = motion.skips = skips;
-  return quasi_static(newton, motion);
 }
 
 SolverChoice dynamic(const DynamicSettings& motion) {
@@ -113,7 +109,7 @@ SolverChoice dynamic(const DynamicSettings& motion) {
 
 SolverChoice solver_with(std::string_view settings) {
   const DynamicSettings motion = motion_in(settings);
-  for (SolverChoice choice : {quasi_static_with(motion.skips, motion), dynamic(motion)})
+  for (SolverChoice choice : {quasi_static(motion), dynamic(motion)})
     if (settings.starts_with(choice.settings)) return choice;
   throw Failure("the database was built with solver settings that this program does not have");
 }

@@ -1,8 +1,6 @@
 #include "generator/verify.h"
 
 #include <oneapi/tbb/enumerable_thread_specific.h>
-#include <oneapi/tbb/global_control.h>
-#include <oneapi/tbb/info.h>
 
 #include <algorithm>
 
@@ -16,17 +14,6 @@
 
 namespace voussoir {
 namespace {
-
-/// Calls `work(i)` for i = 0..count-1 on the wanted number of threads.
-template <class Work>
-void in_parallel(std::size_t count, int threads, const Work& work) {
-  using namespace oneapi;
-  if (threads <= 0) threads = tbb::info::default_concurrency();
-  const tbb::global_control allowed(tbb::global_control::max_allowed_parallelism,
-                                    static_cast<std::size_t>(threads));
-  tbb::task_arena arena(threads);
-  for_each_index(arena, count, work);
-}
 
 void check_digest(const Database& database, const std::vector<DatasetValue>& expected, VerifyReport& report) {
   std::vector<DigestPart> parts;
@@ -54,7 +41,8 @@ void check_geometry(const Database& database, const Bridge& stored, VerifyReport
 
 void check_scenes(const CheckedDatabase& checked, int threads, VerifyReport& report) {
   std::vector<SceneCheck> checks(checked.database.table().rows);
-  in_parallel(checks.size(), threads, [&](std::size_t row) { checks[row] = check_scene(checked, row); });
+  Crew(threads).for_each_index(checks.size(),
+                               [&](std::size_t row) { checks[row] = check_scene(checked, row); });
   for (const SceneCheck& check : checks) {
     report.fields += check.field_checked ? 1 : 0;
     report.mirror_pairs += check.mirror_compared ? 1 : 0;
@@ -90,8 +78,9 @@ void check_recomputed(const VerifyRequest& request, const Database& database, co
   const auto rows = choose_rows(database.table().rows, request.recompute, request.seed);
   std::vector<Recomputed> results(rows.size());
   oneapi::tbb::enumerable_thread_specific<SceneSolver> solvers([&] { return solver.make_solver(bridge); });
-  in_parallel(rows.size(), request.threads,
-              [&](std::size_t i) { results[i] = recompute_row(database, bridge, rows[i], solvers.local()); });
+  Crew(request.threads).for_each_index(rows.size(), [&](std::size_t i) {
+    results[i] = recompute_row(database, bridge, rows[i], solvers.local());
+  });
   report.recomputed = rows.size();
   for (const Recomputed& result : results) {
     report.largest_recomputed_difference = std::max(report.largest_recomputed_difference, result.difference);

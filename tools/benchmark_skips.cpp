@@ -55,9 +55,9 @@ std::vector<SkipRow> measure_skips(const BridgeFile& bridge, const std::string& 
   std::vector<std::pair<const BuildSwitch*, Built>> without;
   for (const BuildSwitch& each : build_switches()) {
     BuildRequest changed = request;
-    Skips skips;
-    each.switch_off(changed.rules, skips);
-    without.emplace_back(&each, build(changed, quasi_static_with(skips)));
+    DynamicSettings motion;
+    each.switch_off(changed.rules, motion.skips);
+    without.emplace_back(&each, build(changed, quasi_static(motion)));
   }
   BuildRequest no_fields = request;
   no_fields.fields = KeepField::no;

@@ -1,11 +1,11 @@
 /// @file validate: holds the solvers against known answers and hard cases.
 
 #include <CLI/CLI.hpp>
-#include <fstream>
 #include <iostream>
 #include <thread>
 
 #include "core/error.h"
+#include "lookup/command_line.h"
 #include "tools/validation/report.h"
 
 namespace {
@@ -50,8 +50,7 @@ int run(const Options& options) {
         std::cerr << fmt::format("{} ({:.1f} s)\n", result.title, result.seconds);
       });
   std::cout << in_format(options.format, results);
-  if (!options.page.empty() && !(std::ofstream(options.page) << to_page(results)))
-    throw voussoir::Failure(fmt::format("{}: cannot be written", options.page));
+  if (!options.page.empty()) voussoir::write_file(options.page, to_page(results));
   return tally(results).all_good() ? 0 : 1;
 }
 

@@ -72,41 +72,33 @@ const std::vector<std::string> kNasty = {"nan",
                                          "centre_y_m = 0\n",
                                          "bond = \"stack\"\n"};
 
-struct Tally {
-  int made = 0;
-  int refused = 0;
-};
-
 bool is_sound(const Bridge& bridge) {
   for (const Block& block : bridge.layout.blocks)
     if (!(area(block.polygon) > 0.0 && std::isfinite(area(block.polygon)))) return false;
   return bridge.mesh.nodes.allFinite() && bridge.mesh.block_nodes.size() == bridge.layout.size();
 }
 
-void read(const std::string& text, Tally& tally) {
+test::Verdict read(const std::string& text) {
   try {
     const BridgeDescription description = parse_bridge_file(text, "fuzz.toml").description;
-    if (lay_blocks(description).size() > kMostBlocksMeshed || description.mesh.refinement > 1) return;
+    if (lay_blocks(description).size() > kMostBlocksMeshed || description.mesh.refinement > 1)
+      return test::Verdict::set_aside;
     if (!is_sound(make_bridge(description))) FAIL("accepted an unsound bridge: " << text);
-    ++tally.made;
+    return test::Verdict::accepted;
   } catch (const InputError& error) {
-    ++tally.refused;
     if (std::string(error.what()).empty()) FAIL("refused without a word: " << text);
+    return test::Verdict::refused;
   }
 }
 
-Tally feed(int inputs, std::uint64_t seed) {
+test::Tally feed(int inputs, std::uint64_t seed) {
   const std::vector<std::string> good = test::corpus("bridges");
   test::Chance chance(seed);
-  const test::ReaderLimits limits;
-  Tally tally;
-  for (int i = 0; i < inputs; ++i) {
+  return test::feed(inputs, [&] {
     const std::string text = test::damaged_text(good, kNasty, chance);
     INFO(text);
-    if (!limits.next()) break;
-    read(text, tally);
-  }
-  return tally;
+    return read(text);
+  });
 }
 
 }  // namespace
@@ -117,15 +109,15 @@ TEST_CASE("Every bridge file of the corpus makes a bridge", "[fuzz]") {
 }
 
 TEST_CASE("Two thousand damaged bridge files make a bridge or are refused", "[fuzz]") {
-  const Tally tally = feed(2'000, 1);
-  CHECK(tally.made > 100);
+  const test::Tally tally = feed(2'000, 1);
+  CHECK(tally.accepted > 100);
   CHECK(tally.refused > 500);
 }
 
 TEST_CASE("Ten minutes or a million damaged bridge files make a bridge or are refused", "[long][fuzz]") {
-  const Tally tally = feed(1'000'000, 2);
-  WARN(tally.made << " made, " << tally.refused << " refused");
-  CHECK(tally.made > 0);
+  const test::Tally tally = feed(1'000'000, 2);
+  WARN(tally.accepted << " made, " << tally.refused << " refused");
+  CHECK(tally.accepted > 0);
   CHECK(tally.refused > 0);
 }
 

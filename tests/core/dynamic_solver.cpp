@@ -7,9 +7,12 @@
 #include "core/bridge_file.h"
 #include "core/error.h"
 #include "core/quasi_static_solver.h"
+#include "tools/validation/hard_case_runs.h"
 
 namespace voussoir {
 namespace {
+
+using validation::relative_difference;
 
 const Bridge& reference() {
   static const Bridge bridge = make_bridge(reference_bridge_file().description);
@@ -24,18 +27,6 @@ const Bridge& small() {
 
 Eigen::VectorXd readings(const Bridge& bridge, const Field& field) {
   return vertical_displacements(field, bridge.control_points);
-}
-
-/// L1 distance over L1 size, over the points that both have.
-double relative_difference(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
-  double distance = 0.0;
-  double size = 0.0;
-  for (Eigen::Index i = 0; i < a.size(); ++i) {
-    if (std::isnan(a[i]) || std::isnan(b[i])) continue;
-    distance += std::abs(a[i] - b[i]);
-    size += std::abs(b[i]);
-  }
-  return distance / size;
 }
 
 double largest_difference(const Field& a, const Field& b) {

@@ -44,46 +44,41 @@ const std::vector<std::string> kNasty = {"nan",
                                          "-",
                                          "1.7976931348623157e308"};
 
-struct Tally {
-  int accepted = 0;
-  int refused = 0;
-};
+void check_sound(const Measurements& read, const std::string& text) {
+  bool sound = read.displacement.size() == kPoints.size() && read.count() > 0;
+  for (const double value : read.displacement) sound = sound && !(std::abs(value) > kLargestDisplacement);
+  for (const double sigma : read.sigma)
+    sound = sound && (std::isnan(sigma) || (sigma > 0.0 && std::isfinite(sigma)));
+  if (!sound) FAIL("accepted an unsound file: " << text);
+}
 
-Tally feed(int inputs, std::uint64_t seed) {
+test::Verdict read(const std::string& text) {
+  try {
+    check_sound(parse_measurements(text, "fuzz.csv", kPoints), text);
+    return test::Verdict::accepted;
+  } catch (const InputError& error) {
+    if (std::string(error.what()).find("fuzz.csv:") != 0)
+      FAIL("a message without the file: " << error.what());
+    return test::Verdict::refused;
+  }
+}
+
+test::Tally feed(int inputs, std::uint64_t seed) {
   const std::vector<std::string> good = test::corpus("measurements");
   test::Chance chance(seed);
-  const test::ReaderLimits limits;
-  Tally tally;
-  for (int i = 0; i < inputs; ++i) {
-    const std::string text = test::damaged_text(good, kNasty, chance);
-    if (!limits.next()) break;
-    try {
-      const Measurements read = parse_measurements(text, "fuzz.csv", kPoints);
-      ++tally.accepted;
-      bool sound = read.displacement.size() == kPoints.size() && read.count() > 0;
-      for (const double value : read.displacement) sound = sound && !(std::abs(value) > kLargestDisplacement);
-      for (const double sigma : read.sigma)
-        sound = sound && (std::isnan(sigma) || (sigma > 0.0 && std::isfinite(sigma)));
-      if (!sound) FAIL("accepted an unsound file: " << text);
-    } catch (const InputError& error) {
-      ++tally.refused;
-      if (std::string(error.what()).find("fuzz.csv:") != 0)
-        FAIL("a message without the file: " << error.what());
-    }
-  }
-  return tally;
+  return test::feed(inputs, [&] { return read(test::damaged_text(good, kNasty, chance)); });
 }
 
 }  // namespace
 
 TEST_CASE("Thirty thousand damaged measurement files are read or refused cleanly", "[fuzz]") {
-  const Tally tally = feed(30'000, 1);
+  const test::Tally tally = feed(30'000, 1);
   CHECK(tally.accepted > 300);
   CHECK(tally.refused > 1000);
 }
 
 TEST_CASE("Ten minutes or a million damaged measurement files are read or refused cleanly", "[long][fuzz]") {
-  const Tally tally = feed(1'000'000, 2);
+  const test::Tally tally = feed(1'000'000, 2);
   WARN(tally.accepted << " accepted, " << tally.refused << " refused");
   CHECK(tally.accepted > 0);
   CHECK(tally.refused > 0);

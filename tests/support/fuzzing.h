@@ -118,4 +118,26 @@ class ReaderLimits {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
+/// What became of an input. Set aside: sound, but not worth the time that using it would take.
+enum class Verdict { accepted, refused, set_aside };
+
+struct Tally {
+  int accepted = 0;
+  int refused = 0;
+};
+
+/// Tries `inputs` inputs, or as many as ten minutes allow, within the limits; `try_one` makes an input and
+/// reads it.
+template <class TryOne>
+Tally feed(int inputs, TryOne try_one) {
+  const ReaderLimits limits;
+  Tally tally;
+  for (int i = 0; i < inputs && limits.next(); ++i) {
+    const Verdict verdict = try_one();
+    tally.accepted += verdict == Verdict::accepted ? 1 : 0;
+    tally.refused += verdict == Verdict::refused ? 1 : 0;
+  }
+  return tally;
+}
+
 }  // namespace voussoir::test
