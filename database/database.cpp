@@ -5,6 +5,7 @@
 
 #include "database/field_codec.h"
 #include "database/hdf5_file.h"
+#include "database/search/stored_index.h"
 #include "database/stored_geometry.h"
 
 namespace voussoir {
@@ -163,6 +164,7 @@ struct Database::Implementation {
   SceneTable table;
 
   std::mutex mutex{};  ///< guards what is read on first use
+  std::optional<SearchIndex> search_index{};
   std::optional<BlockLayout> layout{};
   std::optional<Mesh> mesh{};
   std::optional<SceneColumns> columns{};
@@ -234,6 +236,19 @@ const SceneTable& Database::table() const {
 }
 const std::vector<StoredPoint>& Database::control_points() const {
   return implementation_->points;
+}
+
+const SearchIndex& Database::search_index() const {
+  const std::scoped_lock lock(implementation_->mutex);
+  const SceneTable& table = implementation_->table;
+  if (!implementation_->search_index)
+    implementation_->search_index = read_search_index(implementation_->file, table.rows, table.points);
+  return *implementation_->search_index;
+}
+
+ByteView Database::nearest_trees() const {
+  return std::as_bytes(
+      implementation_->file.numbers<std::uint8_t>(dataset::kTrees, ElementType::uint8, kFlat));
 }
 
 const BlockLayout& Database::layout() const {

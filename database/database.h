@@ -16,6 +16,7 @@
 #include "core/solution.h"
 #include "database/provenance.h"
 #include "database/record.h"
+#include "database/search/search_index.h"
 
 namespace voussoir {
 
@@ -57,6 +58,9 @@ class Database {
   const std::string& bridge_name() const;
   const SceneTable& table() const;
   const std::vector<StoredPoint>& control_points() const;
+
+  const SearchIndex& search_index() const;  ///< of the table's rows; read on first use
+  ByteView nearest_trees() const;           ///< for NearestTrees, over the table's rows
 
   const BlockLayout& layout() const;  ///< read on first use
   const Mesh& mesh() const;           ///< read on first use

@@ -63,6 +63,8 @@ StoredType datatype(ByteView content) {
   if (width == 8 && is(kFloat, {0x20, 63, 0}, {0, 0, 64, 0, 52, 11, 0, 52, 0xff, 3, 0, 0}))
     return {ElementType::float64, width};
   if (width == 4 && is(kInteger, {8, 0, 0}, {0, 0, 32, 0})) return {ElementType::int32, width};
+  if (width == 2 && is(kInteger, {8, 0, 0}, {0, 0, 16, 0})) return {ElementType::int16, width};
+  if (width == 1 && is(kInteger, {8, 0, 0}, {0, 0, 8, 0})) return {ElementType::int8, width};
   if (width == 4 && is(kInteger, {0, 0, 0}, {0, 0, 32, 0})) return {ElementType::uint32, width};
   if (width == 1 && is(kInteger, {0, 0, 0}, {0, 0, 8, 0})) return {ElementType::uint8, width};
   constexpr unsigned kString = 3;

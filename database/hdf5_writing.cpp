@@ -23,6 +23,10 @@ Hdf5Handle make_type(const DatasetValue& value) {
       return {H5Tcopy(H5T_IEEE_F64LE), H5Tclose};
     case ElementType::int32:
       return {H5Tcopy(H5T_STD_I32LE), H5Tclose};
+    case ElementType::int16:
+      return {H5Tcopy(H5T_STD_I16LE), H5Tclose};
+    case ElementType::int8:
+      return {H5Tcopy(H5T_STD_I8LE), H5Tclose};
     case ElementType::uint8:
       return {H5Tcopy(H5T_STD_U8LE), H5Tclose};
     case ElementType::uint32:

@@ -14,7 +14,7 @@
 namespace voussoir {
 
 inline constexpr char kFormatName[] = "voussoir database";
-inline constexpr int kSchemaVersion = 2;
+inline constexpr int kSchemaVersion = 3;
 inline constexpr std::size_t kPointNameWidth = 8;  ///< bytes, padded with zeros
 
 /// Paths of datasets.
@@ -47,6 +47,16 @@ inline constexpr char kMoving[] = "scenes/moving";
 inline constexpr char kChecksum[] = "scenes/checksum";
 inline constexpr char kField[] = "fields/displacement";
 inline constexpr char kChunkCrc[] = "fields/chunk_crc32";
+inline constexpr char kIndexExponent[] = "search/exponent";
+inline constexpr char kIndexCoarseness[] = "search/coarseness";
+inline constexpr char kIndexFirst[] = "search/first";
+inline constexpr char kIndexCentre[] = "search/centre";
+inline constexpr char kIndexLeast[] = "search/least";
+inline constexpr char kIndexMost[] = "search/most";
+inline constexpr char kIndexRow[] = "search/row";
+inline constexpr char kIndexBounds[] = "search/bounds";
+inline constexpr char kIndexSketch[] = "search/sketch";
+inline constexpr char kTrees[] = "search/trees";
 }  // namespace dataset
 
 /// Names of attributes; those of the root group unless a dataset is named.
@@ -66,7 +76,7 @@ inline constexpr char kMeaning[] = "meaning";
 }  // namespace attribute
 
 /// Little-endian in the file; text is UTF-8 of fixed width, padded with zeros.
-enum class ElementType { float64, int32, uint8, uint32, text };
+enum class ElementType { float64, int32, int16, int8, uint8, uint32, text };
 
 /// A whole dataset as it stands in the file.
 struct DatasetValue {

@@ -6,6 +6,7 @@
 #include "database/durable_file.h"
 #include "database/field_codec.h"
 #include "database/hdf5_writing.h"
+#include "database/search/stored_index.h"
 
 namespace voussoir {
 namespace {
@@ -136,6 +137,8 @@ std::string write_content(const std::filesystem::path& path, const DatabaseConte
   for (const DatasetValue& dataset : shared) output.add_dataset(dataset);
   const SceneColumns columns = write_fields(content, record_of_row, output);
   write_columns(columns, content.fields, output);
+  for (const DatasetValue& dataset : search_datasets(columns.vertical, content.bridge.control_points.size()))
+    output.add_dataset(dataset);
   std::string digest = digest_of(shared, columns);
   write_attributes(content.provenance, digest, output);
   output.close();

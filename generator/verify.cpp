@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "database/content_digest.h"
+#include "database/search/stored_index.h"
 #include "generator/build_settings.h"
 #include "generator/parallel.h"
 #include "generator/recompute.h"
@@ -51,6 +52,15 @@ void check_scenes(const CheckedDatabase& checked, int threads, VerifyReport& rep
   }
 }
 
+/// What searches look at first follows from the control displacements.
+void check_search(const Database& database, VerifyReport& report) {
+  const SceneTable& table = database.table();
+  for (const DatasetValue& value : search_datasets(table.vertical, table.points))
+    if (!std::ranges::equal(value.bytes, database.dataset_bytes(value.path.c_str())))
+      report.problems.push_back(
+          fmt::format("dataset '{}': is not what the control displacements give", value.path));
+}
+
 struct Recomputed {
   double difference = 0.0;
   std::string problem;
@@ -94,6 +104,7 @@ void check_content(const VerifyRequest& request, VerifyReport& report) {
   report.outcomes = count_outcomes(database);
   const Bridge bridge = bridge_of(database);
   check_geometry(database, bridge, report);
+  check_search(database, report);
   const EquilibriumSystem system(bridge);
   const bool mirrors = rules_in(database.provenance().solver_settings).mirror_images;
   report.most_unbalance = most_stored_unbalance(system, database.provenance().solver_settings);

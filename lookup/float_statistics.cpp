@@ -6,7 +6,7 @@
 #include <cstring>
 #include <limits>
 
-#include "lookup/float_lanes.h"
+#include "core/float_lanes.h"
 
 namespace voussoir {
 namespace {
@@ -26,52 +26,89 @@ struct Columns {
   double* product;
 };
 
-template <typename Number>
-VOUSSOIR_INLINE void collect_row(const FloatView& view, float inverse_unit, const Number* row,
-                                 std::size_t i_row, const Columns& columns) {
-  FloatLanes sum_absolute{}, sum_square{}, largest{};
+/// Running statistics of one row or cluster.
+struct FloatSums {
+  FloatLanes absolute{}, square{}, largest{};
   FloatLanes product = FloatLanes{} + 1.0F;
+};
+
+/// Adds the readings of some places: how far they are from the displacements, over the scale of their errors
+/// there; the product takes the scale for `least_scale`.
+VOUSSOIR_INLINE void add(const FloatLanes& reading, const FloatLanes& error, const FloatLanes& scale,
+                         const FloatLanes& least_scale, float inverse_unit, FloatSums& sums) {
+  const FloatMask has_reading = reading == reading;
+  const FloatLanes z = has_reading ? error / scale : FloatLanes{};
+  sums.absolute += z;
+  sums.square += z * z;
+  sums.largest = z > sums.largest ? z : sums.largest;
+  sums.product *= has_reading ? least_scale * inverse_unit : FloatLanes{} + 1.0F;
+}
+
+VOUSSOIR_INLINE void store(const FloatSums& sums, std::size_t i, const Columns& columns) {
+  float most = 0.0F;
+  double all = 1.0;
+  for (std::size_t lane = 0; lane < kFloatLanes; ++lane) {
+    most = std::max(most, sums.largest[lane]);
+    all *= static_cast<double>(sums.product[lane]);
+  }
+  columns.sum_absolute[i] = sum_of(sums.absolute);
+  columns.sum_square[i] = sum_of(sums.square);
+  columns.largest[i] = most;
+  columns.product[i] = all;
+}
+
+VOUSSOIR_INLINE void collect_row(const FloatView& view, float inverse_unit, const double* row,
+                                 std::size_t i_row, const Columns& columns) {
+  FloatSums sums;
   for (std::size_t i = 0; i < view.reading.size(); i += kFloatLanes) {
     FloatLanes reading, predicted, slope, offset;
     load(view.reading.data() + i, reading);
     load(row + i, predicted);
     load(view.slope.data() + i, slope);
     load(view.offset.data() + i, offset);
-    FloatLanes movement = predicted;
+    FloatLanes movement = predicted, error = reading - predicted;
     make_absolute(movement);
-    const FloatLanes scale = slope * movement + offset;
-    FloatLanes error = reading - predicted;
     make_absolute(error);
-    const FloatMask has_reading = reading == reading;
-    const FloatLanes z = has_reading ? error / scale : FloatLanes{};
-    sum_absolute += z;
-    sum_square += z * z;
-    largest = z > largest ? z : largest;
-    product *= has_reading ? scale * inverse_unit : FloatLanes{} + 1.0F;
+    const FloatLanes scale = slope * movement + offset;
+    add(reading, error, scale, scale, inverse_unit, sums);
   }
-  float most = 0.0F;
-  double all = 1.0;
-  for (std::size_t lane = 0; lane < kFloatLanes; ++lane) {
-    most = std::max(most, largest[lane]);
-    all *= static_cast<double>(product[lane]);
-  }
-  columns.sum_absolute[i_row] = sum_of(sum_absolute);
-  columns.sum_square[i_row] = sum_of(sum_square);
-  columns.largest[i_row] = most;
-  columns.product[i_row] = all;
+  store(sums, i_row, columns);
 }
 
 VOUSSOIR_FOR_EVERY_PROCESSOR
-void collect(const FloatView& view, float inverse_unit, const float* table, std::size_t rows,
-             std::size_t stride, const Columns& columns) {
-  for (std::size_t i = 0; i < rows; ++i) collect_row(view, inverse_unit, table + i * stride, i, columns);
-}
-
-VOUSSOIR_FOR_EVERY_PROCESSOR
-void collect_some(const FloatView& view, float inverse_unit, const double* table, const std::size_t* rows,
-                  std::size_t count, std::size_t stride, const Columns& columns) {
+void collect(const FloatView& view, float inverse_unit, const double* table, const std::size_t* rows,
+             std::size_t count, std::size_t stride, const Columns& columns) {
   for (std::size_t i = 0; i < count; ++i)
     collect_row(view, inverse_unit, table + rows[i] * stride, i, columns);
+}
+
+/// Errors against the nearest place of a cluster's box; scales at its farthest from zero for them, at its
+/// nearest to zero for the product.
+VOUSSOIR_FOR_EVERY_PROCESSOR
+void collect_boxes(const FloatView& view, float inverse_unit, const std::int16_t* least,
+                   const std::int16_t* most, const float* units, std::size_t count, const Columns& columns) {
+  const std::size_t places = view.reading.size();
+  const FloatLanes zero{};
+  for (std::size_t cluster = 0; cluster < count; ++cluster) {
+    FloatSums sums;
+    for (std::size_t i = 0; i < places; i += kFloatLanes) {
+      FloatLanes reading, low, high, slope, offset;
+      load(view.reading.data() + i, reading);
+      load(least + cluster * places + i, low);
+      load(most + cluster * places + i, high);
+      load(view.slope.data() + i, slope);
+      load(view.offset.data() + i, offset);
+      low *= units[cluster];
+      high *= units[cluster];
+      FloatLanes error = low - reading > reading - high ? low - reading : reading - high;
+      error = error > zero ? error : zero;
+      const FloatLanes farthest = -low > high ? -low : high;
+      FloatLanes nearest = low > -high ? low : -high;
+      nearest = nearest > zero ? nearest : zero;
+      add(reading, error, slope * farthest + offset, slope * nearest + offset, inverse_unit, sums);
+    }
+    store(sums, cluster, columns);
+  }
 }
 
 VOUSSOIR_FOR_EVERY_PROCESSOR
@@ -126,14 +163,6 @@ FloatStatistics collected(const Observation& observation, std::size_t rows, Run 
 
 }  // namespace
 
-FloatStatistics float_statistics(const Observation& observation, const std::vector<float>& vertical,
-                                 std::size_t rows, std::size_t stride) {
-  const FloatView view = view_of(observation, stride);
-  return collected(observation, rows, [&](float inverse_unit, const Columns& columns) {
-    collect(view, inverse_unit, vertical.data(), rows, stride, columns);
-  });
-}
-
 FloatStatistics float_statistics(const Observation& observation, const SceneTable& table,
                                  std::span<const std::size_t> rows) {
   const std::size_t stride = (table.points + kFloatLanes - 1) / kFloatLanes * kFloatLanes;
@@ -142,12 +171,22 @@ FloatStatistics float_statistics(const Observation& observation, const SceneTabl
   std::size_t inside = rows.size();
   while (inside > 0 && rows[inside - 1] * table.points + stride > table.vertical.size()) --inside;
   return collected(observation, rows.size(), [&](float inverse_unit, const Columns& columns) {
-    collect_some(view, inverse_unit, table.vertical.data(), rows.data(), inside, table.points, columns);
+    collect(view, inverse_unit, table.vertical.data(), rows.data(), inside, table.points, columns);
     std::vector<double> copy(stride, 0.0);
     for (std::size_t i = inside; i < rows.size(); ++i) {
       std::copy_n(table.row(rows[i]).begin(), table.points, copy.begin());
       collect_row(view, inverse_unit, copy.data(), i, columns);
     }
+  });
+}
+
+FloatStatistics least_statistics(const Observation& observation, const SearchIndex& index) {
+  const FloatView view = view_of(observation, index.places);
+  std::vector<float> units;
+  for (const std::int32_t exponent : index.exponent) units.push_back(std::ldexp(1.0F, exponent));
+  return collected(observation, index.clusters(), [&](float inverse_unit, const Columns& columns) {
+    collect_boxes(view, inverse_unit, index.least.data(), index.most.data(), units.data(), index.clusters(),
+                  columns);
   });
 }
 

@@ -4,7 +4,8 @@
 #include <cstddef>
 #include <vector>
 
-#include "lookup/float_lanes.h"
+#include "core/float_lanes.h"
+#include "database/search/search_index.h"
 #include "lookup/row_statistics.h"
 
 namespace voussoir {
@@ -18,13 +19,11 @@ struct FloatStatistics {
   std::vector<float> log_scale;  ///< sum log scale_i
 };
 
-/// Of `rows` rows of `stride` floats (a multiple of kFloatLanes, NaN behind the last point).
-/// Precondition: no model error.
-FloatStatistics float_statistics(const Observation& observation, const std::vector<float>& vertical,
-                                 std::size_t rows, std::size_t stride);
-
-/// Of these rows of a table, rounded as they are read.
+/// Of these rows of a table, rounded as they are read. Precondition: no model error.
 FloatStatistics float_statistics(const Observation& observation, const SceneTable& table,
                                  std::span<const std::size_t> rows);
+
+/// Of the clusters of a search index: no more than those of any of their rows. Precondition: no model error.
+FloatStatistics least_statistics(const Observation& observation, const SearchIndex& index);
 
 }  // namespace voussoir

@@ -6,7 +6,7 @@
 #include <limits>
 #include <span>
 
-#include "lookup/lanes.h"
+#include "core/lane_arithmetic.h"
 
 namespace voussoir {
 

@@ -12,7 +12,7 @@ std::string locate(const voussoir::LocateDamageOptions& options) {
   const voussoir::LookupSettings settings = finish(options);
   const auto database = voussoir::Database::open(voussoir::find_database(options.database));
   const auto measurements = voussoir::read_measurements(options.measurements, database.control_points());
-  const voussoir::Library library{database.table(), database.control_points(), database.layout()};
+  const voussoir::Library library = voussoir::library_of(database);
   const voussoir::Answer answer = voussoir::locate_damage(library, measurements, settings);
   const voussoir::Source source{options.measurements, database.path().string(), database.bridge_name(),
                                 database.digest()};

@@ -5,6 +5,7 @@
 
 #include "core/error.h"
 #include "lookup/exhaustive_search.h"
+#include "lookup/indexed_search.h"
 #include "lookup/misfit.h"
 #include "lookup/posterior_screen.h"
 #include "lookup/row_statistics.h"
@@ -33,7 +34,7 @@ std::size_t intact_row(const SceneTable& table) {
 Posterior posterior_of(const Library& library, const Measurements& measurements, const Eligible& eligible,
                        std::span<const double> intact, const LookupSettings& settings) {
   if (!settings.nuisance.any())
-    return PosteriorScreen(library.table, eligible, settings.prior, library.layout.size())(
+    return PosteriorScreen(library.table, library.index, eligible, settings.prior, library.layout.size())(
         measurements, intact, settings.noise, settings.top);
   const std::vector<double> evidence = log_evidence_with_nuisance(
       measurements, library.table, eligible.rows, intact, library.points, settings.noise, settings.nuisance);
@@ -64,10 +65,12 @@ std::vector<ScoredRow> scored_by_misfit(const Library& library, const Measuremen
     case Search::genetic:
       return run_genetic(library, measurements, settings, answer);
     case Search::nearest:
-      return NearestIndex(library.table, eligible.rows, measurements.displacement, settings.nearest)
-          .search(measurements.displacement, settings.top);
+      return nearest_search(measurements.displacement, library.table, eligible.rows, library.nearest_trees,
+                            settings.nearest, settings.top);
     default:
-      return exhaustive_search(measurements.displacement, library.table, eligible.rows, settings.top);
+      return IndexedSearch(library.table, library.index, library.points, eligible)
+          .search(measurements.displacement, settings.top)
+          .best;
   }
 }
 
@@ -142,6 +145,11 @@ void judge_best(const Library& library, const Measurements& measurements, std::s
 }
 
 }  // namespace
+
+Library library_of(const Database& database) {
+  return {database.table(), database.control_points(), database.layout(), database.search_index(),
+          database.nearest_trees()};
+}
 
 Answer locate_damage(const Library& library, const Measurements& measurements,
                      const LookupSettings& settings) {

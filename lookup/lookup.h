@@ -39,7 +39,10 @@ struct Library {
   const SceneTable& table;
   const std::vector<StoredPoint>& points;
   const BlockLayout& layout;
+  SearchIndex index;
+  ByteView nearest_trees;  ///< see NearestTrees
 };
+Library library_of(const Database& database);
 
 /// A scene that may explain the readings.
 struct Candidate {

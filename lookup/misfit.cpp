@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "lookup/lanes.h"
+#include "core/lane_arithmetic.h"
 
 namespace voussoir {
 namespace {

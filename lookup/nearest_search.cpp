@@ -4,13 +4,14 @@
 #include <cmath>
 #include <flann/flann.hpp>
 
+#include "database/search/nearest_trees.h"
 #include "lookup/misfit.h"
 
 namespace voussoir {
 namespace {
 
 constexpr double kRounding = 1e-12;  // relative: FLANN adds differences in another order than misfit() does
-constexpr long kTreeSeed = 1;        // of FLANN's own generator, so that trees are the same each time
+constexpr std::size_t kOversampling = 5;  // neighbours fetched for each one wanted: trees order them roughly
 
 using Index = flann::Index<flann::L1<double>>;
 
@@ -21,33 +22,26 @@ std::vector<std::size_t> measured_points(std::span<const double> readings) {
   return result;
 }
 
-flann::IndexParams parameters(const NearestSettings& settings) {
-  if (settings.mode == NearestMode::exact) return flann::LinearIndexParams();
-  return flann::KDTreeIndexParams(settings.trees);
-}
-
 }  // namespace
 
-struct NearestIndex::Implementation {
+struct LinearIndex::Implementation {
   const SceneTable& table;
-  NearestSettings settings;
   std::vector<std::size_t> points;  // with readings
   std::vector<std::size_t> rows;    // in the index
   std::vector<double> values;       // rows x points
   std::unique_ptr<Index> index;
 
   Implementation(const SceneTable& scene_table, std::span<const std::size_t> candidates,
-                 std::span<const double> readings, const NearestSettings& chosen)
-      : table(scene_table), settings(chosen), points(measured_points(readings)) {
+                 std::span<const double> readings)
+      : table(scene_table), points(measured_points(readings)) {
     for (const std::size_t row : candidates)
       if (std::isfinite(sum_of_differences(readings, table.row(row)))) rows.push_back(row);
     values.reserve(rows.size() * points.size());
     for (const std::size_t row : rows)
       for (const std::size_t point : points) values.push_back(table.row(row)[point]);
     if (rows.empty() || points.empty()) return;
-    flann::seed_random(kTreeSeed);
     index = std::make_unique<Index>(flann::Matrix<double>(values.data(), rows.size(), points.size()),
-                                    parameters(settings));
+                                    flann::LinearIndexParams());
     index->buildIndex();
   }
 
@@ -61,18 +55,15 @@ struct NearestIndex::Implementation {
     for (const std::size_t point : points) query.push_back(readings[point]);
     std::vector<std::vector<std::size_t>> found;
     std::vector<std::vector<double>> distances;
-    const int checks = settings.mode == NearestMode::exact ? flann::FLANN_CHECKS_UNLIMITED : settings.checks;
     index->knnSearch(flann::Matrix<double>(query.data(), 1, query.size()), found, distances, count,
-                     flann::SearchParams(checks));
+                     flann::SearchParams(flann::FLANN_CHECKS_UNLIMITED));
     Neighbours result{{}, distances.front()};
     for (const std::size_t position : found.front()) result.rows.push_back(rows[position]);
     return result;
   }
 
-  /// Enough neighbours that none beyond them can be among the best `count` after rescoring (exact mode).
+  /// Enough neighbours that none beyond them can be among the best `count` after rescoring.
   std::vector<std::size_t> candidates(std::span<const double> readings, std::size_t count) const {
-    if (settings.mode == NearestMode::approximate)
-      return neighbours(readings, std::min(rows.size(), count * settings.oversampling)).rows;
     for (std::size_t fetched = std::min(rows.size(), count + 1);;
          fetched = std::min(rows.size(), 2 * fetched)) {
       Neighbours found = neighbours(readings, fetched);
@@ -83,18 +74,30 @@ struct NearestIndex::Implementation {
   }
 };
 
-NearestIndex::NearestIndex(const SceneTable& table, std::span<const std::size_t> rows,
-                           std::span<const double> readings, const NearestSettings& settings)
-    : implementation_(std::make_unique<Implementation>(table, rows, readings, settings)) {}
-NearestIndex::~NearestIndex() = default;
-NearestIndex::NearestIndex(NearestIndex&&) noexcept = default;
-NearestIndex& NearestIndex::operator=(NearestIndex&&) noexcept = default;
+LinearIndex::LinearIndex(const SceneTable& table, std::span<const std::size_t> rows,
+                         std::span<const double> readings)
+    : implementation_(std::make_unique<Implementation>(table, rows, readings)) {}
+LinearIndex::~LinearIndex() = default;
+LinearIndex::LinearIndex(LinearIndex&&) noexcept = default;
+LinearIndex& LinearIndex::operator=(LinearIndex&&) noexcept = default;
 
-std::vector<ScoredRow> NearestIndex::search(std::span<const double> readings, std::size_t count) const {
+std::vector<ScoredRow> LinearIndex::search(std::span<const double> readings, std::size_t count) const {
   if (!implementation_->index || count == 0) return {};
   std::vector<ScoredRow> scored;
   for (const std::size_t row : implementation_->candidates(readings, count))
     scored.push_back({row, sum_of_differences(readings, implementation_->table.row(row))});
+  return best_rows(std::move(scored), count);
+}
+
+std::vector<ScoredRow> nearest_search(std::span<const double> readings, const SceneTable& table,
+                                      std::span<const std::size_t> rows, ByteView trees,
+                                      const NearestSettings& settings, std::size_t count) {
+  if (settings.mode == NearestMode::exact) return LinearIndex(table, rows, readings).search(readings, count);
+  const std::size_t wanted = std::min(rows.size(), kOversampling * count);
+  std::vector<ScoredRow> scored;
+  for (const Neighbour& neighbour :
+       NearestTrees(trees, table.vertical, table.points, rows).nearest(readings, wanted, settings.checks))
+    scored.push_back({neighbour.row, sum_of_differences(readings, table.row(neighbour.row))});
   return best_rows(std::move(scored), count);
 }
 

@@ -13,26 +13,28 @@ namespace voussoir {
 
 enum class NearestMode {
   exact,       ///< linear search: the same answer as the exhaustive search
-  approximate  ///< randomised k-d trees: may miss a scene
+  approximate  ///< the database's trees: may miss a scene
 };
 
 struct NearestSettings {
   NearestMode mode = NearestMode::exact;
-  int trees = 4;      ///< approximate mode only, here and below
-  int checks = 4096;  ///< leaves visited
-  std::size_t oversampling =
-      20;  ///< neighbours fetched for each one wanted, because trees order them roughly
+  int checks = 4096;  ///< of approximate mode: rows looked at
 };
 
-/// An index over the displacements of some rows at the points that have readings.
-class NearestIndex {
+/// The `count` rows (of those given, in ascending order) with the smallest misfit among the neighbours that
+/// FLANN finds, best first. Throws InputError if the trees (see NearestTrees) are damaged.
+std::vector<ScoredRow> nearest_search(std::span<const double> readings, const SceneTable& table,
+                                      std::span<const std::size_t> rows, ByteView trees,
+                                      const NearestSettings& settings, std::size_t count);
+
+/// FLANN's linear search over the displacements of some rows at the points that have readings.
+class LinearIndex {
  public:
   /// Rows that lack a prediction for a reading are impossible and stay out of the index.
-  NearestIndex(const SceneTable& table, std::span<const std::size_t> rows, std::span<const double> readings,
-               const NearestSettings& settings);
-  ~NearestIndex();
-  NearestIndex(NearestIndex&&) noexcept;
-  NearestIndex& operator=(NearestIndex&&) noexcept;
+  LinearIndex(const SceneTable& table, std::span<const std::size_t> rows, std::span<const double> readings);
+  ~LinearIndex();
+  LinearIndex(LinearIndex&&) noexcept;
+  LinearIndex& operator=(LinearIndex&&) noexcept;
 
   /// The `count` rows nearest in the L1 norm, best first. Readings at the same points as those of the
   /// constructor.

@@ -8,6 +8,7 @@
 
 #include "lookup/evidence.h"
 #include "lookup/float_statistics.h"
+#include "lookup/index_bounds.h"
 #include "lookup/level_curve.h"
 #include "lookup/likelihood.h"
 #include "lookup/table_evidence.h"
@@ -15,6 +16,8 @@
 namespace voussoir {
 namespace {
 
+constexpr std::size_t kClustersFirst = 8;  // whose rows are worked out first
+constexpr std::size_t kClustersMore = 4;   // times as many if they hold too few possible scenes
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 /// What single precision takes from z: this share of z, and this much of |d| / scale besides (readings and
 /// displacements are rounded by 6e-8 of their size each, and the reading's size is at most that of the error
@@ -119,33 +122,83 @@ std::vector<float> upper_bounds(const Observation& observation, const FloatStati
   return bounds;
 }
 
+/// The sum of |reading - centre| for each cluster [m].
+std::vector<double> distances_from(std::span<const double> readings, const SearchIndex& index) {
+  std::vector<std::int32_t> units(index.clusters());
+  std::vector<double> metres(index.clusters());
+  for (std::size_t first = 0, last = 0; first < index.clusters(); first = last) {
+    while (last < index.clusters() && index.exponent[last] == index.exponent[first]) ++last;
+    least_distances(round_readings(readings, index.places, index.exponent[first]),
+                    index.centre.subspan(first * index.places, (last - first) * index.places),
+                    std::span(units).subspan(first, last - first));
+    for (std::size_t i = first; i < last; ++i) metres[i] = std::ldexp(units[i], index.exponent[first]);
+  }
+  return metres;
+}
+
+/// What does not matter beside these evidences of some rows.
+double threshold(std::vector<double> values, std::size_t count, std::size_t rows) {
+  std::partial_sort(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(count), values.end(),
+                    std::greater<>());
+  return std::min(values[count - 1], values.front() + std::log(kScreenedAway / static_cast<double>(rows)));
+}
+
 }  // namespace
 
-PosteriorScreen::PosteriorScreen(const SceneTable& table, const Eligible& eligible, const Prior& prior,
-                                 std::size_t block_count)
+/// What a question is about, from the arguments of operator().
+struct PosteriorScreen::Problem {
+  const Measurements& measurements;
+  std::span<const double> intact;
+  const NoiseModel& noise;
+  Observation observation;
+};
+
+PosteriorScreen::PosteriorScreen(const SceneTable& table, const SearchIndex& index, const Eligible& eligible,
+                                 const Prior& prior, std::size_t block_count)
     : table_(table),
+      index_(index),
       eligible_(eligible),
       prior_(prior),
       block_count_(block_count),
-      stride_((table.points + kFloatLanes - 1) / kFloatLanes * kFloatLanes) {
+      log_prior_(table.rows, -kInfinity),
+      cluster_log_prior_(index.clusters(), -kInfinity) {
   const std::vector<double> by_missing = log_prior_by_missing(table, eligible, prior);
-  for (const std::uint8_t missing : eligible.missing)
-    log_prior_.push_back(static_cast<float>(by_missing[missing]));
+  for (std::size_t i = 0; i < eligible.rows.size(); ++i)
+    log_prior_[eligible.rows[i]] = static_cast<float>(by_missing[eligible.missing[i]]);
+  for (std::size_t cluster = 0; cluster < index.clusters(); ++cluster)
+    for (const std::int32_t row : index.row.subspan(index.slot(cluster), index.rows(cluster)))
+      cluster_log_prior_[cluster] =
+          std::max(cluster_log_prior_[cluster], log_prior_[static_cast<std::size_t>(row)]);
 }
 
-void PosteriorScreen::keep_copy() {
-  vertical_.assign(eligible_.rows.size() * stride_, std::numeric_limits<float>::quiet_NaN());
-  for (std::size_t i = 0; i < eligible_.rows.size(); ++i) {
-    const std::span<const double> row = table_.row(eligible_.rows[i]);
-    std::transform(row.begin(), row.end(), vertical_.begin() + static_cast<std::ptrdiff_t>(i * stride_),
-                   [](double value) { return static_cast<float>(value); });
-  }
+/// The eligible rows of some clusters, in ascending order: as they stand in memory, one after the other.
+std::vector<std::size_t> PosteriorScreen::rows_of(std::span<const std::size_t> clusters) const {
+  std::vector<std::uint8_t> is_wanted(table_.rows, 0);
+  for (const std::size_t cluster : clusters)
+    for (const std::int32_t row : index_.row.subspan(index_.slot(cluster), index_.rows(cluster)))
+      is_wanted[static_cast<std::size_t>(row)] = 1;
+  std::vector<std::size_t> rows;
+  for (const std::size_t row : eligible_.rows)
+    if (is_wanted[row] != 0) rows.push_back(row);
+  return rows;
 }
 
-std::vector<double> PosteriorScreen::exact_evidence(const Measurements& measurements,
-                                                    std::span<const std::size_t> rows,
-                                                    std::span<const double> intact,
-                                                    const NoiseModel& noise) const {
+std::vector<float> PosteriorScreen::with_prior(std::vector<float> of_clusters) const {
+  for (std::size_t i = 0; i < of_clusters.size(); ++i) of_clusters[i] += cluster_log_prior_[i];
+  return of_clusters;
+}
+
+std::vector<float> PosteriorScreen::row_bounds(const Problem& problem,
+                                               std::span<const std::size_t> rows) const {
+  std::vector<float> bounds =
+      upper_bounds(problem.observation, float_statistics(problem.observation, table_, rows), problem.noise);
+  for (std::size_t i = 0; i < bounds.size(); ++i) bounds[i] += log_prior_[rows[i]];
+  return bounds;
+}
+
+/// A value for each of the rows.
+std::vector<double> PosteriorScreen::exact_evidence(const Problem& problem,
+                                                    std::span<const std::size_t> rows) const {
   std::vector<double> vertical;
   vertical.reserve(rows.size() * table_.points);
   for (const std::size_t row : rows)
@@ -155,66 +208,57 @@ std::vector<double> PosteriorScreen::exact_evidence(const Measurements& measurem
   gathered.points = table_.points;
   gathered.vertical = vertical;
   std::vector<std::size_t> all(rows.size());
-  for (std::size_t i = 0; i < all.size(); ++i) all[i] = i;
-  const std::vector<double> logs = log_evidence_of_rows(measurements, gathered, all, intact, noise);
-  std::vector<double> result(table_.rows, -std::numeric_limits<double>::infinity());
-  for (std::size_t i = 0; i < rows.size(); ++i) result[rows[i]] = logs[i];
-  return result;
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  return log_evidence_of_rows(problem.measurements, gathered, all, problem.intact, problem.noise);
 }
 
-FloatStatistics PosteriorScreen::statistics(const Observation& observation) const {
-  if (vertical_.empty()) return float_statistics(observation, table_, eligible_.rows);
-  return float_statistics(observation, vertical_, eligible_.rows.size(), stride_);
+/// Works out the rows of the clusters nearest to the readings: what is below the `count` best of them, or far
+/// below the best, does not matter.
+double PosteriorScreen::least_that_matters(const Problem& problem, std::size_t count) const {
+  const std::vector<double> distance = distances_from(problem.observation.reading, index_);
+  std::vector<std::size_t> clusters(distance.size());
+  std::iota(clusters.begin(), clusters.end(), std::size_t{0});
+  for (std::size_t looked_at = kClustersFirst;; looked_at *= kClustersMore) {
+    looked_at = std::min(looked_at, clusters.size());
+    std::partial_sort(clusters.begin(), clusters.begin() + static_cast<std::ptrdiff_t>(looked_at),
+                      clusters.end(),
+                      [&](std::size_t a, std::size_t b) { return distance[a] < distance[b]; });
+    const std::vector<std::size_t> rows = rows_of(std::span(clusters).first(looked_at));
+    std::vector<double> values = exact_evidence(problem, rows);
+    for (std::size_t i = 0; i < values.size(); ++i) values[i] += static_cast<double>(log_prior_[rows[i]]);
+    std::erase_if(values, [](double value) { return !std::isfinite(value); });
+    if (values.size() >= count) return threshold(std::move(values), count, eligible_.rows.size());
+    if (looked_at == clusters.size()) return -std::numeric_limits<double>::infinity();
+  }
 }
 
 std::vector<std::size_t> PosteriorScreen::rows_that_matter(const Measurements& measurements,
                                                            std::span<const double> intact,
                                                            const NoiseModel& noise, std::size_t count) const {
-  const Observation observation = observe(measurements, intact, noise, noise.relative.value_or(1.0));
-  if (observation.count == 0 || !bounds_apply(measurements, noise)) return eligible_.rows;
-  std::vector<float> bounds = upper_bounds(observation, statistics(observation), noise);
-  for (std::size_t i = 0; i < bounds.size(); ++i) bounds[i] += log_prior_[i];
-  const double threshold = least_that_matters(bounds, count, measurements, intact, noise);
-  std::vector<std::size_t> rows;
-  for (std::size_t i = 0; i < bounds.size(); ++i)
-    if (bounds[i] >= threshold && bounds[i] > -kInfinity) rows.push_back(eligible_.rows[i]);
-  return rows;
-}
-
-/// Works out the `count` rows with the largest bounds: what is below all of them, or far below the best of
-/// them, does not matter.
-double PosteriorScreen::least_that_matters(const std::vector<float>& bounds, std::size_t count,
-                                           const Measurements& measurements, std::span<const double> intact,
-                                           const NoiseModel& noise) const {
-  std::vector<std::size_t> order(bounds.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  order.resize(std::min(count, order.size()));
-  const auto larger = [&](std::size_t a, std::size_t b) { return bounds[a] > bounds[b]; };
-  std::make_heap(order.begin(), order.end(), larger);
-  for (std::size_t i = order.size(); i < bounds.size(); ++i) {
-    if (bounds[i] <= bounds[order.front()]) continue;
-    std::pop_heap(order.begin(), order.end(), larger);
-    order.back() = i;
-    std::push_heap(order.begin(), order.end(), larger);
-  }
-  std::sort(order.begin(), order.end());
-  std::vector<std::size_t> rows;
-  for (const std::size_t i : order) rows.push_back(eligible_.rows[i]);
-  const std::vector<double> logs = exact_evidence(measurements, rows, intact, noise);
-  double best = -std::numeric_limits<double>::infinity(), least = -best;
-  for (const std::size_t i : order) {
-    const double value = logs[eligible_.rows[i]] + static_cast<double>(log_prior_[i]);
-    best = std::max(best, value);
-    least = std::min(least, value);
-  }
-  return std::min(least, best + std::log(kScreenedAway / static_cast<double>(eligible_.rows.size())));
+  const Problem problem{measurements, intact, noise,
+                        observe(measurements, intact, noise, noise.relative.value_or(1.0))};
+  if (problem.observation.count == 0 || !bounds_apply(measurements, noise)) return eligible_.rows;
+  const double threshold = least_that_matters(problem, count);
+  const std::vector<float> of_clusters = with_prior(
+      upper_bounds(problem.observation, least_statistics(problem.observation, index_), problem.noise));
+  std::vector<std::size_t> clusters;
+  for (std::size_t i = 0; i < of_clusters.size(); ++i)
+    if (of_clusters[i] >= threshold) clusters.push_back(i);
+  const std::vector<std::size_t> rows = rows_of(clusters);
+  const std::vector<float> of_rows = row_bounds(problem, rows);
+  std::vector<std::size_t> result;
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    if (of_rows[i] >= threshold && of_rows[i] > -kInfinity) result.push_back(rows[i]);
+  return result;
 }
 
 Posterior PosteriorScreen::operator()(const Measurements& measurements, std::span<const double> intact,
                                       const NoiseModel& noise, std::size_t count) const {
   const std::vector<std::size_t> rows = rows_that_matter(measurements, intact, noise, count);
-  return posterior(table_, eligible_, exact_evidence(measurements, rows, intact, noise), prior_,
-                   block_count_);
+  const std::vector<double> evidence = exact_evidence({measurements, intact, noise, {}}, rows);
+  std::vector<double> of_all(table_.rows, -std::numeric_limits<double>::infinity());
+  for (std::size_t i = 0; i < rows.size(); ++i) of_all[rows[i]] = evidence[i];
+  return posterior(table_, eligible_, of_all, prior_, block_count_);
 }
 
 }  // namespace voussoir

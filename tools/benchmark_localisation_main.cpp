@@ -79,7 +79,7 @@ void print_calibration(const Library& library, const std::string& title, NoiseSh
 std::string benchmark(const Options& options) {
   const auto database = voussoir::Database::open(voussoir::find_database(options.database));
   const voussoir::PaperCases cases = voussoir::read_paper_cases(voussoir::paper_cases_file());
-  const Library library{database.table(), database.control_points(), database.layout()};
+  const Library library = library_of(database);
   fmt::print(
       "Columns: Eq. 1 = the paper's objective; right = posterior with the true noise model; deflt = "
       "posterior "

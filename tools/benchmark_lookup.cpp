@@ -4,10 +4,11 @@
 #include <chrono>
 #include <cmath>
 
+#include "database/search/nearest_trees.h"
 #include "lookup/exhaustive_search.h"
+#include "lookup/indexed_search.h"
 #include "lookup/posterior_screen.h"
 #include "lookup/simulate.h"
-#include "lookup/sketch_search.h"
 
 namespace voussoir {
 namespace {
@@ -57,23 +58,31 @@ std::vector<Query> make_queries(const SceneTable& table, int count, std::uint64_
 void time_searches(const Library& library, const std::vector<Query>& queries, const Eligible& eligible,
                    LookupTimings& timings) {
   const SceneTable& table = library.table;
-  const SketchIndex sketches(table, eligible.rows, table.row(0));
+  const IndexedSearch indexed(table, library.index, library.points, eligible);
   std::vector<std::vector<ScoredRow>> scan(queries.size());
   timings.searches.push_back(timed("scan of all rows, vectorised", queries.size(), [&](std::size_t i) {
     scan[i] = exhaustive_search(queries[i].measured.displacement, table, eligible.rows, kTop);
   }));
-  timings.searches.push_back(timed("sketches, exact", queries.size(), [&](std::size_t i) {
-    if (sketches.search(queries[i].measured.displacement, kTop).best != scan[i]) ++timings.disagreements;
+  timings.searches.push_back(timed("search index, exact", queries.size(), [&](std::size_t i) {
+    if (indexed.search(queries[i].measured.displacement, kTop).best != scan[i]) ++timings.disagreements;
   }));
   // FLANN's index covers the points with readings, which are the same in queries whose scene has all points.
   std::vector<std::size_t> whole;
   for (std::size_t i = 0; i < queries.size(); ++i)
     if (queries[i].measured.count() == table.points) whole.push_back(i);
   if (whole.empty()) return;
-  const NearestIndex nearest(table, eligible.rows, queries[whole.front()].measured.displacement, {});
+  const LinearIndex nearest(table, eligible.rows, queries[whole.front()].measured.displacement);
   timings.searches.push_back(timed("FLANN linear, L1", whole.size(), [&](std::size_t i) {
     const std::size_t query = whole[i];
     if (nearest.search(queries[query].measured.displacement, kTop) != scan[query]) ++timings.disagreements;
+  }));
+  const NearestTrees trees(library.nearest_trees, table.vertical, table.points, eligible.rows);
+  timings.searches.push_back(timed("FLANN trees, approximate", queries.size(), [&](std::size_t i) {
+    const auto found = trees.nearest(queries[i].measured.displacement, kTop, NearestSettings{}.checks);
+    for (const ScoredRow& row : scan[i])
+      timings.found_by_trees +=
+          std::any_of(found.begin(), found.end(), [&](const Neighbour& one) { return one.row == row.row; });
+    timings.wanted_of_trees += scan[i].size();
   }));
 }
 
@@ -81,8 +90,7 @@ void time_posteriors(const Library& library, const std::vector<Query>& queries, 
                      LookupTimings& timings) {
   const SceneTable& table = library.table;
   const Prior prior;
-  PosteriorScreen screen(table, eligible, prior, library.layout.size());
-  screen.keep_copy();
+  const PosteriorScreen screen(table, library.index, eligible, prior, library.layout.size());
   for (const bool stated : {true, false}) {
     const auto noise_of = [&](std::size_t i) {
       return stated ? NoiseModel{NoiseShape::uniform, queries[i].level} : NoiseModel{};

@@ -52,7 +52,7 @@ TEST_CASE("Noise-free readings of every standing scene are located exactly", "[l
 
   const Database database = Database::open(request.output);
   const SceneTable& table = database.table();
-  const Library library{table, database.control_points(), database.layout()};
+  const Library library = library_of(database);
   int located = 0;
   for (const Objective objective : {Objective::paper, Objective::posterior})
     for (std::size_t row = 0; row < table.rows; ++row) {

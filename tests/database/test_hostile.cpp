@@ -86,6 +86,30 @@ TEST_CASE("Datasets of another type, rank or size are refused and named") {
   }
 }
 
+TEST_CASE("A search index that names a scene twice or has numbers out of range is refused") {
+  const std::string good = small_file();
+  const auto refusal = [&](const char* path, int number) {
+    Forgery forged(good);
+    {
+      const auto lock = lock_hdf5();
+      const Hdf5Handle dataset(H5Dopen2(forged.file(), path, H5P_DEFAULT), H5Dclose);
+      const Hdf5Handle space(H5Dget_space(dataset.get()), H5Sclose);
+      const std::vector<int> numbers(static_cast<std::size_t>(H5Sget_simple_extent_npoints(space.get())),
+                                     number);
+      REQUIRE(H5Dwrite(dataset.get(), H5T_NATIVE_INT, H5S_ALL, H5S_ALL, H5P_DEFAULT, numbers.data()) >= 0);
+    }
+    return forged.refusal();
+  };
+  CHECK_THAT(refusal(dataset::kIndexRow, 0), Catch::Contains("search/ do not fit together"));
+  CHECK_THAT(refusal(dataset::kIndexFirst, 0), Catch::Contains("search/ do not fit together"));
+  CHECK_THAT(refusal(dataset::kIndexExponent, 1000), Catch::Contains("search/ hold numbers out of range"));
+  CHECK_THAT(refusal(dataset::kIndexCoarseness, -1), Catch::Contains("search/ hold numbers out of range"));
+  CHECK_THAT(refusal(dataset::kIndexLeast, 32000), Catch::Contains("search/ hold numbers out of range"));
+  CHECK_THAT(refusal(dataset::kIndexBounds, 0x7FFFFFFF),
+             Catch::Contains("search/ hold numbers out of range"));
+  CHECK_THAT(refusal(dataset::kTrees, 1), Catch::Contains("trees are damaged"));
+}
+
 TEST_CASE("Absurd dimensions are refused without allocating memory for them") {
   const std::string good = small_file();
   const auto lock = lock_hdf5();
@@ -164,7 +188,7 @@ TEST_CASE("Another schema version is refused with both versions") {
     const std::int32_t later = 7;
     H5Awrite(version.get(), H5T_STD_I32LE, &later);
   }
-  CHECK_THAT(forged.refusal(), Catch::Contains("schema version 7 where 2 was expected"));
+  CHECK_THAT(forged.refusal(), Catch::Contains("schema version 7 where 3 was expected"));
 }
 
 TEST_CASE("Indices that point outside of their tables are refused") {

@@ -86,6 +86,10 @@ std::vector<Stretch> scene_stretches(const Database& database, const std::string
     stretches.push_back({"scene " + to_string(database.table().scene(row), database.layout()) + ":",
                          place_of(bytes, chunk), chunk.size()});
   }
+  for (const char* path : {dataset::kIndexCentre, dataset::kIndexLeast, dataset::kIndexMost,
+                           dataset::kIndexRow, dataset::kIndexBounds, dataset::kIndexSketch, dataset::kTrees})
+    stretches.push_back({fmt::format("dataset '{}'", path), place_of(bytes, database, path),
+                         database.dataset_bytes(path).size()});
   return stretches;
 }
 

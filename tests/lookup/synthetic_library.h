@@ -7,6 +7,8 @@
 #include <limits>
 #include <vector>
 
+#include "database/search/index_building.h"
+#include "database/search/nearest_trees.h"
 #include "lookup/lookup.h"
 #include "lookup/simulate.h"
 
@@ -20,6 +22,8 @@ struct SyntheticLibrary {
   std::vector<StoredPoint> points;
   BlockLayout layout;
   SceneTable table;
+  SearchIndexData index;
+  Bytes nearest_trees;
 
   SyntheticLibrary(const SyntheticLibrary&) = delete;  // the table looks into the vectors
   SyntheticLibrary& operator=(const SyntheticLibrary&) = delete;
@@ -35,9 +39,16 @@ struct SyntheticLibrary {
                         BlockId{static_cast<std::int32_t>((courses - 1) * length + i / 2)}});
     for (const Scene& scene : all_scenes(blocks, 2)) add_scene(scene);
     table = {outcome.size(), points.size(), 2, vertical, removed, outcome};
+    make_index();
   }
 
-  Library library() const { return {table, points, layout}; }
+  /// After a change of `vertical`.
+  void make_index() {
+    index = build_search_index(vertical, points.size());
+    nearest_trees = build_nearest_trees(vertical, points.size());
+  }
+
+  Library library() const { return {table, points, layout, index.view(), nearest_trees}; }
   std::span<const double> intact() const { return table.row(0); }
   std::size_t row_of(const Scene& scene) const {
     for (std::size_t row = 0; row < table.rows; ++row)
@@ -63,10 +74,10 @@ struct SyntheticLibrary {
   double settlement(const Scene& scene, const Point& at) const {
     double value = 1e-3 * (1.5 + std::sin(0.4 * at.x()));
     for (const BlockId id : scene.removed) {
-      const BlockIndex index = layout[id].index;
-      const double distance = at.x() - (index.position - 0.5 + 0.05 * index.course);
-      const double size = index.course == 1 && index.position == 2 ? 40.0 : 0.15;
-      value += 1e-3 * size * std::exp(-distance * distance / (1.0 + 0.5 * (at.y() - index.course)));
+      const BlockIndex at_block = layout[id].index;
+      const double distance = at.x() - (at_block.position - 0.5 + 0.05 * at_block.course);
+      const double size = at_block.course == 1 && at_block.position == 2 ? 40.0 : 0.15;
+      value += 1e-3 * size * std::exp(-distance * distance / (1.0 + 0.5 * (at.y() - at_block.course)));
     }
     return value;
   }

@@ -72,7 +72,7 @@ TEST_CASE("Exact nearest-neighbour search gives rows, order and values of the ex
     for (double& value : readings)
       if (random.below(4) == 0) value = std::nan("");
     const auto rows = all_rows(library.table);
-    const NearestIndex index(library.table, rows, readings, {});
+    const LinearIndex index(library.table, rows, readings);
     REQUIRE(index.search(readings, 10) == exhaustive_search(readings, library.table, rows, 10));
   }
 }
@@ -84,7 +84,7 @@ TEST_CASE("Exact nearest-neighbour search keeps the order of rows among equal di
                 library.vertical.begin() + static_cast<std::ptrdiff_t>(row * library.table.points));
   const auto rows = all_rows(library.table);
   const std::span<const double> readings = library.table.row(0);
-  CHECK(NearestIndex(library.table, rows, readings, {}).search(readings, 15) ==
+  CHECK(LinearIndex(library.table, rows, readings).search(readings, 15) ==
         exhaustive_search(readings, library.table, rows, 15));
 }
 
@@ -100,7 +100,7 @@ TEST_CASE(
     const auto readings = library.measure(truth, 0.02, NoiseShape::uniform, random).displacement;
     const auto rows = all_rows(library.table);
     const auto best = exhaustive_search(readings, library.table, rows, 1).front();
-    const auto found = NearestIndex(library.table, rows, readings, settings).search(readings, 5);
+    const auto found = nearest_search(readings, library.table, rows, library.nearest_trees, settings, 5);
     for (const ScoredRow& row : found)
       REQUIRE(row.sum == sum_of_differences(readings, library.table.row(row.row)));
     hits += found.front() == best ? 1 : 0;

@@ -1,7 +1,7 @@
 #pragma once
 /// @file Eight floats side by side.
 
-#include "lookup/lanes.h"
+#include "core/lane_arithmetic.h"
 
 namespace voussoir {
 
@@ -18,6 +18,13 @@ VOUSSOIR_INLINE void load(const double* from, FloatLanes& lanes) {
   DoubleLanes doubles;
   std::memcpy(&doubles, from, sizeof doubles);
   lanes = __builtin_convertvector(doubles, FloatLanes);
+}
+
+VOUSSOIR_INLINE void load(const std::int16_t* from, FloatLanes& lanes) {
+  using ShortLanes = std::int16_t __attribute__((vector_size(kFloatLanes * sizeof(std::int16_t))));
+  ShortLanes shorts;
+  std::memcpy(&shorts, from, sizeof shorts);
+  lanes = __builtin_convertvector(shorts, FloatLanes);
 }
 
 /// lanes = |lanes|

@@ -1,10 +1,10 @@
-#include "lookup/row_clusters.h"
+#include "database/search/row_clusters.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
-#include "lookup/float_lanes.h"
+#include "core/float_lanes.h"
 
 namespace voussoir {
 namespace {

@@ -1,0 +1,120 @@
+#include "database/search/stored_index.h"
+
+#include <algorithm>
+
+#include "database/search/index_building.h"
+#include "database/search/nearest_trees.h"
+
+namespace voussoir {
+namespace {
+
+constexpr std::int32_t kLargestExponent = 64, kMostCoarse = 16, kMostStep = 1000, kMostStart = 1 << 28;
+
+template <class T>
+DatasetValue dataset_of(const char* path, ElementType type, const std::vector<T>& values, std::uint64_t columns,
+                        const char* meaning) {
+  const ByteView bytes = view_bytes(values);
+  DatasetValue result{path, type, {values.size()}, 0, "1", meaning, {bytes.begin(), bytes.end()}};
+  if (columns > 1) result.shape = {values.size() / columns, columns};
+  return result;
+}
+
+/// SlotBounds as they are in memory.
+std::vector<std::int32_t> as_numbers(const std::vector<SlotBounds>& bounds) {
+  std::vector<std::int32_t> numbers;
+  for (const SlotBounds& one : bounds) {
+    numbers.push_back(static_cast<std::int32_t>(one.distance_and_step));
+    numbers.push_back(one.start);
+  }
+  return numbers;
+}
+
+bool within(std::span<const std::int16_t> values) {
+  return std::all_of(values.begin(), values.end(), [](std::int16_t value) {
+    return value >= -kFarthestPlace && value <= kFarthestPlace;
+  });
+}
+
+bool within(std::span<const std::int32_t> values, std::int32_t least, std::int32_t most) {
+  return std::all_of(values.begin(), values.end(),
+                     [&](std::int32_t value) { return value >= least && value <= most; });
+}
+
+bool each_once(std::span<const std::int32_t> rows) {
+  std::vector<bool> seen(rows.size(), false);
+  for (const std::int32_t row : rows) {
+    const auto place = static_cast<std::size_t>(row);
+    if (row < 0 || place >= rows.size() || seen[place]) return false;
+    seen[place] = true;
+  }
+  return true;
+}
+
+/// Clusters follow each other, none is empty, and finer units come first.
+bool in_order(const SearchIndex& index) {
+  return index.first.size() == index.clusters() + 1 && index.first.front() == 0 &&
+         static_cast<std::size_t>(index.first.back()) == index.row.size() &&
+         std::adjacent_find(index.first.begin(), index.first.end(), std::greater_equal<>()) == index.first.end() &&
+         std::is_sorted(index.exponent.begin(), index.exponent.end());
+}
+
+bool is_small(const SlotBounds& bounds) {
+  return bounds.step() <= kMostStep && bounds.start >= -kMostStart && bounds.start <= kMostStart;
+}
+
+}  // namespace
+
+std::vector<DatasetValue> search_datasets(std::span<const double> rows, std::size_t points) {
+  const SearchIndexData index = build_search_index(rows, points);
+  const std::uint64_t places = index.places;
+  return {
+      dataset_of(dataset::kIndexExponent, ElementType::int32, index.exponent, 1,
+                 "of each cluster: its unit is 2^exponent metres"),
+      dataset_of(dataset::kIndexCoarseness, ElementType::int32, index.coarseness, 1,
+                 "of each cluster: its rows' distances count 2^coarseness units"),
+      dataset_of(dataset::kIndexFirst, ElementType::int32, index.first, 1,
+                 "the first slot of each cluster, and one past the last slot"),
+      dataset_of(dataset::kIndexCentre, ElementType::int16, index.centre, places,
+                 "the middle of each cluster's rows [units]; places beyond the points are filled up"),
+      dataset_of(dataset::kIndexLeast, ElementType::int16, index.least, places,
+                 "the least displacements of each cluster's rows, rounded down [units]"),
+      dataset_of(dataset::kIndexMost, ElementType::int16, index.most, places,
+                 "the largest displacements of each cluster's rows, rounded up [units]"),
+      dataset_of(dataset::kIndexRow, ElementType::int32, index.row, 1, "the scene of each slot"),
+      dataset_of(dataset::kIndexBounds, ElementType::int32, as_numbers(index.bounds), 2,
+                 "of each slot: distance from the centre (lower 16 bits) and step (upper 16 bits); what sketching "
+                 "lost less step times the sum of the sketch"),
+      dataset_of(dataset::kIndexSketch, ElementType::int8, index.sketch, places,
+                 "of each slot: the steps from the centre"),
+      dataset_of(dataset::kTrees, ElementType::uint8, build_nearest_trees(rows, points), 1,
+                 "FLANN's k-means trees over the control displacements, behind their CRC-32"),
+  };
+}
+
+SearchIndex read_search_index(const Hdf5File& file, std::size_t rows, std::size_t points) {
+  SearchIndex index;
+  index.places = (points + kIndexPlaces - 1) / kIndexPlaces * kIndexPlaces;
+  index.exponent = file.numbers<std::int32_t>(dataset::kIndexExponent, ElementType::int32, kFlat);
+  index.coarseness = file.numbers<std::int32_t>(dataset::kIndexCoarseness, ElementType::int32, kFlat);
+  index.first = file.numbers<std::int32_t>(dataset::kIndexFirst, ElementType::int32, kFlat);
+  index.centre = file.numbers<std::int16_t>(dataset::kIndexCentre, ElementType::int16, index.places);
+  index.least = file.numbers<std::int16_t>(dataset::kIndexLeast, ElementType::int16, index.places);
+  index.most = file.numbers<std::int16_t>(dataset::kIndexMost, ElementType::int16, index.places);
+  index.row = file.numbers<std::int32_t>(dataset::kIndexRow, ElementType::int32, kFlat);
+  const auto bounds = file.numbers<std::int32_t>(dataset::kIndexBounds, ElementType::int32, 2);
+  index.bounds = {reinterpret_cast<const SlotBounds*>(bounds.data()), bounds.size() / 2};
+  index.sketch = file.numbers<std::int8_t>(dataset::kIndexSketch, ElementType::int8, index.places);
+  const std::size_t in_boxes = index.clusters() * index.places;
+  file.require(index.row.size() == rows && index.bounds.size() == rows &&
+                   index.sketch.size() == rows * index.places && index.coarseness.size() == index.clusters() &&
+                   index.centre.size() == in_boxes && index.least.size() == in_boxes &&
+                   index.most.size() == in_boxes && in_order(index) && each_once(index.row),
+               "the datasets of search/ do not fit together");
+  file.require(within(index.exponent, -kLargestExponent, kLargestExponent) &&
+                   within(index.coarseness, 0, kMostCoarse) && within(index.centre) && within(index.least) &&
+                   within(index.most) && std::all_of(index.bounds.begin(), index.bounds.end(), is_small),
+               "the datasets of search/ hold numbers out of range");
+  return index;
+}
+
+}  // namespace voussoir
