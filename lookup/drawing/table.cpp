@@ -17,7 +17,7 @@ std::string csv_text(const std::string& text) {
   return '"' + doubled + '"';
 }
 
-std::string csv_cell(const Cell& cell) {
+std::string csv_cell(const TableCell& cell) {
   if (const auto* text = std::get_if<std::string>(&cell)) return csv_text(*text);
   const double number = std::get<double>(cell);
   return std::isnan(number) ? "" : fmt::format("{}", number);
@@ -30,7 +30,7 @@ std::string with_minus_sign(std::string number) {
   return number;
 }
 
-std::string html_cell(const Cell& cell, int digits) {
+std::string html_cell(const TableCell& cell, int digits) {
   if (const auto* text = std::get_if<std::string>(&cell)) return "<td>" + escaped(*text) + "</td>";
   const double number = std::get<double>(cell);
   return fmt::format("<td class=\"number\">{}</td>",
@@ -38,7 +38,7 @@ std::string html_cell(const Cell& cell, int digits) {
 }
 
 bool holds_numbers(const Table& table, std::size_t column) {
-  return std::any_of(table.rows.begin(), table.rows.end(), [&](const std::vector<Cell>& row) {
+  return std::any_of(table.rows.begin(), table.rows.end(), [&](const std::vector<TableCell>& row) {
     return std::holds_alternative<double>(row[column]);
   });
 }
@@ -50,7 +50,7 @@ std::string to_csv(const Table& table) {
   for (std::size_t i = 0; i < table.columns.size(); ++i)
     text += (i == 0 ? "" : ",") + csv_text(table.columns[i]);
   text += '\n';
-  for (const std::vector<Cell>& row : table.rows) {
+  for (const std::vector<TableCell>& row : table.rows) {
     for (std::size_t i = 0; i < row.size(); ++i) text += (i == 0 ? "" : ",") + csv_cell(row[i]);
     text += '\n';
   }
@@ -63,9 +63,9 @@ std::string to_html(const Table& table, int digits) {
     html += fmt::format("<th{}>{}</th>", holds_numbers(table, i) ? " class=\"number\"" : "",
                         escaped(table.columns[i]));
   html += "</tr></thead><tbody>\n";
-  for (const std::vector<Cell>& row : table.rows) {
+  for (const std::vector<TableCell>& row : table.rows) {
     html += "<tr>";
-    for (const Cell& cell : row) html += html_cell(cell, digits);
+    for (const TableCell& cell : row) html += html_cell(cell, digits);
     html += "</tr>\n";
   }
   return html + "</tbody></table>\n";

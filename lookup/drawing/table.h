@@ -8,11 +8,11 @@
 namespace voussoir {
 
 /// A text or a number; NaN is an empty cell.
-using Cell = std::variant<std::string, double>;
+using TableCell = std::variant<std::string, double>;
 
 struct Table {
   std::vector<std::string> columns;
-  std::vector<std::vector<Cell>> rows;  ///< each as long as `columns`
+  std::vector<std::vector<TableCell>> rows;  ///< each as long as `columns`
 };
 
 /// Comma-separated, numbers with all their digits, texts quoted where they need to be.

@@ -7,6 +7,7 @@
 #include "database/database.h"
 #include "database/journal.h"
 #include "database/sha256.h"
+#include "tests/support/answer.h"
 #include "tests/support/bridges.h"
 #include "tests/support/made_up_database.h"
 #include "tests/support/program.h"
@@ -32,20 +33,10 @@ struct Site {
   }
 };
 
-nlohmann::json json_of(const ProgramResult& result) {
-  INFO(result.err);
-  REQUIRE(result.exit_code == 0);
-  return nlohmann::json::parse(result.out);
-}
-
 /// Digest of the small bridge's database, built once without any interruption.
 std::string undisturbed_digest() {
-  static const std::string digest = json_of(Site().build()).at("digest");
+  static const std::string digest = test::json_of(Site().build()).at("digest");
   return digest;
-}
-
-bool is_one_line(const std::string& text) {
-  return !text.empty() && text.find('\n') == text.size() - 1;
 }
 
 }  // namespace
@@ -54,8 +45,8 @@ TEST_CASE("build-database reports a whole build in one line of JSON and leaves o
           "[whole-build]") {
   const Site site;
   const ProgramResult result = site.build();
-  const auto json = json_of(result);
-  CHECK(is_one_line(result.out));
+  const auto json = test::json_of(result);
+  CHECK(test::is_one_line(result.out));
   CHECK(json.at("ok") == true);
   CHECK(json.at("scenes") == 742);
   CHECK(json.at("standing").get<int>() + json.at("collapsed").get<int>() + json.at("unresolved").get<int>() ==
@@ -66,15 +57,15 @@ TEST_CASE("build-database reports a whole build in one line of JSON and leaves o
 
 TEST_CASE("build-database run again says that the file is up to date and ends with 0") {
   const Site site;
-  json_of(site.build_with({"--scenes", "intact;5,1"}));
-  const auto again = json_of(site.build_with({"--scenes", "5,1;intact"}));
+  test::json_of(site.build_with({"--scenes", "intact;5,1"}));
+  const auto again = test::json_of(site.build_with({"--scenes", "5,1;intact"}));
   CHECK(again.at("up_to_date") == true);
   CHECK(again.at("computed") == 0);
 }
 
 TEST_CASE("The digest of real scenes is the same for 1, 2 and 5 threads", "[whole-build]") {
   for (const char* threads : {"1", "2", "5"})
-    CHECK(json_of(Site().build_with({"--threads", threads})).at("digest") == undisturbed_digest());
+    CHECK(test::json_of(Site().build_with({"--threads", threads})).at("digest") == undisturbed_digest());
 }
 
 TEST_CASE("A build killed at random moments at least 20 times ends with the digest of an undisturbed one",
@@ -99,7 +90,7 @@ TEST_CASE("A build killed at random moments at least 20 times ends with the dige
       std::filesystem::remove(site.output);
     }
   }
-  const auto last = json_of(site.build());
+  const auto last = test::json_of(site.build());
   CHECK(last.at("digest") == expected);
   CHECK(resumed + last.at("resumed").get<std::size_t>() > 0);
   CHECK(test::run("verify-database", {site.output.string()}).exit_code == 0);
@@ -112,14 +103,14 @@ TEST_CASE("When the disk is full the build says so, keeps what is done and goes 
   CHECK_THAT(full.err, Catch::Contains("small.h5.partial: cannot be written: File too large"));
   CHECK_THAT(full.err, Catch::Contains("run the same command again"));
   CHECK_FALSE(std::filesystem::exists(site.output));
-  const auto json = json_of(site.build());
+  const auto json = test::json_of(site.build());
   CHECK(json.at("resumed") > 20);
   CHECK(json.at("digest") == undisturbed_digest());
 }
 
 TEST_CASE("When only the finished file does not fit on the disk every scene is kept", "[whole-build]") {
   const Site site;
-  json_of(site.build());
+  test::json_of(site.build());
   const std::uintmax_t size = std::filesystem::file_size(site.output);
   std::filesystem::remove(site.output);
   const ProgramResult full = site.build(test::file_size_limit(size - 1));
@@ -127,7 +118,7 @@ TEST_CASE("When only the finished file does not fit on the disk every scene is k
   CHECK_THAT(full.err, Catch::Contains("cannot be written: File too large; all scenes are kept"));
   CHECK_FALSE(std::filesystem::exists(site.output));
   CHECK_FALSE(std::filesystem::exists(unfinished_path(site.output)));
-  const auto json = json_of(site.build());
+  const auto json = test::json_of(site.build());
   CHECK(json.at("resumed") == 742);
   CHECK(json.at("computed") == 0);
   CHECK(json.at("digest") == undisturbed_digest());
@@ -135,7 +126,7 @@ TEST_CASE("When only the finished file does not fit on the disk every scene is k
 
 TEST_CASE("A full disk leaves the old database as it was", "[whole-build]") {
   const Site site;
-  json_of(site.build_with({"--scenes", "singles"}));
+  test::json_of(site.build_with({"--scenes", "singles"}));
   const std::string before = Database::open(site.output).digest();
   CHECK(site.build(test::file_size_limit(500'000)).exit_code == 1);
   CHECK(Database::open(site.output).digest() == before);
@@ -147,7 +138,7 @@ TEST_CASE("In a folder that cannot be written to the build says so and ends with
   const ProgramResult result = site.build(test::obey_permissions);
   std::filesystem::permissions(site.folder.path(), std::filesystem::perms(0755));
   CHECK(result.exit_code == 1);
-  CHECK(is_one_line(result.err));
+  CHECK(test::is_one_line(result.err));
   CHECK_THAT(result.err, Catch::Contains("small.h5.partial: cannot be written: Permission denied"));
 }
 
@@ -190,7 +181,7 @@ TEST_CASE("A bridge file that is missing or bad is named") {
   const ProgramResult missing = test::run("build-database", {(folder / "none.toml").string()});
   CHECK(missing.exit_code != 0);
   CHECK_THAT(missing.err, Catch::Contains("none.toml"));
-  CHECK(is_one_line(missing.err));
+  CHECK(test::is_one_line(missing.err));
   std::ofstream(folder / "bad.toml") << "[wall]\nlength_m = -20\n";
   const ProgramResult bad = test::run("build-database", {(folder / "bad.toml").string()});
   CHECK(bad.exit_code == 2);
@@ -208,7 +199,7 @@ TEST_CASE("build-database --help and --version end with 0 and say what they shou
 
 TEST_CASE("build-database --version says just what the database that it would build states of its origin") {
   const Site site;
-  json_of(site.build_with({"--scenes", "intact", "--solver", "dynamic"}));
+  test::json_of(site.build_with({"--scenes", "intact", "--solver", "dynamic"}));
   const Provenance stated = Database::open(site.output).provenance();
   const ProgramResult version = site.build_with({"--solver", "dynamic", "--version"});
   CHECK(version.exit_code == 0);

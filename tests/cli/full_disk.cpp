@@ -9,6 +9,7 @@
 
 #include "database/database.h"
 #include "database/writer.h"
+#include "tests/support/answer.h"
 #include "tests/support/bridges.h"
 #include "tests/support/program.h"
 
@@ -48,17 +49,11 @@ test::ProgramResult build(const std::filesystem::path& output, const std::string
                                       "--scenes", scenes, "--format", "json"});
 }
 
-nlohmann::json json_of(const test::ProgramResult& result) {
-  INFO(result.err);
-  REQUIRE(result.exit_code == 0);
-  return nlohmann::json::parse(result.out);
-}
-
 /// Digest and size of the small bridge's database, built where there is room.
 nlohmann::json undisturbed() {
   static const nlohmann::json summary = [] {
     const test::TemporaryFolder folder;
-    return json_of(build(folder / "small.h5"));
+    return test::json_of(build(folder / "small.h5"));
   }();
   return summary;
 }
@@ -80,7 +75,7 @@ TEST_CASE("On a full disk the build says so, keeps what is done and goes on when
   CHECK(build(disk / "small.h5").exit_code == 1);  // the disk is as full as before
 
   disk.resize(kPlenty);
-  const auto json = json_of(build(disk / "small.h5"));
+  const auto json = test::json_of(build(disk / "small.h5"));
   CHECK(json.at("resumed") > 20);
   CHECK(json.at("digest") == undisturbed().at("digest"));
 }
@@ -97,7 +92,7 @@ TEST_CASE("On a disk with room for the scenes but not for the finished file ever
   CHECK_FALSE(std::filesystem::exists(unfinished_path(disk / "small.h5")));
 
   disk.resize(kPlenty);
-  const auto json = json_of(build(disk / "small.h5"));
+  const auto json = test::json_of(build(disk / "small.h5"));
   CHECK(json.at("resumed") == 742);
   CHECK(json.at("computed") == 0);
   CHECK(json.at("digest") == undisturbed().at("digest"));
@@ -106,7 +101,7 @@ TEST_CASE("On a disk with room for the scenes but not for the finished file ever
 TEST_CASE("On a full disk the old database stays as it was", "[whole-build]") {
   const SmallDisk disk(std::size_t{1024} << 10);
   if (!disk.is_there()) return;
-  const std::string before = json_of(build(disk / "small.h5", "singles")).at("digest");
+  const std::string before = test::json_of(build(disk / "small.h5", "singles")).at("digest");
   CHECK(build(disk / "small.h5").exit_code == 1);
   CHECK(Database::open(disk / "small.h5").digest() == before);
 }

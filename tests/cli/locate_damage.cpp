@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "database/database.h"
+#include "tests/support/answer.h"
 #include "tests/support/bridges.h"
 #include "tests/support/program.h"
 
@@ -56,10 +57,6 @@ std::size_t occurrences(const std::string& text, const std::string& part) {
   std::size_t found = 0;
   for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++found;
   return found;
-}
-
-bool is_one_line(const std::string& text) {
-  return !text.empty() && text.find('\n') == text.size() - 1;
 }
 
 }  // namespace
@@ -113,7 +110,7 @@ TEST_CASE("A bad measurements file gives one line that names file, line and what
     const ProgramResult result = desk().locate(text);
     CHECK(result.exit_code == 2);
     CHECK(result.out.empty());
-    CHECK(is_one_line(result.err));
+    CHECK(test::is_one_line(result.err));
     CHECK_THAT(result.err, Contains("readings.csv"));
     return result.err;
   };
@@ -132,7 +129,7 @@ TEST_CASE("A missing, foreign or truncated database gives one line that says so"
   const auto message = [&](const std::string& database) {
     const ProgramResult result = test::run("locate-damage", {readings, "-d", database});
     CHECK((result.exit_code == 1 || result.exit_code == 2));
-    CHECK(is_one_line(result.err));
+    CHECK(test::is_one_line(result.err));
     return result.err;
   };
   CHECK_THAT(message("/nowhere/bridge.h5"), Contains("/nowhere/bridge.h5"));
@@ -166,7 +163,7 @@ TEST_CASE("query-field gives points by name, place and set, and refuses what is 
        {std::vector<std::string>{"99,1"}, {"4,2", "--at", "Z9"}, {"4,2+4,2"}}) {
     const ProgramResult result = query(bad);
     CHECK(result.exit_code == 2);
-    CHECK(is_one_line(result.err));
+    CHECK(test::is_one_line(result.err));
   }
 }
 
@@ -214,7 +211,7 @@ TEST_CASE("A report that cannot be written is a failure, and then there is no an
   const ProgramResult result = desk().locate(desk().readings_of("4,2"), {"--report", "/nowhere/report.html"});
   CHECK(result.exit_code == 1);
   CHECK(result.out.empty());
-  CHECK(is_one_line(result.err));
+  CHECK(test::is_one_line(result.err));
   CHECK_THAT(result.err, Contains("/nowhere/report.html"));
 }
 

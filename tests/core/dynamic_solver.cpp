@@ -51,7 +51,8 @@ DynamicSettings patient() {
 }  // namespace
 
 TEST_CASE(
-    "Standing scenes of the reference bridge: dynamic and quasi-static solver agree (independent solver)") {
+    "Standing scenes of the reference bridge: dynamic and quasi-static solver agree (independent solver)",
+    "[many-scenes]") {
   const Bridge& bridge = reference();
   std::vector<Scene> scenes;
   for (const char* text : {"intact", "10,4", "6,4", "2,6", "4,10", "8,12", "10,12", "4,2+11,3", "4,10+2,6"})
@@ -100,8 +101,8 @@ TEST_CASE(
   }
 }
 
-TEST_CASE(
-    "Where gravity acts at once, the half blocks slide down and the arch falls as the paper describes") {
+TEST_CASE("Where gravity acts at once, the half blocks slide down and the arch falls as the paper describes",
+          "[many-scenes]") {
   // Oracle: the paper's words for its cases with collapse: local above the missing blocks, or of the arch by
   // the keystone. With slow gravity (the default) the half blocks hang by friction, see the case before.
   DynamicSettings sudden;

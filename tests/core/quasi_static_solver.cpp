@@ -103,7 +103,7 @@ TEST_CASE("A mirrored scene has the mirrored field", "[solver]") {
   }
 }
 
-TEST_CASE("Every wall single of the reference bridge stands, no arch single does", "[solver]") {
+TEST_CASE("Every wall single of the reference bridge stands, no arch single does", "[solver][many-scenes]") {
   const Bridge bridge = test::reference_bridge();
   QuasiStaticSolver solver(bridge);
   const Solution intact = solver.solve(Scene{});
@@ -145,7 +145,7 @@ TEST_CASE("A removed block has no displacement and the others have one", "[solve
   CHECK(solution.displacement.array().isNaN().count() == 2 * gone.size());
 }
 
-TEST_CASE("The signal of a removal is within two per cent of the converged answer", "[solver]") {
+TEST_CASE("The signal of a removal is within two per cent of the converged answer", "[solver][many-scenes]") {
   // Oracle: the same bridge with two more levels of refinement (16 times the triangles).
   BridgeDescription fine_description;
   fine_description.mesh.refinement = 2;

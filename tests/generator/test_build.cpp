@@ -6,6 +6,7 @@
 #include "database/journal.h"
 #include "generator/build.h"
 #include "generator/start_field.h"
+#include "tests/support/file_text.h"
 #include "tests/support/made_up_solver.h"
 #include "tests/support/temporary_folder.h"
 
@@ -37,11 +38,6 @@ std::string digest_of_reference() {
 bool same_bits(const Field& first, const Field& second) {
   return std::memcmp(first.data(), second.data(), static_cast<std::size_t>(first.size()) * sizeof(double)) ==
          0;
-}
-
-std::string text_of(const std::filesystem::path& path) {
-  std::ifstream stream(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
 }
 
 }  // namespace
@@ -167,11 +163,11 @@ TEST_CASE("Building without fields keeps the same control displacements") {
 TEST_CASE("A file that is up to date is left alone") {
   const Site site;
   site.build();
-  const std::string before = text_of(site.request.output);
+  const std::string before = test::text_of(site.request.output);
   const BuildSummary summary = site.build(test::failing_solver(1));
   CHECK(summary.up_to_date);
   CHECK(summary.digest == digest_of_reference());
-  CHECK(text_of(site.request.output) == before);
+  CHECK(test::text_of(site.request.output) == before);
 }
 
 TEST_CASE("Forced, a build computes everything anew") {
@@ -231,7 +227,7 @@ TEST_CASE("When the list of scenes grows only new scenes are computed") {
 TEST_CASE("Damaged records of the old file are computed anew") {
   Site site;
   site.build();
-  std::string bytes = text_of(site.request.output);
+  std::string bytes = test::text_of(site.request.output);
   bytes[bytes.size() / 2] ^= 4;  // amid the fields
   std::ofstream(site.request.output, std::ios::binary) << bytes;
   site.request.bridge.text += "# a remark\n";
@@ -247,7 +243,7 @@ TEST_CASE("A build does not replace a file that is no database unless forced") {
   Site site;
   std::ofstream(site.request.output) << "point,uy_mm\nT1,-1\n";
   CHECK_THROWS_WITH(site.build(), Catch::Contains("no database"));
-  CHECK(text_of(site.request.output) == "point,uy_mm\nT1,-1\n");
+  CHECK(test::text_of(site.request.output) == "point,uy_mm\nT1,-1\n");
   site.request.force = true;
   CHECK(site.build().digest == digest_of_reference());
 }

@@ -8,16 +8,12 @@
 #include "generator/build.h"
 #include "generator/verify.h"
 #include "tests/support/bridges.h"
+#include "tests/support/file_text.h"
 #include "tests/support/made_up_solver.h"
 #include "tests/support/temporary_folder.h"
 
 namespace voussoir {
 namespace {
-
-std::string text_of(const std::filesystem::path& path) {
-  std::ifstream stream(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
 
 /// A database of a few scenes of the small bridge, solved for real.
 struct FewScenes {
@@ -33,7 +29,7 @@ struct FewScenes {
     request.scenes = "intact;4,1..3;0,5;4,1+4,2";
     request.threads = 1;
     build_database(request, quasi_static(), quiet);
-    bytes = text_of(path);
+    bytes = test::text_of(path);
   }
 
   VerifyReport verify_with(const std::string& changed, std::size_t recompute = 0) const {
@@ -113,6 +109,27 @@ std::pair<const Stretch*, std::size_t> choose_bit(const std::vector<Stretch>& st
   return {chosen, random() % (8 * chosen->size)};
 }
 
+/// Whole files, each with one bit changed.
+void flip_bits_and_verify(int trials) {
+  const FewScenes few;
+  std::vector<Stretch> stretches;
+  {
+    const Database database = Database::open(few.path);
+    stretches = scene_stretches(database, few.bytes);
+  }
+  std::mt19937_64 random(static_cast<std::uint64_t>(trials));
+  for (int trial = 0; trial < trials; ++trial) {
+    const auto [stretch, bit] = choose_bit(stretches, trial % 2 == 0, random);
+    std::string changed = few.bytes;
+    changed[stretch->offset + bit / 8] =
+        static_cast<char>(changed[stretch->offset + bit / 8] ^ (1 << (bit % 8)));
+    const VerifyReport report = few.verify_with(changed);
+    INFO("trial " << trial << ", byte " << stretch->offset + bit / 8 << ", " << stretch->what);
+    REQUIRE_FALSE(report.ok());
+    REQUIRE(names(report, stretch->what));
+  }
+}
+
 }  // namespace
 
 TEST_CASE("A database just built is in order and its scenes come out the same when solved anew") {
@@ -127,24 +144,13 @@ TEST_CASE("A database just built is in order and its scenes come out the same wh
   CHECK(report.largest_unbalance <= report.most_unbalance);
 }
 
-TEST_CASE("1,000 single bits flipped in scene data are all found, and the scene or dataset is named") {
-  const FewScenes few;
-  std::vector<Stretch> stretches;
-  {
-    const Database database = Database::open(few.path);
-    stretches = scene_stretches(database, few.bytes);
-  }
-  std::mt19937_64 random(1000);
-  for (int trial = 0; trial < 1000; ++trial) {
-    const auto [stretch, bit] = choose_bit(stretches, trial % 2 == 0, random);
-    std::string changed = few.bytes;
-    changed[stretch->offset + bit / 8] =
-        static_cast<char>(changed[stretch->offset + bit / 8] ^ (1 << (bit % 8)));
-    const VerifyReport report = few.verify_with(changed);
-    INFO("trial " << trial << ", byte " << stretch->offset + bit / 8 << ", " << stretch->what);
-    REQUIRE_FALSE(report.ok());
-    REQUIRE(names(report, stretch->what));
-  }
+TEST_CASE("100 single bits flipped in scene data are all found, and the scene or dataset is named") {
+  flip_bits_and_verify(100);
+}
+
+TEST_CASE("1,000 single bits flipped in scene data are all found, and the scene or dataset is named",
+          "[many-scenes]") {
+  flip_bits_and_verify(1000);
 }
 
 TEST_CASE("A flipped bit in the geometry is found and its dataset named") {

@@ -8,6 +8,8 @@
 
 namespace voussoir {
 
+inline constexpr double kBridgeWidth = 1040.0;  ///< of drawings of the whole bridge [CSS pixels]
+
 /// Figs. 1 and 2: blocks with their indices and control points; triangles.
 std::vector<Exhibit> geometry_exhibits(const Subject& subject);
 

@@ -3,14 +3,13 @@
 #include <functional>
 
 #include "tools/reproduction/exhibits.h"
+#include "tools/reproduction/shares.h"
 
 namespace voussoir {
 namespace {
 
-constexpr double kPerCent = 100.0;
-
 double per_cent(int count, const Success& success) {
-  return kPerCent * static_cast<double>(count) / std::max(1, success.trials);
+  return kPerCent * share(count, success.trials);
 }
 
 /// One way to rank scenes, and its colour.

@@ -10,7 +10,6 @@
 namespace voussoir {
 namespace {
 
-constexpr double kWidth = 1040.0;
 constexpr double kAbove = 0.45, kBelow = 0.2;  // [m] free
 constexpr int kNamedEvery = 5;                 // control points with their names written
 
@@ -37,7 +36,7 @@ std::string point_element(const Subject& subject, const BridgeFrame& frame, std:
 
 Drawing draw_geometry(const Subject& subject) {
   const BlockLayout& layout = subject.database.layout();
-  const BridgeFrame frame = frame_of(layout, kWidth, kAbove, kBelow);
+  const BridgeFrame frame = frame_of(layout, kBridgeWidth, kAbove, kBelow);
   std::string elements = ground_element(layout, frame) + block_elements(layout, frame, [&](BlockId id) {
                            return BlockLook{"stone", fmt::format("({})\n{}", to_string(layout[id].index),
                                                                  place_in_words(id, layout))};
@@ -97,7 +96,7 @@ std::string triangles_of(const Mesh& mesh, std::size_t block, const BridgeFrame&
 
 Drawing draw_mesh(const Subject& subject) {
   const BlockLayout& layout = subject.database.layout();
-  const BridgeFrame frame = frame_of(layout, kWidth, 0.1, kBelow);
+  const BridgeFrame frame = frame_of(layout, kBridgeWidth, 0.1, kBelow);
   std::string elements = ground_element(layout, frame);
   for (std::size_t i = 0; i < layout.size(); ++i)
     elements += path_element(fmt::format("mesh f{0}", rule_of(layout.blocks[i]).colour),

@@ -8,17 +8,12 @@
 #include "lookup/misfit.h"
 #include "lookup/words.h"
 #include "tools/reproduction/exhibits.h"
+#include "tools/reproduction/shares.h"
 
 namespace voussoir {
 namespace {
 
-constexpr double kWidth = 1040.0;
-constexpr double kPerCent = 100.0;
 constexpr double kFound = 0.5;  // share of seeds
-
-double share(int count, int trials) {
-  return static_cast<double>(count) / std::max(1, trials);
-}
 
 /// The number below which a share of the sorted numbers lies.
 double quantile(const std::vector<int>& sorted, double part) {
@@ -69,7 +64,7 @@ BlockLook look_of(const Misfits& objective, const BlockLayout& layout, BlockId i
 
 Drawing draw_objective(const Subject& subject, const Misfits& objective) {
   const BlockLayout& layout = subject.database.layout();
-  const BridgeFrame frame = frame_of(layout, kWidth, 0.1, 0.15);
+  const BridgeFrame frame = frame_of(layout, kBridgeWidth, 0.1, 0.15);
   Drawing drawing{frame.width, frame.height + kColourBarHeight, "Eq. 1 of every block", ""};
   drawing.elements =
       ground_element(layout, frame) +
@@ -241,7 +236,7 @@ Exhibit posterior_exhibit(const std::vector<CaseResult>& results, const std::str
                "unknown: in five [%]", "unknown: in the 95 % set [%]"},
               {}};
   for (const CaseResult& r : results) {
-    std::vector<Cell> row = {as_printed(r.paper_case.scene), noise_per_cent(r.paper_case.noise)};
+    std::vector<TableCell> row = {as_printed(r.paper_case.scene), noise_per_cent(r.paper_case.noise)};
     const auto add = [&](int count) { row.emplace_back(kPerCent * share(count, r.paper_objective.trials)); };
     add(r.paper_objective.first);
     add(r.paper_objective.in_five);

@@ -6,17 +6,13 @@
 #include <cmath>
 #include <numeric>
 
+#include "tools/reproduction/shares.h"
 #include "tools/reproduction/subject.h"
 
 namespace voussoir {
 namespace {
 
-constexpr double kPerCent = 100.0;
 constexpr double kCertain = 2.0;  // standard errors between two shares that count as different
-
-double share(int count, int trials) {
-  return static_cast<double>(count) / std::max(1, trials);
-}
 
 /// How many standard errors the second share lies above the first (pooled, two binomial samples).
 double standard_errors_above(int low, int low_trials, int high, int high_trials) {

@@ -40,7 +40,7 @@ Findings stack() {
   return findings;
 }
 
-constexpr double kWidth = 1.0;
+constexpr double kBlockWidth = 1.0;
 constexpr double kHeight = 2.0;
 
 /// A block of 1 m x 2 m on a clamped slab.
@@ -53,8 +53,8 @@ Bridge table(double normal_stiffness, double young_modulus) {
   description.joints = {.normal_stiffness = normal_stiffness,
                         .tangential_stiffness = normal_stiffness,
                         .friction_angle = std::atan(2.0)};
-  return assemble_blocks(description,
-                         {rectangle({10.0, 0.0}, kWidth, 0.5), rectangle({10.0, 0.5}, kWidth, kHeight)});
+  return assemble_blocks(
+      description, {rectangle({10.0, 0.0}, kBlockWidth, 0.5), rectangle({10.0, 0.5}, kBlockWidth, kHeight)});
 }
 
 /// The weight in a table that is tilted by an angle [rad].
@@ -76,17 +76,17 @@ double topples_at(double normal_stiffness) {
 /// Angle [rad] at which a rigid block topples off an elastic joint without tension: the resultant N keeps a
 /// third of the closed width a from the edge, and the block leans by 2 N / (p_n a^2); the best a.
 double topples_on_elastic_joint(double normal_stiffness) {
-  const double normal = kWidth * kHeight * 2400.0 * 9.81 * std::cos(std::atan(kWidth / kHeight));
+  const double normal = kBlockWidth * kHeight * 2400.0 * 9.81 * std::cos(std::atan(kBlockWidth / kHeight));
   double best = 0.0;
-  for (double a = kWidth; a > 1e-5 * kWidth; a *= 0.999)
-    best = std::max(best, std::atan((0.5 * kWidth - a / 3.0) / (0.5 * kHeight)) -
+  for (double a = kBlockWidth; a > 1e-5 * kBlockWidth; a *= 0.999)
+    best = std::max(best, std::atan((0.5 * kBlockWidth - a / 3.0) / (0.5 * kHeight)) -
                               2.0 * normal / (normal_stiffness * a * a));
   return best;
 }
 
 Findings tilting_table() {
   Findings findings;
-  const double rigid = std::atan(kWidth / kHeight);
+  const double rigid = std::atan(kBlockWidth / kHeight);
   Series computed{.label = "computed"};
   Series predicted{.label = "rigid block on an elastic joint"};
   for (const double stiffness : {1e8, 1e9, 1e10, 1e11, 1e12}) {

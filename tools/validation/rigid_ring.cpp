@@ -11,7 +11,7 @@ namespace voussoir::validation {
 namespace {
 
 constexpr double kThickest = 0.6;
-constexpr double kWidth = 1e-7;  ///< of the bisection
+constexpr double kBisectionWidth = 1e-7;  ///< of the bisection
 
 /// What is left of a convex polygon where normal . x <= bound.
 Polygon cut(const Polygon& polygon, const Point& normal, double bound) {
@@ -93,7 +93,7 @@ bool ring_stands(int voussoirs, double thickness, double friction, VoussoirShape
 
 std::optional<double> least_thickness(int voussoirs, double friction, VoussoirShape shape) {
   if (!ring_stands(voussoirs, kThickest, friction, shape)) return std::nullopt;
-  return first_true(0.0, kThickest, kWidth,
+  return first_true(0.0, kThickest, kBisectionWidth,
                     [&](double thickness) { return ring_stands(voussoirs, thickness, friction, shape); });
 }
 

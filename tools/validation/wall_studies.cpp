@@ -7,7 +7,7 @@
 namespace voussoir::validation {
 namespace {
 
-constexpr double kWidth = 1.0;      ///< [m] of the wall; it is as high
+constexpr double kWallWidth = 1.0;  ///< [m] of the wall; it is as high
 constexpr double kThickness = 0.2;  ///< [m]
 constexpr double kBlock = 0.2;      ///< [m] long, half as high
 constexpr double kLeft = 10.0;      ///< [m] x of the left side, away from the supports of bridges
@@ -23,29 +23,29 @@ Bridge shear_wall(double friction) {
       .young_modulus = 15.5e9, .poisson_ratio = 0.2, .density = 2400.0, .thickness = kThickness};
   description.joints = {
       .normal_stiffness = 5e9, .tangential_stiffness = 2e9, .friction_angle = std::atan(friction)};
-  std::vector<Polygon> blocks = {rectangle({kLeft, 0.0}, kWidth, kFooting)};
+  std::vector<Polygon> blocks = {rectangle({kLeft, 0.0}, kWallWidth, kFooting)};
   for (int course = 0; course < kCourses; ++course) {
     const double y = kFooting + 0.5 * kBlock * course;
     std::vector<double> x = {0.0};
-    for (double at = course % 2 == 0 ? kBlock : 0.5 * kBlock; at < kWidth - 1e-9; at += kBlock)
+    for (double at = course % 2 == 0 ? kBlock : 0.5 * kBlock; at < kWallWidth - 1e-9; at += kBlock)
       x.push_back(at);
-    x.push_back(kWidth);
+    x.push_back(kWallWidth);
     for (std::size_t i = 0; i + 1 < x.size(); ++i)
       blocks.push_back(rectangle({kLeft + x[i], y}, x[i + 1] - x[i], 0.5 * kBlock));
   }
-  blocks.push_back(rectangle({kLeft, kFooting + kWidth}, kWidth, 0.1));
+  blocks.push_back(rectangle({kLeft, kFooting + kWallWidth}, kWallWidth, 0.1));
   return assemble_blocks(description, blocks);
 }
 
 /// The vertical force along the beam's top, the horizontal one at its left end [N].
 Field load_on_beam(const Bridge& bridge, double vertical, double horizontal) {
   Field load = Field::Zero(2, bridge.mesh.node_count());
-  const double top = kFooting + kWidth + 0.1;
+  const double top = kFooting + kWallWidth + 0.1;
   for (const BoundaryEdge& edge : bridge.mesh.edges) {
     const Point from = bridge.mesh.position(edge.from);
     const Point to = bridge.mesh.position(edge.to);
     if (std::min(from.y(), to.y()) < top - 1e-9) continue;
-    const double share = 0.5 * (to - from).norm() / kWidth;
+    const double share = 0.5 * (to - from).norm() / kWallWidth;
     for (const NodeId node : {edge.from, edge.to})
       load.col(value(node)) += share * Point(horizontal, -vertical);
   }
@@ -98,7 +98,7 @@ Findings shear_walls() {
     std::vector<double> greatest;  ///< [kN]
   };
   for (const Tested& tested : {Tested{0.15e6, {21.9, 22.9}}, Tested{0.50e6, {41.5, 48.2}}}) {
-    const double vertical = tested.stress * kWidth * kThickness;
+    const double vertical = tested.stress * kWallWidth * kThickness;
     const double measured = 0.5 * (tested.greatest[0] + tested.greatest[1]);
     Plot plot{.title = fmt::format("Dry-stone wall under {:.2f} MPa", tested.stress * 1e-6),
               .x_label = "displacement of the top [mm]",
