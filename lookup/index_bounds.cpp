@@ -21,7 +21,8 @@ void plain_distances(const UnitReadings& readings, std::span<const std::int16_t>
   for (std::size_t cluster = 0; cluster < distances.size(); ++cluster) {
     distances[cluster] = -readings.rounded;
     for (std::size_t i = 0; i < places; ++i)
-      distances[cluster] += std::abs(readings.reading[i] - centres[cluster * places + i]) * readings.is_read[i];
+      distances[cluster] +=
+          std::abs(readings.reading[i] - centres[cluster * places + i]) * readings.is_read[i];
   }
 }
 
@@ -31,12 +32,13 @@ void plain_sides(std::span<const std::int16_t> centre, const UnitReadings& readi
     sides[i] = readings.is_read[i] == 0 ? 1 : readings.reading[i] > centre[i] ? 2 : 0;
 }
 
-/// Writes the slots of those rows that may be nearer to the readings than the cluster's centre by `room` or more;
-/// gives how many.
+/// Writes the slots of those of some rows that lie at least `reach` from the cluster's centre and may be
+/// nearer to the readings than it by `room` or more; gives how many. May write others whose distance is less.
 std::size_t plain_within(const SearchIndex& index, std::size_t first, std::size_t rows,
-                         std::span<const std::uint8_t> sides, std::int32_t room, std::uint32_t* found) {
+                         std::span<const std::uint8_t> sides, std::int32_t reach, std::int32_t room,
+                         std::uint32_t* found) {
   std::size_t count = 0;
-  for (std::size_t slot = first; slot < first + rows; ++slot) {
+  for (std::size_t slot = first; slot < first + rows && index.bounds[slot].distance() >= reach; ++slot) {
     std::int32_t sum = 0;
     for (std::size_t i = 0; i < sides.size(); ++i) sum += sides[i] * index.sketch[slot * sides.size() + i];
     found[count] = static_cast<std::uint32_t>(slot);
@@ -49,8 +51,8 @@ std::size_t plain_within(const SearchIndex& index, std::size_t first, std::size_
 struct SketchSums {
   std::int32_t apart, sketch;
 };
-SketchSums plain_sketch_sums(const UnitReadings& readings, const std::int16_t* centre, const std::int8_t* sketch,
-                             std::int32_t step) {
+SketchSums plain_sketch_sums(const UnitReadings& readings, const std::int16_t* centre,
+                             const std::int8_t* sketch, std::int32_t step) {
   SketchSums sums{0, 0};
   for (std::size_t i = 0; i < readings.reading.size(); ++i) {
     sums.apart += std::abs(readings.reading[i] - centre[i] - step * sketch[i]) * readings.is_read[i];
@@ -60,8 +62,9 @@ SketchSums plain_sketch_sums(const UnitReadings& readings, const std::int16_t* c
 }
 
 #ifdef VOUSSOIR_HAS_AVX2
-constexpr std::size_t kAbreast = 4;  // rows whose sums are worked out together
-constexpr std::size_t kShorts = 16;  // numbers of 16 bits in a register
+constexpr std::size_t kCommonPlaces = 80;  // of the reference bridge
+constexpr std::size_t kAbreast = 4;        // rows whose sums are worked out together
+constexpr std::size_t kShorts = 16;        // numbers of 16 bits in a register
 
 VOUSSOIR_AVX2 inline __m256i load(const void* from) {
   return _mm256_loadu_si256(static_cast<const __m256i*>(from));
@@ -106,30 +109,39 @@ VOUSSOIR_AVX2 void avx2_sides(std::span<const std::int16_t> centre, const UnitRe
   for (std::size_t i = 0; i < sides.size(); i += kShorts) {
     const __m256i above = _mm256_cmpgt_epi16(load(readings.reading.data() + i), load(centre.data() + i));
     // above | 1 is -1 above and 1 elsewhere
-    const __m256i side =
-        _mm256_sub_epi16(one, _mm256_sign_epi16(_mm256_or_si256(above, one), load(readings.is_read.data() + i)));
+    const __m256i side = _mm256_sub_epi16(
+        one, _mm256_sign_epi16(_mm256_or_si256(above, one), load(readings.is_read.data() + i)));
     _mm_storeu_si128(reinterpret_cast<__m128i*>(sides.data() + i),
                      _mm_packs_epi16(_mm256_castsi256_si128(side), _mm256_extracti128_si256(side, 1)));
   }
 }
 
-/// For kAbreast rows the sums of side * sketch. Each product adds 2 * 2 * 127 to a number of 16 bits at most, so
-/// that rows of up to kMostPlaces are safe.
-VOUSSOIR_AVX2 inline __m128i avx2_sums(const std::int8_t* sketch, std::span<const std::uint8_t> sides) {
-  const std::size_t places = sides.size(), paired = places / 32 * 32;
-  __m256i sums[kAbreast] = {};
+/// For kAbreast rows the sums of side * sketch. Each product adds 2 * 2 * 127 to a number of 16 bits at most,
+/// so that rows of up to 2,000 places are safe.
+VOUSSOIR_AVX2 inline __attribute__((always_inline)) __m128i avx2_sums(const std::int8_t* sketch,
+                                                                      const std::uint8_t* sides,
+                                                                      std::size_t places) {
+  const std::size_t paired = places / 32 * 32;
+  const std::int8_t *second = sketch + places, *third = second + places, *fourth = third + places;
+  __m256i a = _mm256_setzero_si256(), b = a, c = a, d = a;
+#pragma GCC unroll 4
   for (std::size_t i = 0; i < paired; i += 32) {
-    const __m256i side = load(sides.data() + i);
-    for (std::size_t row = 0; row < kAbreast; ++row)
-      sums[row] = _mm256_add_epi16(sums[row], _mm256_maddubs_epi16(side, load(sketch + row * places + i)));
+    const __m256i side = load(sides + i);
+    a = _mm256_add_epi16(a, _mm256_maddubs_epi16(side, load(sketch + i)));
+    b = _mm256_add_epi16(b, _mm256_maddubs_epi16(side, load(second + i)));
+    c = _mm256_add_epi16(c, _mm256_maddubs_epi16(side, load(third + i)));
+    d = _mm256_add_epi16(d, _mm256_maddubs_epi16(side, load(fourth + i)));
   }
   if (paired < places) {
-    const __m128i side = load_half(sides.data() + paired);
-    for (std::size_t row = 0; row < kAbreast; ++row)
-      sums[row] = _mm256_add_epi16(sums[row], _mm256_zextsi128_si256(_mm_maddubs_epi16(
-                                                  side, load_half(sketch + row * places + paired))));
+    const __m128i side = load_half(sides + paired);
+    a = _mm256_add_epi16(a, _mm256_zextsi128_si256(_mm_maddubs_epi16(side, load_half(sketch + paired))));
+    b = _mm256_add_epi16(b, _mm256_zextsi128_si256(_mm_maddubs_epi16(side, load_half(second + paired))));
+    c = _mm256_add_epi16(c, _mm256_zextsi128_si256(_mm_maddubs_epi16(side, load_half(third + paired))));
+    d = _mm256_add_epi16(d, _mm256_zextsi128_si256(_mm_maddubs_epi16(side, load_half(fourth + paired))));
   }
-  for (__m256i& sum : sums) sum = _mm256_madd_epi16(sum, _mm256_set1_epi16(1));
+  const __m256i one = _mm256_set1_epi16(1);
+  const __m256i sums[kAbreast] = {_mm256_madd_epi16(a, one), _mm256_madd_epi16(b, one),
+                                  _mm256_madd_epi16(c, one), _mm256_madd_epi16(d, one)};
   return sums_of(sums);
 }
 
@@ -143,41 +155,31 @@ VOUSSOIR_AVX2 inline FourBounds four_bounds(const SlotBounds* from) {
           _mm_castps_si128(_mm_shuffle_ps(first, second, 0xDD))};
 }
 
-/// As plain_within; looks at up to three rows more.
+/// As plain_within; looks at up to three rows more. kPlaces: of a row if known when compiled, else 0.
+template <std::size_t kPlaces>
 VOUSSOIR_AVX2 std::size_t avx2_within(const SearchIndex& index, std::size_t first, std::size_t rows,
-                                      std::span<const std::uint8_t> sides, std::int32_t room,
-                                      std::uint32_t* found) {
+                                      std::span<const std::uint8_t> sides, std::int32_t reach,
+                                      std::int32_t room, std::uint32_t* found) {
+  const std::size_t places = kPlaces != 0 ? kPlaces : sides.size();
+  const std::int8_t* sketch = index.sketch.data() + first * places;
+  const SlotBounds* from = index.bounds.data() + first;
   std::size_t count = 0;
   const __m128i enough = _mm_set1_epi32(room);
-  for (std::size_t row = 0; row < rows; row += kAbreast) {
-    const std::size_t slot = first + row;
-    const __m128i sums = avx2_sums(index.sketch.data() + slot * sides.size(), sides);
-    const FourBounds bounds = four_bounds(index.bounds.data() + slot);
+  for (std::size_t row = 0; row < rows; row += kAbreast, sketch += kAbreast * places, from += kAbreast) {
+    if (from->distance() < reach) break;
+    const __m128i sums = avx2_sums(sketch, sides.data(), places);
+    const FourBounds bounds = four_bounds(from);
     const __m128i nearer =
         _mm_add_epi32(_mm_mullo_epi32(sums, _mm_srli_epi32(bounds.distance_and_step, 16)), bounds.start);
-    const unsigned wanted = (1U << std::min(kAbreast, rows - row)) - 1;
     auto within =
-        ~static_cast<unsigned>(_mm_movemask_ps(_mm_castsi128_ps(_mm_cmpgt_epi32(enough, nearer)))) & wanted;
-    for (; within != 0; within &= within - 1)
-      found[count++] = static_cast<std::uint32_t>(slot) + static_cast<std::uint32_t>(std::countr_zero(within));
+        ~static_cast<unsigned>(_mm_movemask_ps(_mm_castsi128_ps(_mm_cmpgt_epi32(enough, nearer)))) & 0xFU;
+    for (; within != 0; within &= within - 1) {
+      const std::size_t member = row + static_cast<std::size_t>(std::countr_zero(within));
+      found[count] = static_cast<std::uint32_t>(first + member);
+      count += member < rows ? 1 : 0;
+    }
   }
   return count;
-}
-
-/// How many of the first rows have at least this distance; looks at up to fifteen rows more.
-VOUSSOIR_AVX2 std::size_t avx2_rows_from(const SlotBounds* bounds, std::size_t rows, std::int32_t least) {
-  constexpr std::size_t kTogether = 4;  // registers: one guess of the processor for most clusters
-  const __m128i enough = _mm_set1_epi32(least), lower = _mm_set1_epi32(0xFFFF);
-  for (std::size_t row = 0; row < rows; row += kTogether * kAbreast) {
-    unsigned nearer = 0;
-    for (std::size_t i = 0; i < kTogether; ++i) {
-      const __m128i distance = _mm_and_si128(four_bounds(bounds + row + kAbreast * i).distance_and_step, lower);
-      nearer |= static_cast<unsigned>(_mm_movemask_ps(_mm_castsi128_ps(_mm_cmpgt_epi32(enough, distance))))
-                << (kAbreast * i);
-    }
-    if (nearer != 0) return std::min(rows, row + static_cast<std::size_t>(std::countr_zero(nearer)));
-  }
-  return rows;
 }
 
 VOUSSOIR_AVX2 SketchSums avx2_sketch_sums(const UnitReadings& readings, const std::int16_t* centre,
@@ -194,7 +196,9 @@ VOUSSOIR_AVX2 SketchSums avx2_sketch_sums(const UnitReadings& readings, const st
   return {_mm_cvtsi128_si32(both), _mm_extract_epi32(both, 1)};
 }
 
-bool use_avx2() { return __builtin_cpu_supports("avx2"); }
+bool use_avx2() {
+  return __builtin_cpu_supports("avx2");
+}
 #endif
 
 SketchSums sketch_sums(const UnitReadings& readings, const std::int16_t* centre, const std::int8_t* sketch,
@@ -226,6 +230,13 @@ UnitReadings round_readings(std::span<const double> readings, std::size_t places
   return result;
 }
 
+std::size_t largest_cluster(const SearchIndex& index) {
+  std::size_t most = 0;
+  for (std::size_t cluster = 0; cluster < index.clusters(); ++cluster)
+    most = std::max(most, index.rows(cluster));
+  return most;
+}
+
 void least_distances(const UnitReadings& readings, std::span<const std::int16_t> centres,
                      std::span<std::int32_t> distances) {
 #ifdef VOUSSOIR_HAS_AVX2
@@ -239,38 +250,25 @@ void least_distances(const UnitReadings& readings, std::span<const std::int16_t>
   plain_distances(readings, centres, distances);
 }
 
-std::size_t RowBounds::rows_in_reach(std::size_t cluster, std::int32_t distance, std::int32_t limit) const {
-  const std::size_t first = index_.slot(cluster), rows = index_.rows(cluster);
-  if (distance <= limit) return rows;
-  const int coarseness = index_.coarseness[cluster];
-  const std::int32_t least = (distance - limit + (1 << coarseness) - 1) >> coarseness;
-#ifdef VOUSSOIR_HAS_AVX2
-  if (first + rows + 4 * kAbreast <= index_.bounds.size() && use_avx2())
-    return avx2_rows_from(index_.bounds.data() + first, rows, least);
-#endif
-  std::size_t row = 0;
-  while (row < rows && index_.bounds[first + row].distance() >= least) ++row;
-  return row;
-}
-
-std::span<const RowBound> RowBounds::within(std::size_t cluster, std::size_t rows, const UnitReadings& readings,
+std::span<const RowBound> RowBounds::within(std::size_t cluster, const UnitReadings& readings,
                                             std::int32_t distance, std::int32_t limit) {
-  const std::size_t places = index_.places, first = index_.slot(cluster);
+  const std::size_t places = index_.places, first = index_.slot(cluster), rows = index_.rows(cluster);
+  const int coarseness = index_.coarseness[cluster];
+  const std::int32_t room = distance - limit,
+                     reach = room <= 0 ? 0 : (room + (1 << coarseness) - 1) >> coarseness;
   const auto centre = index_.centre.subspan(cluster * places, places);
-  if (slots_.size() <= rows) {
-    slots_.resize(rows + 1);
-    found_.resize(rows + 1);
-  }
   std::size_t count = 0, kept = 0;
 #ifdef VOUSSOIR_HAS_AVX2
   if (first + rows + kAbreast <= index_.bounds.size() && use_avx2()) {
     avx2_sides(centre, readings, sides_);
-    count = avx2_within(index_, first, rows, sides_, distance - limit, slots_.data());
+    count = places == kCommonPlaces
+                ? avx2_within<kCommonPlaces>(index_, first, rows, sides_, reach, room, slots_.data())
+                : avx2_within<0>(index_, first, rows, sides_, reach, room, slots_.data());
   } else
 #endif
   {
     plain_sides(centre, readings, sides_);
-    count = plain_within(index_, first, rows, sides_, distance - limit, slots_.data());
+    count = plain_within(index_, first, rows, sides_, reach, room, slots_.data());
   }
   for (std::size_t i = 0; i < count; ++i) {
     const std::size_t slot = slots_[i];

@@ -1,13 +1,13 @@
 #pragma once
-/// @file The inner loops of searches by the search index: bounds of sums of differences in whole numbers, so that
-/// nothing is lost by rounding that is not accounted for.
+/// @file The inner loops of searches by the search index: bounds of sums of differences in whole numbers, so
+/// that nothing is lost by rounding that is not accounted for.
 ///
-/// f(r) = sum |x - r| over the readings x is convex, so with a cluster's centre m and the sides s of the readings
-/// (1 above the centre, else -1)
+/// f(r) = sum |x - r| over the readings x is convex, so with a cluster's centre m and the sides s of the
+/// readings (1 above the centre, else -1)
 ///     f(r) >= f(m) - sum |r - m|        (stored: one number a row),
 ///     f(r) >= f(m) - sum s (r - m)      (r - m from the row's sketch, less what is lost by sketching).
-/// The second is close as long as r - m is small against the noise, for then few readings change sides between m
-/// and r. What passes both is compared with the readings point by point, from the sketch still.
+/// The second is close as long as r - m is small against the noise, for then few readings change sides
+/// between m and r. What passes both is compared with the readings point by point, from the sketch still.
 
 #include <cstdint>
 #include <span>
@@ -31,6 +31,9 @@ UnitReadings round_readings(std::span<const double> readings, std::size_t places
 void least_distances(const UnitReadings& readings, std::span<const std::int16_t> centres,
                      std::span<std::int32_t> distances);
 
+/// How many rows the largest cluster has.
+std::size_t largest_cluster(const SearchIndex& index);
+
 /// A row by its slot in the index, and between what its sum lies [units].
 struct RowBound {
   std::uint32_t slot;
@@ -41,20 +44,19 @@ struct RowBound {
 /// Bounds of clusters' rows, one cluster after the other.
 class RowBounds {
  public:
-  explicit RowBounds(const SearchIndex& index) : index_(index), sides_(index.places) {}
+  /// No cluster of the index has more than `most_rows`.
+  RowBounds(const SearchIndex& index, std::size_t most_rows)
+      : index_(index), sides_(index.places), slots_(most_rows + 1), found_(most_rows + 1) {}
 
-  /// How many of a cluster's first rows lie so far from its centre that their sums may be within the limit.
-  /// `distance` is the centre's, from least_distances.
-  std::size_t rows_in_reach(std::size_t cluster, std::int32_t distance, std::int32_t limit) const;
-
-  /// The first `rows` of a cluster but for those whose sums are above the limit; good until the next call.
-  std::span<const RowBound> within(std::size_t cluster, std::size_t rows, const UnitReadings& readings,
-                                   std::int32_t distance, std::int32_t limit);
+  /// A cluster's rows but for those whose sums are above the limit; good until the next call. `distance` is
+  /// the centre's, from least_distances.
+  std::span<const RowBound> within(std::size_t cluster, const UnitReadings& readings, std::int32_t distance,
+                                   std::int32_t limit);
 
  private:
   SearchIndex index_;
-  std::vector<std::uint8_t> sides_;  // of each place 2 where the reading lies above the centre, 0 where it does
-                                     // not, 1 where there is none
+  std::vector<std::uint8_t> sides_;  // of each place 2 where the reading lies above the centre, 0 where it
+                                     // does not, 1 where there is none
   std::vector<std::uint32_t> slots_;
   std::vector<RowBound> found_;
 };

@@ -14,9 +14,10 @@ namespace {
 
 constexpr std::size_t kNearest = 4;    // clusters first looked at
 constexpr std::size_t kRowsAhead = 6;  // rows that are fetched while others are scored
-constexpr std::size_t kClustersAhead = 3;
-constexpr double kWorthwhile = 0.25;   // share of rows left beyond which scoring all of them is faster
-constexpr std::size_t kFewRows = 512;  // that are scored without further ado
+constexpr std::size_t kClustersAhead = 4;
+constexpr std::size_t kRowsExpected = 4;     // of a cluster: fetched while others are looked at
+constexpr double kWorthwhile = 0.25;         // share of rows left beyond which scoring all of them is faster
+constexpr std::size_t kFewRows = 512;        // that are scored without further ado
 constexpr std::int32_t kAnything = 1 << 28;  // [units] limit without a limit
 constexpr std::int32_t kDone = 1 << 29;      // [units] distance of clusters that need not be looked at again
 constexpr std::uint32_t kNoBlock = 0, kNotEligible = 1, kFirstBlock = 2;
@@ -64,8 +65,8 @@ struct IndexedSearch::Query {
   std::span<const double> exact;
   Smallest smallest;  // of what the sums of rows are at most [m]
   RowBounds bounds;
-  std::vector<UnitReadings> readings{};    // of each unit
-  std::vector<std::int32_t> limits{};      // of each unit [units]: no row whose sum is above it is among the best
+  std::vector<UnitReadings> readings{};  // of each unit
+  std::vector<std::int32_t> limits{};  // of each unit [units]: no row whose sum is above it is among the best
   std::vector<std::uint8_t> impossible{};  // of each block (from kFirstBlock on): a reading was taken on it
   std::vector<std::int32_t> distances{};   // of each cluster's centre [units], at least
   std::vector<Found> found{};
@@ -73,17 +74,20 @@ struct IndexedSearch::Query {
 
 IndexedSearch::IndexedSearch(const SceneTable& table, const SearchIndex& index,
                              const std::vector<StoredPoint>& points, const Eligible& eligible)
-    : table_(table), index_(index), eligible_(eligible) {
-  for (const StoredPoint& point : points) point_block_.push_back(static_cast<std::size_t>(value(point.block)));
+    : table_(table), index_(index), eligible_(eligible), most_rows_(largest_cluster(index)) {
+  for (const StoredPoint& point : points)
+    point_block_.push_back(static_cast<std::size_t>(value(point.block)));
   for (const std::size_t block : point_block_) blocks_ = std::max(blocks_, block + 1);
-  for (const std::int32_t block : table.removed) blocks_ = std::max(blocks_, static_cast<std::size_t>(block + 1));
+  for (const std::int32_t block : table.removed)
+    blocks_ = std::max(blocks_, static_cast<std::size_t>(block + 1));
   std::vector<bool> is_eligible(table.rows, false);
   for (const std::size_t row : eligible.rows) is_eligible[row] = true;
   for (const std::int32_t row : index.row)
     for (std::size_t i = 0; i < table.most_missing; ++i) {
       const std::int32_t block = table.removed[static_cast<std::size_t>(row) * table.most_missing + i];
       missing_.push_back(!is_eligible[static_cast<std::size_t>(row)] ? kNotEligible
-                         : block < 0 ? kNoBlock : static_cast<std::uint32_t>(block) + kFirstBlock);
+                         : block < 0                                 ? kNoBlock
+                                     : static_cast<std::uint32_t>(block) + kFirstBlock);
     }
   for (std::size_t cluster = 0; cluster < index.clusters(); ++cluster) {
     if (units_.empty() || units_.back().exponent != index.exponent[cluster])
@@ -107,7 +111,8 @@ void IndexedSearch::find_distances(Query& query) const {
   for (const Unit& unit : units_) {
     const std::size_t count = unit.last - unit.first;
     query.readings.push_back(round_readings(query.exact, index_.places, unit.exponent));
-    least_distances(query.readings.back(), index_.centre.subspan(unit.first * index_.places, count * index_.places),
+    least_distances(query.readings.back(),
+                    index_.centre.subspan(unit.first * index_.places, count * index_.places),
                     std::span(query.distances).subspan(unit.first, count));
   }
 }
@@ -132,7 +137,8 @@ std::vector<std::size_t> IndexedSearch::nearest_clusters(const Query& query) con
       worst = in_units(distance.back(), unit.metres);
     }
   }
-  const auto known = std::count_if(distance.begin(), distance.end(), [](double one) { return std::isfinite(one); });
+  const auto known =
+      std::count_if(distance.begin(), distance.end(), [](double one) { return std::isfinite(one); });
   return {nearest.begin(), nearest.begin() + known};
 }
 
@@ -149,10 +155,6 @@ std::vector<std::size_t> IndexedSearch::clusters_in_reach(const Query& query) co
   return result;
 }
 
-std::size_t IndexedSearch::rows_in_reach(std::size_t cluster, const Query& query) const {
-  return query.bounds.rows_in_reach(cluster, query.distances[cluster], query.limits[unit_[cluster]]);
-}
-
 void IndexedSearch::set_limits(Query& query) const {
   query.limits.resize(units_.size());
   for (std::size_t i = 0; i < units_.size(); ++i)
@@ -165,12 +167,12 @@ bool IndexedSearch::is_possible(std::size_t slot, const Query& query) const {
                       [&](std::uint32_t block) { return query.impossible[block] != 0; });
 }
 
-/// Finds, among a cluster's first rows, those that may be among the best.
-void IndexedSearch::look_at(std::size_t cluster, std::size_t rows, Query& query) const {
+/// Finds those rows of a cluster that may be among the best.
+void IndexedSearch::look_at(std::size_t cluster, Query& query) const {
   const std::size_t unit = unit_[cluster];
   const double metres = units_[unit].metres, old = query.smallest.largest();
   for (const RowBound& one :
-       query.bounds.within(cluster, rows, query.readings[unit], query.distances[cluster], query.limits[unit])) {
+       query.bounds.within(cluster, query.readings[unit], query.distances[cluster], query.limits[unit])) {
     if (!is_possible(one.slot, query)) continue;
     query.found.push_back({one.slot, metres * one.least});
     query.smallest.add(metres * one.most);
@@ -179,17 +181,14 @@ void IndexedSearch::look_at(std::size_t cluster, std::size_t rows, Query& query)
 }
 
 void IndexedSearch::look_at(const std::vector<std::size_t>& clusters, Query& query) const {
-  for (const std::size_t cluster : clusters) fetch(index_.bounds.subspan(index_.slot(cluster), 1));
-  std::vector<std::size_t> rows(clusters.size());
-  for (std::size_t i = 0; i < clusters.size() + kClustersAhead; ++i) {
-    if (i < clusters.size()) {
-      rows[i] = rows_in_reach(clusters[i], query);
-      const std::size_t slot = index_.slot(clusters[i]);
-      fetch(index_.bounds.subspan(slot, rows[i]));
-      fetch(index_.sketch.subspan(slot * index_.places, rows[i] * index_.places));
-    }
-    if (i >= kClustersAhead && rows[i - kClustersAhead] > 0)
-      look_at(clusters[i - kClustersAhead], rows[i - kClustersAhead], query);
+  const auto expect = [&](std::size_t cluster) {
+    const std::size_t slot = index_.slot(cluster), rows = std::min(kRowsExpected, index_.rows(cluster));
+    fetch(index_.bounds.subspan(slot, rows));
+    fetch(index_.sketch.subspan(slot * index_.places, rows * index_.places));  // the rest follows by itself
+  };
+  for (std::size_t i = 0; i < clusters.size(); ++i) {
+    if (i + kClustersAhead < clusters.size()) expect(clusters[i + kClustersAhead]);
+    look_at(clusters[i], query);
   }
 }
 
@@ -210,12 +209,12 @@ IndexedSearch::Result IndexedSearch::search(std::span<const double> readings, st
     return Result{exhaustive_search(readings, table_, eligible_.rows, count), eligible_.rows.size(), true};
   };
   if (eligible_.rows.size() <= kFewRows) return score_all();
-  Query query{readings, Smallest(count), RowBounds(index_)};
+  Query query{readings, Smallest(count), RowBounds(index_, most_rows_)};
   sort_out_blocks(query);
   find_distances(query);
   set_limits(query);
   for (const std::size_t cluster : nearest_clusters(query)) {
-    look_at(cluster, rows_in_reach(cluster, query), query);
+    look_at(cluster, query);
     query.distances[cluster] = kDone;
   }
   look_at(clusters_in_reach(query), query);

@@ -1,6 +1,6 @@
 #pragma once
-/// @file Exact search under Eq. 1, faster than scoring every row: bounds from the database's search index rule out
-/// nearly all rows, and only the rest are scored.
+/// @file Exact search under Eq. 1, faster than scoring every row: bounds from the database's search index
+/// rule out nearly all rows, and only the rest are scored.
 
 #include <span>
 #include <vector>
@@ -38,8 +38,7 @@ class IndexedSearch {
   void find_distances(Query& query) const;
   std::vector<std::size_t> nearest_clusters(const Query& query) const;
   std::vector<std::size_t> clusters_in_reach(const Query& query) const;
-  std::size_t rows_in_reach(std::size_t cluster, const Query& query) const;
-  void look_at(std::size_t cluster, std::size_t rows, Query& query) const;
+  void look_at(std::size_t cluster, Query& query) const;
   void look_at(const std::vector<std::size_t>& clusters, Query& query) const;
   void set_limits(Query& query) const;
   bool is_possible(std::size_t slot, const Query& query) const;
@@ -48,12 +47,13 @@ class IndexedSearch {
   const SceneTable& table_;
   SearchIndex index_;
   const Eligible& eligible_;
+  std::size_t most_rows_;                 // of a cluster
   std::vector<std::size_t> point_block_;  // of each point
   std::size_t blocks_ = 0;
   std::vector<Unit> units_;
-  std::vector<std::uint32_t> unit_;    // of each cluster
-  std::vector<std::int32_t> reach_;    // of each cluster [units]: the largest distance of its rows
-  std::vector<std::uint32_t> missing_; // slots x most_missing: blocks, or kNoBlock, or kNotEligible
+  std::vector<std::uint32_t> unit_;     // of each cluster
+  std::vector<std::int32_t> reach_;     // of each cluster [units]: the largest distance of its rows
+  std::vector<std::uint32_t> missing_;  // slots x most_missing: blocks, or kNoBlock, or kNotEligible
 };
 
 }  // namespace voussoir

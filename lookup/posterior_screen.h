@@ -14,7 +14,7 @@
 namespace voussoir {
 
 /// What all left-out scenes together can hold of the probability.
-inline constexpr double kScreenedAway = 1e-9;
+inline constexpr double kScreenedAway = 1e-8;
 
 class PosteriorScreen {
  public:

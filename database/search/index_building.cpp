@@ -9,7 +9,7 @@
 namespace voussoir {
 namespace {
 
-constexpr std::size_t kMostRows = 48;    // of a cluster, before rows move to the nearest centre
+constexpr std::size_t kMostRows = 64;    // of a cluster, before rows move to the nearest centre
 constexpr double kFarthest = 1e9;        // what is beyond is alike
 constexpr double kLeastMovement = 1e-4;  // [m] of points that hardly move, when rows are compared
 constexpr int kFinestExponent = -21;     // half a micrometre; 16000 of it are 7.6 mm
@@ -17,8 +17,8 @@ constexpr int kExponentStep = 4;         // few different units, because reading
 constexpr std::int32_t kLargestByte = 127;
 constexpr std::int32_t kLargestDistance = 65535;  // of SlotBounds
 
-/// Clusters of rows by their movements against the first row, in relation to the square root of what is usual: so
-/// noise that is proportional to movement makes them count.
+/// Clusters of rows by their movements against the first row, in relation to the square root of what is
+/// usual: so noise that is proportional to movement makes them count.
 RowClusters alike(std::span<const double> rows, std::size_t points, std::size_t places) {
   std::vector<float> values(rows.size() / points * places, 0.0F);
   for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -51,12 +51,13 @@ struct Sketch {
 };
 
 /// Sums of whole places are far above what rounding takes from them.
-std::int32_t rounded_up(double sum) { return static_cast<std::int32_t>(std::ceil(sum * (1.0 + 1e-12))); }
+std::int32_t rounded_up(double sum) {
+  return static_cast<std::int32_t>(std::ceil(sum * (1.0 + 1e-12)));
+}
 
 class IndexBuilding {
  public:
-  IndexBuilding(std::span<const double> rows, std::size_t points)
-      : rows_(rows), points_(points) {
+  IndexBuilding(std::span<const double> rows, std::size_t points) : rows_(rows), points_(points) {
     index_.places = (points + kIndexPlaces - 1) / kIndexPlaces * kIndexPlaces;
   }
 
@@ -88,7 +89,8 @@ class IndexBuilding {
     std::vector<PlaceRange> ranges(index_.places);
     for (const std::size_t member : members)
       for (std::size_t i = 0; i < points_; ++i)
-        if (const double value = row(member)[i]; std::isfinite(value)) ranges[i].add(std::ldexp(value, -exponent));
+        if (const double value = row(member)[i]; std::isfinite(value))
+          ranges[i].add(std::ldexp(value, -exponent));
     index_.exponent.push_back(exponent);
     for (const PlaceRange& range : ranges) {
       index_.centre.push_back(static_cast<std::int16_t>(std::round(range.middle())));
@@ -118,7 +120,8 @@ class IndexBuilding {
       largest = std::max(largest, std::abs(difference[i]));
     }
     const double step = std::max(1.0, std::ceil(largest / kLargestByte));
-    Sketch result{static_cast<std::int32_t>(member), rounded_up(distance), static_cast<std::int32_t>(step), 0, {}};
+    Sketch result{
+        static_cast<std::int32_t>(member), rounded_up(distance), static_cast<std::int32_t>(step), 0, {}};
     double lost = 0.0;
     std::int32_t sum = 0;
     for (const double value : difference) {
@@ -135,7 +138,8 @@ class IndexBuilding {
     const std::int32_t distance = (sketch.distance + (1 << coarseness) - 1) >> coarseness;
     index_.row.push_back(sketch.row);
     index_.bounds.push_back(
-        {static_cast<std::uint32_t>(distance) | static_cast<std::uint32_t>(sketch.step) << 16U, sketch.start});
+        {static_cast<std::uint32_t>(distance) | static_cast<std::uint32_t>(sketch.step) << 16U,
+         sketch.start});
     index_.sketch.insert(index_.sketch.end(), sketch.steps.begin(), sketch.steps.end());
   }
 

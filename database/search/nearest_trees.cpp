@@ -15,7 +15,8 @@ namespace {
 constexpr unsigned kSeed = 1;  // of FLANN's own generator
 constexpr int kBranches = 32;  // FLANN's default
 constexpr int kRounds = 4;     // of k-means; more make no difference to what is found
-constexpr float kBoundaries = 0.2F;  // weight of a cluster's spread when branches are ordered; FLANN's default
+constexpr float kBoundaries =
+    0.2F;                          // weight of a cluster's spread when branches are ordered; FLANN's default
 constexpr double kFarthest = 1e9;  // [m]
 constexpr std::size_t kChecksum = sizeof(std::uint32_t);
 
@@ -27,7 +28,8 @@ struct NormOfReadings {
 
   explicit NormOfReadings(const double* const* query) : readings(query) {}
 
-  const double* const* readings;  // of the query; FLANN hands them over first against clusters, second against rows
+  const double* const*
+      readings;  // of the query; FLANN hands them over first against clusters, second against rows
 
   double operator()(const double* first, const double* second, std::size_t size) const {
     const double sum = plain_sum(first, second, size);
@@ -118,7 +120,8 @@ NearestTrees::NearestTrees(ByteView stored, std::span<const double> rows, std::s
                            std::span<const std::size_t> wanted)
     : implementation_(std::make_unique<Implementation>(rows, points)) {
   std::uint32_t checksum = 0;
-  if (stored.size() <= kChecksum) throw InputError("the nearest-neighbour trees are empty, build the database again");
+  if (stored.size() <= kChecksum)
+    throw InputError("the nearest-neighbour trees are empty, build the database again");
   std::memcpy(&checksum, stored.data(), kChecksum);
   stored = stored.subspan(kChecksum);
   if (checksum != crc32_of(stored))
@@ -147,12 +150,11 @@ std::vector<Neighbour> NearestTrees::nearest(std::span<const double> readings, s
   implementation_->readings = query.data();
   std::vector<std::vector<std::size_t>> found;
   std::vector<std::vector<double>> distances;
-  implementation_->trees.knnSearch(flann::Matrix<double>(query.data(), 1, query.size()), found, distances, count,
-                                   flann::SearchParams(checks));
+  implementation_->trees.knnSearch(flann::Matrix<double>(query.data(), 1, query.size()), found, distances,
+                                   count, flann::SearchParams(checks));
   std::vector<Neighbour> result;
   for (std::size_t i = 0; i < found.front().size(); ++i)
-    if (distances.front()[i] < kFarthest)
-      result.push_back({found.front()[i], distances.front()[i]});
+    if (distances.front()[i] < kFarthest) result.push_back({found.front()[i], distances.front()[i]});
   return result;
 }
 

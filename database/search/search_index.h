@@ -1,7 +1,7 @@
 #pragma once
-/// @file The search index: rows of control displacements in clusters of rows that are alike, each cluster as a box
-/// and each row as a few bytes. It follows from control/vertical_displacement and says nothing new; searches look
-/// at it first and read only the rows that it cannot rule out.
+/// @file The search index: rows of control displacements in clusters of rows that are alike, each cluster as
+/// a box and each row as a few bytes. It follows from control/vertical_displacement and says nothing new;
+/// searches look at it first and read only the rows that it cannot rule out.
 
 #include <cstddef>
 #include <cstdint>
@@ -22,8 +22,8 @@ struct SlotBounds {
   std::int32_t step() const { return static_cast<std::int32_t>(distance_and_step >> 16U); }
 };
 
-/// Displacements are whole numbers of a cluster's unit, 2^exponent metres, here and below. With a cluster's centre
-/// m, a row r of it and what is stored of the row, at each point that the row has,
+/// Displacements are whole numbers of a cluster's unit, 2^exponent metres, here and below. With a cluster's
+/// centre m, a row r of it and what is stored of the row, at each point that the row has,
 ///     least <= r <= most,  sum |r - m| <= distance 2^coarseness,
 ///     r = m + step sketch + e,  sum |e| <= lost,  start = lost - step (sum of the sketch).
 /// All rounded to the safe side, so that searches may rule rows out by them.
@@ -57,7 +57,9 @@ struct SearchIndexData {
   std::vector<SlotBounds> bounds;
   std::vector<std::int8_t> sketch;
 
-  SearchIndex view() const { return {places, exponent, coarseness, first, centre, least, most, row, bounds, sketch}; }
+  SearchIndex view() const {
+    return {places, exponent, coarseness, first, centre, least, most, row, bounds, sketch};
+  }
 };
 
 }  // namespace voussoir

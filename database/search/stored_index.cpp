@@ -11,8 +11,8 @@ namespace {
 constexpr std::int32_t kLargestExponent = 64, kMostCoarse = 16, kMostStep = 1000, kMostStart = 1 << 28;
 
 template <class T>
-DatasetValue dataset_of(const char* path, ElementType type, const std::vector<T>& values, std::uint64_t columns,
-                        const char* meaning) {
+DatasetValue dataset_of(const char* path, ElementType type, const std::vector<T>& values,
+                        std::uint64_t columns, const char* meaning) {
   const ByteView bytes = view_bytes(values);
   DatasetValue result{path, type, {values.size()}, 0, "1", meaning, {bytes.begin(), bytes.end()}};
   if (columns > 1) result.shape = {values.size() / columns, columns};
@@ -30,9 +30,8 @@ std::vector<std::int32_t> as_numbers(const std::vector<SlotBounds>& bounds) {
 }
 
 bool within(std::span<const std::int16_t> values) {
-  return std::all_of(values.begin(), values.end(), [](std::int16_t value) {
-    return value >= -kFarthestPlace && value <= kFarthestPlace;
-  });
+  return std::all_of(values.begin(), values.end(),
+                     [](std::int16_t value) { return value >= -kFarthestPlace && value <= kFarthestPlace; });
 }
 
 bool within(std::span<const std::int32_t> values, std::int32_t least, std::int32_t most) {
@@ -54,7 +53,8 @@ bool each_once(std::span<const std::int32_t> rows) {
 bool in_order(const SearchIndex& index) {
   return index.first.size() == index.clusters() + 1 && index.first.front() == 0 &&
          static_cast<std::size_t>(index.first.back()) == index.row.size() &&
-         std::adjacent_find(index.first.begin(), index.first.end(), std::greater_equal<>()) == index.first.end() &&
+         std::adjacent_find(index.first.begin(), index.first.end(), std::greater_equal<>()) ==
+             index.first.end() &&
          std::is_sorted(index.exponent.begin(), index.exponent.end());
 }
 
@@ -81,9 +81,10 @@ std::vector<DatasetValue> search_datasets(std::span<const double> rows, std::siz
       dataset_of(dataset::kIndexMost, ElementType::int16, index.most, places,
                  "the largest displacements of each cluster's rows, rounded up [units]"),
       dataset_of(dataset::kIndexRow, ElementType::int32, index.row, 1, "the scene of each slot"),
-      dataset_of(dataset::kIndexBounds, ElementType::int32, as_numbers(index.bounds), 2,
-                 "of each slot: distance from the centre (lower 16 bits) and step (upper 16 bits); what sketching "
-                 "lost less step times the sum of the sketch"),
+      dataset_of(
+          dataset::kIndexBounds, ElementType::int32, as_numbers(index.bounds), 2,
+          "of each slot: distance from the centre (lower 16 bits) and step (upper 16 bits); what sketching "
+          "lost less step times the sum of the sketch"),
       dataset_of(dataset::kIndexSketch, ElementType::int8, index.sketch, places,
                  "of each slot: the steps from the centre"),
       dataset_of(dataset::kTrees, ElementType::uint8, build_nearest_trees(rows, points), 1,
@@ -106,9 +107,10 @@ SearchIndex read_search_index(const Hdf5File& file, std::size_t rows, std::size_
   index.sketch = file.numbers<std::int8_t>(dataset::kIndexSketch, ElementType::int8, index.places);
   const std::size_t in_boxes = index.clusters() * index.places;
   file.require(index.row.size() == rows && index.bounds.size() == rows &&
-                   index.sketch.size() == rows * index.places && index.coarseness.size() == index.clusters() &&
-                   index.centre.size() == in_boxes && index.least.size() == in_boxes &&
-                   index.most.size() == in_boxes && in_order(index) && each_once(index.row),
+                   index.sketch.size() == rows * index.places &&
+                   index.coarseness.size() == index.clusters() && index.centre.size() == in_boxes &&
+                   index.least.size() == in_boxes && index.most.size() == in_boxes && in_order(index) &&
+                   each_once(index.row),
                "the datasets of search/ do not fit together");
   file.require(within(index.exponent, -kLargestExponent, kLargestExponent) &&
                    within(index.coarseness, 0, kMostCoarse) && within(index.centre) && within(index.least) &&

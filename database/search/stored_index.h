@@ -6,11 +6,13 @@
 
 namespace voussoir {
 
-/// What is stored for rows of `points` displacements [m] (not empty): the same rows always give the same bytes.
+/// What is stored for rows of `points` displacements [m] (not empty): the same rows always give the same
+/// bytes.
 std::vector<DatasetValue> search_datasets(std::span<const double> rows, std::size_t points);
 
-/// The index of so many rows and points, in place in the file. Throws InputError unless every row is in it once and
-/// all numbers are such that no sum of them overflows. Whether they are the right ones is for verify-database.
+/// The index of so many rows and points, in place in the file. Throws InputError unless every row is in it
+/// once and all numbers are such that no sum of them overflows. Whether they are the right ones is for
+/// verify-database.
 SearchIndex read_search_index(const Hdf5File& file, std::size_t rows, std::size_t points);
 
 }  // namespace voussoir

@@ -1,4 +1,5 @@
-/// @file Clusters, boxes and sketches of the search index, and the bounds made of them, against the rows themselves.
+/// @file Clusters, boxes and sketches of the search index, and the bounds made of them, against the rows
+/// themselves.
 
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -25,7 +26,9 @@ std::vector<float> three_groups(std::size_t rows) {
   return values;
 }
 
-double unit_of(const SearchIndex& index, std::size_t cluster) { return std::ldexp(1.0, index.exponent[cluster]); }
+double unit_of(const SearchIndex& index, std::size_t cluster) {
+  return std::ldexp(1.0, index.exponent[cluster]);
+}
 
 /// sum |r - m| and what the sketch leaves of r - m, of one slot [units].
 struct Apart {
@@ -61,7 +64,8 @@ TEST_CASE("Rows that are all the same are one cluster") {
   CHECK(cluster_rows(std::vector<float>(50 * kStride, 1.0F), kStride, 8).size() == 1);
 }
 
-TEST_CASE("The search index has every row once, inside its cluster's box, at most at its distance, with its loss") {
+TEST_CASE(
+    "The search index has every row once, inside its cluster's box, at most at its distance, with its loss") {
   const SyntheticLibrary library(5, 9);
   const SearchIndex index = library.index.view();
   REQUIRE(index.clusters() > 10);
@@ -93,7 +97,7 @@ TEST_CASE("The search index has every row once, inside its cluster's box, at mos
 TEST_CASE("Bounds of rows hold their sums between them, closely, and a limit leaves out no row within it") {
   const SyntheticLibrary library(5, 9);
   const SearchIndex index = library.index.view();
-  RowBounds bounds(index);
+  RowBounds bounds(index, largest_cluster(index));
   Random random(7);
   std::size_t left_out = 0;
   for (int trial = 0; trial < 90; ++trial) {
@@ -105,11 +109,11 @@ TEST_CASE("Bounds of rows hold their sums between them, closely, and a limit lea
       std::int32_t distance = 0;
       least_distances(rounded, index.centre.subspan(cluster * index.places, index.places), {&distance, 1});
       const std::int32_t limit = trial % 2 == 0 ? 1 << 28 : static_cast<std::int32_t>(random.below(20000));
-      const std::size_t rows = bounds.rows_in_reach(cluster, distance, limit);
       std::vector<bool> is_found(index.rows(cluster), false);
-      for (const RowBound& one : bounds.within(cluster, rows, rounded, distance, limit)) {
-        const double sum = sum_of_differences(readings, library.table.row(static_cast<std::size_t>(index.row[one.slot]))) /
-                           unit_of(index, cluster);
+      for (const RowBound& one : bounds.within(cluster, rounded, distance, limit)) {
+        const double sum =
+            sum_of_differences(readings, library.table.row(static_cast<std::size_t>(index.row[one.slot]))) /
+            unit_of(index, cluster);
         is_found[one.slot - index.slot(cluster)] = true;
         REQUIRE(one.least <= limit);
         if (!std::isfinite(sum)) continue;
