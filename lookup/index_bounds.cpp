@@ -85,12 +85,15 @@ VOUSSOIR_AVX2 inline void add_apart(__m256i reading, __m256i is_read, __m256i ro
   sum = _mm256_add_epi32(sum, _mm256_madd_epi16(_mm256_abs_epi16(_mm256_sub_epi16(reading, row)), is_read));
 }
 
-/// As plain_distances, for a whole number of kAbreast.
+/// As plain_distances, for at least kAbreast. kPlaces, here and below: of a row if known when compiled, else
+/// 0.
+template <std::size_t kPlaces>
 VOUSSOIR_AVX2 void avx2_distances(const UnitReadings& readings, std::span<const std::int16_t> centres,
                                   std::span<std::int32_t> distances) {
-  const std::size_t places = readings.reading.size();
+  const std::size_t places = kPlaces != 0 ? kPlaces : readings.reading.size();
   const __m128i rounded = _mm_set1_epi32(readings.rounded);
-  for (std::size_t cluster = 0; cluster < distances.size(); cluster += kAbreast) {
+  for (std::size_t next = 0; next < distances.size(); next += kAbreast) {
+    const std::size_t cluster = std::min(next, distances.size() - kAbreast);  // the last ones perhaps twice
     const std::int16_t* const first = centres.data() + cluster * places;
     __m256i sums[kAbreast] = {};
     for (std::size_t i = 0; i < places; i += kShorts) {
@@ -103,10 +106,12 @@ VOUSSOIR_AVX2 void avx2_distances(const UnitReadings& readings, std::span<const 
   }
 }
 
+template <std::size_t kPlaces>
 VOUSSOIR_AVX2 void avx2_sides(std::span<const std::int16_t> centre, const UnitReadings& readings,
                               std::span<std::uint8_t> sides) {
+  const std::size_t places = kPlaces != 0 ? kPlaces : sides.size();
   const __m256i one = _mm256_set1_epi16(1);
-  for (std::size_t i = 0; i < sides.size(); i += kShorts) {
+  for (std::size_t i = 0; i < places; i += kShorts) {
     const __m256i above = _mm256_cmpgt_epi16(load(readings.reading.data() + i), load(centre.data() + i));
     // above | 1 is -1 above and 1 elsewhere
     const __m256i side = _mm256_sub_epi16(
@@ -155,7 +160,7 @@ VOUSSOIR_AVX2 inline FourBounds four_bounds(const SlotBounds* from) {
           _mm_castps_si128(_mm_shuffle_ps(first, second, 0xDD))};
 }
 
-/// As plain_within; looks at up to three rows more. kPlaces: of a row if known when compiled, else 0.
+/// As plain_within; looks at up to three rows more.
 template <std::size_t kPlaces>
 VOUSSOIR_AVX2 std::size_t avx2_within(const SearchIndex& index, std::size_t first, std::size_t rows,
                                       std::span<const std::uint8_t> sides, std::int32_t reach,
@@ -240,12 +245,10 @@ std::size_t largest_cluster(const SearchIndex& index) {
 void least_distances(const UnitReadings& readings, std::span<const std::int16_t> centres,
                      std::span<std::int32_t> distances) {
 #ifdef VOUSSOIR_HAS_AVX2
-  if (use_avx2()) {
-    const std::size_t abreast = distances.size() / kAbreast * kAbreast;
-    avx2_distances(readings, centres, distances.first(abreast));
-    centres = centres.subspan(abreast * readings.reading.size());
-    distances = distances.subspan(abreast);
-  }
+  if (distances.size() >= kAbreast && use_avx2())
+    return readings.reading.size() == kCommonPlaces
+               ? avx2_distances<kCommonPlaces>(readings, centres, distances)
+               : avx2_distances<0>(readings, centres, distances);
 #endif
   plain_distances(readings, centres, distances);
 }
@@ -260,10 +263,13 @@ std::span<const RowBound> RowBounds::within(std::size_t cluster, const UnitReadi
   std::size_t count = 0, kept = 0;
 #ifdef VOUSSOIR_HAS_AVX2
   if (first + rows + kAbreast <= index_.bounds.size() && use_avx2()) {
-    avx2_sides(centre, readings, sides_);
-    count = places == kCommonPlaces
-                ? avx2_within<kCommonPlaces>(index_, first, rows, sides_, reach, room, slots_.data())
-                : avx2_within<0>(index_, first, rows, sides_, reach, room, slots_.data());
+    if (places == kCommonPlaces) {
+      avx2_sides<kCommonPlaces>(centre, readings, sides_);
+      count = avx2_within<kCommonPlaces>(index_, first, rows, sides_, reach, room, slots_.data());
+    } else {
+      avx2_sides<0>(centre, readings, sides_);
+      count = avx2_within<0>(index_, first, rows, sides_, reach, room, slots_.data());
+    }
   } else
 #endif
   {

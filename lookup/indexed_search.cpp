@@ -195,6 +195,7 @@ void IndexedSearch::look_at(const std::vector<std::size_t>& clusters, Query& que
 std::vector<ScoredRow> IndexedSearch::score(const Query& query) const {
   const auto row = [&](std::size_t i) { return static_cast<std::size_t>(index_.row[query.found[i].slot]); };
   std::vector<ScoredRow> scored;
+  scored.reserve(query.found.size());
   for (std::size_t i = 0; i < std::min(kRowsAhead, query.found.size()); ++i) fetch(table_.row(row(i)));
   for (std::size_t i = 0; i < query.found.size(); ++i) {
     if (i + kRowsAhead < query.found.size()) fetch(table_.row(row(i + kRowsAhead)));
@@ -210,6 +211,7 @@ IndexedSearch::Result IndexedSearch::search(std::span<const double> readings, st
   };
   if (eligible_.rows.size() <= kFewRows) return score_all();
   Query query{readings, Smallest(count), RowBounds(index_, most_rows_)};
+  query.found.reserve(kFewRows);
   sort_out_blocks(query);
   find_distances(query);
   set_limits(query);
