@@ -14,7 +14,7 @@
 namespace voussoir {
 
 /// What all left-out scenes together can hold of the probability.
-inline constexpr double kScreenedAway = 1e-8;
+inline constexpr double kScreenedAway = 1e-6;
 
 class PosteriorScreen {
  public:

@@ -2,32 +2,34 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+#include <map>
 
 #include "database/search/row_clusters.h"
 
 namespace voussoir {
 namespace {
 
-constexpr std::size_t kMostRows = 64;    // of a cluster, before rows move to the nearest centre
-constexpr double kFarthest = 1e9;        // what is beyond is alike
-constexpr double kLeastMovement = 1e-4;  // [m] of points that hardly move, when rows are compared
-constexpr int kFinestExponent = -21;     // half a micrometre; 16000 of it are 7.6 mm
-constexpr int kExponentStep = 4;         // few different units, because readings are rounded to each of them
+constexpr std::size_t kMostRows = 64;      // of a cluster, before rows move to the nearest centre
+constexpr std::size_t kMostFarRows = 256;  // of scenes that collapse: few readings come near them
+constexpr double kFarthest = 1e9;          // what is beyond is alike
+constexpr double kLeastMovement = 1e-4;    // [m] of points that hardly move, when rows are compared
+constexpr int kFinestExponent = -21;       // half a micrometre; 16000 of it are 7.6 mm
+constexpr int kExponentStep = 4;  // few different units, because readings are rounded to each of them
 constexpr std::int32_t kLargestByte = 127;
 constexpr std::int32_t kLargestDistance = 65535;  // of SlotBounds
 
-/// Clusters of rows by their movements against the first row, in relation to the square root of what is
-/// usual: so noise that is proportional to movement makes them count.
-RowClusters alike(std::span<const double> rows, std::size_t points, std::size_t places) {
-  std::vector<float> values(rows.size() / points * places, 0.0F);
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    const double usual = rows[i % points], difference = rows[i] - usual;
+/// A row's movements against the first row, in relation to the square root of what is usual: so noise that is
+/// proportional to movement makes them count. Zero where it has none.
+void append_movements(std::span<const double> row, std::span<const double> first, std::size_t places,
+                      std::vector<float>& values) {
+  const std::size_t old = values.size();
+  values.resize(old + places, 0.0F);
+  for (std::size_t i = 0; i < row.size(); ++i) {
+    const double difference = row[i] - first[i];
     if (std::isfinite(difference))
-      values[i / points * places + i % points] = static_cast<float>(
-          std::clamp(difference / std::sqrt(std::abs(usual) + kLeastMovement), -kFarthest, kFarthest));
+      values[old + i] = static_cast<float>(
+          std::clamp(difference / std::sqrt(std::abs(first[i]) + kLeastMovement), -kFarthest, kFarthest));
   }
-  return cluster_rows(values, places, kMostRows);
 }
 
 /// What is known of a point over a cluster's rows [units].
@@ -62,27 +64,36 @@ class IndexBuilding {
   }
 
   SearchIndexData run() {
-    const RowClusters clusters = alike(rows_, points_, index_.places);
-    std::vector<std::pair<int, std::size_t>> order;  // by unit
-    for (std::size_t i = 0; i < clusters.size(); ++i) order.push_back({exponent_of(clusters.rows(i)), i});
-    std::sort(order.begin(), order.end());
+    std::map<int, std::vector<std::size_t>> by_exponent;
+    for (std::size_t i = 0; i < rows_.size() / points_; ++i) by_exponent[exponent_of(row(i))].push_back(i);
     index_.first.push_back(0);
-    for (const auto& [exponent, cluster] : order) add_cluster(exponent, clusters.rows(cluster));
+    for (const auto& [exponent, members] : by_exponent) add_unit(exponent, members);
     return std::move(index_);
   }
 
  private:
   std::span<const double> row(std::size_t index) const { return rows_.subspan(index * points_, points_); }
 
-  /// The finest unit in which all displacements of the cluster are small enough.
-  int exponent_of(std::span<const std::size_t> members) const {
+  /// The finest unit in which all displacements of the row are small enough.
+  static int exponent_of(std::span<const double> row) {
     double largest = 0.0;
-    for (const std::size_t member : members)
-      for (const double value : row(member))
-        if (std::isfinite(value)) largest = std::max(largest, std::abs(value));
+    for (const double value : row)
+      if (std::isfinite(value)) largest = std::max(largest, std::abs(value));
     int exponent = kFinestExponent;
     while (std::ldexp(largest, -exponent) > kFarthestPlace - 1) exponent += kExponentStep;
     return exponent;
+  }
+
+  void add_unit(int exponent, const std::vector<std::size_t>& members) {
+    std::vector<float> values;
+    for (const std::size_t member : members) append_movements(row(member), row(0), index_.places, values);
+    const RowClusters clusters =
+        cluster_rows(values, index_.places, exponent == kFinestExponent ? kMostRows : kMostFarRows);
+    for (std::size_t i = 0; i < clusters.size(); ++i) {
+      std::vector<std::size_t> rows;
+      for (const std::size_t place : clusters.rows(i)) rows.push_back(members[place]);
+      add_cluster(exponent, rows);
+    }
   }
 
   void add_cluster(int exponent, std::span<const std::size_t> members) {
