@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "core/error.h"
-#include "lookup/exhaustive_search.h"
 #include "lookup/indexed_search.h"
 #include "lookup/misfit.h"
 #include "lookup/posterior_screen.h"
@@ -92,8 +91,8 @@ std::vector<ScoredRow> scored_by_posterior(const Library& library, const Measure
   for (const std::size_t row : likely)
     result.push_back({row, sum_of_differences(measurements.displacement, library.table.row(row))});
   if (kept == count) return result;
-  for (const ScoredRow& row :
-       exhaustive_search(measurements.displacement, library.table, eligible.rows, count))
+  const IndexedSearch search(library.table, library.index, library.points, eligible);
+  for (const ScoredRow& row : search.search(measurements.displacement, count).best)
     if (result.size() < count && std::find(likely.begin(), likely.end(), row.row) == likely.end())
       result.push_back(row);
   return result;

@@ -1,6 +1,7 @@
 #include "lookup/posterior_screen.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -16,8 +17,9 @@
 namespace voussoir {
 namespace {
 
-constexpr std::size_t kClustersFirst = 8;  // whose rows are worked out first
-constexpr std::size_t kClustersMore = 4;   // times as many if they hold too few possible scenes
+/// So many clusters' rows are worked out first; more if they hold too few possible scenes.
+constexpr std::array<std::size_t, 2> kClustersFirst = {8, 32};
+constexpr double kAllThatIsPossible = std::numeric_limits<double>::lowest();
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 /// What single precision takes from z: this share of z, and this much of |d| / scale besides (readings and
 /// displacements are rounded by 6e-8 of their size each, and the reading's size is at most that of the error
@@ -218,8 +220,8 @@ double PosteriorScreen::least_that_matters(const Problem& problem, std::size_t c
   const std::vector<double> distance = distances_from(problem.observation.reading, index_);
   std::vector<std::size_t> clusters(distance.size());
   std::iota(clusters.begin(), clusters.end(), std::size_t{0});
-  for (std::size_t looked_at = kClustersFirst;; looked_at *= kClustersMore) {
-    looked_at = std::min(looked_at, clusters.size());
+  for (const std::size_t wanted : kClustersFirst) {
+    const std::size_t looked_at = std::min(wanted, clusters.size());
     std::partial_sort(clusters.begin(), clusters.begin() + static_cast<std::ptrdiff_t>(looked_at),
                       clusters.end(),
                       [&](std::size_t a, std::size_t b) { return distance[a] < distance[b]; });
@@ -228,8 +230,8 @@ double PosteriorScreen::least_that_matters(const Problem& problem, std::size_t c
     for (std::size_t i = 0; i < values.size(); ++i) values[i] += static_cast<double>(log_prior_[rows[i]]);
     std::erase_if(values, [](double value) { return !std::isfinite(value); });
     if (values.size() >= count) return threshold(std::move(values), count, eligible_.rows.size());
-    if (looked_at == clusters.size()) return -std::numeric_limits<double>::infinity();
   }
+  return kAllThatIsPossible;
 }
 
 std::vector<std::size_t> PosteriorScreen::rows_that_matter(const Measurements& measurements,
@@ -248,7 +250,7 @@ std::vector<std::size_t> PosteriorScreen::rows_that_matter(const Measurements& m
   const std::vector<float> of_rows = row_bounds(problem, rows);
   std::vector<std::size_t> result;
   for (std::size_t i = 0; i < rows.size(); ++i)
-    if (of_rows[i] >= threshold && of_rows[i] > -kInfinity) result.push_back(rows[i]);
+    if (of_rows[i] >= threshold) result.push_back(rows[i]);
   return result;
 }
 

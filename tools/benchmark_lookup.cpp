@@ -28,11 +28,7 @@ Timing timed(const std::string& name, std::size_t queries, Prepare prepare, Func
     milliseconds.push_back(
         std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
   }
-  std::sort(milliseconds.begin(), milliseconds.end());
-  const auto at = [&](double share) {
-    return milliseconds[static_cast<std::size_t>(share * static_cast<double>(milliseconds.size() - 1))];
-  };
-  return {name, at(0.5), at(0.95)};
+  return timing_of(name, std::move(milliseconds));
 }
 template <typename Function>
 Timing timed(const std::string& name, std::size_t queries, Function function) {

@@ -5,14 +5,9 @@
 #include <vector>
 
 #include "lookup/lookup.h"
+#include "tools/timing.h"
 
 namespace voussoir {
-
-struct Timing {
-  std::string name;
-  double median = 0.0;  ///< [ms]
-  double p95 = 0.0;     ///< [ms]
-};
 
 struct LookupTimings {
   std::vector<Timing> searches;  ///< the ten best under Eq. 1; all give the same rows
