@@ -12,7 +12,6 @@
 namespace voussoir {
 namespace {
 
-constexpr std::int32_t kUnbounded = 1 << 30;
 constexpr std::int32_t kCutOff = kFarthestPlace + 1;  // readings beyond all boxes stay beyond them
 
 void plain_distances(const UnitReadings& readings, std::span<const std::int16_t> centres,
@@ -62,6 +61,7 @@ SketchSums plain_sketch_sums(const UnitReadings& readings, const std::int16_t* c
 }
 
 #ifdef VOUSSOIR_HAS_AVX2
+constexpr std::size_t kMostPlaces = 2000;
 constexpr std::size_t kCommonPlaces = 80;  // of the reference bridge
 constexpr std::size_t kAbreast = 4;        // rows whose sums are worked out together
 constexpr std::size_t kShorts = 16;        // numbers of 16 bits in a register
@@ -122,7 +122,7 @@ VOUSSOIR_AVX2 void avx2_sides(std::span<const std::int16_t> centre, const UnitRe
 }
 
 /// For kAbreast rows the sums of side * sketch. Each product adds 2 * 2 * 127 to a number of 16 bits at most,
-/// so that rows of up to 2,000 places are safe.
+/// so that rows of up to kMostPlaces are safe.
 VOUSSOIR_AVX2 inline __attribute__((always_inline)) __m128i avx2_sums(const std::int8_t* sketch,
                                                                       const std::uint8_t* sides,
                                                                       std::size_t places) {
@@ -262,7 +262,7 @@ std::span<const RowBound> RowBounds::within(std::size_t cluster, const UnitReadi
   const auto centre = index_.centre.subspan(cluster * places, places);
   std::size_t count = 0, kept = 0;
 #ifdef VOUSSOIR_HAS_AVX2
-  if (first + rows + kAbreast <= index_.bounds.size() && use_avx2()) {
+  if (places <= kMostPlaces && first + rows + kAbreast <= index_.bounds.size() && use_avx2()) {
     if (places == kCommonPlaces) {
       avx2_sides<kCommonPlaces>(centre, readings, sides_);
       count = avx2_within<kCommonPlaces>(index_, first, rows, sides_, reach, room, slots_.data());

@@ -34,6 +34,8 @@ void least_distances(const UnitReadings& readings, std::span<const std::int16_t>
 /// How many rows the largest cluster has.
 std::size_t largest_cluster(const SearchIndex& index);
 
+inline constexpr std::int32_t kUnbounded = 1 << 30;  ///< what a sum without a bound from above is at most
+
 /// A row by its slot in the index, and between what its sum lies [units].
 struct RowBound {
   std::uint32_t slot;

@@ -175,7 +175,7 @@ void IndexedSearch::look_at(std::size_t cluster, Query& query) const {
        query.bounds.within(cluster, query.readings[unit], query.distances[cluster], query.limits[unit])) {
     if (!is_possible(one.slot, query)) continue;
     query.found.push_back({one.slot, metres * one.least});
-    query.smallest.add(metres * one.most);
+    if (one.most < kUnbounded) query.smallest.add(metres * one.most);
   }
   if (query.smallest.largest() < old) set_limits(query);
 }

@@ -56,7 +56,7 @@ double time_of(const std::vector<std::string>& command) {
   pid_t process = 0;
   int status = 0;
   const auto start = std::chrono::steady_clock::now();
-  const int error = ::posix_spawnp(&process, arguments.front(), &actions, nullptr, arguments.data(), ::environ);
+  const int error = posix_spawnp(&process, arguments.front(), &actions, nullptr, arguments.data(), environ);
   const bool ended = error == 0 && ::waitpid(process, &status, 0) == process;
   const auto end = std::chrono::steady_clock::now();
   ::posix_spawn_file_actions_destroy(&actions);

@@ -8,7 +8,7 @@
 namespace voussoir {
 namespace {
 
-constexpr std::int32_t kLargestExponent = 64, kMostCoarse = 16, kMostStep = 1000, kMostStart = 1 << 28;
+constexpr std::int32_t kLargestExponent = 64, kMostCoarse = 12, kMostStep = 1000, kMostStart = 1 << 28;
 
 template <class T>
 DatasetValue dataset_of(const char* path, ElementType type, const std::vector<T>& values,

@@ -91,3 +91,15 @@ TEST_CASE("Where bounds say nothing the search falls back on scoring every row, 
   search.check_same(readings, 5);
   CHECK(search(readings, 5).fell_back);
 }
+
+TEST_CASE("Readings that are absurdly far lead to the same rows, order and values") {
+  const SyntheticLibrary library(5, 9);
+  const CheckedSearch search(library, {0, 1, 2});
+  Random random(5);
+  for (const double far : {1e-2, 1.0, 1e3, 1e6, 1e12}) {
+    auto readings = library.measure(7, 0.05, NoiseShape::uniform, random).displacement;
+    for (std::size_t i = 0; i < readings.size(); i += 3) readings[i] += far;
+    search.check_same(readings, 7);
+    search.check_same(std::vector<double>(readings.size(), far), 7);
+  }
+}
