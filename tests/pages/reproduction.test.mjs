@@ -134,6 +134,9 @@ test('The page says of each finding of the paper whether it holds, by numbers', 
 test('Pointing at a block of a field shows its displacements', async () => {
   const page = await open(browser, made.page);
   const block = page.locator('#figure-8 [data-tip^="(5,1)"]');
+  // Scrolling hides what is shown, and says so only with the next frame.
+  await block.scrollIntoViewIfNeeded();
+  await page.evaluate(() => new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done))));
   await block.hover();
   const uy = shop.field('4,2').filter(node => node.block === '5,1').map(node => 1e3 * node.uy_m);
   const text = (await page.locator('#tip:visible').textContent()).match(/uy (\S+) to (\S+) mm/);
