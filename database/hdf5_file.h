@@ -26,8 +26,6 @@ struct ChunkedDataset {
   std::vector<ByteView> chunks;  ///< as they are stored, in place in the mapped file
 };
 
-inline constexpr std::uint64_t kFlat = 0;
-
 /// All throwing members throw InputError naming the file, what is wrong and what was expected.
 class Hdf5File {
  public:

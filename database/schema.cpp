@@ -20,18 +20,17 @@ DatasetValue text_dataset(const char* path, const std::string& text, const char*
 
 DatasetValue int_dataset(const char* path, const std::vector<std::int32_t>& values, std::uint64_t columns,
                          const char* meaning) {
-  const Shape shape = columns == 1 ? Shape{values.size()} : Shape{values.size() / columns, columns};
-  return {path, ElementType::int32, shape, 0, "1", meaning, bytes_of(view_bytes(values))};
+  return dataset_of(path, ElementType::int32, values, columns, "1", meaning);
 }
 
 DatasetValue flag_dataset(const char* path, const std::vector<std::uint8_t>& values, const char* meaning) {
-  return {path, ElementType::uint8, {values.size()}, 0, "1", meaning, bytes_of(view_bytes(values))};
+  return dataset_of(path, ElementType::uint8, values, kFlat, "1", meaning);
 }
 
 DatasetValue point_dataset(const char* path, const std::vector<Point>& points, const char* meaning) {
   std::vector<double> values;
   for (const Point& point : points) values.insert(values.end(), {point.x(), point.y()});
-  return {path, ElementType::float64, {points.size(), 2}, 0, "m", meaning, bytes_of(view_bytes(values))};
+  return dataset_of(path, ElementType::float64, values, 2, "m", meaning);
 }
 
 DatasetValue range_dataset(const char* path, const std::vector<IndexRange>& ranges, const char* meaning) {
@@ -110,8 +109,8 @@ void append_points(const std::vector<ControlPoint>& points, std::vector<DatasetV
   datasets.push_back(
       point_dataset(dataset::kPointPosition, positions, "x, y of the control points before loading"));
   datasets.push_back(
-      int_dataset(dataset::kPointBlock, blocks, 1, "block that each control point belongs to"));
-  datasets.push_back(int_dataset(dataset::kPointNode, nodes, 1, "node at each control point"));
+      int_dataset(dataset::kPointBlock, blocks, kFlat, "block that each control point belongs to"));
+  datasets.push_back(int_dataset(dataset::kPointNode, nodes, kFlat, "node at each control point"));
 }
 
 }  // namespace

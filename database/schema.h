@@ -89,6 +89,18 @@ struct DatasetValue {
   Bytes bytes;
 };
 
+inline constexpr std::uint64_t kFlat = 0;  ///< columns of a dataset of rank 1
+
+/// A dataset of these numbers: rows of `columns` of them, or rank 1 for kFlat.
+template <class T>
+DatasetValue dataset_of(const char* path, ElementType type, const std::vector<T>& values,
+                        std::uint64_t columns, const char* units, const char* meaning) {
+  const ByteView bytes = view_bytes(values);
+  DatasetValue result{path, type, {values.size()}, 0, units, meaning, {bytes.begin(), bytes.end()}};
+  if (columns != kFlat) result.shape = {values.size() / columns, columns};
+  return result;
+}
+
 /// The datasets that all scenes share (bridge text, settings, geometry, control points) in the order in which
 /// the content digest takes them.
 std::vector<DatasetValue> shared_datasets(const Provenance& provenance, const BlockLayout& layout,

@@ -45,50 +45,36 @@ void append(const Record& record, std::size_t removed_columns, std::size_t block
   columns.chunk_crc.push_back(crc32_of(record.packed_field));
 }
 
-template <class T>
-DatasetValue column_dataset(const char* path, ElementType type, const std::vector<T>& values,
-                            std::size_t rows, const char* units, const char* meaning) {
-  const std::uint64_t columns = values.size() / rows;
-  const ByteView bytes = view_bytes(values);
-  return {path, type, {rows, columns}, 0, units, meaning, {bytes.begin(), bytes.end()}};
-}
-
-template <class T>
-DatasetValue flat_dataset(const char* path, ElementType type, const std::vector<T>& values, const char* units,
-                          const char* meaning) {
-  DatasetValue value = column_dataset(path, type, values, values.size(), units, meaning);
-  value.shape = {values.size()};
-  return value;
-}
-
 void write_columns(const SceneColumns& columns, KeepField fields, Hdf5Output& output) {
   const std::size_t rows = columns.outcome.size();
+  const auto per_scene = [&](const auto& values) { return values.size() / rows; };
   output.add_dataset(
-      column_dataset(dataset::kVertical, ElementType::float64, columns.vertical, rows, "m",
-                     "vertical displacement of the control points, up is positive, NaN where the block "
-                     "is gone"));
-  output.add_dataset(flat_dataset(dataset::kVariant, ElementType::int32,
-                                  std::vector<std::int32_t>(rows, kOnlyVariant), "1",
-                                  "variant of the bridge"));
-  output.add_dataset(
-      column_dataset(dataset::kRemoved, ElementType::int32, columns.removed, rows, "1",
-                     "removed blocks (rows of geometry/block_index) in ascending order, then -1"));
-  output.add_dataset(flat_dataset(dataset::kOutcome, ElementType::uint8, columns.outcome, "1",
-                                  "0 standing, 1 collapsed, 2 unresolved"));
-  output.add_dataset(flat_dataset(dataset::kResidual, ElementType::float64, columns.residual, "1",
-                                  "standing: largest unbalanced nodal force over the largest nodal weight; "
-                                  "collapsed: unbalanced force over the bridge's weight"));
-  output.add_dataset(flat_dataset(dataset::kIterations, ElementType::int32, columns.iterations, "1",
-                                  "linear systems solved, or time steps of a collapse"));
-  output.add_dataset(flat_dataset(dataset::kCollapse, ElementType::uint8, columns.collapse, "1",
-                                  "what moves away: 0 nothing, 1 wall blocks only, 2 blocks of the arch"));
-  output.add_dataset(column_dataset(dataset::kMoving, ElementType::uint8, columns.moving, rows, "1",
-                                    "1 for each block that had moved away when the collapse was decided"));
-  output.add_dataset(column_dataset(dataset::kChecksum, ElementType::uint8, columns.checksum, rows, "1",
-                                    "SHA-256 of everything kept of the scene"));
+      dataset_of(dataset::kVertical, ElementType::float64, columns.vertical, per_scene(columns.vertical), "m",
+                 "vertical displacement of the control points, up is positive, NaN where the block "
+                 "is gone"));
+  output.add_dataset(dataset_of(dataset::kVariant, ElementType::int32,
+                                std::vector<std::int32_t>(rows, kOnlyVariant), kFlat, "1",
+                                "variant of the bridge"));
+  output.add_dataset(dataset_of(dataset::kRemoved, ElementType::int32, columns.removed,
+                                per_scene(columns.removed), "1",
+                                "removed blocks (rows of geometry/block_index) in ascending order, then -1"));
+  output.add_dataset(dataset_of(dataset::kOutcome, ElementType::uint8, columns.outcome, kFlat, "1",
+                                "0 standing, 1 collapsed, 2 unresolved"));
+  output.add_dataset(dataset_of(dataset::kResidual, ElementType::float64, columns.residual, kFlat, "1",
+                                "standing: largest unbalanced nodal force over the largest nodal weight; "
+                                "collapsed: unbalanced force over the bridge's weight"));
+  output.add_dataset(dataset_of(dataset::kIterations, ElementType::int32, columns.iterations, kFlat, "1",
+                                "linear systems solved, or time steps of a collapse"));
+  output.add_dataset(dataset_of(dataset::kCollapse, ElementType::uint8, columns.collapse, kFlat, "1",
+                                "what moves away: 0 nothing, 1 wall blocks only, 2 blocks of the arch"));
+  output.add_dataset(dataset_of(dataset::kMoving, ElementType::uint8, columns.moving,
+                                per_scene(columns.moving), "1",
+                                "1 for each block that had moved away when the collapse was decided"));
+  output.add_dataset(dataset_of(dataset::kChecksum, ElementType::uint8, columns.checksum,
+                                per_scene(columns.checksum), "1", "SHA-256 of everything kept of the scene"));
   if (fields == KeepField::yes)
-    output.add_dataset(flat_dataset(dataset::kChunkCrc, ElementType::uint32, columns.chunk_crc, "1",
-                                    "CRC-32 of the scene's chunk of fields/displacement as it is stored"));
+    output.add_dataset(dataset_of(dataset::kChunkCrc, ElementType::uint32, columns.chunk_crc, kFlat, "1",
+                                  "CRC-32 of the scene's chunk of fields/displacement as it is stored"));
 }
 
 void write_attributes(const Provenance& provenance, const std::string& digest, Hdf5Output& output) {

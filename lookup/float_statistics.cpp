@@ -6,7 +6,7 @@
 #include <cstring>
 #include <limits>
 
-#include "core/float_lanes.h"
+#include "database/search/float_lanes.h"
 
 namespace voussoir {
 namespace {

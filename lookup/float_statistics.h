@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "core/float_lanes.h"
+#include "database/search/float_lanes.h"
 #include "database/search/search_index.h"
 #include "lookup/row_statistics.h"
 

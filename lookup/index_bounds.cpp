@@ -235,6 +235,17 @@ UnitReadings round_readings(std::span<const double> readings, std::size_t places
   return result;
 }
 
+std::vector<UnitClusters> clusters_by_unit(const SearchIndex& index) {
+  std::vector<UnitClusters> units;
+  for (std::size_t cluster = 0; cluster < index.clusters(); ++cluster) {
+    const int exponent = index.exponent[cluster];
+    if (units.empty() || units.back().exponent != exponent)
+      units.push_back({exponent, std::ldexp(1.0, exponent), cluster, cluster});
+    ++units.back().last;
+  }
+  return units;
+}
+
 std::size_t largest_cluster(const SearchIndex& index) {
   std::size_t most = 0;
   for (std::size_t cluster = 0; cluster < index.clusters(); ++cluster)

@@ -31,6 +31,14 @@ UnitReadings round_readings(std::span<const double> readings, std::size_t places
 void least_distances(const UnitReadings& readings, std::span<const std::int16_t> centres,
                      std::span<std::int32_t> distances);
 
+/// Clusters that share a unit, one after the other.
+struct UnitClusters {
+  int exponent;
+  double metres;  ///< of the unit
+  std::size_t first, last;
+};
+std::vector<UnitClusters> clusters_by_unit(const SearchIndex& index);
+
 /// How many rows the largest cluster has.
 std::size_t largest_cluster(const SearchIndex& index);
 

@@ -6,7 +6,6 @@
 #include <limits>
 
 #include "lookup/exhaustive_search.h"
-#include "lookup/index_bounds.h"
 #include "lookup/misfit.h"
 
 namespace voussoir {
@@ -74,7 +73,11 @@ struct IndexedSearch::Query {
 
 IndexedSearch::IndexedSearch(const SceneTable& table, const SearchIndex& index,
                              const std::vector<StoredPoint>& points, const Eligible& eligible)
-    : table_(table), index_(index), eligible_(eligible), most_rows_(largest_cluster(index)) {
+    : table_(table),
+      index_(index),
+      eligible_(eligible),
+      most_rows_(largest_cluster(index)),
+      units_(clusters_by_unit(index)) {
   for (const StoredPoint& point : points)
     point_block_.push_back(static_cast<std::size_t>(value(point.block)));
   for (const std::size_t block : point_block_) blocks_ = std::max(blocks_, block + 1);
@@ -89,13 +92,10 @@ IndexedSearch::IndexedSearch(const SceneTable& table, const SearchIndex& index,
                          : block < 0                                 ? kNoBlock
                                      : static_cast<std::uint32_t>(block) + kFirstBlock);
     }
-  for (std::size_t cluster = 0; cluster < index.clusters(); ++cluster) {
-    if (units_.empty() || units_.back().exponent != index.exponent[cluster])
-      units_.push_back({index.exponent[cluster], std::ldexp(1.0, index.exponent[cluster]), cluster, cluster});
-    ++units_.back().last;
-    unit_.push_back(static_cast<std::uint32_t>(units_.size() - 1));
+  for (std::size_t unit = 0; unit < units_.size(); ++unit)
+    unit_.resize(units_[unit].last, static_cast<std::uint32_t>(unit));
+  for (std::size_t cluster = 0; cluster < index.clusters(); ++cluster)
     reach_.push_back(index.bounds[index.slot(cluster)].distance() << index.coarseness[cluster]);
-  }
 }
 
 /// Scenes that lack a block with a reading are impossible.
@@ -108,7 +108,7 @@ void IndexedSearch::sort_out_blocks(Query& query) const {
 
 void IndexedSearch::find_distances(Query& query) const {
   query.distances.resize(index_.clusters());
-  for (const Unit& unit : units_) {
+  for (const UnitClusters& unit : units_) {
     const std::size_t count = unit.last - unit.first;
     query.readings.push_back(round_readings(query.exact, index_.places, unit.exponent));
     least_distances(query.readings.back(),
@@ -122,7 +122,7 @@ std::vector<std::size_t> IndexedSearch::nearest_clusters(const Query& query) con
   std::array<double, kNearest> distance;
   std::array<std::size_t, kNearest> nearest{};
   distance.fill(std::numeric_limits<double>::infinity());
-  for (const Unit& unit : units_) {
+  for (const UnitClusters& unit : units_) {
     std::int32_t worst = in_units(distance.back(), unit.metres);
     for (std::size_t cluster = unit.first; cluster < unit.last; ++cluster) {
       if (query.distances[cluster] >= worst) continue;

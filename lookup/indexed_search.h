@@ -8,6 +8,7 @@
 #include "database/database.h"
 #include "database/search/search_index.h"
 #include "lookup/candidate.h"
+#include "lookup/index_bounds.h"
 #include "lookup/posterior.h"
 
 namespace voussoir {
@@ -26,12 +27,6 @@ class IndexedSearch {
   Result search(std::span<const double> readings, std::size_t count) const;
 
  private:
-  /// Clusters that share a unit.
-  struct Unit {
-    int exponent;
-    double metres;
-    std::size_t first, last;  // clusters
-  };
   struct Query;
 
   void sort_out_blocks(Query& query) const;
@@ -50,7 +45,7 @@ class IndexedSearch {
   std::size_t most_rows_;                 // of a cluster
   std::vector<std::size_t> point_block_;  // of each point
   std::size_t blocks_ = 0;
-  std::vector<Unit> units_;
+  std::vector<UnitClusters> units_;
   std::vector<std::uint32_t> unit_;     // of each cluster
   std::vector<std::int32_t> reach_;     // of each cluster [units]: the largest distance of its rows
   std::vector<std::uint32_t> missing_;  // slots x most_missing: blocks, or kNoBlock, or kNotEligible

@@ -6,7 +6,7 @@
 #include <limits>
 #include <span>
 
-#include "core/lane_arithmetic.h"
+#include "database/search/lane_arithmetic.h"
 
 namespace voussoir {
 

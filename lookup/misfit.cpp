@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/lane_arithmetic.h"
+#include "database/search/lane_arithmetic.h"
 
 namespace voussoir {
 namespace {

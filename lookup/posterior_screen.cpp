@@ -128,18 +128,18 @@ std::vector<float> upper_bounds(const Observation& observation, const FloatStati
 std::vector<double> distances_from(std::span<const double> readings, const SearchIndex& index) {
   std::vector<std::int32_t> units(index.clusters());
   std::vector<double> metres(index.clusters());
-  for (std::size_t first = 0, last = 0; first < index.clusters(); first = last) {
-    while (last < index.clusters() && index.exponent[last] == index.exponent[first]) ++last;
-    least_distances(round_readings(readings, index.places, index.exponent[first]),
-                    index.centre.subspan(first * index.places, (last - first) * index.places),
-                    std::span(units).subspan(first, last - first));
-    for (std::size_t i = first; i < last; ++i) metres[i] = std::ldexp(units[i], index.exponent[first]);
+  for (const UnitClusters& unit : clusters_by_unit(index)) {
+    const std::size_t count = unit.last - unit.first;
+    least_distances(round_readings(readings, index.places, unit.exponent),
+                    index.centre.subspan(unit.first * index.places, count * index.places),
+                    std::span(units).subspan(unit.first, count));
+    for (std::size_t i = unit.first; i < unit.last; ++i) metres[i] = unit.metres * units[i];
   }
   return metres;
 }
 
-/// What does not matter beside these evidences of some rows.
-double threshold(std::vector<double> values, std::size_t count, std::size_t rows) {
+/// What is below does not matter beside these evidences of some rows.
+double least_beside(std::vector<double> values, std::size_t count, std::size_t rows) {
   std::partial_sort(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(count), values.end(),
                     std::greater<>());
   return std::min(values[count - 1], values.front() + std::log(kScreenedAway / static_cast<double>(rows)));
@@ -229,7 +229,7 @@ double PosteriorScreen::least_that_matters(const Problem& problem, std::size_t c
     std::vector<double> values = exact_evidence(problem, rows);
     for (std::size_t i = 0; i < values.size(); ++i) values[i] += static_cast<double>(log_prior_[rows[i]]);
     std::erase_if(values, [](double value) { return !std::isfinite(value); });
-    if (values.size() >= count) return threshold(std::move(values), count, eligible_.rows.size());
+    if (values.size() >= count) return least_beside(std::move(values), count, eligible_.rows.size());
   }
   return kAllThatIsPossible;
 }

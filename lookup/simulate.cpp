@@ -3,6 +3,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/error.h"
+
 namespace voussoir {
 namespace {
 
@@ -49,6 +51,14 @@ Measurements simulate_readings(std::span<const double> displacements, const Nois
     if (random.uniform() < noise.silence) value = std::numeric_limits<double>::quiet_NaN();
   }
   return as_measurements(readings);
+}
+
+std::string to_csv(const Measurements& readings, const std::vector<StoredPoint>& points) {
+  std::string text = "point,uy_mm\n";
+  for (std::size_t i = 0; i < points.size(); ++i)
+    text += fmt::format("{},{}\n", points[i].name,
+                        readings.silent[i] ? "" : fmt::format("{:.4f}", 1e3 * readings.displacement[i]));
+  return text;
 }
 
 }  // namespace voussoir

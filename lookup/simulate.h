@@ -18,4 +18,7 @@ double draw_error(NoiseShape shape, double degrees_of_freedom, Random& random);
 Measurements simulate_readings(std::span<const double> displacements, const NoiseModel& noise,
                                Random& random);
 
+/// The readings as a measurements file, in millimetres; silent sensors without a value.
+std::string to_csv(const Measurements& readings, const std::vector<StoredPoint>& points);
+
 }  // namespace voussoir

@@ -6,10 +6,9 @@
 #include <unistd.h>
 
 #include <chrono>
-#include <cmath>
-#include <fstream>
 
 #include "core/error.h"
+#include "lookup/command_line.h"
 #include "lookup/simulate.h"
 
 namespace voussoir {
@@ -24,13 +23,9 @@ class ReadingsFile {
       : path_(std::filesystem::temp_directory_path() / fmt::format("voussoir-{}.csv", ::getpid())) {
     Random random(1);
     const std::size_t row = library.table.rows / 2;
-    const auto readings = simulate_readings(library.table.row(row), {NoiseShape::uniform, kLevel}, random);
-    std::ofstream file(path_);
-    file << "point,uy_mm\n";
-    for (std::size_t i = 0; i < library.points.size(); ++i)
-      if (!std::isnan(readings.displacement[i]))
-        file << fmt::format("{},{:.4f}\n", library.points[i].name, 1e3 * readings.displacement[i]);
-    if (!file.flush()) throw Failure(fmt::format("{}: cannot be written", path_.string()));
+    NoiseModel noise{NoiseShape::uniform, kLevel};
+    noise.silence = 0.0;
+    write_file(path_, to_csv(simulate_readings(library.table.row(row), noise, random), library.points));
   }
   ~ReadingsFile() {
     std::error_code ignored;

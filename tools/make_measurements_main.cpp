@@ -1,8 +1,5 @@
 /// @file make-measurements: a measurements file with the noise of one's choice, from a scene of a database.
 
-#include <cmath>
-#include <fstream>
-
 #include "core/error.h"
 #include "lookup/command_line.h"
 #include "lookup/field_query.h"
@@ -27,8 +24,8 @@ std::string heading(const Options& options, const voussoir::Database& database) 
       fmt::format("# Simulated levelling of the bridge '{}': vertical displacements under its own weight.\n",
                   database.bridge_name());
   if (!options.hide) text += fmt::format("# scene: {}\n", options.scene);
-  text += fmt::format("# noise: {} of the displacement and {} mm, {}\n# seed: {}\npoint,uy_mm\n",
-                      options.noise_level, options.floor_mm, options.noise_model, options.seed);
+  text += fmt::format("# noise: {} of the displacement and {} mm, {}\n# seed: {}\n", options.noise_level,
+                      options.floor_mm, options.noise_model, options.seed);
   return text;
 }
 
@@ -46,13 +43,9 @@ std::string make_measurements(const Options& options) {
         "--noise-model auto cannot be simulated, expected uniform, gaussian, laplace or student");
   voussoir::Random random(options.seed);
   const auto readings = voussoir::simulate_readings(row, noise, random);
-  std::string text = heading(options, database);
-  for (std::size_t i = 0; i < row.size(); ++i)
-    text += fmt::format("{},{}\n", database.control_points()[i].name,
-                        readings.silent[i] ? "" : fmt::format("{:.4f}", 1e3 * readings.displacement[i]));
+  const std::string text = heading(options, database) + voussoir::to_csv(readings, database.control_points());
   if (options.output.empty()) return text;
-  if (!(std::ofstream(options.output) << text << std::flush))
-    throw voussoir::Failure(fmt::format("{}: cannot be written", options.output));
+  voussoir::write_file(options.output, text);
   return {};
 }
 

@@ -60,7 +60,7 @@ std::int32_t rounded_up(double sum) {
 class IndexBuilding {
  public:
   IndexBuilding(std::span<const double> rows, std::size_t points) : rows_(rows), points_(points) {
-    index_.places = (points + kIndexPlaces - 1) / kIndexPlaces * kIndexPlaces;
+    index_.places = places_for(points);
   }
 
   SearchIndexData run() {

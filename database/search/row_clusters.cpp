@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "core/float_lanes.h"
+#include "database/search/float_lanes.h"
 
 namespace voussoir {
 namespace {

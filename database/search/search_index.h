@@ -13,6 +13,11 @@ namespace voussoir {
 inline constexpr std::size_t kIndexPlaces = 16;        ///< points are filled up to a whole number of these
 inline constexpr std::int32_t kFarthestPlace = 16000;  ///< the largest size of a whole number in a box
 
+/// The points, filled up.
+constexpr std::size_t places_for(std::size_t points) {
+  return (points + kIndexPlaces - 1) / kIndexPlaces * kIndexPlaces;
+}
+
 /// What is known of a row beside its sketch; four numbers in two to be near each other.
 struct SlotBounds {
   std::uint32_t distance_and_step;  ///< in the lower and upper 16 bits

@@ -10,15 +10,6 @@ namespace {
 
 constexpr std::int32_t kLargestExponent = 64, kMostCoarse = 12, kMostStep = 1000, kMostStart = 1 << 28;
 
-template <class T>
-DatasetValue dataset_of(const char* path, ElementType type, const std::vector<T>& values,
-                        std::uint64_t columns, const char* meaning) {
-  const ByteView bytes = view_bytes(values);
-  DatasetValue result{path, type, {values.size()}, 0, "1", meaning, {bytes.begin(), bytes.end()}};
-  if (columns > 1) result.shape = {values.size() / columns, columns};
-  return result;
-}
-
 /// SlotBounds as they are in memory.
 std::vector<std::int32_t> as_numbers(const std::vector<SlotBounds>& bounds) {
   std::vector<std::int32_t> numbers;
@@ -68,33 +59,33 @@ std::vector<DatasetValue> search_datasets(std::span<const double> rows, std::siz
   const SearchIndexData index = build_search_index(rows, points);
   const std::uint64_t places = index.places;
   return {
-      dataset_of(dataset::kIndexExponent, ElementType::int32, index.exponent, 1,
+      dataset_of(dataset::kIndexExponent, ElementType::int32, index.exponent, kFlat, "1",
                  "of each cluster: its unit is 2^exponent metres"),
-      dataset_of(dataset::kIndexCoarseness, ElementType::int32, index.coarseness, 1,
+      dataset_of(dataset::kIndexCoarseness, ElementType::int32, index.coarseness, kFlat, "1",
                  "of each cluster: its rows' distances count 2^coarseness units"),
-      dataset_of(dataset::kIndexFirst, ElementType::int32, index.first, 1,
+      dataset_of(dataset::kIndexFirst, ElementType::int32, index.first, kFlat, "1",
                  "the first slot of each cluster, and one past the last slot"),
-      dataset_of(dataset::kIndexCentre, ElementType::int16, index.centre, places,
+      dataset_of(dataset::kIndexCentre, ElementType::int16, index.centre, places, "1",
                  "the middle of each cluster's rows [units]; places beyond the points are filled up"),
-      dataset_of(dataset::kIndexLeast, ElementType::int16, index.least, places,
+      dataset_of(dataset::kIndexLeast, ElementType::int16, index.least, places, "1",
                  "the least displacements of each cluster's rows, rounded down [units]"),
-      dataset_of(dataset::kIndexMost, ElementType::int16, index.most, places,
+      dataset_of(dataset::kIndexMost, ElementType::int16, index.most, places, "1",
                  "the largest displacements of each cluster's rows, rounded up [units]"),
-      dataset_of(dataset::kIndexRow, ElementType::int32, index.row, 1, "the scene of each slot"),
+      dataset_of(dataset::kIndexRow, ElementType::int32, index.row, kFlat, "1", "the scene of each slot"),
       dataset_of(
-          dataset::kIndexBounds, ElementType::int32, as_numbers(index.bounds), 2,
+          dataset::kIndexBounds, ElementType::int32, as_numbers(index.bounds), 2, "1",
           "of each slot: distance from the centre (lower 16 bits) and step (upper 16 bits); what sketching "
           "lost less step times the sum of the sketch"),
-      dataset_of(dataset::kIndexSketch, ElementType::int8, index.sketch, places,
+      dataset_of(dataset::kIndexSketch, ElementType::int8, index.sketch, places, "1",
                  "of each slot: the steps from the centre"),
-      dataset_of(dataset::kTrees, ElementType::uint8, build_nearest_trees(rows, points), 1,
+      dataset_of(dataset::kTrees, ElementType::uint8, build_nearest_trees(rows, points), kFlat, "1",
                  "FLANN's k-means trees over the control displacements, behind their CRC-32"),
   };
 }
 
 SearchIndex read_search_index(const Hdf5File& file, std::size_t rows, std::size_t points) {
   SearchIndex index;
-  index.places = (points + kIndexPlaces - 1) / kIndexPlaces * kIndexPlaces;
+  index.places = places_for(points);
   index.exponent = file.numbers<std::int32_t>(dataset::kIndexExponent, ElementType::int32, kFlat);
   index.coarseness = file.numbers<std::int32_t>(dataset::kIndexCoarseness, ElementType::int32, kFlat);
   index.first = file.numbers<std::int32_t>(dataset::kIndexFirst, ElementType::int32, kFlat);

@@ -1,7 +1,7 @@
 #pragma once
 /// @file Eight floats side by side.
 
-#include "core/lane_arithmetic.h"
+#include "database/search/lane_arithmetic.h"
 
 namespace voussoir {
 
