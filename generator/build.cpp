@@ -5,8 +5,8 @@
 #include <algorithm>
 
 #include "core/error.h"
-#include "database/writer.h"
-#include "database/xdmf.h"
+#include "database/records/writer.h"
+#include "database/records/xdmf.h"
 #include "generator/build_settings.h"
 #include "generator/existing_database.h"
 #include "generator/known_records.h"

@@ -3,9 +3,9 @@
 
 #include <filesystem>
 
-#include "core/bridge_file.h"
-#include "database/provenance.h"
-#include "database/record.h"
+#include "core/structure/bridge_file.h"
+#include "database/records/provenance.h"
+#include "database/records/record.h"
 #include "generator/build_plan.h"
 #include "generator/outcome_counts.h"
 #include "generator/progress.h"

@@ -4,7 +4,7 @@
 #include <map>
 #include <set>
 
-#include "core/symmetry.h"
+#include "core/structure/mirror_symmetry.h"
 #include "generator/scene_list.h"
 
 namespace voussoir {

@@ -4,7 +4,7 @@
 #include <functional>
 #include <vector>
 
-#include "core/bridge.h"
+#include "core/structure/bridge.h"
 
 namespace voussoir {
 

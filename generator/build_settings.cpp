@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "database/field_codec.h"
+#include "database/format/field_codec.h"
 
 namespace voussoir {
 namespace {

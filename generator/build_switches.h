@@ -4,7 +4,7 @@
 #include <span>
 #include <string_view>
 
-#include "core/skips.h"
+#include "core/statics/skips.h"
 #include "generator/build_plan.h"
 
 namespace voussoir {

@@ -1,6 +1,7 @@
 #include "generator/existing_database.h"
 
 #include "core/error.h"
+#include "database/format/hdf5_file.h"
 
 namespace voussoir {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "database/database.h"
+#include "database/records/database.h"
 #include "generator/build.h"
 
 namespace voussoir {

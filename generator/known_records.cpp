@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "core/error.h"
-#include "database/field_codec.h"
+#include "database/format/field_codec.h"
 
 namespace voussoir {
 namespace {

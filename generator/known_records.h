@@ -5,9 +5,9 @@
 #include <optional>
 #include <set>
 
-#include "core/bridge.h"
-#include "database/database.h"
-#include "database/journal.h"
+#include "core/structure/bridge.h"
+#include "database/records/database.h"
+#include "database/records/journal.h"
 
 namespace voussoir {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "database/database.h"
+#include "database/records/database.h"
 
 namespace voussoir {
 

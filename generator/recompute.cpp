@@ -6,7 +6,7 @@
 #include <numeric>
 #include <random>
 
-#include "core/symmetry.h"
+#include "core/structure/mirror_symmetry.h"
 #include "generator/start_field.h"
 
 namespace voussoir {

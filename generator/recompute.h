@@ -1,7 +1,7 @@
 #pragma once
 /// @file Solving scenes of a database anew.
 
-#include "database/database.h"
+#include "database/records/database.h"
 #include "generator/build_plan.h"
 #include "generator/scene_solving.h"
 

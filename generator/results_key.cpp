@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "build_information.h"
-#include "database/sha256.h"
+#include "database/format/sha256.h"
 #include "solver_revision.h"
 
 namespace voussoir {

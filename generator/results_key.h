@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "core/bridge_description.h"
+#include "core/structure/bridge_description.h"
 
 namespace voussoir {
 

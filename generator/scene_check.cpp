@@ -3,9 +3,9 @@
 #include <cmath>
 
 #include "core/error.h"
-#include "core/quasi_static_solver.h"
-#include "core/symmetry.h"
-#include "database/field_codec.h"
+#include "core/statics/quasi_static_solver.h"
+#include "core/structure/mirror_symmetry.h"
+#include "database/format/field_codec.h"
 #include "generator/verify.h"
 
 namespace voussoir {

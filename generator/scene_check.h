@@ -3,8 +3,8 @@
 
 #include <optional>
 
-#include "core/equilibrium.h"
-#include "database/database.h"
+#include "core/statics/equilibrium.h"
+#include "database/records/database.h"
 
 namespace voussoir {
 

@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/scene.h"
+#include "core/structure/scene.h"
 
 namespace voussoir {
 

@@ -1,6 +1,6 @@
 #include "generator/scene_solving.h"
 
-#include "database/field_codec.h"
+#include "database/format/field_codec.h"
 
 namespace voussoir {
 

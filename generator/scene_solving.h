@@ -7,10 +7,10 @@
 #include <string_view>
 #include <vector>
 
-#include "core/bridge.h"
-#include "core/dynamic_solver.h"
-#include "core/quasi_static_solver.h"
-#include "core/solution.h"
+#include "core/motion/dynamic_solver.h"
+#include "core/statics/quasi_static_solver.h"
+#include "core/statics/solution.h"
+#include "core/structure/bridge.h"
 
 namespace voussoir {
 
@@ -23,7 +23,7 @@ struct SolverChoice {
   std::function<SceneSolver(const Bridge&)> make_solver;  ///< called once for each thread
 };
 
-/// Newton for scenes that stand, motion for the others (core/combined_solver.h).
+/// Newton for scenes that stand, motion for the others (core/solve/combined_solver.h).
 /// Newton has the motion's skips.
 SolverChoice quasi_static(const DynamicSettings& motion = {});
 

@@ -4,8 +4,8 @@
 #include <memory>
 #include <sstream>
 
-#include "core/combined_solver.h"
 #include "core/error.h"
+#include "core/solve/combined_solver.h"
 #include "generator/scene_solving.h"
 
 namespace voussoir {

@@ -4,8 +4,8 @@
 #include <map>
 #include <optional>
 
-#include "core/scene.h"
-#include "core/solution.h"
+#include "core/statics/solution.h"
+#include "core/structure/scene.h"
 
 namespace voussoir {
 

@@ -1,8 +1,8 @@
 #include "generator/stored_bridge.h"
 
-#include "core/bridge_file.h"
 #include "core/error.h"
-#include "database/schema.h"
+#include "core/structure/bridge_file.h"
+#include "database/records/schema.h"
 
 namespace voussoir {
 namespace {

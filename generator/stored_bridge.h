@@ -1,8 +1,8 @@
 #pragma once
 /// @file The bridge that a database is about.
 
-#include "core/bridge.h"
-#include "database/database.h"
+#include "core/structure/bridge.h"
+#include "database/records/database.h"
 
 namespace voussoir {
 

@@ -5,7 +5,8 @@
 #include <algorithm>
 
 #include "core/error.h"
-#include "database/content_digest.h"
+#include "database/records/content_digest.h"
+#include "database/records/schema.h"
 #include "database/search/stored_index.h"
 #include "generator/build_settings.h"
 #include "generator/parallel.h"

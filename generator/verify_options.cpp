@@ -2,7 +2,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "database/provenance.h"
+#include "database/records/provenance.h"
 
 namespace voussoir {
 namespace {

@@ -10,7 +10,6 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
-#include <fstream>
 
 #include "core/error.h"
 
@@ -71,11 +70,6 @@ std::filesystem::path find_database(const std::optional<std::string>& given) {
   throw Failure(
       "no database: there is no ./bridge.h5, and neither -d nor $VOUSSOIR_DATABASE names one; "
       "build one with: build-database -o bridge.h5");
-}
-
-void write_file(const std::filesystem::path& file, const std::string& text) {
-  std::ofstream stream(file, std::ios::binary);
-  if (!(stream << text && stream.flush())) throw Failure(fmt::format("{}: cannot be written", file.string()));
 }
 
 int run_program(CLI::App& app, int argc, char** argv, const std::function<std::string()>& program) {

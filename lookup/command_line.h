@@ -8,16 +8,13 @@
 #include <optional>
 #include <string>
 
-#include "database/database.h"
+#include "database/records/database.h"
 
 namespace voussoir {
 
 /// The database to open: the given one, else $VOUSSOIR_DATABASE, else ./bridge.h5.
 /// Throws Failure naming the command that builds one if there is none.
 std::filesystem::path find_database(const std::optional<std::string>& given);
-
-/// Writes a whole text to a file. Throws Failure naming the file if it cannot be written.
-void write_file(const std::filesystem::path& file, const std::string& text);
 
 /// Parses the command line, runs the program and turns exceptions into messages on the standard error and
 /// exit codes: 0 done, 1 could not be done, 2 bad usage or bad input. An answer goes to the standard output

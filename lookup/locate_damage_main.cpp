@@ -4,7 +4,8 @@
 #include "lookup/command_line.h"
 #include "lookup/locate_damage_options.h"
 #include "lookup/lookup.h"
-#include "lookup/report.h"
+#include "lookup/report/report.h"
+#include "lookup/report/text_file.h"
 
 namespace {
 

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "lookup/lookup.h"
-#include "lookup/report.h"
+#include "lookup/report/report.h"
 
 namespace voussoir {
 

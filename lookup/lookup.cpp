@@ -4,10 +4,10 @@
 #include <cmath>
 
 #include "core/error.h"
-#include "lookup/indexed_search.h"
-#include "lookup/misfit.h"
-#include "lookup/posterior_screen.h"
-#include "lookup/row_statistics.h"
+#include "lookup/evidence/posterior_screen.h"
+#include "lookup/evidence/row_statistics.h"
+#include "lookup/search/indexed_search.h"
+#include "lookup/search/misfit.h"
 
 namespace voussoir {
 namespace {

@@ -5,15 +5,15 @@
 #include <string>
 #include <vector>
 
-#include "database/database.h"
-#include "lookup/fit.h"
-#include "lookup/genetic_search.h"
-#include "lookup/likelihood.h"
-#include "lookup/measurements.h"
-#include "lookup/nearest_search.h"
-#include "lookup/noise_model.h"
-#include "lookup/nuisance.h"
-#include "lookup/posterior.h"
+#include "database/records/database.h"
+#include "lookup/evidence/evidence.h"
+#include "lookup/evidence/fit.h"
+#include "lookup/evidence/nuisance.h"
+#include "lookup/evidence/posterior.h"
+#include "lookup/readings/measurements.h"
+#include "lookup/readings/noise_model.h"
+#include "lookup/search/genetic_search.h"
+#include "lookup/search/nearest_search.h"
 
 namespace voussoir {
 

@@ -2,8 +2,8 @@
 
 #include "core/error.h"
 #include "lookup/command_line.h"
-#include "lookup/field_query.h"
-#include "lookup/field_report.h"
+#include "lookup/report/field_query.h"
+#include "lookup/report/field_report.h"
 
 using voussoir::FieldFormat;
 

@@ -6,10 +6,10 @@
 #include <functional>
 #include <optional>
 
-#include "core/dynamic_solver.h"
 #include "core/error.h"
-#include "core/quasi_static_solver.h"
-#include "lookup/drawing/chart.h"
+#include "core/motion/dynamic_solver.h"
+#include "core/statics/quasi_static_solver.h"
+#include "lookup/report/drawing/chart.h"
 
 namespace voussoir {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "core/bridge_description.h"
+#include "core/structure/bridge_description.h"
 
 namespace voussoir {
 

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "core/error.h"
-#include "lookup/exhaustive_search.h"
-#include "lookup/simulate.h"
+#include "lookup/readings/simulate.h"
+#include "lookup/search/exhaustive_search.h"
 
 namespace voussoir {
 namespace {

@@ -5,10 +5,10 @@
 #include <cmath>
 
 #include "database/search/nearest_trees.h"
-#include "lookup/exhaustive_search.h"
-#include "lookup/indexed_search.h"
-#include "lookup/posterior_screen.h"
-#include "lookup/simulate.h"
+#include "lookup/evidence/posterior_screen.h"
+#include "lookup/readings/simulate.h"
+#include "lookup/search/exhaustive_search.h"
+#include "lookup/search/indexed_search.h"
 
 namespace voussoir {
 namespace {

@@ -8,8 +8,8 @@
 #include <chrono>
 
 #include "core/error.h"
-#include "lookup/command_line.h"
-#include "lookup/simulate.h"
+#include "lookup/readings/simulate.h"
+#include "lookup/report/text_file.h"
 
 namespace voussoir {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "core/bridge_file.h"
+#include "core/structure/bridge_file.h"
 
 namespace voussoir {
 

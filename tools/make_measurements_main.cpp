@@ -2,8 +2,9 @@
 
 #include "core/error.h"
 #include "lookup/command_line.h"
-#include "lookup/field_query.h"
-#include "lookup/simulate.h"
+#include "lookup/readings/simulate.h"
+#include "lookup/report/field_query.h"
+#include "lookup/report/text_file.h"
 
 namespace {
 

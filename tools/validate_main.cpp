@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "lookup/command_line.h"
+#include "lookup/report/text_file.h"
 #include "tools/validation/report.h"
 
 namespace {

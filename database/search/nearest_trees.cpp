@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "core/error.h"
-#include "database/field_codec.h"
+#include "database/format/field_codec.h"
 
 namespace voussoir {
 namespace {

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "database/bytes.h"
+#include "database/format/bytes.h"
 
 namespace voussoir {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "database/search/float_lanes.h"
+#include "core/simd/float_lanes.h"
 
 namespace voussoir {
 namespace {

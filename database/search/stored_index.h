@@ -1,10 +1,24 @@
 #pragma once
 /// @file The search index and the nearest-neighbour trees as datasets of search/.
 
-#include "database/hdf5_file.h"
+#include "database/format/hdf5_file.h"
 #include "database/search/search_index.h"
 
 namespace voussoir {
+
+/// Paths of the index's datasets.
+namespace dataset {
+inline constexpr char kIndexExponent[] = "search/exponent";
+inline constexpr char kIndexCoarseness[] = "search/coarseness";
+inline constexpr char kIndexFirst[] = "search/first";
+inline constexpr char kIndexCentre[] = "search/centre";
+inline constexpr char kIndexLeast[] = "search/least";
+inline constexpr char kIndexMost[] = "search/most";
+inline constexpr char kIndexRow[] = "search/row";
+inline constexpr char kIndexBounds[] = "search/bounds";
+inline constexpr char kIndexSketch[] = "search/sketch";
+inline constexpr char kTrees[] = "search/trees";
+}  // namespace dataset
 
 /// What is stored for rows of `points` displacements [m] (not empty): the same rows always give the same
 /// bytes.

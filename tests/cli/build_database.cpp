@@ -4,9 +4,9 @@
 #include <random>
 #include <thread>
 
-#include "database/database.h"
-#include "database/journal.h"
-#include "database/sha256.h"
+#include "database/format/sha256.h"
+#include "database/records/database.h"
+#include "database/records/journal.h"
 #include "tests/support/answer.h"
 #include "tests/support/bridges.h"
 #include "tests/support/made_up_database.h"

@@ -1,6 +1,6 @@
 #include <catch2/catch.hpp>
 
-#include "database/database.h"
+#include "database/records/database.h"
 #include "tests/support/bridges.h"
 #include "tests/support/program.h"
 

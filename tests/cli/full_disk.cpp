@@ -7,8 +7,8 @@
 #include <cstring>
 #include <nlohmann/json.hpp>
 
-#include "database/database.h"
-#include "database/writer.h"
+#include "database/records/database.h"
+#include "database/records/writer.h"
 #include "tests/support/answer.h"
 #include "tests/support/bridges.h"
 #include "tests/support/program.h"

@@ -5,7 +5,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "database/database.h"
+#include "database/records/database.h"
 #include "tests/support/answer.h"
 #include "tests/support/bridges.h"
 #include "tests/support/program.h"

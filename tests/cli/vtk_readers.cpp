@@ -6,7 +6,7 @@
 #include <cmath>
 #include <sstream>
 
-#include "database/database.h"
+#include "database/records/database.h"
 #include "tests/support/bridges.h"
 #include "tests/support/program.h"
 

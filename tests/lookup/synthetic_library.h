@@ -10,7 +10,7 @@
 #include "database/search/index_building.h"
 #include "database/search/nearest_trees.h"
 #include "lookup/lookup.h"
-#include "lookup/simulate.h"
+#include "lookup/readings/simulate.h"
 
 namespace voussoir::test {
 

@@ -1,8 +1,8 @@
 #pragma once
 /// @file Bridges that tests share.
 
-#include "core/bridge.h"
-#include "core/bridge_file.h"
+#include "core/structure/bridge.h"
+#include "core/structure/bridge_file.h"
 
 namespace voussoir::test {
 

@@ -4,13 +4,13 @@
 #include <cmath>
 #include <limits>
 
-#include "core/bridge.h"
-#include "core/bridge_file.h"
-#include "core/control_point.h"
 #include "core/error.h"
-#include "database/field_codec.h"
-#include "database/provenance.h"
-#include "database/writer.h"
+#include "core/structure/bridge.h"
+#include "core/structure/bridge_file.h"
+#include "core/structure/control_point.h"
+#include "database/format/field_codec.h"
+#include "database/records/provenance.h"
+#include "database/records/writer.h"
 
 namespace voussoir::test {
 

@@ -4,7 +4,7 @@
 #include <fstream>
 #include <iterator>
 
-#include "database/database.h"
+#include "database/records/database.h"
 #include "database/search/nearest_trees.h"
 #include "tests/support/made_up_database.h"
 #include "tests/support/temporary_folder.h"

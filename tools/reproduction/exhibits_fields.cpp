@@ -4,9 +4,9 @@
 #include <cmath>
 #include <limits>
 
-#include "lookup/drawing/field_drawing.h"
-#include "lookup/simulate.h"
-#include "lookup/words.h"
+#include "lookup/readings/simulate.h"
+#include "lookup/report/drawing/field_drawing.h"
+#include "lookup/report/words.h"
 #include "tools/reproduction/exhibits.h"
 
 namespace voussoir {

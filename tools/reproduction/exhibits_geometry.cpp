@@ -2,9 +2,9 @@
 
 #include <map>
 
-#include "core/bridge_file.h"
-#include "lookup/drawing/bridge_drawing.h"
-#include "lookup/words.h"
+#include "core/structure/bridge_file.h"
+#include "lookup/report/drawing/bridge_drawing.h"
+#include "lookup/report/words.h"
 #include "tools/reproduction/exhibits.h"
 
 namespace voussoir {

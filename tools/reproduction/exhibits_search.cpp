@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lookup/drawing/bridge_drawing.h"
-#include "lookup/drawing/colour_map.h"
-#include "lookup/misfit.h"
-#include "lookup/words.h"
+#include "lookup/report/drawing/bridge_drawing.h"
+#include "lookup/report/drawing/colour_map.h"
+#include "lookup/report/words.h"
+#include "lookup/search/misfit.h"
 #include "tools/reproduction/exhibits.h"
 #include "tools/reproduction/shares.h"
 

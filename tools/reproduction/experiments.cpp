@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <functional>
 
-#include "lookup/simulate.h"
+#include "lookup/readings/simulate.h"
 
 namespace voussoir {
 namespace {

@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "lookup/drawing/page.h"
 #include "lookup/lookup.h"
+#include "lookup/report/drawing/page.h"
 #include "tools/paper_cases.h"
 
 namespace voussoir {

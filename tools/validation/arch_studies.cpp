@@ -2,8 +2,8 @@
 
 #include <array>
 
-#include "core/dynamic_solver.h"
-#include "core/quasi_static_solver.h"
+#include "core/motion/dynamic_solver.h"
+#include "core/statics/quasi_static_solver.h"
 #include "tools/validation/assemblies.h"
 #include "tools/validation/bisection.h"
 #include "tools/validation/rigid_ring.h"

@@ -4,8 +4,8 @@
 #include <numbers>
 #include <random>
 
-#include "core/joint_kinematics.h"
-#include "core/triangle_element.h"
+#include "core/law/joint_kinematics.h"
+#include "core/law/triangle.h"
 
 namespace voussoir::validation {
 

@@ -1,7 +1,7 @@
 #pragma once
 /// @file Bodies and assemblies of blocks that are no bridges: columns, beams, wedges, rings.
 
-#include "core/bridge.h"
+#include "core/structure/bridge.h"
 
 namespace voussoir::validation {
 

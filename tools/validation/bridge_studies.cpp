@@ -2,8 +2,8 @@
 
 #include <array>
 
-#include "core/joint_kinematics.h"
-#include "core/quasi_static_solver.h"
+#include "core/law/joint_kinematics.h"
+#include "core/statics/quasi_static_solver.h"
 #include "tools/validation/hard_case_runs.h"
 #include "tools/validation/studies.h"
 

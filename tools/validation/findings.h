@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/solution.h"
+#include "core/statics/solution.h"
 
 namespace voussoir::validation {
 

@@ -3,7 +3,7 @@
 #include <numbers>
 #include <random>
 
-#include "core/quasi_static_solver.h"
+#include "core/statics/quasi_static_solver.h"
 #include "tools/validation/assemblies.h"
 #include "tools/validation/bisection.h"
 #include "tools/validation/hard_case_runs.h"

@@ -1,8 +1,8 @@
 #include "tools/validation/hard_case_runs.h"
 
-#include "core/bridge_file.h"
-#include "core/combined_solver.h"
-#include "core/equilibrium.h"
+#include "core/solve/combined_solver.h"
+#include "core/statics/equilibrium.h"
+#include "core/structure/bridge_file.h"
 
 namespace voussoir::validation {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <map>
 
-#include "core/bridge.h"
+#include "core/structure/bridge.h"
 #include "tools/validation/findings.h"
 
 namespace voussoir::validation {

@@ -2,8 +2,8 @@
 
 #include <numbers>
 
-#include "core/critical_step.h"
-#include "core/motion_step.h"
+#include "core/motion/critical_step.h"
+#include "core/motion/motion_step.h"
 #include "tools/validation/assemblies.h"
 #include "tools/validation/studies.h"
 

@@ -1,7 +1,7 @@
 #include <limits>
 
-#include "lookup/drawing/page.h"
-#include "lookup/drawing/style.h"
+#include "lookup/report/drawing/page.h"
+#include "lookup/report/drawing/style.h"
 #include "tools/validation/report.h"
 
 namespace voussoir::validation {

@@ -1,7 +1,7 @@
 /// @file Known answers of blocks at rest.
 
-#include "core/equilibrium.h"
-#include "core/quasi_static_solver.h"
+#include "core/statics/equilibrium.h"
+#include "core/statics/quasi_static_solver.h"
 #include "tools/validation/assemblies.h"
 #include "tools/validation/bisection.h"
 #include "tools/validation/studies.h"

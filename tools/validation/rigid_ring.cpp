@@ -4,7 +4,7 @@
 #include <numbers>
 #include <vector>
 
-#include "core/geometry.h"
+#include "core/geometry/polygon.h"
 #include "tools/validation/bisection.h"
 
 namespace voussoir::validation {

@@ -2,10 +2,10 @@
 
 #include <random>
 
-#include "core/dynamic_solver.h"
-#include "core/equilibrium.h"
 #include "core/error.h"
-#include "core/quasi_static_solver.h"
+#include "core/motion/dynamic_solver.h"
+#include "core/statics/equilibrium.h"
+#include "core/statics/quasi_static_solver.h"
 #include "tools/validation/hard_case_runs.h"
 #include "tools/validation/studies.h"
 

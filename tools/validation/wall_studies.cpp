@@ -1,6 +1,6 @@
 /// @file Dry-stone shear walls: a comparison with tests.
 
-#include "core/quasi_static_solver.h"
+#include "core/statics/quasi_static_solver.h"
 #include "tools/validation/assemblies.h"
 #include "tools/validation/studies.h"
 

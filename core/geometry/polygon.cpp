@@ -1,0 +1,126 @@
+#include "core/geometry/polygon.h"
+
+// Boost's default snaps coordinates to an integer grid of about a micrometre; plain doubles keep round-off
+// only.
+#define BOOST_GEOMETRY_NO_ROBUSTNESS
+
+#include <algorithm>
+#include <boost/geometry.hpp>
+#include <boost/geometry/geometries/point_xy.hpp>
+#include <boost/geometry/geometries/polygon.hpp>
+#include <cmath>
+#include <limits>
+
+namespace voussoir {
+namespace {
+
+namespace bg = boost::geometry;
+using BoostPoint = bg::model::d2::point_xy<double>;
+using BoostPolygon = bg::model::polygon<BoostPoint, /*ClockWise=*/false, /*Closed=*/true>;
+
+constexpr double kMergeDistance =
+    1e-6;  ///< [m] a micrometre: far below masonry tolerances, far above round-off.
+
+BoostPolygon to_boost(const Polygon& polygon) {
+  BoostPolygon result;
+  for (const Point& p : polygon) bg::append(result.outer(), BoostPoint(p.x(), p.y()));
+  bg::correct(result);
+  return result;
+}
+
+/// Removes corners that repeat their predecessor or lie on the line through their neighbours.
+Polygon without_idle_corners(const Polygon& polygon) {
+  Polygon distinct;
+  for (const Point& p : polygon)
+    if (distinct.empty() || (p - distinct.back()).norm() > kMergeDistance) distinct.push_back(p);
+  while (distinct.size() > 1 && (distinct.front() - distinct.back()).norm() <= kMergeDistance)
+    distinct.pop_back();
+
+  Polygon corners;
+  const std::size_t n = distinct.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    const Point& before = distinct[(i + n - 1) % n];
+    const Point& after = distinct[(i + 1) % n];
+    const double off_line = std::abs(cross(distinct[i] - before, after - before)) / (after - before).norm();
+    if (off_line > kMergeDistance) corners.push_back(distinct[i]);
+  }
+  return corners;
+}
+
+}  // namespace
+
+double area(const Polygon& polygon) {
+  double twice = 0.0;
+  const Point& origin = polygon.front();  // differences keep precision far from the coordinate origin
+  for (std::size_t i = 1; i + 1 < polygon.size(); ++i)
+    twice += cross(polygon[i] - origin, polygon[i + 1] - origin);
+  return 0.5 * twice;
+}
+
+Point centroid(const Polygon& polygon) {
+  const Point& origin = polygon.front();
+  Point moment = Point::Zero();
+  double twice = 0.0;
+  for (std::size_t i = 1; i + 1 < polygon.size(); ++i) {
+    const Point a = polygon[i] - origin;
+    const Point b = polygon[i + 1] - origin;
+    moment += cross(a, b) * (a + b) / 3.0;
+    twice += cross(a, b);
+  }
+  return origin + moment / twice;
+}
+
+double distance_to_segment(const Point& a, const Point& b, const Point& point) {
+  const double t = std::clamp((point - a).dot(b - a) / (b - a).squaredNorm(), 0.0, 1.0);
+  return (a + t * (b - a) - point).norm();
+}
+
+double distance_to_boundary(const Polygon& polygon, const Point& point) {
+  double nearest = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0, j = polygon.size() - 1; i < polygon.size(); j = i++)
+    nearest = std::min(nearest, distance_to_segment(polygon[j], polygon[i], point));
+  return nearest;
+}
+
+double distance_to_corner(const Polygon& polygon, const Point& point) {
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const Point& corner : polygon) nearest = std::min(nearest, (corner - point).norm());
+  return nearest;
+}
+
+bool contains(const Polygon& polygon, const Point& point, double tolerance) {
+  if (distance_to_boundary(polygon, point) <= tolerance) return true;
+  bool inside = false;
+  for (std::size_t i = 0, j = polygon.size() - 1; i < polygon.size(); j = i++) {
+    const Point& a = polygon[j];
+    const Point& b = polygon[i];
+    if ((a.y() > point.y()) != (b.y() > point.y()) &&
+        point.x() < a.x() + (point.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x()))
+      inside = !inside;
+  }
+  return inside;
+}
+
+std::vector<Polygon> subtract(const Polygon& subject, const Polygon& hole, double smallest_area) {
+  std::vector<BoostPolygon> remains;
+  bg::difference(to_boost(subject), to_boost(hole), remains);
+
+  std::vector<Polygon> parts;
+  for (const BoostPolygon& remain : remains) {
+    Polygon part;
+    for (const BoostPoint& p : remain.outer()) part.emplace_back(p.x(), p.y());
+    part = without_idle_corners(part);
+    if (part.size() >= 3 && area(part) > smallest_area) parts.push_back(part);
+  }
+  std::sort(parts.begin(), parts.end(),
+            [](const Polygon& a, const Polygon& b) { return centroid(a).x() < centroid(b).x(); });
+  return parts;
+}
+
+Polygon mirrored(const Polygon& polygon, double axis_x) {
+  Polygon image;
+  for (auto p = polygon.rbegin(); p != polygon.rend(); ++p) image.emplace_back(2.0 * axis_x - p->x(), p->y());
+  return image;
+}
+
+}  // namespace voussoir

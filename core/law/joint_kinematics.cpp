@@ -1,0 +1,130 @@
+#include "core/law/joint_kinematics.h"
+
+#include <cmath>
+
+namespace voussoir {
+namespace {
+
+/// Turned clockwise by a right angle: from the joint's direction to its normal.
+Point clockwise(const Point& v) {
+  return {v.y(), -v.x()};
+}
+
+struct CurrentEdges {
+  Point first;   ///< first edge now, from -> to
+  Point second;  ///< second edge now, to -> from
+};
+
+CurrentEdges current_edges(const JointFrame& frame, const Vector8d& q) {
+  return {frame.first_along + q.segment<2>(2) - q.segment<2>(0),
+          frame.second_along + q.segment<2>(4) - q.segment<2>(6)};
+}
+
+double angle_between(const Point& from, const Point& to) {
+  return std::atan2(cross(from, to), from.dot(to));
+}
+
+/// d angle / d vector of a vector's direction angle.
+Point angle_gradient(const Point& v) {
+  return Point(-v.y(), v.x()) / v.squaredNorm();
+}
+
+/// Second derivative of a vector's direction angle.
+Eigen::Matrix2d angle_hessian(const Point& v) {
+  const double x = v.x();
+  const double y = v.y();
+  Eigen::Matrix2d h;
+  h << 2.0 * x * y, y * y - x * x, y * y - x * x, -2.0 * x * y;
+  return h / (v.squaredNorm() * v.squaredNorm());
+}
+
+Point jump(const JointFrame& frame, const Vector8d& q, std::size_t end) {
+  Point j = frame.offset[end];
+  for (int corner = 0; corner < 4; ++corner) j += frame.weights[end][corner] * q.segment<2>(2 * corner);
+  return j;
+}
+
+}  // namespace
+
+JointFrame make_joint_frame(const Joint& joint, const Mesh& mesh) {
+  const std::array<Point, 4> x = {mesh.position(joint.first_edge.from), mesh.position(joint.first_edge.to),
+                                  mesh.position(joint.second_edge.from), mesh.position(joint.second_edge.to)};
+  JointFrame frame;
+  frame.first_along = x[1] - x[0];
+  frame.second_along = x[2] - x[3];
+  frame.direction = (frame.first_along.normalized() + frame.second_along.normalized()).normalized();
+  for (std::size_t end = 0; end < 2; ++end) {
+    const double a = joint.first_at[end];
+    const double b = joint.second_at[end];
+    frame.weights[end] << a - 1.0, -a, 1.0 - b, b;
+    // Differences of near points, so that round-off does not grow with the distance from the origin.
+    frame.offset[end] = (x[2] - x[0]) + b * (x[3] - x[2]) - a * (x[1] - x[0]);
+    if (frame.offset[end].norm() < 1e-12 * frame.first_along.norm()) frame.offset[end].setZero();
+  }
+  return frame;
+}
+
+JointKinematics joint_kinematics(const JointFrame& frame, const Vector8d& q) {
+  const CurrentEdges edges = current_edges(frame, q);
+  const double theta =
+      0.5 * (angle_between(frame.first_along, edges.first) + angle_between(frame.second_along, edges.second));
+  const Point t(std::cos(theta) * frame.direction.x() - std::sin(theta) * frame.direction.y(),
+                std::sin(theta) * frame.direction.x() + std::cos(theta) * frame.direction.y());
+  const Point n = clockwise(t);
+
+  JointKinematics result;
+  const Point first = 0.5 * angle_gradient(edges.first);
+  const Point second = 0.5 * angle_gradient(edges.second);
+  result.rotation_gradient << -first, first, second, -second;
+  for (std::size_t end = 0; end < 2; ++end) {
+    const Point j = jump(frame, q, end);
+    const int gap = 2 * static_cast<int>(end);
+    const int slip = gap + 1;
+    result.state[gap] = n.dot(j);
+    result.state[slip] = t.dot(j);
+    // dn/dtheta = t, dt/dtheta = -n
+    result.gradient.row(gap) = result.state[slip] * result.rotation_gradient.transpose();
+    result.gradient.row(slip) = -result.state[gap] * result.rotation_gradient.transpose();
+    for (int corner = 0; corner < 4; ++corner) {
+      result.gradient.block<1, 2>(gap, 2 * corner) += frame.weights[end][corner] * n.transpose();
+      result.gradient.block<1, 2>(slip, 2 * corner) += frame.weights[end][corner] * t.transpose();
+    }
+  }
+  return result;
+}
+
+Matrix8d joint_geometric_stiffness(const JointFrame& frame, const Vector8d& q,
+                                   const JointKinematics& kinematics, const Eigen::Vector4d& force) {
+  // With total gradients, and dgap/dtheta = slip, dslip/dtheta = -gap:
+  //   d2 gap  =  dslip (x) dtheta + dtheta (x) dslip + gap  dtheta (x) dtheta + slip d2theta
+  //   d2 slip = -dgap (x) dtheta - dtheta (x) dgap  + slip dtheta (x) dtheta - gap  d2theta
+  const Vector8d& turn = kinematics.rotation_gradient;
+  Vector8d mixed = Vector8d::Zero();
+  double turning = 0.0;  // coefficient of dtheta (x) dtheta
+  double bending = 0.0;  // coefficient of d2theta
+  for (int end = 0; end < 2; ++end) {
+    const int gap = 2 * end;
+    const int slip = gap + 1;
+    mixed += force[gap] * kinematics.gradient.row(slip).transpose() -
+             force[slip] * kinematics.gradient.row(gap).transpose();
+    turning += force[gap] * kinematics.state[gap] + force[slip] * kinematics.state[slip];
+    bending += force[gap] * kinematics.state[slip] - force[slip] * kinematics.state[gap];
+  }
+  Matrix8d stiffness =
+      mixed * turn.transpose() + turn * mixed.transpose() + turning * turn * turn.transpose();
+
+  const CurrentEdges edges = current_edges(frame, q);
+  const Eigen::Matrix2d first = 0.5 * bending * angle_hessian(edges.first);
+  const Eigen::Matrix2d second = 0.5 * bending * angle_hessian(edges.second);
+  stiffness.block<2, 2>(0, 0) += first;
+  stiffness.block<2, 2>(2, 2) += first;
+  stiffness.block<2, 2>(0, 2) -= first;
+  stiffness.block<2, 2>(2, 0) -= first;
+  stiffness.block<2, 2>(4, 4) += second;
+  stiffness.block<2, 2>(6, 6) += second;
+  stiffness.block<2, 2>(4, 6) -= second;
+  stiffness.block<2, 2>(6, 4) -= second;
+  return stiffness;
+}
+
+}  // namespace voussoir

@@ -1,0 +1,141 @@
+#include "core/motion/contact_search.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace voussoir {
+namespace {
+
+/// Angles this close to a straight one belong to nodes inside a straight side [rad].
+constexpr double kStraight = 1e-6;
+
+struct Box {
+  Point low;
+  Point high;
+};
+
+bool near(const Box& a, const Box& b, double margin) {
+  return a.low.x() <= b.high.x() + margin && b.low.x() <= a.high.x() + margin &&
+         a.low.y() <= b.high.y() + margin && b.low.y() <= a.high.y() + margin;
+}
+
+Box box_of(const Eigen::Matrix2Xd& places, const BoundaryEdge& edge) {
+  const Point a = places.col(value(edge.from));
+  const Point b = places.col(value(edge.to));
+  return {a.cwiseMin(b), a.cwiseMax(b)};
+}
+
+Box box_of(const Eigen::Matrix2Xd& places, const IndexRange& nodes) {
+  const auto block = places.middleCols(nodes.begin, nodes.size());
+  return {block.rowwise().minCoeff(), block.rowwise().maxCoeff()};
+}
+
+/// Pairs of blocks whose boxes are near, by a sweep from left to right.
+std::vector<std::pair<int, int>> near_blocks(const std::vector<Box>& boxes, const std::vector<bool>& absent,
+                                             double margin) {
+  std::vector<int> order;
+  for (std::size_t b = 0; b < boxes.size(); ++b)
+    if (!absent[b]) order.push_back(static_cast<int>(b));
+  const auto left = [&](int b) { return boxes[static_cast<std::size_t>(b)].low.x(); };
+  std::sort(order.begin(), order.end(), [&](int a, int b) { return left(a) < left(b); });
+  std::vector<std::pair<int, int>> pairs;
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    const Box& box = boxes[static_cast<std::size_t>(order[i])];
+    for (std::size_t j = i + 1; j < order.size() && left(order[j]) <= box.high.x() + margin; ++j)
+      if (near(box, boxes[static_cast<std::size_t>(order[j])], margin))
+        pairs.emplace_back(std::min(order[i], order[j]), std::max(order[i], order[j]));
+  }
+  return pairs;
+}
+
+/// Contact ends at 60 degrees; the rest is for rotations until the next search.
+bool may_face(const Point& along_a, const Point& along_b) {
+  constexpr double kCosine = 0.25881904510252074;  // of 75 degrees
+  const double cosine = along_a.dot(along_b);
+  return cosine < 0.0 && cosine * cosine > kCosine * kCosine * along_a.squaredNorm() * along_b.squaredNorm();
+}
+
+/// 1 / tan(half the interior angle) at the node between two edges; 0 at straight and re-entrant angles.
+double corner_share(const Point& before, const Point& after) {
+  const double turn = std::atan2(cross(before, after), before.dot(after));  // pi minus the interior angle
+  return turn > kStraight ? std::tan(0.5 * turn) : 0.0;
+}
+
+/// Per node: the boundary edge that begins there.
+std::vector<int> edges_by_first_node(const Mesh& mesh) {
+  std::vector<int> edge_from(static_cast<std::size_t>(mesh.node_count()), -1);
+  for (std::size_t e = 0; e < mesh.edges.size(); ++e)
+    edge_from[static_cast<std::size_t>(value(mesh.edges[e].from))] = static_cast<int>(e);
+  return edge_from;
+}
+
+}  // namespace
+
+ContactSearch::ContactSearch(const Mesh& mesh, const std::vector<Joint>& joints)
+    : mesh_(&mesh),
+      edge_block_(mesh.edges.size()),
+      corner_share_(static_cast<std::size_t>(mesh.node_count())) {
+  const auto along = [&](const BoundaryEdge& e) -> Point {
+    return mesh.position(e.to) - mesh.position(e.from);
+  };
+  for (std::size_t block = 0; block < mesh.block_edges.size(); ++block) {
+    const auto first = mesh.edges.begin() + mesh.block_edges[block].begin;
+    const auto last = mesh.edges.begin() + mesh.block_edges[block].end;
+    std::fill(edge_block_.begin() + mesh.block_edges[block].begin,
+              edge_block_.begin() + mesh.block_edges[block].end, static_cast<int>(block));
+    for (auto edge = first; edge != last; ++edge) {
+      const auto next = std::find_if(first, last, [&](const BoundaryEdge& e) { return e.from == edge->to; });
+      corner_share_[static_cast<std::size_t>(value(edge->to))] = corner_share(along(*edge), along(*next));
+    }
+  }
+  const std::vector<int> edge_from = edges_by_first_node(mesh);
+  const auto edge = [&](const BoundaryEdge& e) { return edge_from[static_cast<std::size_t>(value(e.from))]; };
+  for (const Joint& joint : joints) joined_.emplace_back(edge(joint.first_edge), edge(joint.second_edge));
+  std::sort(joined_.begin(), joined_.end());
+}
+
+std::vector<EdgePair> ContactSearch::candidates(const Eigen::Matrix2Xd& places,
+                                                const std::vector<bool>& absent, double margin) const {
+  const auto along = [&](const BoundaryEdge& e) -> Point {
+    return places.col(value(e.to)) - places.col(value(e.from));
+  };
+  std::vector<Box> block_boxes;
+  for (const IndexRange& nodes : mesh_->block_nodes) block_boxes.push_back(box_of(places, nodes));
+  std::vector<EdgePair> pairs;
+  for (const auto& [first, second] : near_blocks(block_boxes, absent, margin)) {
+    const IndexRange& first_edges = mesh_->block_edges[static_cast<std::size_t>(first)];
+    const IndexRange& second_edges = mesh_->block_edges[static_cast<std::size_t>(second)];
+    for (int a = first_edges.begin; a < first_edges.end; ++a) {
+      const BoundaryEdge& edge_a = mesh_->edges[static_cast<std::size_t>(a)];
+      const Box box_a = box_of(places, edge_a);
+      if (!near(box_a, block_boxes[static_cast<std::size_t>(second)], margin)) continue;
+      for (int b = second_edges.begin; b < second_edges.end; ++b) {
+        const BoundaryEdge& edge_b = mesh_->edges[static_cast<std::size_t>(b)];
+        if (may_face(along(edge_a), along(edge_b)) && near(box_a, box_of(places, edge_b), margin))
+          pairs.emplace_back(a, b);
+      }
+    }
+  }
+  std::sort(pairs.begin(), pairs.end());
+  return pairs;
+}
+
+EdgeContact ContactSearch::contact(const EdgePair& pair) const {
+  const auto a = static_cast<std::size_t>(pair.first);
+  const auto b = static_cast<std::size_t>(pair.second);
+  const BoundaryEdge& edge_a = mesh_->edges[a];
+  const BoundaryEdge& edge_b = mesh_->edges[b];
+  const bool joined = std::binary_search(joined_.begin(), joined_.end(), pair);
+  const auto share = [&](NodeId node) {
+    return joined ? 0.0 : corner_share_[static_cast<std::size_t>(value(node))];
+  };
+  const auto per_length = [&](const BoundaryEdge& e) {
+    return 1.0 / (mesh_->position(e.to) - mesh_->position(e.from)).norm();
+  };
+  return {.nodes = {value(edge_a.from), value(edge_a.to), value(edge_b.from), value(edge_b.to)},
+          .blocks = {edge_block_[a], edge_block_[b]},
+          .per_length = {per_length(edge_a), per_length(edge_b)},
+          .corner_share = {share(edge_a.from), share(edge_a.to), share(edge_b.from), share(edge_b.to)}};
+}
+
+}  // namespace voussoir

@@ -1,0 +1,38 @@
+#pragma once
+/// @file Which boundary edges may meet soon: the broad phase of contact.
+
+#include <utility>
+#include <vector>
+
+#include "core/motion/contact.h"
+#include "core/structure/joint.h"
+#include "core/structure/mesh.h"
+
+namespace voussoir {
+
+/// A candidate: positions in Mesh::edges, the first in the block with the smaller number.
+using EdgePair = std::pair<int, int>;
+
+class ContactSearch {
+ public:
+  /// The mesh and the joints must outlive the search.
+  ContactSearch(const Mesh& mesh, const std::vector<Joint>& joints);
+
+  /// Pairs of edges of different blocks that face each other roughly (within 75 degrees) and whose bounding
+  /// boxes are at most `margin` [m] apart at these places of the nodes [m], in ascending order. Blocks in
+  /// `absent` are left out.
+  std::vector<EdgePair> candidates(const Eigen::Matrix2Xd& places, const std::vector<bool>& absent,
+                                   double margin) const;
+
+  /// The contact of two edges. Edges that form a joint at rest own their whole stretch, as in the
+  /// quasi-static equations; others share out what penetrates at corners (see contact.h).
+  EdgeContact contact(const EdgePair& pair) const;
+
+ private:
+  const Mesh* mesh_;
+  std::vector<int> edge_block_;       ///< per edge
+  std::vector<double> corner_share_;  ///< per node, see EdgeContact
+  std::vector<EdgePair> joined_;      ///< edges that form a joint at rest, ascending
+};
+
+}  // namespace voussoir

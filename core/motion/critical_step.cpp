@@ -1,0 +1,150 @@
+#include "core/motion/critical_step.h"
+
+#include <Eigen/SparseCholesky>
+#include <algorithm>
+#include <cmath>
+
+#include "core/statics/equilibrium.h"
+
+namespace voussoir {
+namespace {
+
+constexpr int kPowerIterations = 200;
+constexpr int kInverseIterations = 30;
+constexpr int kStepIterations = 4;
+
+/// A bonded joint as a spring between eight displacement components.
+struct JointSpring {
+  std::array<int, 4> nodes;
+  Matrix8d stiffness;
+};
+
+std::vector<JointSpring> joint_springs(const Bridge& bridge) {
+  std::vector<JointSpring> springs;
+  for (const Joint& joint : bridge.joints) {
+    const JointKinematics k = joint_kinematics(make_joint_frame(joint, bridge.mesh), Vector8d::Zero());
+    const double area = joint.length * bridge.description.material.thickness;
+    springs.push_back({.nodes = {value(joint.first_edge.from), value(joint.first_edge.to),
+                                 value(joint.second_edge.from), value(joint.second_edge.to)},
+                       .stiffness = k.gradient.transpose() *
+                                    bonded_joint_tangent(bridge.description.joints, area) * k.gradient});
+  }
+  return springs;
+}
+
+void add_spring_forces(const std::vector<JointSpring>& springs, const Eigen::VectorXd& u,
+                       Eigen::VectorXd& forces) {
+  for (const JointSpring& spring : springs) {
+    Vector8d q;
+    for (int i = 0; i < 4; ++i)
+      q.segment<2>(2 * i) = u.segment<2>(2 * spring.nodes[static_cast<std::size_t>(i)]);
+    const Vector8d f = spring.stiffness * q;
+    for (int i = 0; i < 4; ++i)
+      forces.segment<2>(2 * spring.nodes[static_cast<std::size_t>(i)]) += f.segment<2>(2 * i);
+  }
+}
+
+/// Per block: what a step makes of forces [1/kg].
+std::vector<Eigen::MatrixXd> mobilities(const std::vector<BlockBody>& bodies, Integrator integrator,
+                                        double step) {
+  std::vector<Eigen::MatrixXd> result;
+  for (const BlockBody& body : bodies)
+    result.push_back(integrator == Integrator::implicit_blocks ? motion_response(body, step)
+                                                               : step_response(body, 0.0));
+  return result;
+}
+
+/// A start vector with a part in every mode, the same on every machine.
+Eigen::VectorXd start_vector(Eigen::Index size) {
+  Eigen::VectorXd x(size);
+  for (Eigen::Index i = 0; i < size; ++i) x[i] = std::sin(1.0 + 0.7 * static_cast<double>(i * i % 1009));
+  return x;
+}
+
+/// `joint_share` multiplies the joints' stiffness: damped joints act on a step as stiffer ones.
+double highest_frequency(const Bridge& bridge, const std::vector<BlockBody>& bodies, Integrator integrator,
+                         double step, double joint_share) {
+  const std::vector<JointSpring> springs = joint_springs(bridge);
+  const std::vector<Eigen::MatrixXd> mobility = mobilities(bodies, integrator, step);
+  Eigen::VectorXd x = start_vector(2 * bridge.mesh.node_count());
+  Eigen::VectorXd y(x.size());
+  double squared = 0.0;
+  for (int iteration = 0; iteration < kPowerIterations; ++iteration) {
+    x.normalize();
+    y.setZero();
+    add_spring_forces(springs, x, y);
+    y *= joint_share;
+    for (std::size_t b = 0; b < bodies.size(); ++b) {
+      const IndexRange& nodes = bodies[b].nodes;
+      if (integrator == Integrator::central_differences)
+        y.segment(2 * nodes.begin, 2 * nodes.size()) +=
+            bodies[b].stiffness * x.segment(2 * nodes.begin, 2 * nodes.size());
+      y.segment(2 * nodes.begin, 2 * nodes.size()) =
+          mobility[b] * y.segment(2 * nodes.begin, 2 * nodes.size());
+    }
+    squared = y.norm();
+    x = y;
+  }
+  return std::sqrt(squared);
+}
+
+Eigen::VectorXd masses_of_unknowns(const Bridge& bridge, const EquilibriumSystem& system) {
+  const Eigen::VectorXd masses = lumped_masses(bridge);
+  Eigen::VectorXd result(system.unknown_count());
+  for (int i = 0; i < result.size(); ++i)
+    result[i] = masses[system.component[static_cast<std::size_t>(i)] / 2];
+  return result;
+}
+
+/// How far the largest block sinks between two neighbours that hold it by shear alone, over faces as high as
+/// itself [m].
+double slump(const Bridge& bridge) {
+  double largest = 0.0;
+  for (const Block& block : bridge.layout.blocks) largest = std::max(largest, area(block.polygon));
+  const BridgeDescription& d = bridge.description;
+  return d.material.density * d.gravity * std::sqrt(largest) / (2.0 * d.joints.tangential_stiffness);
+}
+
+}  // namespace
+
+double critical_step(const Bridge& bridge, const std::vector<BlockBody>& bodies, Integrator integrator,
+                     double contact_damping) {
+  if (integrator == Integrator::implicit_blocks) {
+    const auto stable = [&](double step) {
+      const double half_period = 2.0 / highest_frequency(bridge, bodies, integrator, step, 1.0);
+      return std::hypot(contact_damping, half_period) - contact_damping;
+    };
+    return stable(stable(1.0));  // elasticity as soft as a long step makes it, then as the step itself does
+  }
+  double step = 2.0 / highest_frequency(bridge, bodies, integrator, 0.0, 1.0);
+  for (int i = 0; i < kStepIterations; ++i)  // the joints add little to the blocks' own frequencies
+    step = 2.0 / highest_frequency(bridge, bodies, integrator, 0.0, 1.0 + 2.0 * contact_damping / step);
+  return step;
+}
+
+NaturalMotion natural_motion(const Bridge& bridge) {
+  const EquilibriumSystem system(bridge);
+  const std::vector<bool> removed(bridge.layout.size(), false);
+  Eigen::SparseMatrix<double> stiffness = system.pattern;
+  const Field forces = assemble(system, removed, Field::Zero(2, bridge.mesh.node_count()), 1.0,
+                                {.first = stiffness.valuePtr(), .stride = 1});
+  Eigen::VectorXd load(system.unknown_count());
+  for (int i = 0; i < load.size(); ++i)
+    load[i] = forces.data()[system.component[static_cast<std::size_t>(i)]];
+  const Eigen::VectorXd masses = masses_of_unknowns(bridge, system);
+  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> linear(stiffness);
+  const Eigen::VectorXd sag = linear.solve(load);
+  Eigen::VectorXd mode = start_vector(load.size());
+  double squared = 0.0;
+  for (int iteration = 0; iteration < kInverseIterations; ++iteration) {
+    const Eigen::VectorXd inertia = masses.cwiseProduct(mode);
+    mode = linear.solve(inertia);
+    squared = mode.dot(inertia) / mode.dot(masses.cwiseProduct(mode));
+    mode.normalize();
+  }
+  return {.frequency = std::sqrt(squared),
+          .sag = std::max(sag.cwiseAbs().maxCoeff(), slump(bridge)),
+          .work = 0.5 * load.dot(sag)};
+}
+
+}  // namespace voussoir

@@ -1,0 +1,31 @@
+#pragma once
+/// @file How long a time step may be, and the natural motion of a bridge that damping and moments are
+/// measured by.
+
+#include "core/motion/block_dynamics.h"
+
+namespace voussoir {
+
+/// How block elasticity is stepped.
+enum class Integrator {
+  implicit_blocks,     ///< block by block implicitly (block_dynamics.h); the joints alone limit the step
+  central_differences  ///< all forces explicitly: the plain reference, with steps a few hundred times shorter
+};
+
+/// Longest stable step [s]: 2 / omega with the highest frequency omega of the bridge with all joints closed
+/// and sticking, found by power iteration. Joints that see the places a time `contact_damping` [s] later act
+/// on a step dt like joints 1 + 2 contact_damping / dt times as stiff.
+double critical_step(const Bridge& bridge, const std::vector<BlockBody>& bodies, Integrator integrator,
+                     double contact_damping);
+
+/// The linear bridge, all joints closed and sticking, under its weight.
+struct NaturalMotion {
+  double frequency;  ///< the lowest, by inverse iteration [rad/s]
+  double sag;   ///< largest displacement under the weight, or what a block sinks that two neighbours hold by
+                ///< shear alone if that is more (joints that are very soft in shear) [m]
+  double work;  ///< half the work of the weight on the displacement [J]
+};
+
+NaturalMotion natural_motion(const Bridge& bridge);
+
+}  // namespace voussoir

@@ -1,0 +1,229 @@
+#include "core/motion/dynamic_solver.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.h"
+#include "core/motion/motion_step.h"
+#include "core/statics/equilibrium.h"
+
+namespace voussoir {
+namespace {
+
+constexpr double kOfCritical = 0.9;         ///< default step; the power iteration comes from below
+constexpr double kDampingShare = 0.5;       ///< of the critical damping
+constexpr double kSearchMargin = 0.01;      ///< of the mean block size: contacts are searched this far
+constexpr double kTimeBetweenLooks = 0.01;  ///< [s] between two looks at a scene
+
+double mean_block_size(const Bridge& bridge) {
+  double sum = 0.0;
+  for (const Block& block : bridge.layout.blocks) sum += std::sqrt(area(block.polygon));
+  return sum / bridge.block_count();
+}
+
+double checked_step(const DynamicSettings& settings, double critical) {
+  if (!settings.step) return kOfCritical * critical;
+  if (!(*settings.step > 0.0) || *settings.step > critical)
+    throw InputError(
+        fmt::format("a time step of {} s is not stable: the joints' stiffness against the blocks' masses "
+                    "allows steps up to {:.3g} s",
+                    *settings.step, critical));
+  return *settings.step;
+}
+
+double load_share(double time, double ramp) {
+  if (time >= ramp) return 1.0;
+  const double x = time / ramp;
+  return x * x * (3.0 - 2.0 * x);
+}
+
+}  // namespace
+
+struct DynamicSolver::Workspace {
+  Workspace(const Bridge& bridge, const DynamicSettings& settings_)
+      : settings(settings_),
+        natural(natural_motion(bridge)),
+        critical(voussoir::critical_step(bridge, make_block_bodies(bridge, settings.inertia),
+                                         settings.integrator, settings.contact_damping)),
+        model(bridge, checked_step(settings, critical),
+              settings.damping.value_or(2.0 * kDampingShare * natural.frequency), settings.contact_damping,
+              settings.inertia),
+        margin(kSearchMargin * mean_block_size(bridge)) {}
+
+  long steps_until(double time) const { return std::lround(std::ceil(time / model.step)); }
+
+  DynamicSettings settings;
+  NaturalMotion natural;
+  double critical;
+  MotionModel model;
+  double margin;
+};
+
+namespace {
+
+/// Takes one step; only the implicit one knows several lanes.
+void take_step(Integrator integrator, const MotionModel& model, Motion<Lanes<1>>& motion) {
+  if (integrator == Integrator::implicit_blocks)
+    take_implicit_step(model, motion);
+  else
+    take_explicit_step(model, motion);
+}
+
+void take_step(Integrator, const MotionModel& model, Motion<Lanes<4>>& motion) {
+  take_implicit_step(model, motion);
+}
+
+/// A scene under way in a lane.
+struct LaneRun {
+  std::size_t scene = 0;
+  bool busy = false;
+  long steps = 0;
+  DynamicSolution solution;
+};
+
+/// Follows a list of scenes with as many lanes as T has.
+template <class T, class Shared>
+class Procession {
+ public:
+  Procession(const Shared& shared, std::span<const Scene> scenes)
+      : shared_(shared),
+        model_(shared.model),
+        scenes_(scenes),
+        solutions_(scenes.size()),
+        motion_(at_rest<T>(model_)) {}
+
+  std::vector<DynamicSolution> run() {
+    for (int lane = 0; lane < kLaneCount<T>; ++lane) empty(lane);
+    start_in_idle_lanes();
+    while (any_busy()) {
+      prepare_step();
+      take_step(shared_.settings.integrator, model_, motion_);
+      for (int lane = 0; lane < kLaneCount<T>; ++lane)
+        if (runs_[lane].busy) follow(lane);
+      if (shared_.settings.skips.lane_refill || !any_busy()) start_in_idle_lanes();
+    }
+    return std::move(solutions_);
+  }
+
+ private:
+  bool any_busy() const {
+    return std::any_of(runs_.begin(), runs_.end(), [](const LaneRun& run) { return run.busy; });
+  }
+
+  void start_in_idle_lanes() {
+    for (int lane = 0; lane < kLaneCount<T> && next_ < scenes_.size(); ++lane) {
+      LaneRun& run = runs_[static_cast<std::size_t>(lane)];
+      if (run.busy) continue;
+      run = LaneRun{};
+      run.busy = true;
+      run.scene = next_++;
+      place_scene(model_, removal_mask(scenes_[run.scene], model_.bodies.size()), lane, motion_);
+    }
+  }
+
+  /// An idle lane holds no blocks.
+  void empty(int lane_index) {
+    runs_[static_cast<std::size_t>(lane_index)].busy = false;
+    place_scene(model_, std::vector<bool>(model_.bodies.size(), true), lane_index, motion_);
+  }
+
+  void prepare_step() {
+    for (int i = 0; i < kLaneCount<T>; ++i) {
+      const LaneRun& run = runs_[static_cast<std::size_t>(i)];
+      set_lane(motion_.load, i,
+               load_share(static_cast<double>(run.steps + 1) * model_.step, shared_.settings.ramp));
+    }
+    const bool settled = shared_.settings.skips.settled_contacts;
+    if (!settled || any(motion_.travel > 0.5 * shared_.margin))
+      search_contacts(model_, shared_.margin, motion_);
+  }
+
+  void follow(int lane_index) {
+    LaneRun& run = runs_[static_cast<std::size_t>(lane_index)];
+    const DynamicSettings& settings = shared_.settings;
+    ++run.steps;
+    const double time = static_cast<double>(run.steps) * model_.step;
+    if (run.steps == shared_.steps_until(settings.moment)) {
+      run.solution.solution.displacement = displacement(model_, motion_, lane_index);
+      run.solution.time = time;
+    }
+    const long between = std::max(1L, shared_.steps_until(kTimeBetweenLooks));
+    if (run.steps % between != 0 || time < settings.moment) return;
+    if (!decided(lane_index, time, run.solution)) return;
+    run.solution.solution.iterations = static_cast<int>(run.steps);
+    solutions_[run.scene] = std::move(run.solution);
+    empty(lane_index);
+  }
+
+  /// Fills in the outcome, if there is one by now.
+  bool decided(int i, double time, DynamicSolution& result) const {
+    const DynamicSettings& settings = shared_.settings;
+    const double unbalanced = lane(motion_.unbalanced, i) / model_.weight;
+    const double kinetic = kinetic_energy(model_, motion_, i);
+    const double largest = lane(motion_.largest_unbalanced, i);
+    const bool early = time < settings.earliest_decision;
+    if (early && !settings.skips.early_outcome) return false;
+    const bool last = time >= settings.latest_decision;
+    const bool quiet = !early && unbalanced <= settings.standing_unbalance &&
+                       kinetic <= unbalanced * shared_.natural.work &&
+                       largest <= settings.largest_standing_unbalance;
+    const Field now = displacement(model_, motion_, i);
+    const Mesh& mesh = model_.bridge->mesh;
+    result.solution.moving = blocks_moved_beyond(settings.moving_sags * shared_.natural.sag, mesh, now);
+    result.solution.extent = collapse_extent(model_.bridge->layout, result.solution.moving);
+    const bool plain =
+        early ? unbalanced >= settings.plain_unbalance : largest >= settings.collapsing_unbalance;
+    const bool falling = !quiet && !result.solution.moving.empty() && plain;
+    if (!quiet && !falling && !last) return false;
+    result.kinetic_energy = kinetic;
+    result.solution.residual = unbalanced;
+    result.solution.outcome = quiet ? Outcome::standing : falling ? Outcome::collapsed : Outcome::unresolved;
+    if (falling) return true;
+    result.solution.displacement = now;
+    result.time = time;
+    return true;
+  }
+
+  const Shared& shared_;
+  const MotionModel& model_;
+  std::span<const Scene> scenes_;
+  std::vector<DynamicSolution> solutions_;
+  Motion<T> motion_;
+  std::array<LaneRun, kLaneCount<T>> runs_;
+  std::size_t next_ = 0;
+};
+
+}  // namespace
+
+DynamicSolver::DynamicSolver(const Bridge& bridge, DynamicSettings settings)
+    : workspace_(std::make_unique<Workspace>(bridge, settings)) {}
+DynamicSolver::~DynamicSolver() = default;
+DynamicSolver::DynamicSolver(DynamicSolver&&) noexcept = default;
+DynamicSolver& DynamicSolver::operator=(DynamicSolver&&) noexcept = default;
+
+std::vector<DynamicSolution> DynamicSolver::solve(std::span<const Scene> scenes) {
+  const Workspace& shared = *workspace_;
+  const bool several = shared.settings.side_by_side > 1 && scenes.size() > 1 &&
+                       shared.settings.integrator == Integrator::implicit_blocks;
+  if (several) return Procession<Lanes<4>, Workspace>(shared, scenes).run();
+  return Procession<Lanes<1>, Workspace>(shared, scenes).run();
+}
+
+DynamicSolution DynamicSolver::solve(const Scene& scene) {
+  return std::move(solve(std::span(&scene, 1)).front());
+}
+
+double DynamicSolver::step() const {
+  return workspace_->model.step;
+}
+double DynamicSolver::critical_step() const {
+  return workspace_->critical;
+}
+double DynamicSolver::damping() const {
+  return workspace_->model.damping;
+}
+double DynamicSolver::sag() const {
+  return workspace_->natural.sag;
+}
+
+}  // namespace voussoir

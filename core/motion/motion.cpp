@@ -1,0 +1,180 @@
+#include "core/motion/motion.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace voussoir {
+namespace {
+
+ContactMaterial contact_material(const Bridge& bridge) {
+  const JointMaterial& joints = bridge.description.joints;
+  const double thickness = bridge.description.material.thickness;
+  return {.normal = joints.normal_stiffness * thickness,
+          .tangential = joints.tangential_stiffness * thickness,
+          .friction = std::tan(joints.friction_angle)};
+}
+
+template <class T>
+Eigen::Matrix2Xd places_in_lane(const Motion<T>& motion, int lane_index) {
+  Eigen::Matrix2Xd places(2, static_cast<Eigen::Index>(motion.places.size()));
+  for (Eigen::Index i = 0; i < places.cols(); ++i) {
+    const Pair<T>& place = motion.places[static_cast<std::size_t>(i)];
+    places.col(i) << lane(place.x, lane_index), lane(place.y, lane_index);
+  }
+  return places;
+}
+
+template <class T>
+std::vector<bool> absent_in_lane(const Motion<T>& motion, int lane_index) {
+  std::vector<bool> absent;
+  for (const Cell<T>& present : motion.present) absent.push_back(lane(present.value, lane_index) == 0.0);
+  return absent;
+}
+
+template <class T>
+void set_pair(Pair<T>& pair, int i, double x, double y) {
+  set_lane(pair.x, i, x);
+  set_lane(pair.y, i, y);
+}
+
+}  // namespace
+
+MotionModel::MotionModel(const Bridge& bridge_, double step_, double damping_, double contact_damping_,
+                         RotationalInertia inertia)
+    : bridge(&bridge_),
+      step(step_),
+      damping(damping_),
+      contact_damping(contact_damping_),
+      gravity(bridge_.description.gravity),
+      material(contact_material(bridge_)),
+      search(bridge_.mesh, bridge_.joints),
+      bodies(make_block_bodies(bridge_, inertia)),
+      masses(lumped_masses(bridge_)),
+      held(held_components(bridge_)),
+      moduli(plane_moduli(bridge_.description.material)) {
+  const Mesh& mesh = bridge->mesh;
+  for (const Triangle& triangle : mesh.triangles)
+    triangles.push_back(triangle_shape(mesh.position(triangle.nodes[0]), mesh.position(triangle.nodes[1]),
+                                       mesh.position(triangle.nodes[2])));
+  for (const BlockBody& body : bodies) {
+    response_of_block.push_back(responses.size());
+    const Eigen::MatrixXd response = deformation_response(body, step);  // symmetric: rows are columns
+    responses.insert(responses.end(), response.data(), response.data() + response.size());
+  }
+  weight = masses.sum() * gravity;
+  for (const BlockBody& body : bodies)
+    per_weight.push_back(gravity > 0.0 ? 1.0 / (body.mass * gravity) : 0.0);
+}
+
+template <class T>
+Motion<T> at_rest(const MotionModel& model) {
+  const Mesh& mesh = model.bridge->mesh;
+  const auto nodes = static_cast<std::size_t>(mesh.node_count());
+  const Pair<T> nothing = {T{}, T{}};
+  Motion<T> motion;
+  motion.places.resize(nodes);
+  motion.moved.resize(nodes);
+  motion.forces.assign(nodes, nothing);
+  motion.deformed.resize(nodes);
+  motion.rates.resize(nodes);
+  motion.frames.resize(model.bodies.size());
+  motion.present.resize(model.bodies.size());
+  int largest = 0;
+  for (const BlockBody& body : model.bodies) largest = std::max(largest, body.nodes.size());
+  motion.scratch.resize(static_cast<std::size_t>(largest));
+  for (int i = 0; i < kLaneCount<T>; ++i)
+    place_scene(model, std::vector<bool>(model.bodies.size(), false), i, motion);
+  return motion;
+}
+
+template <class T>
+void place_scene(const MotionModel& model, const std::vector<bool>& removed, int i, Motion<T>& motion) {
+  const Mesh& mesh = model.bridge->mesh;
+  for (std::size_t node = 0; node < motion.places.size(); ++node) {
+    const Point x = mesh.nodes.col(static_cast<Eigen::Index>(node));
+    set_pair(motion.places[node], i, x.x(), x.y());
+    set_pair(motion.moved[node], i, 0.0, 0.0);
+    set_pair(motion.deformed[node], i, 0.0, 0.0);
+    set_pair(motion.rates[node], i, 0.0, 0.0);
+  }
+  for (std::size_t b = 0; b < motion.frames.size(); ++b) {
+    BlockFrame<T>& frame = motion.frames[b];
+    set_pair(frame.centre, i, model.bodies[b].centre.x(), model.bodies[b].centre.y());
+    set_pair(frame.velocity, i, 0.0, 0.0);
+    set_pair(frame.rotation, i, 1.0, 0.0);
+    set_lane(frame.spin, i, 0.0);
+    set_lane(motion.present[b].value, i, removed[b] ? 0.0 : 1.0);
+  }
+  for (ContactShear<T>& shear : motion.shear) {
+    set_lane(shear.at_0, i, 0.0);
+    set_lane(shear.at_1, i, 0.0);
+  }
+  set_lane(motion.load, i, 0.0);
+  set_lane(motion.travel, i, std::numeric_limits<double>::infinity());  // no contacts are known
+}
+
+template <class T>
+void search_contacts(const MotionModel& model, double margin, Motion<T>& motion) {
+  std::vector<EdgePair> pairs;
+  for (int i = 0; i < kLaneCount<T>; ++i) {
+    const std::vector<EdgePair> found =
+        model.search.candidates(places_in_lane(motion, i), absent_in_lane(motion, i), margin);
+    std::vector<EdgePair> merged;
+    std::set_union(pairs.begin(), pairs.end(), found.begin(), found.end(), std::back_inserter(merged));
+    pairs = std::move(merged);
+  }
+  std::vector<ContactShear<T>> shear(pairs.size(), ContactShear<T>{T{}, T{}});
+  std::vector<EdgeContact> contacts;
+  auto old = motion.pairs.begin();
+  for (std::size_t c = 0; c < pairs.size(); ++c) {
+    contacts.push_back(model.search.contact(pairs[c]));
+    old = std::lower_bound(old, motion.pairs.end(), pairs[c]);
+    if (old != motion.pairs.end() && *old == pairs[c])
+      shear[c] = motion.shear[static_cast<std::size_t>(old - motion.pairs.begin())];
+  }
+  motion.pairs = std::move(pairs);
+  motion.contacts = std::move(contacts);
+  motion.shear = std::move(shear);
+  motion.travel = T{};
+}
+
+template <class T>
+Field displacement(const MotionModel& model, const Motion<T>& motion, int lane_index) {
+  Field field = places_in_lane(motion, lane_index) - model.bridge->mesh.nodes;
+  const std::vector<bool> absent = absent_in_lane(motion, lane_index);
+  for (std::size_t b = 0; b < absent.size(); ++b)
+    if (absent[b])
+      field.middleCols(model.bodies[b].nodes.begin, model.bodies[b].nodes.size())
+          .setConstant(std::numeric_limits<double>::quiet_NaN());
+  return field;
+}
+
+template <class T>
+double kinetic_energy(const MotionModel& model, const Motion<T>& motion, int i) {
+  double energy = 0.0;
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    const BlockBody& body = model.bodies[b];
+    const BlockFrame<T>& frame = motion.frames[b];
+    const double speed = std::hypot(lane(frame.velocity.x, i), lane(frame.velocity.y, i));
+    const double spin = lane(frame.spin, i);
+    energy += 0.5 * (body.mass * speed * speed + body.inertia * spin * spin);
+    for (int node = body.nodes.begin; node < body.nodes.end; ++node) {
+      const Pair<T>& rate = motion.rates[static_cast<std::size_t>(node)];
+      const double u = std::hypot(lane(rate.x, i), lane(rate.y, i));
+      energy += 0.5 * model.masses[node] * u * u;
+    }
+  }
+  return energy;
+}
+
+#define VOUSSOIR_INSTANTIATE(T)                                                                \
+  template Motion<T> at_rest<T>(const MotionModel&);                                           \
+  template void place_scene<T>(const MotionModel&, const std::vector<bool>&, int, Motion<T>&); \
+  template void search_contacts<T>(const MotionModel&, double, Motion<T>&);                    \
+  template Field displacement<T>(const MotionModel&, const Motion<T>&, int);                   \
+  template double kinetic_energy<T>(const MotionModel&, const Motion<T>&, int);
+VOUSSOIR_INSTANTIATE(Lanes<1>)
+VOUSSOIR_INSTANTIATE(Lanes<4>)
+#undef VOUSSOIR_INSTANTIATE
+
+}  // namespace voussoir

@@ -1,0 +1,88 @@
+#pragma once
+/// @file Scenes in motion side by side: their state, and what all scenes of a bridge share.
+
+#include <cstddef>
+#include <vector>
+
+#include "core/law/triangle.h"
+#include "core/motion/block_dynamics.h"
+#include "core/motion/contact.h"
+#include "core/motion/contact_search.h"
+#include "core/simd/lane_number.h"
+
+namespace voussoir {
+
+/// What all scenes of a bridge share at one time step.
+struct MotionModel {
+  MotionModel(const Bridge& bridge, double step, double damping, double contact_damping,
+              RotationalInertia inertia = RotationalInertia::exact);
+
+  const Bridge* bridge;    ///< outlives the model
+  double step;             ///< dt [s]
+  double damping;          ///< force on a mass per mass and velocity [1/s]
+  double contact_damping;  ///< joints resist the gap and slip that they would have this much later [s]
+  double gravity;          ///< [m/s2]
+  ContactMaterial material;
+  ContactSearch search;
+  std::vector<BlockBody> bodies;
+  std::vector<double> responses;               ///< deformation_response of all blocks, row by row
+  std::vector<std::size_t> response_of_block;  ///< where each block's begins
+  Eigen::VectorXd masses;                      ///< of the nodes [kg]
+  std::vector<bool> held;                      ///< per displacement component
+  PlaneModuli moduli;
+  std::vector<TriangleShape> triangles;
+  double weight = 0.0;             ///< of the whole bridge [N]
+  std::vector<double> per_weight;  ///< per block: 1 / its weight [1/N]
+};
+
+/// The frame of a block: its centre, how far it has turned, and their rates.
+template <class T>
+struct BlockFrame {
+  Pair<T> centre;    ///< [m]
+  Pair<T> velocity;  ///< [m/s]
+  Pair<T> rotation;  ///< (cos, sin) of the angle
+  T spin;            ///< [rad/s]
+};
+
+/// Several scenes in motion, one in each lane.
+template <class T>
+struct Motion {
+  std::vector<Pair<T>> places;    ///< of the nodes [m]
+  std::vector<Pair<T>> moved;     ///< in the last step [m]
+  std::vector<Pair<T>> forces;    ///< on the nodes [N]
+  std::vector<Pair<T>> deformed;  ///< u of the nodes in their block's frame [m]
+  std::vector<Pair<T>> rates;     ///< du/dt [m/s]; with explicit steps the nodes' velocities
+  std::vector<BlockFrame<T>> frames;
+  std::vector<Cell<T>> present;  ///< per block: 1, or 0 where it is removed
+  std::vector<EdgePair> pairs;
+  std::vector<EdgeContact> contacts;          ///< of `pairs`
+  std::vector<ContactShear<T>> shear;         ///< of `pairs`
+  std::vector<Pair<T>> scratch;               ///< as long as the largest block
+  alignas(sizeof(T)) T load{};                ///< share of gravity that acts
+  alignas(sizeof(T)) T travel{};              ///< bound of any node's way since the last contact search [m]
+  alignas(sizeof(T)) T unbalanced{};          ///< sum over blocks of the resultant forces [N]
+  alignas(sizeof(T)) T largest_unbalanced{};  ///< largest resultant force of a block over its weight
+};
+
+/// Everything at rest; all lanes hold the intact bridge.
+template <class T>
+Motion<T> at_rest(const MotionModel& model);
+
+/// Puts a scene at rest into a lane.
+template <class T>
+void place_scene(const MotionModel& model, const std::vector<bool>& removed, int lane_index,
+                 Motion<T>& motion);
+
+/// Looks for contacts anew in all lanes; contacts that stay keep their shear.
+template <class T>
+void search_contacts(const MotionModel& model, double margin, Motion<T>& motion);
+
+/// Displacements in one lane [m], NaN at the nodes of removed blocks.
+template <class T>
+Field displacement(const MotionModel& model, const Motion<T>& motion, int lane_index);
+
+/// Kinetic energy in one lane [J].
+template <class T>
+double kinetic_energy(const MotionModel& model, const Motion<T>& motion, int lane_index);
+
+}  // namespace voussoir

@@ -1,0 +1,213 @@
+#pragma once
+/// @file The inner loops of a time step, for any number of lanes. Included by one source file for each
+/// instruction set.
+
+#include "core/motion/motion.h"
+
+namespace voussoir {
+
+/// What the kernels see of a Motion.
+template <class T>
+struct MotionView {
+  Pair<T>* places;
+  Pair<T>* moved;
+  Pair<T>* forces;
+  Pair<T>* deformed;
+  Pair<T>* rates;
+  BlockFrame<T>* frames;
+  const Cell<T>* present;
+  const EdgeContact* contacts;
+  ContactShear<T>* shear;
+  std::size_t contact_count;
+  std::size_t node_count;
+  Pair<T>* scratch;
+};
+
+template <class T>
+MotionView<T> view_of(Motion<T>& motion) {
+  return {.places = motion.places.data(),
+          .moved = motion.moved.data(),
+          .forces = motion.forces.data(),
+          .deformed = motion.deformed.data(),
+          .rates = motion.rates.data(),
+          .frames = motion.frames.data(),
+          .present = motion.present.data(),
+          .contacts = motion.contacts.data(),
+          .shear = motion.shear.data(),
+          .contact_count = motion.contacts.size(),
+          .node_count = motion.places.size(),
+          .scratch = motion.scratch.data()};
+}
+
+/// forces += contact, at the places that the nodes will have `ahead` steps later: contact damping.
+template <class T>
+VOUSSOIR_INLINE void add_contact_forces(const ContactMaterial& material, double ahead,
+                                        const MotionView<T>& view) {
+  for (std::size_t c = 0; c < view.contact_count; ++c) {
+    const EdgeContact& contact = view.contacts[c];
+    const T present = view.present[contact.blocks[0]].value * view.present[contact.blocks[1]].value;
+    EdgePlaces<T> edges;
+    edges.ahead = ahead;
+    for (std::size_t i = 0; i < 4; ++i) {
+      edges.moved[i] = view.moved[contact.nodes[i]];
+      edges.now[i] = view.places[contact.nodes[i]] + edges.moved[i] * ahead;
+    }
+    EdgeForces<T> forces;
+    if (contact_forces<T>(contact, material, present, edges, view.shear[c], forces))
+      for (std::size_t i = 0; i < 4; ++i)
+        view.forces[contact.nodes[i]] = view.forces[contact.nodes[i]] + forces[i];
+  }
+}
+
+template <class T>
+VOUSSOIR_INLINE Pair<T> turned(const Pair<T>& v, const Pair<T>& rotation) {
+  return {rotation.x * v.x - rotation.y * v.y, rotation.y * v.x + rotation.x * v.y};
+}
+
+template <class T>
+VOUSSOIR_INLINE Pair<T> turned_back(const Pair<T>& v, const Pair<T>& rotation) {
+  return {rotation.x * v.x + rotation.y * v.y, rotation.x * v.y - rotation.y * v.x};
+}
+
+/// The rotation by a small angle more: the rational approximation of the rotation matrix, made a unit vector
+/// again.
+template <class T>
+VOUSSOIR_INLINE Pair<T> turned_by(const Pair<T>& rotation, T angle) {
+  const T half = 0.5 * angle;
+  const T tangent = half * (1.0 + half * half * (1.0 / 3.0));
+  const T squared = tangent * tangent;
+  const T scale = 1.0 / (1.0 + squared);
+  const Pair<T> result = turned<T>({(1.0 - squared) * scale, 2.0 * tangent * scale}, rotation);
+  return result * (1.5 - 0.5 * dot(result, result));
+}
+
+/// A resultant force and its moment about the block's centre.
+template <class T>
+struct Resultant {
+  Pair<T> force;
+  T moment;
+};
+
+template <class T>
+VOUSSOIR_INLINE Resultant<T> resultant(const BlockBody& body, const Pair<T>& centre,
+                                       const MotionView<T>& view) {
+  Resultant<T> sum = {{T{}, T{}}, T{}};
+  for (int i = body.nodes.begin; i < body.nodes.end; ++i) {
+    const Pair<T>& force = view.forces[i];
+    const Pair<T> arm = view.places[i] - centre;
+    sum.force = sum.force + force;
+    sum.moment += arm.x * force.y - arm.y * force.x;
+  }
+  return sum;
+}
+
+/// u_new = response (M (u + kept dt du/dt) + dt^2 R^T f)
+template <class T>
+VOUSSOIR_INLINE void deform(const BlockBody& body, const double* response, double step, double kept,
+                            const Pair<T>& rotation, const MotionView<T>& view) {
+  const int n = body.nodes.size();
+  const double* masses = body.masses.data();
+  for (int i = 0; i < n; ++i) {
+    const int node = body.nodes.begin + i;
+    view.scratch[i] = (view.deformed[node] + view.rates[node] * (kept * step)) * masses[2 * i] +
+                      turned_back(view.forces[node], rotation) * (step * step);
+  }
+  const double per_step = 1.0 / step;
+  for (int i = 0; i < n; ++i) {
+    const double* row_x = response + static_cast<std::ptrdiff_t>(4 * i) * n;
+    const double* row_y = row_x + 2 * n;
+    Pair<T> from_x = {T{}, T{}};
+    Pair<T> from_y = {T{}, T{}};
+    for (int j = 0; j < n; ++j) {
+      const Pair<T>& r = view.scratch[j];
+      from_x.x += row_x[2 * j] * r.x;
+      from_y.x += row_x[2 * j + 1] * r.y;
+      from_x.y += row_y[2 * j] * r.x;
+      from_y.y += row_y[2 * j + 1] * r.y;
+    }
+    const int node = body.nodes.begin + i;
+    const Pair<T> u = from_x + from_y;
+    view.rates[node] = (u - view.deformed[node]) * per_step;
+    view.deformed[node] = u;
+  }
+}
+
+/// Places of a block's nodes from its frame and deformation; returns the square of the longest way of a node.
+template <class T>
+VOUSSOIR_INLINE T place_nodes(const BlockBody& body, const BlockFrame<T>& frame, const MotionView<T>& view) {
+  T longest{};
+  const double* arms = body.arms.data();
+  for (int i = 0; i < body.nodes.size(); ++i) {
+    const int node = body.nodes.begin + i;
+    const Pair<T> local = {view.deformed[node].x + arms[2 * i], view.deformed[node].y + arms[2 * i + 1]};
+    const Pair<T> place = frame.centre + turned(local, frame.rotation);
+    view.moved[node] = place - view.places[node];
+    view.places[node] = place;
+    longest = larger(longest, dot(view.moved[node], view.moved[node]));
+  }
+  return longest;
+}
+
+/// Adds a block's weight to the forces on its nodes.
+template <class T>
+VOUSSOIR_INLINE void add_weight(const BlockBody& body, T pull, const MotionView<T>& view) {
+  const double* masses = body.masses.data();
+  for (int i = 0; i < body.nodes.size(); ++i) {
+    T& force = view.forces[body.nodes.begin + i].y;
+    force = force - pull * masses[2 * i];
+  }
+}
+
+/// Central differences for a free block's frame. Damping acts on the mean of the velocities before and after,
+/// so that `kept` of the old one is left and the force acts for the time `gained`.
+template <class T>
+VOUSSOIR_INLINE void move_frame(const BlockBody& body, const Resultant<T>& sum, double step, double kept,
+                                double gained, BlockFrame<T>& frame) {
+  frame.velocity = frame.velocity * kept + sum.force * (gained / body.mass);
+  frame.spin = frame.spin * kept + sum.moment * (gained / body.inertia);
+  frame.centre = frame.centre + frame.velocity * step;
+  frame.rotation = turned_by<T>(frame.rotation, frame.spin * step);
+}
+
+/// Notes how far a block's forces are from balance, in the directions in which it is free.
+template <class T>
+VOUSSOIR_INLINE void report_balance(const BlockBody& body, const Resultant<T>& sum, double per_weight,
+                                    Motion<T>& motion) {
+  const T left = (body.free_x ? magnitude(sum.force.x) : T{}) + (body.free_y ? magnitude(sum.force.y) : T{});
+  motion.unbalanced += left;
+  motion.largest_unbalanced = larger(motion.largest_unbalanced, left * per_weight);
+}
+
+/// forces = contact.
+template <class T>
+VOUSSOIR_INLINE void start_forces(const MotionModel& model, const MotionView<T>& view) {
+  for (std::size_t i = 0; i < view.node_count; ++i) view.forces[i] = {T{}, T{}};
+  add_contact_forces(model.material, model.contact_damping / model.step, view);
+}
+
+/// One implicit step in all lanes.
+template <class T>
+VOUSSOIR_INLINE void implicit_step(const MotionModel& model, Motion<T>& motion) {
+  const MotionView<T> view = view_of(motion);
+  const double half_damping = 0.5 * model.damping * model.step;
+  const double kept = (1.0 - half_damping) / (1.0 + half_damping);
+  const double gained = model.step / (1.0 + half_damping);
+  start_forces(model, view);
+  motion.unbalanced = T{};
+  motion.largest_unbalanced = T{};
+  T longest{};
+  const BlockBody* bodies = model.bodies.data();
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    const BlockBody& body = bodies[b];
+    BlockFrame<T>& frame = view.frames[b];
+    add_weight<T>(body, motion.load * view.present[b].value * model.gravity, view);
+    const Resultant<T> sum = resultant(body, frame.centre, view);
+    report_balance(body, sum, model.per_weight[b], motion);
+    deform(body, model.responses.data() + model.response_of_block[b], model.step, kept, frame.rotation, view);
+    if (!body.held) move_frame(body, sum, model.step, kept, gained, frame);
+    longest = larger(longest, place_nodes(body, frame, view));
+  }
+  motion.travel += square_root(longest);
+}
+
+}  // namespace voussoir

@@ -1,0 +1,66 @@
+#include "core/motion/motion_step.h"
+
+#include "core/motion/motion_kernels.h"
+#include "core/simd/lanes.h"
+
+namespace voussoir {
+namespace {
+
+void add_element_forces(const MotionModel& model, Motion<Lanes<1>>& motion) {
+  const Mesh& mesh = model.bridge->mesh;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const auto& nodes = mesh.triangles[t].nodes;
+    Vector6d q;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Pair<double>& place = motion.places[static_cast<std::size_t>(value(nodes[i]))];
+      q.segment<2>(2 * static_cast<Eigen::Index>(i)) = Point(place.x, place.y) - mesh.position(nodes[i]);
+    }
+    const Vector6d force =
+        triangle_force(model.triangles[t], model.moduli, model.bridge->description.material.thickness, q);
+    for (std::size_t i = 0; i < 3; ++i) {
+      Pair<double>& sum = motion.forces[static_cast<std::size_t>(value(nodes[i]))];
+      sum = sum - Pair<double>{force[2 * static_cast<Eigen::Index>(i)],
+                               force[2 * static_cast<Eigen::Index>(i) + 1]};
+    }
+  }
+}
+
+}  // namespace
+
+void take_implicit_step(const MotionModel& model, Motion<Lanes<1>>& motion) {
+  implicit_step(model, motion);
+}
+
+VOUSSOIR_FOR_EVERY_PROCESSOR void take_implicit_step(const MotionModel& model, Motion<Lanes<4>>& motion) {
+  implicit_step(model, motion);
+}
+
+void take_explicit_step(const MotionModel& model, Motion<Lanes<1>>& motion) {
+  using Node = Pair<double>;
+  const MotionView<double> view = view_of(motion);
+  start_forces(model, view);
+  add_element_forces(model, motion);
+  const double half_damping = 0.5 * model.damping * model.step;
+  const double kept = (1.0 - half_damping) / (1.0 + half_damping);
+  const double gained = model.step / (1.0 + half_damping);
+  double longest = 0.0;
+  motion.unbalanced = 0.0;
+  motion.largest_unbalanced = 0.0;
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    const BlockBody& body = model.bodies[b];
+    add_weight(body, motion.load * view.present[b].value * model.gravity, view);
+    report_balance(body, resultant(body, view.places[body.nodes.begin], view), model.per_weight[b], motion);
+    for (int i = body.nodes.begin; i < body.nodes.end; ++i) {
+      Node& rate = view.rates[i];
+      rate = rate * kept + view.forces[i] * (gained / model.masses[i]);
+      if (model.held[static_cast<std::size_t>(2 * i)]) rate.x = 0.0;
+      if (model.held[static_cast<std::size_t>(2 * i + 1)]) rate.y = 0.0;
+      view.moved[i] = rate * model.step;
+      view.places[i] = view.places[i] + view.moved[i];
+      longest = larger(longest, dot(view.moved[i], view.moved[i]));
+    }
+  }
+  motion.travel += square_root(longest);
+}
+
+}  // namespace voussoir

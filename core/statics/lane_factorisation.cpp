@@ -1,0 +1,267 @@
+#include "core/statics/lane_factorisation.h"
+
+#include <amd.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.h"
+
+namespace voussoir {
+namespace {
+
+/// A pivot this small against its diagonal entry has lost all its digits.
+constexpr double kLostDigits = 1e-13;
+/// Widest supernode: its factors and one row's values fit the sixteen AVX registers.
+constexpr int kWidest = 8;
+
+/// work[row] -= sum_c l(row, c) factor[c] for the rows below a supernode; `l` points at the first column
+/// used.
+template <int Count>
+[[gnu::always_inline]] inline void update_rows(const LaneRegister* __restrict l, int stride,
+                                               const int* __restrict rows, int height,
+                                               const LaneRegister* __restrict factor,
+                                               LaneRegister* __restrict work) {
+  LaneRegister f[Count];
+  for (int c = 0; c < Count; ++c) f[c] = factor[c];
+  for (int r = 0; r < height; ++r, l += stride) {
+    LaneRegister value = work[rows[r]];
+    for (int c = 0; c < Count; ++c) value -= l[c] * f[c];
+    work[rows[r]] = value;
+  }
+}
+
+[[gnu::always_inline]] inline void update_rows(int count, const LaneRegister* l, int stride, const int* rows,
+                                               int height, const LaneRegister* factor, LaneRegister* work) {
+  switch (count) {
+    case 1:
+      return update_rows<1>(l, stride, rows, height, factor, work);
+    case 2:
+      return update_rows<2>(l, stride, rows, height, factor, work);
+    case 3:
+      return update_rows<3>(l, stride, rows, height, factor, work);
+    case 4:
+      return update_rows<4>(l, stride, rows, height, factor, work);
+    case 5:
+      return update_rows<5>(l, stride, rows, height, factor, work);
+    case 6:
+      return update_rows<6>(l, stride, rows, height, factor, work);
+    case 7:
+      return update_rows<7>(l, stride, rows, height, factor, work);
+    default:
+      return update_rows<8>(l, stride, rows, height, factor, work);
+  }
+}
+
+}  // namespace
+
+/// The arithmetic, on plain pointers.
+struct LaneFactorisation::Kernel {
+  int n;
+  const int* a_begin;
+  const int* a_row;
+  const int* a_slot;
+  const Supernode* supernodes;
+  const int* supernode_of;
+  const int* row;
+  const int* upper_begin;
+  const UpperPart* upper;
+  LaneRegister* l;
+  LaneRegister* u;
+  LaneRegister* pivot;
+  LaneRegister* diagonal;
+  LaneRegister* work;
+
+  explicit Kernel(LaneFactorisation& f)
+      : n(f.n_),
+        a_begin(f.a_begin_.data()),
+        a_row(f.a_row_.data()),
+        a_slot(f.a_slot_.data()),
+        supernodes(f.supernodes_.data()),
+        supernode_of(f.supernode_of_.data()),
+        row(f.row_.data()),
+        upper_begin(f.upper_begin_.data()),
+        upper(f.upper_.data()),
+        l(registers(f.l_)),
+        u(registers(f.u_)),
+        pivot(registers(f.pivot_)),
+        diagonal(registers(f.diagonal_)),
+        work(registers(f.work_)) {}
+
+  static void factorise(const Kernel& k, const LaneRegister* values);
+  static void substitute(const Kernel& k, LaneRegister* x);
+};
+
+/// Left-looking: column k of A minus the earlier columns of L times column k of U.
+VOUSSOIR_FOR_EVERY_PROCESSOR
+void LaneFactorisation::Kernel::factorise(const Kernel& kernel, const LaneRegister* values) {
+  const Kernel f = kernel;
+  for (int k = 0; k < f.n; ++k) {
+    const Supernode own = f.supernodes[f.supernode_of[k]];
+    for (int c = own.first; c < own.first + own.width; ++c) f.work[c] = LaneRegister{};
+    for (int r = 0; r < own.height; ++r) f.work[f.row[own.rows + r]] = LaneRegister{};
+    for (int p = f.upper_begin[k]; p < f.upper_begin[k + 1]; ++p) {
+      const Supernode& s = f.supernodes[f.upper[p].supernode];
+      for (int c = f.upper[p].first; c < s.first + s.width; ++c) f.work[c] = LaneRegister{};
+    }
+    for (int p = f.a_begin[k]; p < f.a_begin[k + 1]; ++p) f.work[f.a_row[p]] = values[f.a_slot[p]];
+    f.diagonal[k] = f.work[k];
+
+    for (int p = f.upper_begin[k]; p < f.upper_begin[k + 1]; ++p) {
+      const UpperPart part = f.upper[p];
+      const Supernode s = f.supernodes[part.supernode];
+      const int end = std::min(s.first + s.width, k);
+      const LaneRegister* block = f.l + s.values;  // rows and columns of the supernode
+      for (int c = part.first; c < end; ++c) {
+        const LaneRegister factor = f.work[c];
+        f.u[part.values + c - part.first] = factor;
+        for (int r = c + 1; r < s.first + s.width; ++r)
+          f.work[r] -= block[(r - s.first) * s.width + c - s.first] * factor;
+      }
+      update_rows(end - part.first, block + s.width * s.width + part.first - s.first, s.width, f.row + s.rows,
+                  s.height, f.u + part.values, f.work);
+    }
+
+    const LaneRegister pivot = f.work[k];
+    f.pivot[k] = pivot;
+    LaneRegister* block = f.l + own.values + k - own.first;
+    for (int r = k + 1; r < own.first + own.width; ++r)
+      block[(r - own.first) * own.width] = f.work[r] / pivot;
+    block += own.width * own.width;
+    for (int r = 0; r < own.height; ++r) block[r * own.width] = f.work[f.row[own.rows + r]] / pivot;
+  }
+}
+
+VOUSSOIR_FOR_EVERY_PROCESSOR
+void LaneFactorisation::Kernel::substitute(const Kernel& kernel, LaneRegister* x) {
+  const Kernel f = kernel;
+  for (int k = 0; k < f.n; ++k) {
+    const Supernode s = f.supernodes[f.supernode_of[k]];
+    const LaneRegister* block = f.l + s.values + k - s.first;
+    for (int r = k + 1; r < s.first + s.width; ++r) x[r] -= block[(r - s.first) * s.width] * x[k];
+    update_rows<1>(block + s.width * s.width, s.width, f.row + s.rows, s.height, x + k, x);
+  }
+  for (int k = f.n - 1; k >= 0; --k) {
+    const LaneRegister value = x[k] / f.pivot[k];
+    x[k] = value;
+    for (int p = f.upper_begin[k]; p < f.upper_begin[k + 1]; ++p) {
+      const UpperPart& part = f.upper[p];
+      const Supernode& s = f.supernodes[part.supernode];
+      const int end = std::min(s.first + s.width, k);
+      for (int c = part.first; c < end; ++c) x[c] -= f.u[part.values + c - part.first] * value;
+    }
+  }
+}
+
+LaneFactorisation::LaneFactorisation(const Eigen::SparseMatrix<double>& pattern)
+    : n_(static_cast<int>(pattern.rows())) {
+  order(pattern);
+  form_supernodes(find_fill(pattern));
+  const auto n = static_cast<std::size_t>(n_);
+  pivot_.resize(n);
+  diagonal_.resize(n);
+  work_.resize(n);
+}
+
+void LaneFactorisation::order(const Eigen::SparseMatrix<double>& pattern) {
+  permutation_.resize(static_cast<std::size_t>(n_));
+  position_.resize(static_cast<std::size_t>(n_));
+  if (amd_order(n_, pattern.outerIndexPtr(), pattern.innerIndexPtr(), permutation_.data(), nullptr, nullptr) <
+      AMD_OK)
+    throw Failure("the ordering of the stiffness matrix failed: out of memory");
+  for (int k = 0; k < n_; ++k)
+    position_[static_cast<std::size_t>(permutation_[static_cast<std::size_t>(k)])] = k;
+}
+
+/// Symbolic factorisation: column k of L holds the lower part of column k of A and whatever its children in
+/// the elimination tree hold below k.
+std::vector<std::vector<int>> LaneFactorisation::find_fill(const Eigen::SparseMatrix<double>& pattern) {
+  const auto n = static_cast<std::size_t>(n_);
+  std::vector<std::vector<int>> lower(n);
+  std::vector<std::vector<int>> children(n);
+  a_begin_ = {0};
+  for (std::size_t k = 0; k < n; ++k) {
+    const int old = permutation_[k];
+    for (int p = pattern.outerIndexPtr()[old]; p < pattern.outerIndexPtr()[old + 1]; ++p) {
+      const int row = position_[static_cast<std::size_t>(pattern.innerIndexPtr()[p])];
+      a_row_.push_back(row);
+      a_slot_.push_back(p);
+      if (row > static_cast<int>(k)) lower[k].push_back(row);
+    }
+    a_begin_.push_back(static_cast<int>(a_row_.size()));
+    for (const int child : children[k])
+      for (const int row : lower[static_cast<std::size_t>(child)])
+        if (row > static_cast<int>(k)) lower[k].push_back(row);
+    std::sort(lower[k].begin(), lower[k].end());
+    lower[k].erase(std::unique(lower[k].begin(), lower[k].end()), lower[k].end());
+    if (!lower[k].empty())
+      children[static_cast<std::size_t>(lower[k].front())].push_back(static_cast<int>(k));
+  }
+  return lower;
+}
+
+/// Column k + 1 joins column k if it is k's parent and holds all else that k holds.
+void LaneFactorisation::form_supernodes(const std::vector<std::vector<int>>& lower) {
+  int l_size = 0;
+  for (int k = 0; k < n_;) {
+    int end = k + 1;
+    while (end < n_ && end - k < kWidest &&
+           lower[static_cast<std::size_t>(end - 1)].size() ==
+               lower[static_cast<std::size_t>(end)].size() + 1 &&
+           lower[static_cast<std::size_t>(end - 1)].front() == end)
+      ++end;
+    const std::vector<int>& below = lower[static_cast<std::size_t>(end - 1)];
+    const Supernode s{k, end - k, static_cast<int>(row_.size()), static_cast<int>(below.size()), l_size};
+    row_.insert(row_.end(), below.begin(), below.end());
+    l_size += s.width * (s.width + s.height);
+    supernode_of_.insert(supernode_of_.end(), static_cast<std::size_t>(s.width),
+                         static_cast<int>(supernodes_.size()));
+    supernodes_.push_back(s);
+    k = end;
+  }
+  l_.resize(static_cast<std::size_t>(l_size));
+
+  // Column k of U: every supernode that reaches row k, from its first column that does; columns ascend.
+  std::vector<std::vector<UpperPart>> parts(static_cast<std::size_t>(n_));
+  int u_size = 0;
+  for (int j = 0; j < n_; ++j) {
+    const int s = supernode_of_[static_cast<std::size_t>(j)];
+    multiplications_ += static_cast<long long>(lower[static_cast<std::size_t>(j)].size() *
+                                               lower[static_cast<std::size_t>(j)].size());
+    for (const int k : lower[static_cast<std::size_t>(j)]) {
+      auto& of_column = parts[static_cast<std::size_t>(k)];
+      if (of_column.empty() || of_column.back().supernode != s) of_column.push_back({s, j, 0});
+    }
+  }
+  upper_begin_ = {0};
+  for (auto& of_column : parts) {
+    for (UpperPart& part : of_column) {
+      const Supernode& s = supernodes_[static_cast<std::size_t>(part.supernode)];
+      part.values = u_size;
+      u_size += s.first + s.width - part.first;
+      upper_.push_back(part);
+    }
+    upper_begin_.push_back(static_cast<int>(upper_.size()));
+  }
+  u_.resize(static_cast<std::size_t>(u_size));
+}
+
+std::array<bool, kLanes> LaneFactorisation::factorise(const LaneVector& values) {
+  Kernel::factorise(Kernel(*this), registers(values));
+  std::array<bool, kLanes> regular;
+  regular.fill(true);
+  for (std::size_t k = 0; k < pivot_.size(); ++k)
+    for (std::size_t lane = 0; lane < kLanes; ++lane)
+      if (!(std::abs(pivot_[k][lane]) > kLostDigits * std::abs(diagonal_[k][lane]))) regular[lane] = false;
+  return regular;
+}
+
+void LaneFactorisation::solve(LaneVector& right_hand_side) {
+  for (std::size_t k = 0; k < permutation_.size(); ++k)
+    work_[k] = right_hand_side[static_cast<std::size_t>(permutation_[k])];
+  Kernel::substitute(Kernel(*this), registers(work_));
+  for (std::size_t k = 0; k < permutation_.size(); ++k)
+    right_hand_side[static_cast<std::size_t>(permutation_[k])] = work_[k];
+}
+
+}  // namespace voussoir

@@ -1,0 +1,201 @@
+#include "core/statics/newton_search.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace voussoir {
+namespace {
+
+constexpr double kLeastBonding =
+    1e-3;  ///< first help for loose blocks: a thousandth of the joints' stiffness
+constexpr double kBondingFactor = 10.0;  ///< more help for a step out of bounds, less after a step
+constexpr int kMostHalvings = 4;
+constexpr double kFallingSags =
+    10.0;  ///< a scene that moves further than this many times the sag of the bonded one falls
+constexpr double kMovingShare = 0.1;  ///< of the way of the block that has fallen: further means moving away
+
+/// How a phase behaves.
+struct Manner {
+  double largest_step;  ///< in units of the largest displacement so far; loose blocks would jump further
+  double rise;          ///< that a step may make of the worst of the last residuals
+  int patience;         ///< steps after which the phase is given up ..
+  double hope;          ///< .. unless the residual is below this share of the first step's
+};
+
+constexpr int kForever = std::numeric_limits<int>::max();
+/// Nine of ten standing scenes have a hundredth of the residual after three steps, falling ones more than a
+/// half.
+constexpr Manner kQuick{.largest_step = 0.5, .rise = 1.0, .patience = 3, .hope = 0.3};
+constexpr Manner kPatient{.largest_step = 0.5, .rise = 1.0, .patience = kForever, .hope = 0.0};
+constexpr Manner kFalling{.largest_step = 2.0, .rise = 3.0, .patience = kForever, .hope = 0.0};
+
+const Manner& manner(SearchPhase phase) {
+  if (phase == SearchPhase::falling) return kFalling;
+  return phase == SearchPhase::patient ? kPatient : kQuick;
+}
+
+int most_iterations(SearchPhase phase, const QuasiStaticSettings& settings) {
+  if (phase == SearchPhase::warm) return settings.most_warm_iterations;
+  return phase == SearchPhase::falling ? settings.most_falling_iterations : settings.most_iterations;
+}
+
+void fill_removed(const Mesh& mesh, const std::vector<bool>& removed, double filling, Field& field) {
+  for (std::size_t block = 0; block < removed.size(); ++block)
+    if (removed[block])
+      field.middleCols(mesh.block_nodes[block].begin, mesh.block_nodes[block].size()).setConstant(filling);
+}
+
+/// Zero where the start says nothing, where supports hold and where blocks are gone.
+Field admissible(const EquilibriumSystem& system, const std::vector<bool>& removed, const Field& start) {
+  Field field = start.array().isNaN().select(0.0, start);
+  for (std::size_t c = 0; c < system.unknown.size(); ++c)
+    if (system.unknown[c] < 0) field.data()[c] = 0.0;
+  fill_removed(system.bridge->mesh, removed, 0.0, field);
+  return field;
+}
+
+}  // namespace
+
+NewtonSearch::NewtonSearch(const EquilibriumSystem& system, const QuasiStaticSettings& settings,
+                           const Scene& scene, const Field* start, TangentTarget tangent)
+    : system_(&system),
+      settings_(&settings),
+      tangent_(tangent),
+      removed_(removal_mask(scene, system.bridge->layout.size())),
+      displacement_(Field::Zero(2, system.bridge->mesh.node_count())) {
+  if (start != nullptr)
+    begin(SearchPhase::warm, *start, 0.0);
+  else
+    begin(SearchPhase::quick, at_rest(), 1.0);
+}
+
+void NewtonSearch::begin(SearchPhase phase, const Field& start, double bonding) {
+  phase_ = phase;
+  displacement_ = admissible(*system_, removed_, start);
+  bonding_ = bonding;
+  recent_.fill(std::numeric_limits<double>::infinity());
+  steps_ = 0;
+  phase_iterations_ = 0;
+  evaluate();
+}
+
+void NewtonSearch::begin_next_phase() {
+  switch (phase_) {
+    case SearchPhase::warm:
+      begin(SearchPhase::quick, at_rest(), 1.0);
+      break;
+    case SearchPhase::quick:
+      phase_ =
+          settings_->follow_falls ? SearchPhase::falling : SearchPhase::done;  // from where the search is
+      phase_iterations_ = 0;
+      break;
+    case SearchPhase::falling:
+      begin(SearchPhase::patient, at_rest(), 1.0);
+      break;
+    case SearchPhase::patient:
+    case SearchPhase::done:
+      phase_ = SearchPhase::done;
+  }
+}
+
+void NewtonSearch::evaluate() {
+  unbalanced_ = assemble(*system_, removed_, displacement_, bonding_, tangent_);
+}
+
+void NewtonSearch::advance(bool regular, const Eigen::VectorXd& step) {
+  ++iterations_;
+  ++phase_iterations_;
+  if (within_bounds(regular, step)) {
+    take_step(step);
+    if (in_equilibrium() || (fallen() && phase_ != SearchPhase::warm)) {
+      phase_ = SearchPhase::done;
+      return;
+    }
+  } else if (bonding_ < 1.0) {
+    bonding_ = std::clamp(bonding_ * kBondingFactor, kLeastBonding, 1.0);
+    evaluate();
+  } else {
+    begin_next_phase();  // singular even with all joints bonded
+    return;
+  }
+  if (exhausted()) begin_next_phase();
+}
+
+bool NewtonSearch::within_bounds(bool regular, const Eigen::VectorXd& step) const {
+  if (!regular || !step.allFinite()) return false;
+  const double so_far = largest_displacement();
+  return bonding_ >= 1.0 || so_far == 0.0 ||
+         step.cwiseAbs().maxCoeff() <= manner(phase_).largest_step * so_far;
+}
+
+/// Halves the step while the unbalance rises too far.
+void NewtonSearch::take_step(const Eigen::VectorXd& step) {
+  const double bound = manner(phase_).rise * *std::max_element(recent_.begin(), recent_.end());
+  const Field before = displacement_;
+  const bool bonded_from_rest = steps_ == 0 && bonding_ >= 1.0;
+  bonding_ = bonding_ > kLeastBonding ? bonding_ / kBondingFactor : 0.0;
+  double factor = 1.0;
+  double norm = 0.0;
+  for (int halving = 0; halving <= kMostHalvings; ++halving, factor *= 0.5) {
+    displacement_ = before;
+    for (int i = 0; i < system_->unknown_count(); ++i)
+      displacement_.data()[system_->component[static_cast<std::size_t>(i)]] += factor * step[i];
+    evaluate();
+    norm = (unbalanced_ / system_->largest_load).norm();  // squares of tiny loads would vanish
+    if (norm < bound) break;
+  }
+  last_step_ = factor * step.cwiseAbs().maxCoeff();
+  std::rotate(recent_.begin(), recent_.begin() + 1, recent_.end());
+  recent_.back() = norm;
+  if (bonded_from_rest) bonded_sag_ = last_step_;
+  if (steps_++ == 0) first_norm_ = norm;
+}
+
+bool NewtonSearch::exhausted() const {
+  const Manner& how = manner(phase_);
+  const bool hopeless =
+      settings_->skips.early_outcome && steps_ >= how.patience && recent_.back() > how.hope * first_norm_;
+  return hopeless || fallen() || phase_iterations_ >= most_iterations(phase_, *settings_);
+}
+
+double NewtonSearch::residual() const {
+  return unbalanced_.cwiseAbs().maxCoeff() / system_->largest_load;
+}
+
+bool NewtonSearch::in_equilibrium() const {
+  const double r = residual();
+  const bool at_round_off =
+      steps_ > 0 && bonding_ == 0.0 && last_step_ <= settings_->round_off * largest_displacement();
+  return r <= settings_->tolerance || (at_round_off && r <= settings_->loose_tolerance);
+}
+
+/// Soft joints let a standing bridge move further than the setting says; not further than many bonded sags.
+double NewtonSearch::falling_displacement() const {
+  return std::max(settings_->collapse_displacement, kFallingSags * bonded_sag_);
+}
+
+bool NewtonSearch::fallen() const {
+  const double largest = largest_displacement();
+  return !std::isfinite(largest) || largest > falling_displacement();
+}
+
+Solution NewtonSearch::solution() const {
+  Solution solution;
+  solution.displacement = displacement_;
+  solution.residual = residual();
+  solution.iterations = iterations_;
+  if (fallen()) {
+    const Bridge& bridge = *system_->bridge;
+    solution.outcome = Outcome::collapsed;
+    solution.moving = blocks_moved_beyond(kMovingShare * falling_displacement(), bridge.mesh, displacement_);
+    solution.extent = collapse_extent(bridge.layout, solution.moving);
+  } else if (in_equilibrium()) {
+    solution.outcome = Outcome::standing;
+  }
+  fill_removed(system_->bridge->mesh, removed_, std::numeric_limits<double>::quiet_NaN(),
+               solution.displacement);
+  return solution;
+}
+
+}  // namespace voussoir

@@ -1,0 +1,73 @@
+#pragma once
+/// @file Newton's search for the equilibrium of one scene, as a machine that asks for one linear solution
+/// after another, so that several searches can share their factorisations' arithmetic.
+
+#include <array>
+#include <vector>
+
+#include "core/statics/equilibrium.h"
+#include "core/statics/quasi_static_solver.h"
+
+namespace voussoir {
+
+/// The phases of a search, in the order in which they are tried.
+enum class SearchPhase {
+  warm,     ///< from a given start
+  quick,    ///< from rest, given up when it has no hope
+  falling,  ///< goes on with bolder steps: does something fall?
+  patient,  ///< from rest once more, with all patience: the last word
+  done
+};
+
+/// One scene's search. After construction, and after every `advance` that does not finish it, the target
+/// holds the tangent and `unbalanced` the right-hand side of the next linear system.
+class NewtonSearch {
+ public:
+  /// `start` may be null: the search then begins at rest. System and settings outlive the search.
+  NewtonSearch(const EquilibriumSystem& system, const QuasiStaticSettings& settings, const Scene& scene,
+               const Field* start, TangentTarget tangent);
+
+  bool finished() const { return phase_ == SearchPhase::done; }
+  const Field& unbalanced() const { return unbalanced_; }
+
+  /// Takes the linear system's answer: the displacement step at the unknowns, or that the matrix is singular.
+  void advance(bool regular, const Eigen::VectorXd& step);
+
+  /// Precondition: finished.
+  Solution solution() const;
+
+ private:
+  void begin(SearchPhase phase, const Field& start, double bonding);
+  void begin_next_phase();
+  void take_step(const Eigen::VectorXd& step);
+  void evaluate();
+  bool within_bounds(bool regular, const Eigen::VectorXd& step) const;
+  bool exhausted() const;
+  bool in_equilibrium() const;
+  bool fallen() const;
+  double falling_displacement() const;
+  double residual() const;
+  double largest_displacement() const { return displacement_.cwiseAbs().maxCoeff(); }
+  Field at_rest() const { return Field::Zero(2, displacement_.cols()); }
+
+  static constexpr std::size_t kMemory = 5;
+
+  const EquilibriumSystem* system_;
+  const QuasiStaticSettings* settings_;
+  TangentTarget tangent_;
+  std::vector<bool> removed_;
+  SearchPhase phase_ = SearchPhase::done;
+  Field displacement_;
+  Field unbalanced_;        ///< at `displacement_` [N]
+  double bonding_ = 0.0;    ///< share of bonded joints in the tangent
+  double last_step_ = 0.0;  ///< largest component [m]
+  std::array<double, kMemory>
+      recent_{};             ///< the last norms of `unbalanced_`: a step may rise to the worst of them
+  double bonded_sag_ = 0.0;  ///< largest displacement after the bonded first step from rest [m]; 0 before
+  double first_norm_ = 0.0;  ///< after the start's first step
+  int steps_ = 0;            ///< since the start
+  int phase_iterations_ = 0;
+  int iterations_ = 0;  ///< linear systems in all phases
+};
+
+}  // namespace voussoir

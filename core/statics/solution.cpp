@@ -1,0 +1,17 @@
+#include "core/statics/solution.h"
+
+namespace voussoir {
+
+std::string_view to_string(Outcome outcome) {
+  switch (outcome) {
+    case Outcome::standing:
+      return "standing";
+    case Outcome::collapsed:
+      return "collapsed";
+    case Outcome::unresolved:
+      break;
+  }
+  return "unresolved";
+}
+
+}  // namespace voussoir

@@ -1,0 +1,34 @@
+#pragma once
+/// @file What a solver says of a scene.
+
+#include <string_view>
+
+#include <vector>
+
+#include "core/structure/collapse.h"
+
+namespace voussoir {
+
+enum class Outcome : std::uint8_t {
+  standing = 0,   ///< equilibrium was reached
+  collapsed = 1,  ///< blocks fall; the field is a snapshot at a stated moment
+  unresolved = 2  ///< neither could be shown; the residual says how far it got
+};
+
+/// "standing", "collapsed", "unresolved"
+std::string_view to_string(Outcome outcome);
+
+struct Solution {
+  Outcome outcome = Outcome::unresolved;
+  Field displacement;  ///< [m], 2 x nodes; NaN at nodes of removed blocks
+  double residual =
+      0.0;  ///< of equilibrium: largest unbalanced nodal force over the largest nodal weight [-]; of
+            ///< a collapse in motion: sum of the blocks' resultant forces over the bridge's weight [-]
+  int iterations = 0;  ///< linear systems solved; time steps for a collapse in motion
+  CollapseExtent extent = CollapseExtent::none;  ///< of what `moving` says
+  std::vector<BlockId>
+      moving{};  ///< blocks that had moved away when the scene's collapse was decided, ascending;
+                 ///< of a scene in motion that stands those that slid and were caught
+};
+
+}  // namespace voussoir

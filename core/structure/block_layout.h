@@ -1,0 +1,31 @@
+#pragma once
+/// @file From the description of a bridge to its blocks.
+
+#include <optional>
+#include <vector>
+
+#include "core/structure/block.h"
+#include "core/structure/bridge_description.h"
+
+namespace voussoir {
+
+/// All blocks of a bridge, arch blocks first, then the wall course by course, each from left to right.
+struct BlockLayout {
+  std::vector<Block> blocks;
+
+  std::size_t size() const { return blocks.size(); }
+  const Block& operator[](BlockId id) const { return blocks[static_cast<std::size_t>(id)]; }
+
+  /// The block with this index, or nothing.
+  std::optional<BlockId> find(BlockIndex index) const;
+
+  /// Number of blocks in a course; 0 is the arch.
+  int count_in_course(int course) const;
+};
+
+/// Lays the bridge's blocks (paper, Fig. 1): ring blocks of every span, and the course rectangles minus what
+/// the rings' extrados chords and legs enclose. A rectangle cut in two gives two blocks. Throws InputError if
+/// no block is left.
+BlockLayout lay_blocks(const BridgeDescription& description);
+
+}  // namespace voussoir

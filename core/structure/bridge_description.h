@@ -1,0 +1,98 @@
+#pragma once
+/// @file What a bridge file says: geometry, material, joints, supports, control points. SI units throughout.
+
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "core/geometry/polygon.h"
+
+namespace voussoir {
+
+/// How the blocks of successive courses are laid.
+enum class Bond {
+  running,  ///< odd courses are shifted by half a block
+  stack     ///< all courses start with a whole block
+};
+
+/// The spandrel wall: courses of rectangular blocks, laid from x = 0, y = 0.
+struct WallDescription {
+  double length = 20.0;        ///< [m]
+  int courses = 12;            ///< numbered from 1 at the bottom
+  double course_height = 0.5;  ///< [m]
+  double block_length = 1.0;   ///< [m]
+  Bond bond = Bond::running;
+  double smallest_piece = 1e-9;  ///< [m2] smaller remains of blocks cut by a ring vanish
+};
+
+/// A stilted semicircular arch ring; below its centre it goes straight down to the ground (y = 0).
+struct SpanDescription {
+  double centre_x = 10.0;        ///< [m]
+  double centre_y = 1.05;        ///< [m] height of the springing, also the height of the leg blocks
+  double intrados_radius = 3.5;  ///< [m]
+  double ring_thickness = 0.5;   ///< [m]
+  int voussoirs = 17;            ///< of equal angle
+
+  double extrados_radius() const { return intrados_radius + ring_thickness; }
+};
+
+enum class PlaneState { stress, strain };
+
+/// Linear elastic blocks (paper, Table 1).
+struct Material {
+  double young_modulus = 2.5e10;  ///< [Pa]
+  double poisson_ratio = 0.2;     ///< [-]
+  double density = 2400.0;        ///< [kg/m3]
+  double thickness = 1.0;         ///< [m] out of plane
+  PlaneState plane = PlaneState::stress;
+};
+
+/// Dry joints: no tension, no cohesion (paper, Table 1).
+struct JointMaterial {
+  double normal_stiffness = 1e9;                            ///< [Pa/m] per unit joint area
+  double tangential_stiffness = 1e8;                        ///< [Pa/m] per unit joint area
+  double friction_angle = 35.0 * std::numbers::pi / 180.0;  ///< [rad]
+
+  double friction_coefficient() const { return std::tan(friction_angle); }
+};
+
+enum class Support {
+  clamped,  ///< both displacements are zero
+  roller,   ///< the displacement along the outward normal is zero
+  free
+};
+
+struct SupportDescription {
+  Support base = Support::clamped;  ///< nodes at y = 0
+  Support sides = Support::roller;  ///< nodes at x = 0 and x = length
+};
+
+/// Which sets of points are measured. T1.. are the upper corners of the top course's blocks, A1.. the
+/// intrados corners of the arch blocks, both from left to right.
+struct ControlPointDescription {
+  bool top = true;
+  bool arch = true;
+};
+
+/// How blocks are cut into triangles; the defaults are the paper's Fig. 2 as far as one rule can follow it.
+struct MeshDescription {
+  int refinement = 0;            ///< each level cuts every triangle into four
+  bool split_at_corners = true;  ///< also put nodes where neighbours' corners touch an edge
+};
+
+/// Everything that defines a bridge. The default value is the reference bridge.
+struct BridgeDescription {
+  std::string name = "reference";
+  WallDescription wall;
+  std::vector<SpanDescription> spans = {SpanDescription{}};
+  Material material;
+  JointMaterial joints;
+  SupportDescription supports;
+  ControlPointDescription control_points;
+  MeshDescription mesh;
+  double gravity = 9.81;          ///< [m/s2] downwards
+  double joint_tolerance = 1e-6;  ///< [m] edges closer than this form a joint
+};
+
+}  // namespace voussoir

@@ -1,0 +1,88 @@
+#include "core/structure/mesh.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "core/geometry/triangulation.h"
+
+namespace voussoir {
+namespace {
+
+constexpr double kOnAxis = 1e-9;    ///< [m] a centre of gravity this close to the axis lies on it
+constexpr double kTouching = 1e-6;  ///< [m] a corner this close to an edge touches it
+
+/// Corners of other blocks that touch the block's boundary away from its own corners.
+std::vector<Point> touching_corners(const Polygon& polygon, const std::vector<Block>& blocks) {
+  Eigen::AlignedBox2d box;
+  for (const Point& p : polygon) box.extend(p);
+  const auto is_far = [&](const Point& p) { return box.squaredExteriorDistance(p) > kTouching * kTouching; };
+  std::vector<Point> touching;
+  for (const Block& block : blocks)
+    for (const Point& p : block.polygon)
+      if (!is_far(p) && distance_to_boundary(polygon, p) < kTouching &&
+          distance_to_corner(polygon, p) > kTouching)
+        touching.push_back(p);
+  return touching;
+}
+
+/// Cuts the mirror image instead and maps the corners back, so that blocks on the right are cut like those on
+/// the left.
+Triangulation cut_as_mirror_image(const Polygon& polygon, double axis) {
+  const int n = static_cast<int>(polygon.size());
+  Triangulation result = cut_between_corners(mirrored(polygon, axis));
+  result.points = polygon;
+  for (auto& triangle : result.triangles)
+    triangle = {n - 1 - triangle[2], n - 1 - triangle[1], n - 1 - triangle[0]};
+  return result;
+}
+
+Triangulation cut(const Block& block, double axis) {
+  const double from_axis = centroid(block.polygon).x() - axis;
+  if (block.kind == BlockKind::voussoir) return fan_about_edge(block.polygon, 3);  // the extrados chord
+  const bool quadrangle = block.polygon.size() == 4;
+  if (std::abs(from_axis) < kOnAxis || block.kind == BlockKind::leg || (block.top_course && quadrangle))
+    return fan_about_centre(block.polygon);
+  return from_axis < 0.0 ? cut_between_corners(block.polygon) : cut_as_mirror_image(block.polygon, axis);
+}
+
+Triangulation triangulate(const Block& block, const BlockLayout& layout, const MeshDescription& rule,
+                          double axis) {
+  Triangulation result = cut(block, axis);
+  if (rule.split_at_corners)
+    for (const Point& corner : touching_corners(block.polygon, layout.blocks))
+      split_boundary_at(result, corner, kTouching);
+  for (int level = 0; level < rule.refinement; ++level) result = refined(result);
+  return result;
+}
+
+void append(const Triangulation& part, std::vector<Point>& points, Mesh& mesh) {
+  const int first_node = static_cast<int>(points.size());
+  const auto node = [&](int local) { return NodeId{first_node + local}; };
+  const auto range_since = [](int begin, std::size_t end) {
+    return IndexRange{begin, static_cast<int>(end)};
+  };
+  const int first_triangle = static_cast<int>(mesh.triangles.size());
+  const int first_edge = static_cast<int>(mesh.edges.size());
+
+  points.insert(points.end(), part.points.begin(), part.points.end());
+  for (const auto& t : part.triangles) mesh.triangles.push_back({{node(t[0]), node(t[1]), node(t[2])}});
+  for (const auto& e : boundary(part)) mesh.edges.push_back({node(e[0]), node(e[1])});
+  mesh.block_nodes.push_back(range_since(first_node, points.size()));
+  mesh.block_triangles.push_back(range_since(first_triangle, mesh.triangles.size()));
+  mesh.block_edges.push_back(range_since(first_edge, mesh.edges.size()));
+}
+
+}  // namespace
+
+Mesh make_mesh(const BlockLayout& layout, const MeshDescription& rule, double mirror_axis) {
+  Mesh mesh;
+  std::vector<Point> points;
+  for (const Block& block : layout.blocks)
+    append(triangulate(block, layout, rule, mirror_axis), points, mesh);
+  mesh.nodes.resize(2, static_cast<Eigen::Index>(points.size()));
+  for (std::size_t i = 0; i < points.size(); ++i) mesh.nodes.col(static_cast<Eigen::Index>(i)) = points[i];
+  return mesh;
+}
+
+}  // namespace voussoir

@@ -1,0 +1,58 @@
+#pragma once
+/// @file Constant-strain triangles, own nodes per block.
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "core/structure/block_layout.h"
+
+namespace voussoir {
+
+/// Column in Mesh::nodes and in every field.
+enum class NodeId : std::int32_t {};
+
+constexpr int value(NodeId id) {
+  return static_cast<int>(id);
+}
+
+/// Displacements of all nodes [m], 2 x nodes; NaN at the nodes of removed blocks.
+using Field = Eigen::Matrix2Xd;
+
+struct Triangle {
+  std::array<NodeId, 3> nodes;  ///< counter-clockwise
+};
+
+/// A stretch of a block's boundary between two nodes, with the block on its left.
+struct BoundaryEdge {
+  NodeId from;
+  NodeId to;
+};
+
+/// Half-open range of positions in a vector.
+struct IndexRange {
+  int begin = 0;
+  int end = 0;
+  int size() const { return end - begin; }
+};
+
+struct Mesh {
+  Eigen::Matrix2Xd nodes;                   ///< reference positions [m], block after block
+  std::vector<Triangle> triangles;          ///< block after block
+  std::vector<BoundaryEdge> edges;          ///< block after block, counter-clockwise round each
+  std::vector<IndexRange> block_nodes;      ///< per block: its columns in `nodes`
+  std::vector<IndexRange> block_triangles;  ///< per block: its range in `triangles`
+  std::vector<IndexRange> block_edges;      ///< per block: its range in `edges`
+
+  int node_count() const { return static_cast<int>(nodes.cols()); }
+  Point position(NodeId id) const { return nodes.col(value(id)); }
+};
+
+/// Cuts the blocks into triangles: two to a plain block, three to a voussoir, four about the centre to a leg
+/// and to a block of the top course, and as few as its corners allow to a block cut by the arch; a block
+/// astride `mirror_axis` is fanned about its centre, so that the mesh of a symmetric bridge is its own mirror
+/// image.
+Mesh make_mesh(const BlockLayout& layout, const MeshDescription& rule, double mirror_axis);
+
+}  // namespace voussoir

@@ -1,0 +1,93 @@
+#include "core/structure/scene.h"
+
+#include <algorithm>
+#include <charconv>
+
+#include "core/error.h"
+
+namespace voussoir {
+namespace {
+
+std::string_view trimmed(std::string_view text) {
+  const auto first = text.find_first_not_of(" \t\r\n");
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(" \t\r\n") - first + 1);
+}
+
+/// A whole number that fills the text, or -1.
+int parse_count(std::string_view text) {
+  int number = -1;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  return error == std::errc{} && end == text.data() + text.size() ? number : -1;
+}
+
+BlockId parse_block(std::string_view text, const BlockLayout& layout) {
+  const auto comma = text.find(',');
+  const int course = comma == std::string_view::npos ? -1 : parse_count(trimmed(text.substr(0, comma)));
+  const int position = comma == std::string_view::npos ? -1 : parse_count(trimmed(text.substr(comma + 1)));
+  if (course < 0 || position < 0)
+    throw InputError(fmt::format("'{}' names no block: expected COURSE,POSITION such as 10,4", text));
+  const auto id = layout.find({course, position});
+  if (!id && layout.count_in_course(course) == 0)
+    throw InputError(
+        fmt::format("there is no block {},{}: this bridge has no course {}", course, position, course));
+  if (!id)
+    throw InputError(fmt::format("there is no block {},{}: course {} has positions 1 to {}", course, position,
+                                 course, layout.count_in_course(course)));
+  return *id;
+}
+
+void append_scenes(std::size_t block_count, int missing, Scene& prefix, std::vector<Scene>& scenes) {
+  if (prefix.missing() == missing) {
+    scenes.push_back(prefix);
+    return;
+  }
+  const std::size_t first =
+      prefix.removed.empty() ? 0 : static_cast<std::size_t>(value(prefix.removed.back())) + 1;
+  for (std::size_t block = first; block < block_count; ++block) {
+    prefix.removed.push_back(BlockId{static_cast<std::int32_t>(block)});
+    append_scenes(block_count, missing, prefix, scenes);
+    prefix.removed.pop_back();
+  }
+}
+
+}  // namespace
+
+bool Scene::lacks(BlockId block) const {
+  return std::find(removed.begin(), removed.end(), block) != removed.end();
+}
+
+Scene parse_scene(std::string_view text, const BlockLayout& layout) {
+  Scene scene;
+  if (trimmed(text) == "intact") return scene;
+  for (std::size_t start = 0; start <= text.size();) {
+    const std::size_t end = std::min(text.find('+', start), text.size());
+    scene.removed.push_back(parse_block(trimmed(text.substr(start, end - start)), layout));
+    start = end + 1;
+  }
+  std::sort(scene.removed.begin(), scene.removed.end());
+  const auto repeated = std::adjacent_find(scene.removed.begin(), scene.removed.end());
+  if (repeated != scene.removed.end())
+    throw InputError(
+        fmt::format("scene '{}' names block {} twice", text, to_string(layout[*repeated].index)));
+  return scene;
+}
+
+std::string to_string(const Scene& scene, const BlockLayout& layout) {
+  if (scene.removed.empty()) return "intact";
+  std::vector<BlockIndex> indices;
+  for (const BlockId id : scene.removed) indices.push_back(layout[id].index);
+  std::string text;
+  for (const BlockIndex& index : indices) text += (text.empty() ? "" : "+") + to_string(index);
+  return text;
+}
+
+std::vector<Scene> all_scenes(std::size_t block_count, int most_missing) {
+  std::vector<Scene> scenes;
+  Scene prefix;
+  for (int missing = 0; missing <= most_missing; ++missing)
+    append_scenes(block_count, missing, prefix, scenes);
+  return scenes;
+}
+
+}  // namespace voussoir

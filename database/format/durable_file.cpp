@@ -1,0 +1,34 @@
+#include "database/format/durable_file.h"
+
+#include <fcntl.h>
+
+#include <cerrno>
+#include <cstring>
+
+#include "core/error.h"
+#include "database/format/file_descriptor.h"
+
+namespace voussoir {
+namespace {
+
+void synchronise(const std::filesystem::path& path, int flags) {
+  const FileDescriptor file(::open(path.c_str(), flags | O_CLOEXEC));
+  if (!file || ::fsync(file.get()) != 0)
+    throw Failure(
+        fmt::format("{}: could not be written to the disk: {}", path.string(), std::strerror(errno)));
+}
+
+}  // namespace
+
+void put_in_place(const std::filesystem::path& finished, const std::filesystem::path& target) {
+  synchronise(finished, O_RDWR);
+  std::error_code error;
+  std::filesystem::rename(finished, target, error);
+  if (error)
+    throw Failure(fmt::format("{}: could not be given the name {}: {}", finished.string(), target.string(),
+                              error.message()));
+  const std::filesystem::path folder = target.has_parent_path() ? target.parent_path() : ".";
+  synchronise(folder, O_RDONLY | O_DIRECTORY);
+}
+
+}  // namespace voussoir

@@ -1,0 +1,223 @@
+#include "database/records/journal.h"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+
+#include <cerrno>
+
+#include "core/error.h"
+#include "database/format/field_codec.h"
+#include "database/format/mapped_file.h"
+
+namespace voussoir {
+namespace {
+
+constexpr std::string_view kMagic = "VOUSSOIR JOURNAL 2\n";
+constexpr std::size_t kFrameHead = 2 * sizeof(std::uint32_t);
+
+/// A whole frame's content at the front of the reader, or nothing.
+std::optional<ByteView> next_frame(ByteReader& reader) {
+  const auto size = reader.get<std::uint32_t>();
+  const auto crc = reader.get<std::uint32_t>();
+  if (!size || !crc) return std::nullopt;
+  const auto content = reader.get_bytes(*size);
+  return content && crc32_of(*content) == *crc ? content : std::nullopt;
+}
+
+Bytes header_content(const Provenance& provenance, const std::string& key) {
+  const std::string text = key + "\n" + to_text(provenance);
+  const ByteView bytes = view_bytes(text);
+  return {bytes.begin(), bytes.end()};
+}
+
+/// Splits what header_content has put together.
+struct Header {
+  std::string key;
+  Provenance provenance;
+};
+
+std::optional<Header> parse_header(ByteView content) {
+  const std::string text(reinterpret_cast<const char*>(content.data()), content.size());
+  const auto line_end = text.find('\n');
+  if (line_end == std::string::npos) return std::nullopt;
+  const auto provenance = parse_provenance(text.substr(line_end + 1));
+  return provenance ? std::optional(Header{text.substr(0, line_end), *provenance}) : std::nullopt;
+}
+
+/// True if the open file still is the one of this name: another builder may just have finished and deleted
+/// it.
+bool is_current(const FileDescriptor& file, const std::filesystem::path& path) {
+  struct stat opened {};
+  struct stat named {};
+  return ::fstat(file.get(), &opened) == 0 && ::stat(path.c_str(), &named) == 0 &&
+         opened.st_ino == named.st_ino && opened.st_dev == named.st_dev;
+}
+
+FileDescriptor open_locked(const std::filesystem::path& path) {
+  for (;;) {
+    FileDescriptor file(::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644));
+    if (!file)
+      throw Failure(fmt::format("{}: cannot be written: {} (building needs a folder that can be written to)",
+                                path.string(), std::strerror(errno)));
+    if (::flock(file.get(), LOCK_EX | LOCK_NB) != 0)
+      throw Failure(
+          fmt::format("{}: another build-database is working on this database; wait for it or give another "
+                      "file with -o",
+                      path.string()));
+    if (is_current(file, path)) return file;
+  }
+}
+
+}  // namespace
+
+std::filesystem::path Journal::path_for(const std::filesystem::path& target) {
+  return target.string() + ".partial";
+}
+
+Journal::Journal(std::filesystem::path path, FileDescriptor file)
+    : path_(std::move(path)), file_(std::move(file)) {}
+
+Journal::Journal(Journal&& other) noexcept
+    : path_(std::move(other.path_)),
+      file_(std::move(other.file_)),
+      end_(other.end_),
+      places_(std::move(other.places_)),
+      discarded_(std::move(other.discarded_)) {}
+
+Journal Journal::open(const std::filesystem::path& target, const Provenance& provenance,
+                      const std::string& key) {
+  const std::filesystem::path path = path_for(target);
+  Journal journal(path, open_locked(path));
+  journal.load(provenance, key);
+  return journal;
+}
+
+/// Takes in the whole frames of the same build and cuts off what follows them.
+void Journal::load(const Provenance& provenance, const std::string& key) {
+  const MappedFile mapped(path_);
+  ByteReader reader(mapped.bytes());
+  const auto magic = reader.get_bytes(kMagic.size());
+  const bool known = magic && std::memcmp(magic->data(), kMagic.data(), kMagic.size()) == 0;
+  const auto header_frame = known ? next_frame(reader) : std::nullopt;
+  const auto header = header_frame ? parse_header(*header_frame) : std::nullopt;
+  if (!header || header->key != key) {
+    if (header) discarded_ = header->provenance;
+    begin(provenance, key);
+    return;
+  }
+  end_ = mapped.bytes().size() - reader.left();
+  while (const auto content = next_frame(reader)) {
+    const auto record = parse_record(*content);
+    if (!record) break;
+    places_[record->scene] = {end_ + kFrameHead, static_cast<std::uint32_t>(content->size())};
+    end_ = mapped.bytes().size() - reader.left();
+  }
+  if (::ftruncate(file_.get(), static_cast<off_t>(end_)) != 0) fail("cannot be shortened");
+}
+
+void Journal::begin(const Provenance& provenance, const std::string& key) {
+  if (::ftruncate(file_.get(), 0) != 0) fail("cannot be emptied");
+  if (::pwrite(file_.get(), kMagic.data(), kMagic.size(), 0) != static_cast<ssize_t>(kMagic.size()))
+    fail("cannot be written");
+  end_ = kMagic.size();
+  write_frame(header_content(provenance, key));
+}
+
+void Journal::write_frame(ByteView content) {
+  ByteWriter frame;
+  frame.put(static_cast<std::uint32_t>(content.size()));
+  frame.put(crc32_of(content));
+  frame.put_bytes(content);
+  ByteView rest = frame.bytes();
+  std::uint64_t at = end_;
+  while (!rest.empty()) {
+    const ssize_t written = ::pwrite(file_.get(), rest.data(), rest.size(), static_cast<off_t>(at));
+    if (written < 0 && errno == EINTR) continue;
+    if (written <= 0) fail("cannot be written");
+    at += static_cast<std::uint64_t>(written);
+    rest = rest.subspan(static_cast<std::size_t>(written));
+  }
+  end_ = at;
+}
+
+void Journal::append(const Record& record) {
+  const Bytes content = serialise(record);
+  const std::scoped_lock lock(mutex_);
+  const Place place{end_ + kFrameHead, static_cast<std::uint32_t>(content.size())};
+  write_frame(content);
+  places_[record.scene] = place;
+}
+
+Record Journal::read(const Scene& scene) const {
+  const Place place = places_.at(scene);
+  Bytes content(place.size);
+  const ssize_t size = ::pread(file_.get(), content.data(), content.size(), static_cast<off_t>(place.offset));
+  auto record = size == static_cast<ssize_t>(content.size()) ? parse_record(content) : std::nullopt;
+  if (!record || record->scene != scene) fail("cannot be read back");
+  return std::move(*record);
+}
+
+void Journal::remove() {
+  if (::unlink(path_.c_str()) != 0) fail("cannot be deleted");
+}
+
+void Journal::fail(const std::string& what) const {
+  throw Failure(
+      fmt::format("{}: {}: {}; the {} scenes done so far are kept in it: put things right and run the same "
+                  "command again to go on",
+                  path_.string(), what, std::strerror(errno), places_.size()));
+}
+
+Bytes serialise(const Record& record) {
+  ByteWriter out;
+  out.put(static_cast<std::uint32_t>(record.scene.removed.size()));
+  out.put_bytes(view_bytes(record.scene.removed));
+  out.put(record.outcome);
+  out.put(record.residual);
+  out.put(record.iterations);
+  out.put(record.extent);
+  out.put(static_cast<std::uint32_t>(record.moving.size()));
+  out.put_bytes(view_bytes(record.moving));
+  out.put(static_cast<std::uint32_t>(record.vertical.size()));
+  out.put_bytes(view_bytes(record.vertical));
+  out.put(static_cast<std::uint32_t>(record.packed_field.size()));
+  out.put_bytes(record.packed_field);
+  out.put_bytes(view_bytes(record.checksum));
+  return out.bytes();
+}
+
+namespace {
+
+/// A count and that many values.
+template <class T>
+bool take_counted(ByteReader& reader, std::vector<T>& values) {
+  const auto count = reader.get<std::uint32_t>();
+  auto taken = count ? reader.get_many<T>(*count) : std::nullopt;
+  if (taken) values = std::move(*taken);
+  return taken.has_value();
+}
+
+template <class T>
+bool take(ByteReader& reader, T& value) {
+  const auto taken = reader.get<T>();
+  if (taken) value = *taken;
+  return taken.has_value();
+}
+
+}  // namespace
+
+std::optional<Record> parse_record(ByteView bytes) {
+  ByteReader reader(bytes);
+  Record record;
+  const bool whole = take_counted(reader, record.scene.removed) && take(reader, record.outcome) &&
+                     take(reader, record.residual) && take(reader, record.iterations) &&
+                     take(reader, record.extent) && take_counted(reader, record.moving) &&
+                     take_counted(reader, record.vertical) && take_counted(reader, record.packed_field);
+  const auto checksum = reader.get_many<std::uint8_t>(record.checksum.size());
+  if (!whole || !checksum || reader.left() > 0) return std::nullopt;
+  std::copy(checksum->begin(), checksum->end(), record.checksum.begin());
+  return record;
+}
+
+}  // namespace voussoir

@@ -1,0 +1,76 @@
+#pragma once
+/// @file The records of an unfinished build, safe as soon as each is computed.
+///
+/// A plain file next to the database that will be. It begins with the bytes "VOUSSOIR JOURNAL 2\n" and a
+/// frame that holds the build's provenance; a frame with one record follows for every scene done. A frame is
+/// the size of its content (uint32), the content's CRC-32 (uint32) and the content. The file only ever grows,
+/// so whatever moment the program or the machine stops at, all frames but the last are whole; the torn rest
+/// is cut off on opening.
+
+#include <filesystem>
+#include <map>
+#include <mutex>
+#include <optional>
+
+#include "database/format/file_descriptor.h"
+#include "database/records/provenance.h"
+#include "database/records/record.h"
+
+namespace voussoir {
+
+class Journal {
+ public:
+  /// Opens the journal for building `target`, or begins one, and locks it against other builders. Records of
+  /// an interrupted build are kept if it was a build of the same `key`; otherwise they are thrown away and
+  /// `discarded` tells whose they were. Throws Failure if the file cannot be written or another program is
+  /// building `target`.
+  static Journal open(const std::filesystem::path& target, const Provenance& provenance,
+                      const std::string& key);
+
+  Journal(Journal&& other) noexcept;
+  Journal& operator=(Journal&&) = delete;
+  ~Journal() = default;
+
+  static std::filesystem::path path_for(const std::filesystem::path& target);
+  const std::filesystem::path& path() const { return path_; }
+
+  /// Provenance of the records of another build that were in the way.
+  const std::optional<Provenance>& discarded() const { return discarded_; }
+
+  /// Thread-safe. Throws Failure (disk full); what was appended before stays whole.
+  void append(const Record& record);
+
+  std::size_t size() const { return places_.size(); }
+  bool contains(const Scene& scene) const { return places_.contains(scene); }
+
+  /// Precondition: contains(scene). Throws Failure if the file cannot be read back.
+  Record read(const Scene& scene) const;
+
+  /// Deletes the file: its records have found their place in a database.
+  void remove();
+
+ private:
+  struct Place {
+    std::uint64_t offset = 0;  ///< of the frame's content
+    std::uint32_t size = 0;
+  };
+
+  Journal(std::filesystem::path path, FileDescriptor file);
+  void load(const Provenance& provenance, const std::string& key);
+  void begin(const Provenance& provenance, const std::string& key);
+  void write_frame(ByteView content);
+  [[noreturn]] void fail(const std::string& what) const;
+
+  std::filesystem::path path_;
+  FileDescriptor file_;
+  std::uint64_t end_ = 0;  ///< of the last whole frame
+  std::map<Scene, Place> places_;
+  std::optional<Provenance> discarded_;
+  std::mutex mutex_;
+};
+
+/// The content of a record's frame and back; nothing if the bytes are no record.
+Bytes serialise(const Record& record);
+std::optional<Record> parse_record(ByteView bytes);
+
+}  // namespace voussoir

@@ -1,0 +1,71 @@
+#pragma once
+/// @file The schema in one place: names, version, and the datasets that all scenes share. database/README.md
+/// explains it to readers.
+
+#include <string>
+#include <vector>
+
+#include "core/structure/block_layout.h"
+#include "core/structure/control_point.h"
+#include "core/structure/mesh.h"
+#include "database/format/dataset_value.h"
+#include "database/records/provenance.h"
+
+namespace voussoir {
+
+inline constexpr char kFormatName[] = "voussoir database";
+inline constexpr int kSchemaVersion = 3;
+inline constexpr std::size_t kPointNameWidth = 8;  ///< bytes, padded with zeros
+
+/// Paths of datasets.
+namespace dataset {
+inline constexpr char kBridgeText[] = "bridge/text";
+inline constexpr char kSolverSettings[] = "solver/settings";
+inline constexpr char kBlockIndex[] = "geometry/block_index";
+inline constexpr char kBlockKind[] = "geometry/block_kind";
+inline constexpr char kBlockTopCourse[] = "geometry/block_top_course";
+inline constexpr char kCorners[] = "geometry/corners";
+inline constexpr char kBlockCorners[] = "geometry/block_corners";
+inline constexpr char kNodes[] = "geometry/nodes";
+inline constexpr char kBlockNodes[] = "geometry/block_nodes";
+inline constexpr char kTriangles[] = "geometry/triangles";
+inline constexpr char kBlockTriangles[] = "geometry/block_triangles";
+inline constexpr char kEdges[] = "geometry/edges";
+inline constexpr char kBlockEdges[] = "geometry/block_edges";
+inline constexpr char kPointName[] = "control/point_name";
+inline constexpr char kPointPosition[] = "control/point_position";
+inline constexpr char kPointBlock[] = "control/point_block";
+inline constexpr char kPointNode[] = "control/point_node";
+inline constexpr char kVertical[] = "control/vertical_displacement";
+inline constexpr char kVariant[] = "scenes/variant";
+inline constexpr char kRemoved[] = "scenes/removed";
+inline constexpr char kOutcome[] = "scenes/outcome";
+inline constexpr char kResidual[] = "scenes/residual";
+inline constexpr char kIterations[] = "scenes/iterations";
+inline constexpr char kCollapse[] = "scenes/collapse";
+inline constexpr char kMoving[] = "scenes/moving";
+inline constexpr char kChecksum[] = "scenes/checksum";
+inline constexpr char kField[] = "fields/displacement";
+inline constexpr char kChunkCrc[] = "fields/chunk_crc32";
+}  // namespace dataset
+
+/// Names of attributes; those of the root group unless a dataset is named.
+namespace attribute {
+inline constexpr char kFormat[] = "format";
+inline constexpr char kSchemaVersion[] = "schema_version";
+inline constexpr char kDigest[] = "content_digest";
+inline constexpr char kBridgeName[] = "bridge_name";
+inline constexpr char kBridgeSha256[] = "bridge_sha256";
+inline constexpr char kProgramVersion[] = "program_version";
+inline constexpr char kCompiler[] = "compiler";
+inline constexpr char kCompileFlags[] = "compile_flags";
+inline constexpr char kSolverRevision[] = "solver_revision";
+inline constexpr char kResultsKey[] = "results_key";
+}  // namespace attribute
+
+/// The datasets that all scenes share (bridge text, settings, geometry, control points) in the order in which
+/// the content digest takes them.
+std::vector<DatasetValue> shared_datasets(const Provenance& provenance, const BlockLayout& layout,
+                                          const Mesh& mesh, const std::vector<ControlPoint>& points);
+
+}  // namespace voussoir

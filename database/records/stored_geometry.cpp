@@ -1,0 +1,119 @@
+#include "database/records/stored_geometry.h"
+#include "database/records/schema.h"
+
+#include <algorithm>
+
+namespace voussoir {
+namespace {
+
+std::span<const std::int32_t> read_ints(const Hdf5File& file, const char* path, std::uint64_t columns) {
+  return file.numbers<std::int32_t>(path, ElementType::int32, columns);
+}
+
+std::span<const double> read_points(const Hdf5File& file, const char* path) {
+  return file.numbers<double>(path, ElementType::float64, 2);
+}
+
+void require_size(const Hdf5File& file, const char* path, std::size_t size, std::size_t expected) {
+  file.require(size == expected,
+               fmt::format("dataset '{}' has {} entries where {} were expected", path, size, expected));
+}
+
+/// Half-open ranges that follow each other without gaps from 0 to `total`, one a block.
+std::vector<IndexRange> read_ranges(const Hdf5File& file, const char* path, std::size_t blocks,
+                                    std::size_t total) {
+  const auto numbers = read_ints(file, path, 2);
+  require_size(file, path, numbers.size() / 2, blocks);
+  std::vector<IndexRange> ranges;
+  std::int32_t end = 0;
+  for (std::size_t i = 0; i < blocks; ++i) {
+    const IndexRange range{numbers[2 * i], numbers[2 * i + 1]};
+    file.require(
+        range.begin == end && range.end >= range.begin && static_cast<std::size_t>(range.end) <= total,
+        fmt::format("dataset '{}' holds a range out of order in row {}", path, i));
+    ranges.push_back(range);
+    end = range.end;
+  }
+  require_size(file, path, static_cast<std::size_t>(end), total);
+  return ranges;
+}
+
+/// Numbers that all name one of `count` things.
+std::span<const std::int32_t> read_indices(const Hdf5File& file, const char* path, std::uint64_t columns,
+                                           std::size_t count) {
+  const auto indices = read_ints(file, path, columns);
+  const bool inside = std::all_of(indices.begin(), indices.end(), [count](std::int32_t index) {
+    return index >= 0 && static_cast<std::size_t>(index) < count;
+  });
+  file.require(inside,
+               fmt::format("dataset '{}' names something that does not exist (0 to {} do)", path, count - 1));
+  return indices;
+}
+
+std::span<const std::uint8_t> read_flags(const Hdf5File& file, const char* path, std::size_t size,
+                                         std::uint8_t highest) {
+  const auto flags = file.numbers<std::uint8_t>(path, ElementType::uint8, kFlat);
+  require_size(file, path, flags.size(), size);
+  file.require(
+      std::all_of(flags.begin(), flags.end(), [highest](std::uint8_t flag) { return flag <= highest; }),
+      fmt::format("dataset '{}' holds a value above {}", path, highest));
+  return flags;
+}
+
+}  // namespace
+
+BlockLayout read_layout(const Hdf5File& file) {
+  const auto index = read_ints(file, dataset::kBlockIndex, 2);
+  const std::size_t blocks = index.size() / 2;
+  const auto kind = read_flags(file, dataset::kBlockKind, blocks, static_cast<std::uint8_t>(BlockKind::cut));
+  const auto top = read_flags(file, dataset::kBlockTopCourse, blocks, 1);
+  const auto corners = read_points(file, dataset::kCorners);
+  const auto ranges = read_ranges(file, dataset::kBlockCorners, blocks, corners.size() / 2);
+  BlockLayout layout;
+  for (std::size_t i = 0; i < blocks; ++i) {
+    Block block{{index[2 * i], index[2 * i + 1]}, static_cast<BlockKind>(kind[i]), {}, top[i] != 0};
+    for (auto corner = static_cast<std::size_t>(ranges[i].begin);
+         corner < static_cast<std::size_t>(ranges[i].end); ++corner)
+      block.polygon.emplace_back(corners[2 * corner], corners[2 * corner + 1]);
+    layout.blocks.push_back(std::move(block));
+  }
+  return layout;
+}
+
+Mesh read_mesh(const Hdf5File& file, std::size_t blocks) {
+  Mesh mesh;
+  const auto nodes = read_points(file, dataset::kNodes);
+  const std::size_t node_count = nodes.size() / 2;
+  mesh.nodes = Eigen::Map<const Eigen::Matrix2Xd>(nodes.data(), 2, static_cast<Eigen::Index>(node_count));
+  const auto triangles = read_indices(file, dataset::kTriangles, 3, node_count);
+  for (std::size_t i = 0; i < triangles.size(); i += 3)
+    mesh.triangles.push_back({{NodeId{triangles[i]}, NodeId{triangles[i + 1]}, NodeId{triangles[i + 2]}}});
+  const auto edges = read_indices(file, dataset::kEdges, 2, node_count);
+  for (std::size_t i = 0; i < edges.size(); i += 2)
+    mesh.edges.push_back({NodeId{edges[i]}, NodeId{edges[i + 1]}});
+  mesh.block_nodes = read_ranges(file, dataset::kBlockNodes, blocks, node_count);
+  mesh.block_triangles = read_ranges(file, dataset::kBlockTriangles, blocks, mesh.triangles.size());
+  mesh.block_edges = read_ranges(file, dataset::kBlockEdges, blocks, mesh.edges.size());
+  return mesh;
+}
+
+std::vector<StoredPoint> read_control_points(const Hdf5File& file) {
+  const DatasetView names = file.view(dataset::kPointName);
+  file.require(
+      names.type == ElementType::text && names.shape.size() == 1 && names.text_width == kPointNameWidth,
+      "dataset 'control/point_name' has not the expected type and shape");
+  const auto positions = read_points(file, dataset::kPointPosition);
+  const auto blocks = read_ints(file, dataset::kPointBlock, kFlat);
+  require_size(file, dataset::kPointPosition, positions.size() / 2, names.shape[0]);
+  require_size(file, dataset::kPointBlock, blocks.size(), names.shape[0]);
+  std::vector<StoredPoint> points;
+  for (std::size_t i = 0; i < blocks.size(); ++i) {
+    const auto* name = reinterpret_cast<const char*>(names.bytes.data()) + i * kPointNameWidth;
+    points.push_back({std::string(name, std::find(name, name + kPointNameWidth, '\0')),
+                      {positions[2 * i], positions[2 * i + 1]},
+                      BlockId{blocks[i]}});
+  }
+  return points;
+}
+
+}  // namespace voussoir

@@ -1,0 +1,38 @@
+#pragma once
+/// @file Writing a database file, whole or not at all.
+
+#include <filesystem>
+#include <functional>
+
+#include "core/structure/bridge.h"
+#include "database/records/provenance.h"
+#include "database/records/record.h"
+
+namespace voussoir {
+
+/// What a database holds beside the records of its scenes.
+struct DatabaseContent {
+  Provenance provenance;
+  const Bridge& bridge;
+  std::vector<Scene> scenes;  ///< in the order of all_scenes, no scene twice
+  KeepField fields = KeepField::yes;
+};
+
+struct WrittenDatabase {
+  std::string digest;
+  std::uintmax_t bytes = 0;
+};
+
+/// The record of the scene in this row of DatabaseContent::scenes; called once for each row, in order.
+using RecordOfRow = std::function<Record(std::size_t row)>;
+
+/// Writes `target` by way of a file of another name beside it, which takes the place of `target` when it is
+/// whole and on the disk. Throws Failure (disk full, folder not writable) and leaves an old `target` as it
+/// was. The bytes written depend on the content only.
+WrittenDatabase write_database(const std::filesystem::path& target, const DatabaseContent& content,
+                               const RecordOfRow& record_of_row);
+
+/// The name of that other file.
+std::filesystem::path unfinished_path(const std::filesystem::path& target);
+
+}  // namespace voussoir

@@ -1,0 +1,37 @@
+#pragma once
+/// @file The evidence of every scene of a table.
+
+#include <cstddef>
+#include <vector>
+
+#include "database/records/database.h"
+#include "lookup/readings/measurements.h"
+#include "lookup/readings/noise_model.h"
+
+namespace voussoir {
+
+/// log p(readings | scene) of the given rows (in ascending order), with an unknown noise level and an
+/// automatic noise shape marginalised. -infinity for impossible scenes (a reading on a block that the scene
+/// lacks, or an error beyond a uniform noise's bound) and for all other rows; with an unknown level perhaps
+/// for scenes less likely than the likeliest by exp(50). A silent sensor on a block that the scene has counts
+/// with the chance of its failing. `intact` are the displacements of the intact bridge. The result has a
+/// value for each row of the table. Throws InputError if no reading is at a point that can move.
+std::vector<double> log_evidence_of_rows(const Measurements& measurements, const SceneTable& table,
+                                         std::span<const std::size_t> rows, std::span<const double> intact,
+                                         const NoiseModel& noise);
+
+/// log of the chance, in each of the given rows, that the silent sensors are silent: certain on missing
+/// blocks, `silence` on the others. Zero for all other rows.
+std::vector<double> log_chance_of_silence(const Measurements& measurements, const SceneTable& table,
+                                          std::span<const std::size_t> rows, double silence);
+
+/// What the readings say of the noise if one scene is the truth.
+struct NoiseEstimate {
+  NoiseShape shape = NoiseShape::uniform;  ///< the likeliest of the model's shapes
+  double level = 0.0;                      ///< [-] as stated, or the likeliest
+  bool estimated = false;                  ///< the level was unknown
+};
+NoiseEstimate estimate_noise(const Measurements& measurements, std::span<const double> prediction,
+                             std::span<const double> intact, const NoiseModel& noise);
+
+}  // namespace voussoir

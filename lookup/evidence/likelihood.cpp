@@ -1,0 +1,76 @@
+#include "lookup/evidence/likelihood.h"
+
+#include <algorithm>
+#include <boost/math/quadrature/gauss.hpp>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "lookup/evidence/level_curve.h"
+
+namespace voussoir {
+namespace {
+
+constexpr double kImpossible = -std::numeric_limits<double>::infinity();
+/// Parts of the integrand below exp(-kNegligible) of its peak are left out.
+constexpr double kNegligible = 40.0;
+
+/// How far from the peak, in u, the curve falls by kNegligible: at most this to the left, where it falls like
+/// exp(u), and this to the right, where it falls linearly in the end.
+double reach_left(const LevelCurve& curve) {
+  return std::sqrt(2.0 * kNegligible / (curve.count * curve.power));
+}
+double reach_right(const LevelCurve& curve) {
+  return reach_left(curve) + (kNegligible + 1.0) / curve.count;
+}
+
+double log_integral(const LevelCurve& curve) {
+  const double first = std::log(kSmallestLevel);
+  const double last = std::log(kLargestLevel);
+  const double peak = std::clamp(curve.a > 0.0 ? curve.peak() : first, first, last);
+  const double from = std::max(first, peak - reach_left(curve));
+  const double to = std::min(last, peak + reach_right(curve));
+  const double top = curve.at(peak);
+  const auto density = [&](double u) { return std::exp(curve.at(u) - top); };
+  using Rule = boost::math::quadrature::gauss<double, 30>;
+  const double left = from < peak ? Rule::integrate(density, from, peak) : 0.0;
+  const double right = peak < to ? Rule::integrate(density, peak, to) : 0.0;
+  return top + std::log(left + right);
+}
+
+double log_uniform_integral(const RowStatistics& statistics, std::size_t count) {
+  const double smallest = std::max(statistics.largest * (1.0 - kBoundTolerance), kSmallestLevel);
+  if (smallest >= kLargestLevel) return kImpossible;
+  const auto n = static_cast<double>(count);
+  const double share_left = -std::expm1(-n * std::log(kLargestLevel / smallest));
+  return -n * std::log(2.0 * smallest) + std::log(share_left / n) - statistics.sum_log_scale;
+}
+
+}  // namespace
+
+double log_likelihood(NoiseShape shape, const RowStatistics& statistics, std::size_t count, double level) {
+  if (std::isnan(statistics.sum_absolute)) return kImpossible;
+  if (shape != NoiseShape::uniform) return level_curve(shape, statistics, count).at(std::log(level));
+  if (statistics.largest > level * (1.0 + kBoundTolerance)) return kImpossible;
+  return -static_cast<double>(count) * std::log(2.0 * level) - statistics.sum_log_scale;
+}
+
+double log_evidence(NoiseShape shape, const RowStatistics& statistics, std::size_t count) {
+  if (std::isnan(statistics.sum_absolute)) return kImpossible;
+  const double integral = shape == NoiseShape::uniform ? log_uniform_integral(statistics, count)
+                                                       : log_integral(level_curve(shape, statistics, count));
+  return integral - std::log(log_range());
+}
+
+double likeliest_level(NoiseShape shape, const RowStatistics& statistics, std::size_t count) {
+  if (shape == NoiseShape::uniform) return std::clamp(statistics.largest, kSmallestLevel, kLargestLevel);
+  const LevelCurve curve = level_curve(shape, statistics, count);
+  return curve.a > 0.0 ? std::clamp(std::exp(curve.peak()), kSmallestLevel, kLargestLevel) : kSmallestLevel;
+}
+
+double log_sum(double a, double b) {
+  const double larger = std::max(a, b);
+  return larger == kImpossible ? kImpossible : larger + std::log1p(std::exp(std::min(a, b) - larger));
+}
+
+}  // namespace voussoir

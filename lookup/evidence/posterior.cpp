@@ -1,0 +1,90 @@
+#include "lookup/evidence/posterior.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "core/error.h"
+#include "core/simd/lane_math.h"
+
+namespace voussoir {
+namespace {
+
+constexpr double kImpossible = -std::numeric_limits<double>::infinity();
+
+void normalise(std::vector<double>& probability) {
+  const double total = std::accumulate(probability.begin(), probability.end(), 0.0);
+  if (total > 0.0)
+    for (double& value : probability) value /= total;
+}
+
+/// Takes the likeliest rows from a heap until they hold enough. Rows below an even distribution of what may
+/// be left out cannot be needed.
+std::vector<std::size_t> credible_set(const std::vector<double>& probability) {
+  const double negligible = (1.0 - kCredibleShare) / static_cast<double>(probability.size());
+  std::vector<std::size_t> heap;
+  for (std::size_t row = 0; row < probability.size(); ++row)
+    if (probability[row] >= negligible) heap.push_back(row);
+  const auto less_likely = [&](std::size_t a, std::size_t b) {
+    return probability[a] != probability[b] ? probability[a] < probability[b] : a > b;
+  };
+  std::make_heap(heap.begin(), heap.end(), less_likely);
+  std::vector<std::size_t> rows;
+  for (double share = 0.0; share < kCredibleShare && !heap.empty(); heap.pop_back()) {
+    std::pop_heap(heap.begin(), heap.end(), less_likely);
+    rows.push_back(heap.back());
+    share += probability[heap.back()];
+  }
+  return rows;
+}
+
+}  // namespace
+
+std::vector<double> log_prior_by_missing(const SceneTable& table, const Eligible& eligible,
+                                         const Prior& prior) {
+  if (!prior.weight.empty() && prior.weight.size() != prior.missing.size())
+    throw InputError(fmt::format("{} prior weights, expected {}: one for each number of missing blocks",
+                                 prior.weight.size(), prior.missing.size()));
+  std::vector<double> result(table.most_missing + 1, kImpossible);
+  for (std::size_t i = 0; i < prior.missing.size(); ++i) {
+    const auto missing = static_cast<std::size_t>(prior.missing[i]);
+    const double weight = prior.weight.empty() ? 1.0 : prior.weight[i];
+    if (missing < result.size() && eligible.scenes[missing] > 0)
+      result[missing] = std::log(weight / static_cast<double>(eligible.scenes[missing]));
+  }
+  return result;
+}
+
+Posterior posterior(const SceneTable& table, const Eligible& eligible,
+                    const std::vector<double>& log_evidence, const Prior& prior, std::size_t block_count) {
+  const std::vector<double> log_prior = log_prior_by_missing(table, eligible, prior);
+  Posterior result{std::vector<double>(table.rows, 0.0),
+                   std::vector<double>(block_count, 0.0),
+                   std::vector<double>(table.most_missing + 1, 0.0),
+                   {}};
+  std::vector<std::size_t> possible;  // positions in `eligible`
+  std::vector<double> weight;
+  double best = kImpossible;
+  for (std::size_t i = 0; i < eligible.rows.size(); ++i) {
+    if (log_evidence[eligible.rows[i]] == kImpossible) continue;
+    possible.push_back(i);
+    weight.push_back(log_prior[eligible.missing[i]] + log_evidence[eligible.rows[i]]);
+    best = std::max(best, weight.back());
+  }
+  if (best == kImpossible) return result;
+  for (double& value : weight) value -= best;
+  make_exponentials(weight);
+  normalise(weight);
+  for (std::size_t i = 0; i < possible.size(); ++i) {
+    const std::size_t row = eligible.rows[possible[i]];
+    result.probability[row] = weight[i];
+    result.missing_probability[eligible.missing[possible[i]]] += weight[i];
+    for (const std::int32_t id : table.removed.subspan(row * table.most_missing, table.most_missing))
+      if (id >= 0) result.block_probability[static_cast<std::size_t>(id)] += result.probability[row];
+  }
+  result.credible = credible_set(result.probability);
+  return result;
+}
+
+}  // namespace voussoir

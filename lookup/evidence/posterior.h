@@ -1,0 +1,39 @@
+#pragma once
+/// @file The exact posterior over all scenes of a database: the library of scenes is finite, so it is
+/// enumerated.
+
+#include <vector>
+
+#include "database/records/database.h"
+#include "lookup/search/eligible_rows.h"
+
+namespace voussoir {
+
+/// What is believed before the measurement.
+struct Prior {
+  std::vector<int> missing = {0, 1, 2};  ///< numbers of missing blocks that are possible
+  std::vector<double> weight = {};  ///< of each of them; empty: equal. Uniform over the scenes within each
+};
+
+struct Posterior {
+  std::vector<double> probability;          ///< of each row of the table; all zero if no scene is possible
+  std::vector<double> block_probability;    ///< that a block is missing: sum over the scenes that lack it
+  std::vector<double> missing_probability;  ///< of 0, 1, 2... missing blocks
+  std::vector<std::size_t> credible;  ///< the fewest rows that hold 95 % of the probability, likeliest first
+};
+
+/// Share of the probability in Posterior::credible.
+inline constexpr double kCredibleShare = 0.95;
+
+/// log prior of one scene with 0, 1, 2... missing blocks: its number's weight over how many eligible scenes
+/// have it. Throws InputError if the prior has not as many weights as numbers.
+std::vector<double> log_prior_by_missing(const SceneTable& table, const Eligible& eligible,
+                                         const Prior& prior);
+
+/// prior x evidence, normalised. `log_evidence` has a value for each row of the table (-infinity:
+/// impossible); rows that are not eligible get no probability. Throws InputError if no weight is positive, or
+/// if the prior has not as many weights as numbers.
+Posterior posterior(const SceneTable& table, const Eligible& eligible,
+                    const std::vector<double>& log_evidence, const Prior& prior, std::size_t block_count);
+
+}  // namespace voussoir

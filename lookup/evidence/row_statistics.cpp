@@ -1,0 +1,190 @@
+#include "lookup/evidence/row_statistics.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "core/simd/lane_math.h"
+
+namespace voussoir {
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kClamped = 1e-12;         // [m] points that move less are held by a support
+constexpr std::size_t kSafeProducts = 16;  // factors within 1e+-19 of the unit cannot leave a double's range
+
+/// Running statistics, lane by lane, with the product of scales in place of the sum of their logarithms.
+struct LaneStatistics {
+  Lanes sum_absolute{}, sum_square{}, largest{};
+  Lanes product = Lanes{} + 1.0;
+};
+
+/// The arrays of an Observation, as the loop below wants them.
+struct View {
+  const double* reading;
+  const double* slope;
+  const double* offset;
+  const double* intact;
+  double model_error;
+  double inverse_unit;
+  std::size_t points;
+};
+
+VOUSSOIR_INLINE void add_errors(const View& view, std::size_t i, std::size_t count, const double* prediction,
+                                LaneStatistics& statistics) {
+  Lanes reading, predicted, slope, offset;
+  if (count == kLanes) {
+    load(view.reading + i, reading);
+    load(prediction + i, predicted);
+    load(view.slope + i, slope);
+    load(view.offset + i, offset);
+  } else {
+    load_some(view.reading + i, count, reading);
+    load_some(prediction + i, count, predicted);
+    load_some(view.slope + i, count, slope);
+    load_some(view.offset + i, count, offset);
+  }
+  Lanes movement = predicted;
+  make_absolute(movement);
+  Lanes scale = slope * movement + offset;
+  if (view.model_error > 0.0) {
+    Lanes change;
+    if (count == kLanes)
+      load(view.intact + i, change);
+    else
+      load_some(view.intact + i, count, change);
+    change -= predicted;
+    make_absolute(change);
+    scale += view.model_error * change;
+  }
+  Lanes error = reading - predicted;
+  make_absolute(error);
+  const LaneMask has_reading = reading == reading;
+  const Lanes z = has_reading ? error / scale : Lanes{};
+  statistics.sum_absolute += z;
+  statistics.sum_square += z * z;
+  statistics.largest = z > statistics.largest ? z : statistics.largest;
+  statistics.product *= has_reading ? scale * view.inverse_unit : Lanes{} + 1.0;
+}
+
+/// A positive number as mantissa times two to the power of the exponent: products of any length keep their
+/// range.
+struct WideProduct {
+  double mantissa = 1.0;
+  double exponent = 0.0;
+};
+
+/// Multiplies the lanes' products into the wide one and starts the lanes anew.
+VOUSSOIR_INLINE void flush(Lanes& product, WideProduct& wide) {
+  constexpr std::int64_t kMantissaBits = 0x000FFFFFFFFFFFFF;
+  constexpr std::int64_t kOneBits = 0x3FF0000000000000;
+  const LaneMask bits = reinterpret_cast<LaneMask>(product);
+  const LaneMask exponents = (bits >> 52) - 1023;
+  const Lanes mantissas = reinterpret_cast<Lanes>((bits & kMantissaBits) | kOneBits);
+  wide.mantissa *= (mantissas[0] * mantissas[1]) * (mantissas[2] * mantissas[3]);
+  wide.exponent += static_cast<double>((exponents[0] + exponents[1]) + (exponents[2] + exponents[3]));
+  product = Lanes{} + 1.0;
+}
+
+VOUSSOIR_INLINE double sum_of(const Lanes& lanes) {
+  return (lanes[0] + lanes[1]) + (lanes[2] + lanes[3]);
+}
+
+/// Where the statistics go; the logarithms are taken of all rows at once, later.
+struct Columns {
+  double* sum_absolute;
+  double* sum_square;
+  double* largest;
+  double* mantissa;
+  double* exponent;
+};
+
+VOUSSOIR_FOR_EVERY_PROCESSOR
+void collect(const View& view, const double* table, std::size_t rows, const Columns& columns) {
+  for (std::size_t row = 0; row < rows; ++row) {
+    const double* const prediction = table + row * view.points;
+    LaneStatistics lanes;
+    WideProduct product;
+    std::size_t i = 0;
+    for (std::size_t step = 1; i + kLanes <= view.points; i += kLanes, ++step) {
+      add_errors(view, i, kLanes, prediction, lanes);
+      if (step % kSafeProducts == 0) flush(lanes.product, product);
+    }
+    if (i < view.points) add_errors(view, i, view.points - i, prediction, lanes);
+    flush(lanes.product, product);
+    const Lanes& top = lanes.largest;
+    columns.sum_absolute[row] = sum_of(lanes.sum_absolute);
+    columns.sum_square[row] = sum_of(lanes.sum_square);
+    columns.largest[row] = std::max(std::max(top[0], top[1]), std::max(top[2], top[3]));
+    columns.mantissa[row] = product.mantissa;
+    columns.exponent[row] = product.exponent;
+  }
+}
+
+}  // namespace
+
+Observation observe(const Measurements& measurements, std::span<const double> intact, const NoiseModel& noise,
+                    double level) {
+  const std::size_t points = measurements.displacement.size();
+  Observation result{std::vector<double>(points, kNan),
+                     std::vector<double>(points, 0.0),
+                     std::vector<double>(points, 1.0),
+                     {intact.begin(), intact.end()},
+                     noise.model_error,
+                     1.0,
+                     0};
+  double sum_log_scale = 0.0;
+  for (std::size_t i = 0; i < points; ++i) {
+    if (std::isnan(measurements.displacement[i]) || std::abs(intact[i]) <= kClamped) continue;
+    const bool own = !std::isnan(measurements.sigma[i]);
+    result.reading[i] = measurements.displacement[i];
+    result.slope[i] = own ? 0.0 : level;
+    result.offset[i] = own ? measurements.sigma[i] : noise.floor + level * kSmallestMovement;
+    sum_log_scale += std::log(result.slope[i] * std::abs(intact[i]) + result.offset[i]);
+    ++result.count;
+  }
+  if (result.count > 0) result.unit = std::exp(sum_log_scale / static_cast<double>(result.count));
+  return result;
+}
+
+TableStatistics table_statistics(const Observation& observation, const SceneTable& table) {
+  const std::vector<double> zeros(table.rows, 0.0);
+  TableStatistics result{zeros, zeros, zeros, zeros};
+  std::vector<double> exponent = zeros;
+  const View view{observation.reading.data(),
+                  observation.slope.data(),
+                  observation.offset.data(),
+                  observation.intact.data(),
+                  observation.model_error,
+                  1.0 / observation.unit,
+                  table.points};
+  collect(view, table.vertical.data(), table.rows,
+          {result.sum_absolute.data(), result.sum_square.data(), result.largest.data(),
+           result.sum_log_scale.data(), exponent.data()});
+  make_logarithms(result.sum_log_scale);
+  const double shift = static_cast<double>(observation.count) * std::log(observation.unit);
+  for (std::size_t row = 0; row < table.rows; ++row)
+    result.sum_log_scale[row] += exponent[row] * std::numbers::ln2 + shift;
+  return result;
+}
+
+std::vector<double> error_scales(const Observation& observation, std::span<const double> prediction) {
+  std::vector<double> result(prediction.size(), kNan);
+  for (std::size_t i = 0; i < prediction.size(); ++i) {
+    if (std::isnan(observation.reading[i])) continue;
+    const double change = std::abs(prediction[i] - observation.intact[i]);
+    result[i] = observation.slope[i] * std::abs(prediction[i]) + observation.offset[i] +
+                (observation.model_error > 0.0 ? observation.model_error * change : 0.0);
+  }
+  return result;
+}
+
+std::vector<double> standard_errors(const Observation& observation, std::span<const double> prediction) {
+  std::vector<double> result = error_scales(observation, prediction);
+  for (std::size_t i = 0; i < prediction.size(); ++i)
+    result[i] = (observation.reading[i] - prediction[i]) / result[i];
+  return result;
+}
+
+}  // namespace voussoir

@@ -1,0 +1,61 @@
+#pragma once
+/// @file Pictures of a bridge: its blocks, and quantities as their colours.
+
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/structure/block_layout.h"
+#include "lookup/report/drawing/svg.h"
+
+namespace voussoir {
+
+/// From places on the bridge [m] to the frame of a picture.
+struct BridgeFrame {
+  double left = 0.0;    ///< [m] x at the frame's left edge
+  double top = 0.0;     ///< [m] y at the frame's upper edge
+  double scale = 1.0;   ///< units a metre
+  double width = 0.0;   ///< units
+  double height = 0.0;  ///< units
+
+  Point operator()(const Point& place) const {
+    return {scale * (place.x() - left), scale * (top - place.y())};
+  }
+};
+
+/// A frame `width` wide that holds the bridge and leaves `above` and `below` [m] free.
+BridgeFrame frame_of(const BlockLayout& layout, double width, double above, double below);
+
+/// How one block is drawn.
+struct BlockLook {
+  std::string css_class = "stone";
+  std::string tip;
+};
+
+/// Every block's polygon.
+std::string block_elements(const BlockLayout& layout, const BridgeFrame& frame,
+                           const std::function<BlockLook(BlockId)>& look);
+
+/// A polygon on the bridge [m] in the frame.
+std::vector<Point> placed(const Polygon& polygon, const BridgeFrame& frame);
+
+/// The block's index, written above the block.
+std::string block_label(const Block& block, const BridgeFrame& frame);
+
+/// The ground that the bridge stands on.
+std::string ground_element(const BlockLayout& layout, const BridgeFrame& frame);
+
+/// The colour levels from left to right, with what their ends and marks between mean.
+struct ColourBar {
+  std::string title;               ///< with its unit
+  std::vector<std::string> marks;  ///< evenly spaced from the lowest to the highest level
+};
+
+/// Units that a colour bar is high.
+inline constexpr double kColourBarHeight = 72.0;
+
+/// The bar, centred at the bottom of a frame of this size.
+std::string colour_bar(const ColourBar& bar, double width, double height);
+
+}  // namespace voussoir

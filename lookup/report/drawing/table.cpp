@@ -1,0 +1,74 @@
+#include "lookup/report/drawing/table.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "lookup/report/drawing/svg.h"
+
+namespace voussoir {
+namespace {
+
+std::string csv_text(const std::string& text) {
+  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+  std::string doubled;
+  for (const char c : text) doubled += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return '"' + doubled + '"';
+}
+
+std::string csv_cell(const TableCell& cell) {
+  if (const auto* text = std::get_if<std::string>(&cell)) return csv_text(*text);
+  const double number = std::get<double>(cell);
+  return std::isnan(number) ? "" : fmt::format("{}", number);
+}
+
+/// The typographic minus sign is as wide as a digit.
+std::string with_minus_sign(std::string number) {
+  for (std::size_t at = number.find('-'); at != std::string::npos; at = number.find('-', at))
+    number.replace(at, 1, "\u2212");
+  return number;
+}
+
+std::string html_cell(const TableCell& cell, int digits) {
+  if (const auto* text = std::get_if<std::string>(&cell)) return "<td>" + escaped(*text) + "</td>";
+  const double number = std::get<double>(cell);
+  return fmt::format("<td class=\"number\">{}</td>",
+                     std::isnan(number) ? "" : with_minus_sign(fmt::format("{:.{}g}", number, digits)));
+}
+
+bool holds_numbers(const Table& table, std::size_t column) {
+  return std::any_of(table.rows.begin(), table.rows.end(), [&](const std::vector<TableCell>& row) {
+    return std::holds_alternative<double>(row[column]);
+  });
+}
+
+}  // namespace
+
+std::string to_csv(const Table& table) {
+  std::string text;
+  for (std::size_t i = 0; i < table.columns.size(); ++i)
+    text += (i == 0 ? "" : ",") + csv_text(table.columns[i]);
+  text += '\n';
+  for (const std::vector<TableCell>& row : table.rows) {
+    for (std::size_t i = 0; i < row.size(); ++i) text += (i == 0 ? "" : ",") + csv_cell(row[i]);
+    text += '\n';
+  }
+  return text;
+}
+
+std::string to_html(const Table& table, int digits) {
+  std::string html = "<table><thead><tr>";
+  for (std::size_t i = 0; i < table.columns.size(); ++i)
+    html += fmt::format("<th{}>{}</th>", holds_numbers(table, i) ? " class=\"number\"" : "",
+                        escaped(table.columns[i]));
+  html += "</tr></thead><tbody>\n";
+  for (const std::vector<TableCell>& row : table.rows) {
+    html += "<tr>";
+    for (const TableCell& cell : row) html += html_cell(cell, digits);
+    html += "</tr>\n";
+  }
+  return html + "</tbody></table>\n";
+}
+
+}  // namespace voussoir

@@ -1,0 +1,127 @@
+#include "lookup/report/field_query.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "core/error.h"
+#include "lookup/readings/csv_text.h"
+
+namespace voussoir {
+namespace {
+
+constexpr double kInside = 1e-9;  // barycentric coordinates may be negative by this much: rounding
+
+std::vector<std::string_view> cut_at_commas(std::string_view text) {
+  std::vector<std::string_view> parts;
+  for (std::size_t start = 0; start <= text.size();) {
+    const std::size_t end = std::min(text.find(',', start), text.size());
+    parts.push_back(text.substr(start, end - start));
+    start = end + 1;
+  }
+  return parts;
+}
+
+/// The node of a control point: the one at its place that belongs to its block.
+NodeId node_of(const StoredPoint& point, const Mesh& mesh) {
+  const IndexRange range = mesh.block_nodes[static_cast<std::size_t>(value(point.block))];
+  int nearest = range.begin;
+  for (int node = range.begin; node < range.end; ++node)
+    if ((mesh.nodes.col(node) - point.position).norm() < (mesh.nodes.col(nearest) - point.position).norm())
+      nearest = node;
+  return NodeId{nearest};
+}
+
+std::vector<PlaceDisplacement> at_points(const Database& database, std::size_t row,
+                                         const std::vector<std::size_t>& points) {
+  const bool has_fields = database.has_fields();
+  const Field field = has_fields ? database.field(row) : Field();
+  std::vector<PlaceDisplacement> result;
+  for (const std::size_t i : points) {
+    const StoredPoint& point = database.control_points()[i];
+    const Point displacement =
+        has_fields ? Point(field.col(value(node_of(point, database.mesh()))))
+                   : Point(std::numeric_limits<double>::quiet_NaN(), database.table().row(row)[i]);
+    result.push_back({point.name, displacement});
+  }
+  return result;
+}
+
+std::size_t find_point(const Database& database, std::string_view name) {
+  const auto& points = database.control_points();
+  const auto found = std::find_if(points.begin(), points.end(),
+                                  [&](const StoredPoint& point) { return point.name == name; });
+  if (found == points.end())
+    throw InputError(fmt::format(
+        "--at: unknown point {}, expected control, coordinates X,Y in metres, or names from {} to {}",
+        quoted(name), points.front().name, points.back().name));
+  return static_cast<std::size_t>(found - points.begin());
+}
+
+/// Barycentric coordinates of a place in a triangle; nothing if it lies outside.
+std::optional<Eigen::Vector3d> inside(const Point& place, const Triangle& triangle, const Mesh& mesh) {
+  const Point a = mesh.position(triangle.nodes[0]);
+  const Point ab = mesh.position(triangle.nodes[1]) - a;
+  const Point ac = mesh.position(triangle.nodes[2]) - a;
+  const double twice_area = cross(ab, ac);
+  const double b = cross(place - a, ac) / twice_area;
+  const double c = cross(ab, place - a) / twice_area;
+  const Eigen::Vector3d weights(1.0 - b - c, b, c);
+  return weights.minCoeff() >= -kInside ? std::optional(weights) : std::nullopt;
+}
+
+Point displacement_at(const Database& database, std::size_t row, const Point& place) {
+  const Mesh& mesh = database.mesh();
+  const Scene scene = database.table().scene(row);
+  const Field field = database.field(row);
+  for (std::size_t block = 0; block < mesh.block_triangles.size(); ++block) {
+    if (scene.lacks(BlockId{static_cast<std::int32_t>(block)})) continue;
+    for (int t = mesh.block_triangles[block].begin; t < mesh.block_triangles[block].end; ++t) {
+      const Triangle& triangle = mesh.triangles[static_cast<std::size_t>(t)];
+      const auto weights = inside(place, triangle, mesh);
+      if (!weights) continue;
+      Point result = Point::Zero();
+      for (int corner = 0; corner < 3; ++corner)
+        result += (*weights)[corner] * field.col(value(triangle.nodes.at(static_cast<std::size_t>(corner))));
+      return result;
+    }
+  }
+  throw InputError(
+      fmt::format("--at: there is no block at x = {} m, y = {} m in scene {}, expected a place within one",
+                  place.x(), place.y(), to_string(scene, database.layout())));
+}
+
+std::optional<Point> parse_place(const std::vector<std::string_view>& parts) {
+  if (parts.size() != 2) return std::nullopt;
+  const std::optional<double> x = parse_number(parts[0]);
+  const std::optional<double> y = parse_number(parts[1]);
+  if (!x || !y || !std::isfinite(*x) || !std::isfinite(*y)) return std::nullopt;
+  return Point(*x, *y);
+}
+
+}  // namespace
+
+std::size_t find_row(const Database& database, std::string_view text) {
+  const Scene scene = parse_scene(text, database.layout());
+  const std::optional<std::size_t> row = database.find(scene);
+  if (!row)
+    throw Failure(
+        fmt::format("{}: has no scene {}", database.path().string(), to_string(scene, database.layout())));
+  return *row;
+}
+
+std::vector<PlaceDisplacement> displacements_at(const Database& database, std::size_t row,
+                                                std::string_view at) {
+  const std::vector<std::string_view> parts = cut_at_commas(at);
+  if (const std::optional<Point> place = parse_place(parts))
+    return {{fmt::format("{},{}", place->x(), place->y()), displacement_at(database, row, *place)}};
+  std::vector<std::size_t> points;
+  if (at == "control")
+    for (std::size_t i = 0; i < database.control_points().size(); ++i) points.push_back(i);
+  else
+    for (const std::string_view name : parts) points.push_back(find_point(database, name));
+  return at_points(database, row, points);
+}
+
+}  // namespace voussoir

@@ -1,0 +1,29 @@
+#pragma once
+/// @file The displacement of a scene at chosen places.
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "database/records/database.h"
+
+namespace voussoir {
+
+/// A place and its displacement there.
+struct PlaceDisplacement {
+  std::string name;    ///< of the control point, or "x,y" as it was asked for
+  Point displacement;  ///< [m] (u_x, u_y); NaN where the block is gone, and u_x in a database without fields
+};
+
+/// The row of a scene. Throws InputError for text that is no scene, Failure for a scene that the database
+/// lacks.
+std::size_t find_row(const Database& database, std::string_view scene);
+
+/// `at` is "control" (all control points), names of control points such as "T12,A3", or coordinates "X,Y" in
+/// metres, where the displacement is interpolated within the triangle that holds the place. Throws InputError
+/// for unknown points and places outside the scene's blocks, Failure for coordinates in a database without
+/// fields.
+std::vector<PlaceDisplacement> displacements_at(const Database& database, std::size_t row,
+                                                std::string_view at);
+
+}  // namespace voussoir

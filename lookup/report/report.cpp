@@ -1,0 +1,39 @@
+#include "lookup/report/report.h"
+
+#include <fmt/format.h>
+
+#include "lookup/report/words.h"
+
+namespace voussoir {
+
+std::string report(const Answer& answer, const LookupSettings& settings, const Library& library,
+                   const Source& source, ReportFormat format) {
+  switch (format) {
+    case ReportFormat::json:
+      return json_report(answer, settings, library, source);
+    case ReportFormat::csv:
+      return csv_report(answer, library);
+    default:
+      return text_report(answer, library, source);
+  }
+}
+
+std::string csv_report(const Answer& answer, const Library& library) {
+  std::string text = "rank,scene,misfit,posterior,outcome,place\n";
+  int rank = 0;
+  for (const Candidate& candidate : answer.candidates)
+    text += fmt::format("{},\"{}\",{},{},{},\"{}\"\n", ++rank, to_string(candidate.scene, library.layout),
+                        candidate.misfit, candidate.posterior ? fmt::format("{}", *candidate.posterior) : "",
+                        to_string(candidate.outcome), place_in_words(candidate.scene, library.layout));
+  return text;
+}
+
+std::string_view to_string(Objective objective) {
+  return objective == Objective::paper ? "paper" : "posterior";
+}
+
+std::string_view to_string(Search search) {
+  return search == Search::genetic ? "genetic" : search == Search::nearest ? "nearest" : "exhaustive";
+}
+
+}  // namespace voussoir

@@ -1,0 +1,111 @@
+#include <nlohmann/json.hpp>
+
+#include "lookup/report/report.h"
+#include "lookup/report/words.h"
+
+namespace voussoir {
+namespace {
+
+using nlohmann::ordered_json;
+
+ordered_json candidate_json(const Candidate& candidate, const BlockLayout& layout) {
+  ordered_json same = ordered_json::array();
+  for (const Scene& scene : candidate.same_readings) same.push_back(to_string(scene, layout));
+  ordered_json result = {{"scene", to_string(candidate.scene, layout)},
+                         {"misfit", candidate.misfit},
+                         {"posterior", nullptr},
+                         {"outcome", to_string(candidate.outcome)},
+                         {"place", place_in_words(candidate.scene, layout)},
+                         {"indistinguishable", std::move(same)}};
+  if (candidate.posterior) result["posterior"] = *candidate.posterior;
+  return result;
+}
+
+ordered_json settings_json(const LookupSettings& settings) {
+  ordered_json result = {{"objective", to_string(settings.objective)},
+                         {"search", to_string(settings.search)},
+                         {"missing", settings.prior.missing},
+                         {"top", settings.top}};
+  if (settings.search == Search::genetic)
+    result["genetic"] = {{"population", settings.genetic.population},
+                         {"crossover", settings.genetic.crossover},
+                         {"mutation", settings.genetic.mutation},
+                         {"generations", settings.genetic.most_generations},
+                         {"seed", settings.genetic.seed}};
+  if (settings.objective == Objective::paper) return result;
+  ordered_json noise = {{"model", to_string(settings.noise.shape)},
+                        {"relative", nullptr},
+                        {"floor_m", settings.noise.floor},
+                        {"model_error", settings.noise.model_error},
+                        {"silent_sensors", settings.noise.silence}};
+  if (settings.noise.relative) noise["relative"] = *settings.noise.relative;
+  if (settings.noise.shape == NoiseShape::student)
+    noise["degrees_of_freedom"] = settings.noise.degrees_of_freedom;
+  result["noise"] = std::move(noise);
+  result["unknown"] = {{"scale", settings.nuisance.scale},
+                       {"datum_m", settings.nuisance.datum},
+                       {"tilt_m_per_m", settings.nuisance.tilt}};
+  return result;
+}
+
+ordered_json posterior_json(const Answer& answer, const Library& library) {
+  constexpr double kWorthNaming = 1e-6;
+  const Posterior& posterior = *answer.posterior;
+  ordered_json blocks = ordered_json::array();
+  for (std::size_t id = 0; id < posterior.block_probability.size(); ++id)
+    if (posterior.block_probability[id] >= kWorthNaming)
+      blocks.push_back({{"block", to_string(library.layout.blocks[id].index)},
+                        {"probability", posterior.block_probability[id]}});
+  ordered_json credible = ordered_json::array();
+  for (const std::size_t row : posterior.credible)
+    credible.push_back(to_string(library.table.scene(row), library.layout));
+  return {{"missing_blocks", posterior.missing_probability},
+          {"blocks", std::move(blocks)},
+          {"credible_share", kCredibleShare},
+          {"credible_set", std::move(credible)}};
+}
+
+ordered_json sensors_json(const Answer& answer, const Library& library) {
+  ordered_json result = ordered_json::array();
+  for (const SensorResidual& sensor : answer.residuals)
+    result.push_back({{"point", library.points[sensor.point].name},
+                      {"reading_m", sensor.reading},
+                      {"predicted_m", sensor.predicted},
+                      {"standard_error", sensor.error},
+                      {"disagrees", sensor.disagrees}});
+  return result;
+}
+
+}  // namespace
+
+std::string json_report(const Answer& answer, const LookupSettings& settings, const Library& library,
+                        const Source& source) {
+  ordered_json candidates = ordered_json::array();
+  for (const Candidate& candidate : answer.candidates)
+    candidates.push_back(candidate_json(candidate, library.layout));
+  ordered_json result = {{"candidates", std::move(candidates)},
+                         {"settings", settings_json(settings)},
+                         {"measurements", {{"file", source.measurements}, {"readings", answer.readings}}},
+                         {"database",
+                          {{"file", source.database},
+                           {"bridge", source.bridge},
+                           {"digest", source.digest},
+                           {"scenes_searched", answer.searched},
+                           {"scenes_unresolved", answer.unresolved}}}};
+  if (answer.posterior) result["posterior"] = posterior_json(answer, library);
+  if (answer.noise)
+    result["noise"] = {{"model", to_string(answer.noise->shape)},
+                       {"relative", answer.noise->level},
+                       {"estimated", answer.noise->estimated}};
+  if (answer.fit)
+    result["fit"] = {
+        {"explained", answer.fit->explained}, {"chance", answer.fit->chance}, {"reason", answer.fit->reason}};
+  if (!answer.residuals.empty()) result["sensors"] = sensors_json(answer, library);
+  for (const GeneticResult& run : answer.genetic)
+    result["genetic"].push_back({{"generations", run.generations},
+                                 {"converged_in_generation", run.converged},
+                                 {"evaluations", run.evaluations}});
+  return result.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace voussoir

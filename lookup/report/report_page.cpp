@@ -1,0 +1,154 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.h"
+#include "lookup/report/drawing/page.h"
+#include "lookup/report/report.h"
+#include "lookup/report/report_pictures.h"
+#include "lookup/report/report_words.h"
+#include "lookup/report/words.h"
+
+namespace voussoir {
+namespace {
+
+using Terms = std::vector<std::pair<std::string, std::string>>;
+
+std::string verdict_html(const Answer& answer, const Library& library) {
+  std::string html;
+  for (const std::string& sentence : verdict(answer, library))
+    html += paragraph(sentence, html.empty() ? "lead" : "");
+  if (answer.posterior && !answer.posterior->credible.empty())
+    html += paragraph(
+        fmt::format("Number of missing blocks: {}. {:.0f} % of the probability is held by {} scene{}.",
+                    missing_in_words(*answer.posterior), 100.0 * kCredibleShare,
+                    answer.posterior->credible.size(), answer.posterior->credible.size() == 1 ? "" : "s"));
+  std::string same;
+  for (const Scene& scene : answer.candidates.front().same_readings)
+    same += (same.empty() ? "" : "; ") + to_string(scene, library.layout);
+  if (!same.empty()) html += paragraph("These sensors cannot tell it from: " + same);
+  return "<div class=\"verdict\">" + html + "</div>\n";
+}
+
+/// Blanks at which no line breaks.
+std::string on_one_line(const std::string& text) {
+  std::string result;
+  for (const char c : text) result += c == ' ' ? std::string("\u00a0") : std::string(1, c);
+  return result;
+}
+
+Figure candidates_figure(const Answer& answer, const Library& library) {
+  Table table{{"rank", "scene", "probability", "misfit (Eq. 1)", "behind the first", "outcome", "where"}, {}};
+  for (std::size_t i = 0; i < answer.candidates.size(); ++i) {
+    const Candidate& candidate = answer.candidates[i];
+    table.rows.push_back(
+        {static_cast<double>(i + 1), to_string(candidate.scene, library.layout),
+         candidate.posterior ? percent(*candidate.posterior) : "none asked for", candidate.misfit,
+         i == 0 ? "" : on_one_line(behind(candidate, answer.candidates.front())),
+         std::string(to_string(candidate.outcome)), place_in_words(candidate.scene, library.layout)});
+  }
+  return {"candidates",
+          "Scenes that may explain the readings",
+          "A scene is a set of missing blocks, named (course, position from the left); course 0 is the arch.",
+          "",
+          table,
+          true,
+          TableView::open,
+          5};
+}
+
+std::string level_in_words(const NoiseModel& noise) {
+  return noise.relative ? fmt::format("{:.3g} % of the displacement, as stated", 100.0 * *noise.relative)
+                        : "unknown; all levels are weighed";
+}
+
+std::string unknowns_in_words(const Nuisance& nuisance) {
+  if (!nuisance.any()) return "";
+  return fmt::format("scale of all displacements {:.3g} %, datum {:.3g} mm, tilt {:.3g} mm per m",
+                     100.0 * nuisance.scale, 1e3 * nuisance.datum, 1e3 * nuisance.tilt);
+}
+
+void add_noise_terms(const Answer& answer, const LookupSettings& settings, Terms& terms) {
+  terms.emplace_back("Noise model", std::string(to_string(settings.noise.shape)));
+  terms.emplace_back("Noise level", level_in_words(settings.noise));
+  if (answer.noise)
+    terms.emplace_back("Noise, if the first scene is the truth", noise_in_words(*answer.noise));
+  if (settings.noise.floor > 0.0)
+    terms.emplace_back("Absolute part of the noise", fmt::format("{:.3g} mm", 1e3 * settings.noise.floor));
+  terms.emplace_back(
+      "Allowance for the model's error",
+      fmt::format("{:.3g} % of the change that a missing block makes", 100.0 * settings.noise.model_error));
+  terms.emplace_back("Sensors that fail by themselves",
+                     fmt::format("{:.3g} %", 100.0 * settings.noise.silence));
+  if (settings.nuisance.any()) terms.emplace_back("Also unknown", unknowns_in_words(settings.nuisance));
+}
+
+std::string weights_in_words(const Prior& prior) {
+  std::string text;
+  for (std::size_t i = 0; i < prior.missing.size(); ++i)
+    text += fmt::format("{}{}{}", i == 0 ? "" : ", ", prior.missing[i],
+                        prior.weight.empty() ? "" : fmt::format(" (weight {:g})", prior.weight[i]));
+  return text + (prior.weight.empty() ? ", equally likely beforehand" : "");
+}
+
+std::string search_in_words(const LookupSettings& settings) {
+  if (settings.search != Search::genetic) return std::string(to_string(settings.search));
+  const GeneticSettings& genetic = settings.genetic;
+  return fmt::format("genetic (population {}, crossover {:g}, mutation {:g}, {} generations, seed {})",
+                     genetic.population, genetic.crossover, genetic.mutation, genetic.most_generations,
+                     genetic.seed);
+}
+
+std::string assumptions_html(const Answer& answer, const LookupSettings& settings, const Library& library,
+                             const Source& source) {
+  Terms terms = {
+      {"Measurements", fmt::format("{}: {} of {} control points have a reading", source.measurements,
+                                   answer.readings, library.points.size())},
+      {"Database", fmt::format("{} (bridge '{}')", source.database, source.bridge)},
+      {"Database digest", source.digest},
+      {"Scenes searched",
+       fmt::format("{}; left out because they have no solution: {}", answer.searched, answer.unresolved)},
+      {"Objective", settings.objective == Objective::paper
+                        ? "the misfit log(sum |measured - scene|) alone, which gives no probabilities"
+                        : "posterior probability of each scene"},
+      {"Search", search_in_words(settings)},
+      {"Numbers of missing blocks considered", weights_in_words(settings.prior)}};
+  if (settings.objective == Objective::posterior) add_noise_terms(answer, settings, terms);
+  return terms_html(terms) +
+         paragraph(
+             "Probabilities hold under these assumptions. What the model of the bridge leaves out is counted "
+             "only through the allowance for the model's error.",
+             "muted");
+}
+
+}  // namespace
+
+std::string picture_report(const Answer& answer, const Library& library, const Measurements& measurements) {
+  if (answer.candidates.empty())
+    throw Failure("no scene explains the measurements: there is no picture to draw, only a page");
+  return svg_file(draw_bridge({answer, library, measurements}));
+}
+
+std::string page_report(const Answer& answer, const LookupSettings& settings, const Library& library,
+                        const Measurements& measurements, const Source& source) {
+  const std::string assumed =
+      section_html("assumed", "What was assumed", assumptions_html(answer, settings, library, source));
+  const std::string title = fmt::format("Missing blocks of bridge '{}'", source.bridge);
+  if (answer.candidates.empty())
+    return html_page(title,
+                     paragraph("No scene in this database explains these measurements: every scene lacks a "
+                               "block that has a reading.",
+                               "lead") +
+                         assumed);
+  const ReportPictures pictures{answer, library, measurements};
+  return html_page(
+      title,
+      verdict_html(answer, library) + figures_html({bridge_figure(pictures)}) +
+          section_html("ranked", "Candidates", figures_html({candidates_figure(answer, library)})) +
+          section_html("readings", "Readings against the first candidate",
+                       figures_html(profile_figures(pictures)) + figures_html(residual_figures(pictures))) +
+          assumed);
+}
+
+}  // namespace voussoir

@@ -1,0 +1,133 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include "lookup/report/report.h"
+#include "lookup/report/report_words.h"
+#include "lookup/report/words.h"
+
+namespace voussoir {
+namespace {
+
+constexpr double kMillimetres = 1e3;
+constexpr std::size_t kMostBlocksListed = 5;
+constexpr std::size_t kMostSensorsListed = 5;
+constexpr double kBlockWorthListing = 0.01;
+constexpr std::size_t kDigestShown = 12;
+
+/// Collects lines.
+class Text {
+ public:
+  template <typename... Arguments>
+  void line(fmt::format_string<Arguments...> format, Arguments&&... arguments) {
+    fmt::format_to(std::back_inserter(text_), format, std::forward<Arguments>(arguments)...);
+    text_ += '\n';
+  }
+  std::string take() { return std::move(text_); }
+
+ private:
+  std::string text_;
+};
+
+void write_heading(Text& text, const Answer& answer, const Library& library, const Source& source) {
+  text.line("Measurements: {}, {} of {} control points have a reading", source.measurements, answer.readings,
+            library.points.size());
+  text.line("Database:     {} (bridge '{}', digest {})", source.database, source.bridge,
+            source.digest.substr(0, kDigestShown));
+  text.line("Searched:     {} scenes{}", answer.searched,
+            answer.unresolved == 0
+                ? ""
+                : fmt::format("; {} more have no solution and were left out", answer.unresolved));
+}
+
+void write_verdict(Text& text, const Answer& answer, const Library& library) {
+  for (const std::string& sentence : verdict(answer, library)) text.line("{}", sentence);
+}
+
+void write_table(Text& text, const Answer& answer, const Library& library) {
+  std::size_t width = 5;
+  for (const Candidate& candidate : answer.candidates)
+    width = std::max(width, to_string(candidate.scene, library.layout).size());
+  text.line("{:>4}  {:<{}}  {:>11}  {:>10}  {:>11}  {}", "rank", "scene", width, "probability", "misfit",
+            "behind", "where");
+  for (std::size_t i = 0; i < answer.candidates.size(); ++i) {
+    const Candidate& candidate = answer.candidates[i];
+    text.line("{:>4}  {:<{}}  {:>11}  {:>10.4f}  {:>11}  {}", i + 1,
+              to_string(candidate.scene, library.layout), width,
+              candidate.posterior ? percent(*candidate.posterior) : "-", candidate.misfit,
+              i == 0 ? "-" : behind(candidate, answer.candidates.front()),
+              place_in_words(candidate.scene, library.layout));
+  }
+}
+
+void write_groups(Text& text, const Answer& answer, const Library& library) {
+  const Candidate& best = answer.candidates.front();
+  if (best.same_readings.empty()) return;
+  std::string names;
+  for (const Scene& scene : best.same_readings)
+    names += (names.empty() ? "" : "; ") + to_string(scene, library.layout);
+  text.line("These sensors cannot tell {} from: {}", to_string(best.scene, library.layout), names);
+}
+
+void write_probabilities(Text& text, const Answer& answer, const Library& library) {
+  const Posterior& posterior = *answer.posterior;
+  text.line("Number of missing blocks: {}", missing_in_words(posterior));
+  std::vector<BlockId> blocks = likely_blocks(posterior, kBlockWorthListing);
+  blocks.resize(std::min(blocks.size(), kMostBlocksListed));
+  std::string names;
+  for (const BlockId id : blocks)
+    names += fmt::format("{}{}: {}", names.empty() ? "" : "; ", to_string(library.layout[id].index),
+                         percent(posterior.block_probability[static_cast<std::size_t>(value(id))]));
+  text.line("Blocks most likely missing: {}", names.empty() ? "none" : names);
+  text.line("{:.0f} % of the probability is held by {} scene{}", 100.0 * kCredibleShare,
+            posterior.credible.size(), posterior.credible.size() == 1 ? "" : "s");
+}
+
+void write_sensors(Text& text, const Answer& answer, const Library& library) {
+  std::vector<SensorResidual> odd;
+  std::copy_if(answer.residuals.begin(), answer.residuals.end(), std::back_inserter(odd),
+               [](const SensorResidual& sensor) { return sensor.disagrees; });
+  std::stable_sort(odd.begin(), odd.end(), [](const SensorResidual& a, const SensorResidual& b) {
+    return std::abs(a.error) > std::abs(b.error);
+  });
+  if (odd.empty()) text.line("Sensors: none disagrees with the rest");
+  odd.resize(std::min(odd.size(), kMostSensorsListed));
+  for (const SensorResidual& sensor : odd)
+    text.line("Sensor {} disagrees: it reads {:.4g} mm where {:.4g} mm would be expected",
+              library.points[sensor.point].name, kMillimetres * sensor.reading,
+              kMillimetres * sensor.predicted);
+}
+
+void write_genetic(Text& text, const Answer& answer) {
+  for (const GeneticResult& run : answer.genetic)
+    text.line("Genetic search: {} generations, the best appeared in generation {}, {} scenes scored",
+              run.generations, run.converged, run.evaluations);
+}
+
+}  // namespace
+
+std::string text_report(const Answer& answer, const Library& library, const Source& source) {
+  Text text;
+  write_heading(text, answer, library, source);
+  write_genetic(text, answer);
+  text.line("");
+  if (answer.candidates.empty()) {
+    text.line(
+        "No scene in this database explains these measurements: every scene lacks a block that has a "
+        "reading.");
+    return text.take();
+  }
+  write_verdict(text, answer, library);
+  if (answer.noise) text.line("Noise:        {}", noise_in_words(*answer.noise));
+  text.line("");
+  write_table(text, answer, library);
+  text.line("");
+  write_groups(text, answer, library);
+  if (answer.posterior && !answer.posterior->credible.empty()) write_probabilities(text, answer, library);
+  if (answer.posterior) write_sensors(text, answer, library);
+  return text.take();
+}
+
+}  // namespace voussoir

@@ -1,0 +1,14 @@
+#include "lookup/search/exhaustive_search.h"
+
+namespace voussoir {
+
+std::vector<ScoredRow> exhaustive_search(std::span<const double> readings, const SceneTable& table,
+                                         std::span<const std::size_t> rows, std::size_t count) {
+  const std::vector<double> sums = sums_of_differences(readings, table);
+  std::vector<ScoredRow> scored;
+  scored.reserve(rows.size());
+  for (const std::size_t row : rows) scored.push_back({row, sums[row]});
+  return best_rows(std::move(scored), count);
+}
+
+}  // namespace voussoir

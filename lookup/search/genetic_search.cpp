@@ -1,0 +1,198 @@
+#include "lookup/search/genetic_search.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+
+#include "lookup/readings/random.h"
+#include "lookup/search/misfit.h"
+
+namespace voussoir {
+namespace {
+
+constexpr std::size_t kMostGenes = 4;
+constexpr std::uint32_t kLargestStep = 2;  // of a local mutation, in courses or positions
+constexpr double kLocalMutation = 0.5;     // share of mutations that stay near; the others go anywhere
+constexpr std::uint32_t kNoRow = std::numeric_limits<std::uint32_t>::max();
+constexpr double kNotScored = -1.0;
+
+struct Member {
+  std::array<int, kMostGenes> genes{};  // (x1, x2), (x3, x4): course and position of each missing block
+  ScoredRow score{GeneSpace::none, std::numeric_limits<double>::infinity()};
+};
+
+class Evolution {
+ public:
+  Evolution(std::span<const double> readings, const SceneTable& table, const GeneSpace& space, int missing,
+            const GeneticSettings& settings)
+      : readings_(readings),
+        table_(table),
+        space_(space),
+        missing_(static_cast<std::size_t>(missing)),
+        settings_(settings),
+        random_(settings.seed),
+        sums_(table.rows, kNotScored) {}
+
+  GeneticResult run(std::size_t count) {
+    std::vector<Member> population = first_generation();
+    Member best = *fittest(population);
+    result_.converged = 1;
+    for (result_.generations = 1; result_.generations < settings_.most_generations; ++result_.generations) {
+      population = next_generation(population, best);
+      const auto leader = fittest(population);
+      if (leader->score < best.score) result_.converged = result_.generations + 1;
+      if (leader->score < best.score) best = *leader;
+    }
+    result_.best = best_seen(count);
+    return result_;
+  }
+
+ private:
+  static std::vector<Member>::const_iterator fittest(const std::vector<Member>& population) {
+    return std::min_element(population.begin(), population.end(),
+                            [](const Member& a, const Member& b) { return a.score < b.score; });
+  }
+
+  std::vector<Member> first_generation() {
+    std::vector<Member> population(static_cast<std::size_t>(settings_.population));
+    for (Member& member : population) {
+      for (std::size_t block = 0; block < missing_; ++block) move_anywhere(member, block);
+      score(member);
+    }
+    return population;
+  }
+
+  std::vector<Member> next_generation(const std::vector<Member>& parents, const Member& best) {
+    std::vector<Member> children = {best};
+    while (children.size() < parents.size()) {
+      Member child = crossed(tournament(parents), tournament(parents));
+      mutate(child);
+      score(child);
+      children.push_back(child);
+    }
+    return children;
+  }
+
+  const Member& tournament(const std::vector<Member>& members) {
+    const auto size = static_cast<std::uint32_t>(members.size());
+    const Member& a = members[random_.below(size)];
+    const Member& b = members[random_.below(size)];
+    return a.score < b.score ? a : b;
+  }
+
+  /// Each block of the child comes from either parent; a single block inherits its course and position
+  /// separately.
+  Member crossed(const Member& a, const Member& b) {
+    if (random_.uniform() >= settings_.crossover) return a;
+    Member child = a;
+    if (missing_ == 1) {
+      child.genes[1] = b.genes[1];
+      repair(child, 0);
+      return child;
+    }
+    for (std::size_t block = 0; block < missing_; ++block) {
+      const std::size_t from = random_.below(2);
+      if (random_.below(2) == 1) std::copy_n(&b.genes[2 * from], 2, &child.genes[2 * block]);
+    }
+    return child;
+  }
+
+  void mutate(Member& member) {
+    if (random_.uniform() >= settings_.mutation) return;
+    const std::size_t block = random_.below(static_cast<std::uint32_t>(missing_));
+    if (random_.uniform() < kLocalMutation)
+      step(member, 2 * block + random_.below(2));
+    else
+      move_anywhere(member, block);
+    repair(member, block);
+  }
+
+  void step(Member& member, std::size_t gene) {
+    const int distance = 1 + static_cast<int>(random_.below(kLargestStep));
+    member.genes[gene] += random_.below(2) == 0 ? distance : -distance;
+  }
+
+  void move_anywhere(Member& member, std::size_t block) {
+    const auto course = static_cast<int>(random_.below(static_cast<std::uint32_t>(space_.courses())));
+    const int positions = std::max(1, space_.positions(course));
+    member.genes[2 * block] = course;
+    member.genes[2 * block + 1] = 1 + static_cast<int>(random_.below(static_cast<std::uint32_t>(positions)));
+  }
+
+  /// Genes that left their range come back to its end.
+  void repair(Member& member, std::size_t block) const {
+    int& course = member.genes[2 * block];
+    int& position = member.genes[2 * block + 1];
+    course = std::clamp(course, 0, space_.courses() - 1);
+    position = std::clamp(position, 1, std::max(1, space_.positions(course)));
+  }
+
+  void score(Member& member) {
+    const std::size_t row = space_.row(std::span(member.genes).first(2 * missing_));
+    member.score = {row, row == GeneSpace::none ? std::numeric_limits<double>::infinity() : sum_of(row)};
+  }
+
+  double sum_of(std::size_t row) {
+    if (sums_[row] != kNotScored) return sums_[row];
+    ++result_.evaluations;
+    return sums_[row] = sum_of_differences(readings_, table_.row(row));
+  }
+
+  std::vector<ScoredRow> best_seen(std::size_t count) const {
+    std::vector<ScoredRow> seen;
+    for (std::size_t row = 0; row < sums_.size(); ++row)
+      if (sums_[row] != kNotScored) seen.push_back({row, sums_[row]});
+    return best_rows(std::move(seen), count);
+  }
+
+  std::span<const double> readings_;
+  const SceneTable& table_;
+  const GeneSpace& space_;
+  std::size_t missing_;
+  GeneticSettings settings_;
+  Random random_;
+  std::vector<double> sums_;  // misfit arguments already computed
+  GeneticResult result_;
+};
+
+}  // namespace
+
+GeneSpace::GeneSpace(const BlockLayout& layout, const SceneTable& table)
+    : blocks_(layout.size()), row_of_pair_((blocks_ + 1) * (blocks_ + 1), kNoRow) {
+  for (std::size_t id = 0; id < blocks_; ++id) {
+    const auto course = static_cast<std::size_t>(layout.blocks[id].index.course);
+    courses_.resize(std::max(courses_.size(), course + 1));
+    courses_[course].push_back(BlockId{static_cast<std::int32_t>(id)});
+  }
+  for (std::size_t row = 0; row < table.rows; ++row) {
+    if (table.outcome[row] == static_cast<std::uint8_t>(Outcome::unresolved)) continue;
+    std::array<std::size_t, 2> pair = {blocks_, blocks_};
+    const auto removed = table.removed.subspan(row * table.most_missing, table.most_missing);
+    const auto missing = static_cast<std::size_t>(
+        std::count_if(removed.begin(), removed.end(), [](std::int32_t id) { return id >= 0; }));
+    if (missing > pair.size()) continue;
+    std::copy_n(removed.begin(), missing, pair.begin());
+    row_of_pair_[pair[0] * (blocks_ + 1) + pair[1]] = static_cast<std::uint32_t>(row);
+  }
+}
+
+std::size_t GeneSpace::row(std::span<const int> genes) const {
+  std::array<std::size_t, 2> pair = {blocks_, blocks_};
+  for (std::size_t block = 0; 2 * block < genes.size(); ++block) {
+    const auto course = static_cast<std::size_t>(genes[2 * block]);
+    const auto position = static_cast<std::size_t>(genes[2 * block + 1]);
+    if (position > courses_[course].size()) return none;
+    pair.at(block) = static_cast<std::size_t>(courses_[course][position - 1]);
+  }
+  if (pair[0] > pair[1]) std::swap(pair[0], pair[1]);
+  const std::uint32_t row = row_of_pair_[pair[0] * (blocks_ + 1) + pair[1]];
+  return row == kNoRow ? none : row;
+}
+
+GeneticResult genetic_search(std::span<const double> readings, const SceneTable& table,
+                             const GeneSpace& space, int missing, const GeneticSettings& settings,
+                             std::size_t count) {
+  return Evolution(readings, table, space, missing, settings).run(count);
+}
+
+}  // namespace voussoir

@@ -1,0 +1,191 @@
+#include <Eigen/Geometry>
+#include <catch2/catch.hpp>
+#include <random>
+
+#include "core/law/joint_kinematics.h"
+#include "core/law/triangle.h"
+#include "core/statics/equilibrium.h"
+#include "tests/support/bridges.h"
+
+using namespace voussoir;
+
+namespace {
+
+const std::array<Point, 3> kCorners = {Point(0.1, 0.2), Point(1.3, 0.1), Point(0.4, 0.9)};
+
+TriangleShape shape() {
+  return triangle_shape(kCorners[0], kCorners[1], kCorners[2]);
+}
+
+Vector6d rotated_by(double angle) {
+  const Eigen::Matrix2d turn = Eigen::Rotation2Dd(angle).toRotationMatrix();
+  Vector6d q;
+  for (int i = 0; i < 3; ++i)
+    q.segment<2>(2 * i) =
+        turn * kCorners[static_cast<std::size_t>(i)] - kCorners[static_cast<std::size_t>(i)];
+  return q;
+}
+
+/// Two edges of two blocks that face each other over part of their length, in a skew direction.
+struct SkewJoint {
+  Mesh mesh;
+  Joint joint;
+};
+
+SkewJoint skew_joint() {
+  SkewJoint result;
+  const Eigen::Matrix2d turn = Eigen::Rotation2Dd(0.7).toRotationMatrix();
+  result.mesh.nodes.resize(2, 4);
+  result.mesh.nodes << 0.0, 1.0, 1.4, 0.3, 0.0, 0.0, 0.0, 0.0;
+  result.mesh.nodes = turn * result.mesh.nodes;
+  result.joint = {.first = BlockId{0},
+                  .second = BlockId{1},
+                  .first_edge = {NodeId{0}, NodeId{1}},
+                  .second_edge = {NodeId{2}, NodeId{3}},
+                  .first_at = {0.3, 1.0},
+                  .second_at = {1.0, 0.4 / 1.1},
+                  .length = 0.7};
+  return result;
+}
+
+Vector8d random_displacement(std::mt19937& generator, double size) {
+  std::normal_distribution<double> normal(0.0, size);
+  return Vector8d::NullaryExpr([&] { return normal(generator); });
+}
+
+}  // namespace
+
+TEST_CASE("A constant strain gives the stress of Hooke's law in any direction", "[element]") {
+  const Material material;
+  const double e = 1e-7;
+  Vector6d q;
+  for (int i = 0; i < 3; ++i) q.segment<2>(2 * i) << e * kCorners[static_cast<std::size_t>(i)].x(), 0.0;
+  const Eigen::Vector3d stress = triangle_stress(shape(), plane_moduli(material), q);
+  CHECK(stress[0] == Approx(2.5e10 / (1 - 0.04) * e).epsilon(1e-6));
+  CHECK(stress[1] == Approx(0.2 * stress[0]).epsilon(1e-6));
+  CHECK(std::abs(stress[2]) < 1e-9 * stress[0]);
+}
+
+TEST_CASE("Plane strain is stiffer than plane stress by the closed form", "[element]") {
+  Material strain;
+  strain.plane = PlaneState::strain;
+  CHECK(plane_moduli(strain).a == Approx(2.5e10 * 0.8 / (1.2 * 0.6)));
+  CHECK(plane_moduli(strain).g == Approx(plane_moduli(Material{}).g));
+}
+
+TEST_CASE("A rigid rotation of any angle gives no stress and no force", "[element]") {
+  for (const double angle : {1e-3, 0.5, 2.0, -3.0}) {
+    const Vector6d q = rotated_by(angle);
+    CHECK(triangle_stress(shape(), plane_moduli({}), q).norm() < 1e-4);  // E times round-off: 2.5e10 x 1e-16
+    CHECK(triangle_force(shape(), plane_moduli({}), 1.0, q).norm() < 1e-4);
+  }
+}
+
+TEST_CASE("The triangle's tangent is the derivative of its force at large displacements", "[element]") {
+  std::mt19937 generator(3);
+  std::normal_distribution<double> normal(0.0, 0.1);
+  int checked = 0;
+  for (int trial = 0; trial < 50; ++trial) {
+    const Vector6d q = Vector6d::NullaryExpr([&] { return normal(generator); });
+    const TriangleResponse response = triangle_response(shape(), plane_moduli({}), 1.0, q);
+    CHECK((response.force - triangle_force(shape(), plane_moduli({}), 1.0, q)).norm() <
+          1e-9 * response.force.norm());
+    for (int k = 0; k < 6; ++k) {
+      const double h = 1e-6;
+      const Vector6d dx = h * Vector6d::Unit(k);
+      const Vector6d difference = (triangle_force(shape(), plane_moduli({}), 1.0, q + dx) -
+                                   triangle_force(shape(), plane_moduli({}), 1.0, q - dx)) /
+                                  (2 * h);
+      CHECK((difference - response.tangent.col(k)).norm() < 1e-7 * response.tangent.norm());
+      ++checked;
+    }
+  }
+  CHECK(checked == 300);
+}
+
+TEST_CASE("Gap and slip do not change under a rigid motion of both blocks", "[joint]") {
+  const SkewJoint s = skew_joint();
+  const JointFrame frame = make_joint_frame(s.joint, s.mesh);
+  std::mt19937 generator(4);
+  const Vector8d q = random_displacement(generator, 1e-2);
+  const Eigen::Matrix2d turn = Eigen::Rotation2Dd(1.1).toRotationMatrix();
+  Vector8d moved;
+  for (int i = 0; i < 4; ++i)
+    moved.segment<2>(2 * i) =
+        turn * (s.mesh.nodes.col(i) + q.segment<2>(2 * i)) + Point(5.0, -3.0) - s.mesh.nodes.col(i);
+  CHECK((joint_kinematics(frame, q).state - joint_kinematics(frame, moved).state).norm() < 1e-14);
+}
+
+TEST_CASE("Joint forces balance in force and moment at large displacements", "[joint]") {
+  const SkewJoint s = skew_joint();
+  const JointFrame frame = make_joint_frame(s.joint, s.mesh);
+  std::mt19937 generator(5);
+  const Vector8d q = random_displacement(generator, 0.05);
+  const JointKinematics k = joint_kinematics(frame, q);
+  const Vector8d f = k.gradient.transpose() * Eigen::Vector4d(-3.0, 1.0, -2.0, 0.5);
+  Point sum = Point::Zero();
+  double moment = 0.0;
+  for (int i = 0; i < 4; ++i) {
+    sum += f.segment<2>(2 * i);
+    moment += cross(s.mesh.nodes.col(i) + q.segment<2>(2 * i), f.segment<2>(2 * i));
+  }
+  CHECK(sum.norm() < 1e-13);
+  CHECK(std::abs(moment) < 1e-13);
+}
+
+TEST_CASE("Gradient and geometric stiffness of a joint are derivatives of its state", "[joint]") {
+  const SkewJoint s = skew_joint();
+  const JointFrame frame = make_joint_frame(s.joint, s.mesh);
+  std::mt19937 generator(6);
+  const Eigen::Vector4d force(-3.0, 1.0, -2.0, 0.5);
+  int checked = 0;
+  for (int trial = 0; trial < 20; ++trial) {
+    const Vector8d q = random_displacement(generator, 0.05);
+    const JointKinematics at = joint_kinematics(frame, q);
+    const Matrix8d geometric = joint_geometric_stiffness(frame, q, at, force);
+    for (int k = 0; k < 8; ++k) {
+      const Vector8d dx = 1e-6 * Vector8d::Unit(k);
+      const JointKinematics up = joint_kinematics(frame, q + dx);
+      const JointKinematics down = joint_kinematics(frame, q - dx);
+      CHECK(((up.state - down.state) / 2e-6 - at.gradient.col(k)).norm() < 1e-8);
+      CHECK(((up.gradient - down.gradient).transpose() * force / 2e-6 - geometric.col(k)).norm() < 1e-7);
+      ++checked;
+    }
+  }
+  CHECK(checked == 160);
+}
+
+TEST_CASE("The bridge's tangent is the derivative of its unbalanced forces", "[equilibrium]") {
+  const Bridge bridge = test::small_bridge();
+  const EquilibriumSystem system(bridge);
+  const std::vector<bool> removed = removal_mask(parse_scene("4,2", bridge.layout), bridge.layout.size());
+  std::mt19937 generator(7);
+  std::normal_distribution<double> normal(0.0, 1.0);
+  Field u = Field::Zero(2, bridge.mesh.node_count());
+  Field direction = u;
+  for (const int c : system.component) {
+    u.data()[c] = 1e-4 * normal(generator);
+    direction.data()[c] = normal(generator);
+  }
+  Eigen::SparseMatrix<double> tangent = system.pattern;
+  assemble(system, removed, u, 0.0, {tangent.valuePtr()});
+  const double h = 1e-9;
+  const Field difference = (unbalanced_forces(system, removed, u - h * direction) -
+                            unbalanced_forces(system, removed, u + h * direction)) /
+                           (2 * h);
+  Eigen::VectorXd along(system.unknown_count());
+  for (int i = 0; i < along.size(); ++i)
+    along[i] = direction.data()[system.component[static_cast<std::size_t>(i)]];
+  const Eigen::VectorXd predicted = tangent * along;
+  int checked = 0;
+  for (int i = 0; i < along.size(); ++i) {
+    const int c = system.component[static_cast<std::size_t>(i)];
+    const IndexRange gone =
+        bridge.mesh
+            .block_nodes[static_cast<std::size_t>(value(parse_scene("4,2", bridge.layout).removed[0]))];
+    if (c / 2 >= gone.begin && c / 2 < gone.end) continue;
+    CHECK(std::abs(difference.data()[c] - predicted[i]) < 1e-8 * predicted.cwiseAbs().maxCoeff());
+    ++checked;
+  }
+  CHECK(checked > 300);
+}

@@ -1,0 +1,61 @@
+#include <array>
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "core/simd/lane_math.h"
+#include "lookup/readings/random.h"
+
+using namespace voussoir;
+
+namespace {
+
+double lane_log(double x) {
+  Lanes lanes = Lanes{} + x;
+  make_logarithm(lanes);
+  return lanes[0];
+}
+
+double lane_exp(double x) {
+  Lanes lanes = Lanes{} + x;
+  make_exponential(lanes);
+  return lanes[0];
+}
+
+constexpr double kUlp = std::numeric_limits<double>::epsilon();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+}  // namespace
+
+TEST_CASE("The lane logarithm is the library's in extended precision to two units in the last place") {
+  Random random(1);
+  for (int i = 0; i < 200'000; ++i) {
+    const double x = std::exp(1400.0 * (random.uniform() - 0.5)) * (1.0 + random.uniform());
+    const auto exact = static_cast<double>(std::log(static_cast<long double>(x)));
+    REQUIRE(std::abs(lane_log(x) - exact) <= 2.0 * kUlp * std::max(1.0, std::abs(exact)));
+  }
+  CHECK(lane_log(1.0) == 0.0);
+  CHECK(lane_log(0.0) == -kInfinity);
+  CHECK(lane_log(-1.0) == -kInfinity);
+  CHECK(lane_log(kInfinity) == kInfinity);
+  CHECK(std::isnan(lane_log(std::nan(""))));
+}
+
+TEST_CASE("The lane exponential is the library's in extended precision to three units in the last place") {
+  Random random(2);
+  for (int i = 0; i < 200'000; ++i) {
+    const double x = -707.0 * random.uniform() * random.uniform();
+    const auto exact = static_cast<double>(std::exp(static_cast<long double>(x)));
+    REQUIRE(std::abs(lane_exp(x) - exact) <= 3.0 * kUlp * exact);
+  }
+  CHECK(lane_exp(0.0) == 1.0);
+  CHECK(lane_exp(-1000.0) == 0.0);
+  CHECK(lane_exp(-kInfinity) == 0.0);
+  CHECK(std::isnan(lane_exp(std::nan(""))));
+}
+
+TEST_CASE("All four lanes are worked on alike") {
+  Lanes x = {1.0, 2.0, 0.25, 1e-9};
+  make_logarithm(x);
+  for (const int lane : {0, 1, 2, 3})
+    CHECK(x[lane] == Approx(std::log(std::array{1.0, 2.0, 0.25, 1e-9}[static_cast<std::size_t>(lane)])));
+}

@@ -1,0 +1,61 @@
+#include "core/solve/combined_solver.h"
+
+#include <catch2/catch.hpp>
+
+#include "core/statics/equilibrium.h"
+#include "tests/support/bridges.h"
+
+using namespace voussoir;
+
+namespace {
+
+std::vector<SceneStart> from_rest(const std::vector<Scene>& scenes) {
+  std::vector<SceneStart> tasks;
+  for (const Scene& scene : scenes) tasks.push_back({scene, nullptr});
+  return tasks;
+}
+
+}  // namespace
+
+TEST_CASE("Every scene of the small bridge with up to one block missing has an outcome", "[combined]") {
+  const Bridge bridge = test::small_bridge();
+  const std::vector<Scene> scenes = all_scenes(bridge.layout.size(), 1);
+  const std::vector<Solution> solutions = CombinedSolver(bridge).solve(from_rest(scenes));
+  for (std::size_t i = 0; i < scenes.size(); ++i) {
+    INFO(to_string(scenes[i], bridge.layout));
+    CHECK(solutions[i].outcome != Outcome::unresolved);
+    // Oracle: equilibrium recomputed from the field alone.
+    if (solutions[i].outcome == Outcome::standing)
+      CHECK(unbalanced_force(bridge, scenes[i], solutions[i].displacement) < 1e-7);
+  }
+}
+
+TEST_CASE("Scenes that Newton alone leaves open stand or creep away in motion", "[combined]") {
+  const Bridge bridge = test::reference_bridge();
+  const std::vector<std::pair<const char*, Outcome>> expected =
+      {
+          {"intact", Outcome::standing},       {"11,8", Outcome::standing},  // no hope seen after three steps
+          {"0,15", Outcome::collapsed},        {"0,15+7,10", Outcome::collapsed},
+          {"10,17+10,18", Outcome::collapsed}, {"8,2+8,3", Outcome::collapsed},
+          {"1,6+10,1", Outcome::collapsed},  // creeps: friction holds all but a ten thousandth of the weight
+      };
+  std::vector<Scene> scenes;
+  for (const auto& [name, outcome] : expected) scenes.push_back(parse_scene(name, bridge.layout));
+  const std::vector<Solution> solutions = CombinedSolver(bridge).solve(from_rest(scenes));
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    INFO(expected[i].first);
+    CHECK(solutions[i].outcome == expected[i].second);
+  }
+}
+
+TEST_CASE("The combined solver's answers do not depend on their company, to the last bit", "[combined]") {
+  const Bridge bridge = test::small_bridge();
+  CombinedSolver solver(bridge);
+  const std::vector<Scene> scenes = all_scenes(bridge.layout.size(), 1);
+  const std::vector<Solution> together = solver.solve(from_rest(scenes));
+  for (const std::size_t i : {std::size_t{0}, std::size_t{3}, std::size_t{7}, scenes.size() - 1}) {
+    const Solution alone = solver.solve(from_rest({scenes[i]})).front();
+    CHECK(alone.outcome == together[i].outcome);
+    CHECK(test::without_nan(alone.displacement) == test::without_nan(together[i].displacement));
+  }
+}

@@ -1,0 +1,181 @@
+#include "core/statics/quasi_static_solver.h"
+
+#include <catch2/catch.hpp>
+
+#include "core/statics/equilibrium.h"
+#include "tests/support/bridges.h"
+
+using namespace voussoir;
+
+namespace {
+
+double vertical_mm(const Bridge& bridge, const Solution& solution, const std::string& point) {
+  for (const ControlPoint& p : bridge.control_points)
+    if (p.name == point) return 1e3 * solution.displacement(1, value(p.node));
+  throw std::runtime_error("no point " + point);
+}
+
+Eigen::VectorXd control_displacements(const Bridge& bridge, QuasiStaticSolver& solver,
+                                      const std::string& scene) {
+  const Solution solution = solver.solve(parse_scene(scene, bridge.layout));
+  REQUIRE(solution.outcome == Outcome::standing);
+  const Eigen::VectorXd d = vertical_displacements(solution.displacement, bridge.control_points);
+  return d.array().isNaN().select(0.0, d);
+}
+
+}  // namespace
+
+TEST_CASE("The intact reference bridge has the published displacements within half a per cent", "[solver]") {
+  const Bridge bridge = test::reference_bridge();
+  const Solution solution = QuasiStaticSolver(bridge).solve(Scene{});
+  REQUIRE(solution.outcome == Outcome::standing);
+  CHECK(solution.iterations <= 8);
+  // Oracle: an independent refined finite element contact model.
+  CHECK(vertical_mm(bridge, solution, "T20") == Approx(-3.621).epsilon(0.005));
+  CHECK(vertical_mm(bridge, solution, "T21") == Approx(-3.621).epsilon(0.005));
+  for (const char* end : {"T1", "T2", "T3", "T4", "T5"})
+    CHECK(vertical_mm(bridge, solution, end) == Approx(-0.78).margin(0.005));
+}
+
+TEST_CASE("Displacements are nearly proportional to the joints' compliance", "[solver]") {
+  BridgeDescription soft;
+  soft.joints.normal_stiffness = 1e8;
+  soft.joints.tangential_stiffness = 1e7;
+  const Bridge bridge = make_bridge(soft);
+  const Solution solution = QuasiStaticSolver(bridge).solve(Scene{});
+  // Published for p_n = 1e8: 7.7 mm at the ends and 36 mm at the centre.
+  CHECK(vertical_mm(bridge, solution, "T1") == Approx(-7.7).epsilon(0.01));
+  CHECK(vertical_mm(bridge, solution, "T20") == Approx(-36.0).epsilon(0.02));
+}
+
+TEST_CASE(
+    "A bridge on joints so soft that it sags by more than the limit of a fall stands (equilibrium anew)",
+    "[solver]") {
+  BridgeDescription soft;
+  soft.joints.normal_stiffness = 1e7;
+  soft.joints.tangential_stiffness = 1e6;
+  const Bridge bridge = make_bridge(soft);
+  const Solution solution = QuasiStaticSolver(bridge).solve(Scene{});
+  CHECK(solution.outcome == Outcome::standing);
+  CHECK(solution.displacement.cwiseAbs().maxCoeff() > QuasiStaticSettings{}.collapse_displacement);
+  CHECK(unbalanced_force(bridge, Scene{}, solution.displacement) < 1e-7);
+}
+
+TEST_CASE("Loads too small to be squared are carried like any other (proportionality)", "[solver]") {
+  BridgeDescription description = test::small_bridge().description;
+  const Scene scene = parse_scene("4,2", test::small_bridge().layout);
+  description.gravity = 1.0;
+  const Bridge usual_bridge = make_bridge(description);
+  const Solution usual = QuasiStaticSolver(usual_bridge).solve(scene);
+  description.gravity = 1e-300;
+  const Bridge bridge = make_bridge(description);
+  const Solution tiny = QuasiStaticSolver(bridge).solve(scene);
+  REQUIRE(tiny.outcome == Outcome::standing);
+  const Field scaled = test::without_nan(usual.displacement) * 1e-300;
+  // Strains of 1e-5 under usual gravity make the answer depart from proportionality by as much.
+  CHECK((test::without_nan(tiny.displacement) - scaled).cwiseAbs().maxCoeff() <
+        1e-3 * scaled.cwiseAbs().maxCoeff());
+}
+
+TEST_CASE("A dead load equal to the weight does what twice the gravity does (superposition of loads)",
+          "[solver]") {
+  BridgeDescription description = test::small_bridge().description;
+  const Bridge once = make_bridge(description);
+  Field weight = Field::Zero(2, once.mesh.node_count());
+  weight.row(1) = -EquilibriumSystem(once).weight.transpose();
+  description.gravity *= 2.0;
+  const Scene scene = parse_scene("4,2", once.layout);
+  const Field loaded = test::without_nan(QuasiStaticSolver(once, {}, weight).solve(scene).displacement);
+  const Bridge twice = make_bridge(description);
+  const Field heavy = test::without_nan(QuasiStaticSolver(twice).solve(scene).displacement);
+  CHECK((loaded - heavy).cwiseAbs().maxCoeff() < 1e-7 * heavy.cwiseAbs().maxCoeff());
+}
+
+TEST_CASE("A mirrored scene has the mirrored field", "[solver]") {
+  const Bridge bridge = test::reference_bridge();
+  QuasiStaticSolver solver(bridge);
+  for (const char* name : {"intact", "10,4", "2,6", "4,10+2,6", "10,12"}) {
+    const Scene scene = parse_scene(name, bridge.layout);
+    const Field direct = test::without_nan(solver.solve(mirrored(scene, *bridge.symmetry)).displacement);
+    const Field image = test::without_nan(mirrored(solver.solve(scene).displacement, *bridge.symmetry));
+    INFO(name);
+    CHECK((direct - image).cwiseAbs().maxCoeff() < 1e-9 * image.cwiseAbs().maxCoeff());
+  }
+}
+
+TEST_CASE("Every wall single of the reference bridge stands, no arch single does", "[solver][many-scenes]") {
+  const Bridge bridge = test::reference_bridge();
+  QuasiStaticSolver solver(bridge);
+  const Solution intact = solver.solve(Scene{});
+  for (const Scene& scene : all_scenes(bridge.layout.size(), 1)) {
+    INFO(to_string(scene, bridge.layout));
+    const bool lacks_arch_block = scene.missing() == 1 && bridge.layout[scene.removed[0]].index.course == 0;
+    const Solution solution = solver.solve(scene, intact.displacement);
+    CHECK((solution.outcome == Outcome::standing) == !lacks_arch_block);
+    if (solution.outcome == Outcome::standing)
+      CHECK(unbalanced_force(bridge, scene, solution.displacement) < 1e-7);
+  }
+}
+
+TEST_CASE("Pairs that need care in the search stand", "[solver]") {
+  const Bridge bridge = test::reference_bridge();
+  QuasiStaticSolver solver(bridge);
+  for (const char* name : {"10,4+10,12", "9,8+9,11", "4,2+11,3", "4,10+2,6"})
+    CHECK(solver.solve(parse_scene(name, bridge.layout)).outcome == Outcome::standing);
+}
+
+TEST_CASE("The answer depends on the scene, not on the start or on earlier scenes", "[solver]") {
+  const Bridge bridge = test::small_bridge();
+  QuasiStaticSolver solver(bridge);
+  const Scene scene = parse_scene("4,2", bridge.layout);
+  const Field first = test::without_nan(solver.solve(scene).displacement);
+  const Field intact = solver.solve(Scene{}).displacement;
+  solver.solve(parse_scene("0,5", bridge.layout));
+  CHECK((test::without_nan(solver.solve(scene).displacement) - first).norm() == 0.0);
+  const Field warm = test::without_nan(solver.solve(scene, intact).displacement);
+  CHECK((warm - first).cwiseAbs().maxCoeff() < 1e-9 * first.cwiseAbs().maxCoeff());
+}
+
+TEST_CASE("A removed block has no displacement and the others have one", "[solver]") {
+  const Bridge bridge = test::small_bridge();
+  const Scene scene = parse_scene("5,2", bridge.layout);
+  const Solution solution = QuasiStaticSolver(bridge).solve(scene);
+  const IndexRange gone = bridge.mesh.block_nodes[static_cast<std::size_t>(value(scene.removed[0]))];
+  CHECK(solution.displacement.middleCols(gone.begin, gone.size()).array().isNaN().all());
+  CHECK(solution.displacement.array().isNaN().count() == 2 * gone.size());
+}
+
+TEST_CASE("The signal of a removal is within two per cent of the converged answer", "[solver][many-scenes]") {
+  // Oracle: the same bridge with two more levels of refinement (16 times the triangles).
+  BridgeDescription fine_description;
+  fine_description.mesh.refinement = 2;
+  const Bridge fine = make_bridge(fine_description);
+  const Bridge usual = test::reference_bridge();
+  QuasiStaticSolver fine_solver(fine);
+  QuasiStaticSolver usual_solver(usual);
+  const Eigen::VectorXd fine_intact = control_displacements(fine, fine_solver, "intact");
+  const Eigen::VectorXd usual_intact = control_displacements(usual, usual_solver, "intact");
+  CHECK((usual_intact - fine_intact).lpNorm<1>() < 0.002 * fine_intact.lpNorm<1>());
+  for (const char* scene : {"10,4", "6,4", "2,6", "4,10", "8,12", "10,12"}) {
+    const Eigen::VectorXd exact = control_displacements(fine, fine_solver, scene) - fine_intact;
+    const Eigen::VectorXd signal = control_displacements(usual, usual_solver, scene) - usual_intact;
+    INFO(scene);
+    CHECK((signal - exact).lpNorm<1>() < 0.02 * exact.lpNorm<1>());
+  }
+}
+
+TEST_CASE("Scenes solved side by side have the very bits of scenes solved alone", "[solver]") {
+  const Bridge bridge = test::small_bridge();
+  QuasiStaticSolver solver(bridge);
+  const Field intact = solver.solve(Scene{}).displacement;
+  std::vector<SceneStart> tasks;
+  for (const Scene& scene : all_scenes(bridge.layout.size(), 1)) tasks.push_back({scene, &intact});
+  const std::vector<Solution> together = solver.solve(tasks);
+  for (std::size_t i = 0; i < tasks.size(); ++i) {
+    const Solution alone = solver.solve(tasks[i].scene, intact);
+    INFO(to_string(tasks[i].scene, bridge.layout));
+    CHECK(alone.outcome == together[i].outcome);
+    CHECK(alone.iterations == together[i].iterations);
+    CHECK(test::without_nan(alone.displacement) == test::without_nan(together[i].displacement));
+  }
+}

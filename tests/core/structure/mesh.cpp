@@ -1,0 +1,124 @@
+#include "core/structure/mesh.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <numbers>
+
+#include "core/geometry/triangulation.h"
+#include "tests/support/bridges.h"
+
+using namespace voussoir;
+
+namespace {
+
+Polygon corners(const Mesh& mesh, const Triangle& triangle) {
+  return {mesh.position(triangle.nodes[0]), mesh.position(triangle.nodes[1]),
+          mesh.position(triangle.nodes[2])};
+}
+
+Bridge bridge_with(bool split, int refinement) {
+  BridgeDescription description;
+  description.mesh = {.refinement = refinement, .split_at_corners = split};
+  return make_bridge(description);
+}
+
+}  // namespace
+
+TEST_CASE("Triangles are counter-clockwise and fill every block exactly", "[mesh]") {
+  for (const bool split : {false, true})
+    for (const int refinement : {0, 1}) {
+      const Bridge bridge = bridge_with(split, refinement);
+      for (std::size_t block = 0; block < bridge.layout.size(); ++block) {
+        double total = 0.0;
+        for (int t = bridge.mesh.block_triangles[block].begin; t < bridge.mesh.block_triangles[block].end;
+             ++t) {
+          const double part = area(corners(bridge.mesh, bridge.mesh.triangles[static_cast<std::size_t>(t)]));
+          REQUIRE(part > 0.0);
+          total += part;
+        }
+        CHECK(total == Approx(area(bridge.layout.blocks[block].polygon)).epsilon(1e-12));
+      }
+    }
+}
+
+TEST_CASE("Without splitting the reference mesh comes near the paper's 529 triangles", "[mesh]") {
+  const Bridge bridge = bridge_with(false, 0);
+  CHECK(bridge.mesh.triangles.size() == 507);
+  for (std::size_t block = 0; block < bridge.layout.size(); ++block) {
+    const int count = bridge.mesh.block_triangles[block].size();
+    const Block& b = bridge.layout.blocks[block];
+    if (b.kind == BlockKind::leg || b.top_course) CHECK(count == 4);
+    if (b.kind == BlockKind::voussoir) CHECK(count == 3);
+    if (b.kind == BlockKind::plain && !b.top_course)
+      CHECK((count == 2 || std::abs(centroid(b.polygon).x() - 10) < 1e-9));
+  }
+}
+
+TEST_CASE("Each level of refinement makes four triangles of one", "[mesh]") {
+  CHECK(bridge_with(false, 1).mesh.triangles.size() == 4 * bridge_with(false, 0).mesh.triangles.size());
+  CHECK(bridge_with(true, 2).mesh.triangles.size() == 16 * bridge_with(true, 0).mesh.triangles.size());
+}
+
+TEST_CASE("Splitting puts a node of a block wherever a neighbour's corner touches it", "[mesh]") {
+  // Oracle: brute force over all corners and all blocks.
+  const Bridge bridge = bridge_with(true, 0);
+  int touching = 0;
+  for (std::size_t block = 0; block < bridge.layout.size(); ++block)
+    for (const Block& other : bridge.layout.blocks)
+      for (const Point& corner : other.polygon) {
+        if (distance_to_boundary(bridge.layout.blocks[block].polygon, corner) > 1e-9) continue;
+        const IndexRange nodes = bridge.mesh.block_nodes[block];
+        const auto own = bridge.mesh.nodes.middleCols(nodes.begin, nodes.size());
+        CHECK((own.colwise() - corner).colwise().norm().minCoeff() < 1e-9);
+        ++touching;
+      }
+  CHECK(touching > 1000);
+}
+
+TEST_CASE("Joints cover the whole length over which blocks touch", "[mesh]") {
+  // Oracle: perimeter of all blocks = 2 x joints + outer boundary (base, sides, top, intrados chords and
+  // legs).
+  const Bridge bridge = bridge_with(true, 0);
+  double perimeter = 0.0;
+  for (const BoundaryEdge& edge : bridge.mesh.edges)
+    perimeter += (bridge.mesh.position(edge.to) - bridge.mesh.position(edge.from)).norm();
+  double joints = 0.0;
+  for (const Joint& joint : bridge.joints) joints += joint.length;
+  const double chords = 17 * 2.0 * 3.5 * std::sin(std::numbers::pi / 34);
+  CHECK(perimeter - 2.0 * joints == Approx((20.0 - 7.0) + 2 * 6.0 + 20.0 + chords + 2 * 1.05).epsilon(1e-9));
+}
+
+TEST_CASE("Cutting between corners gives n - 2 triangles also round a reflex corner", "[mesh]") {
+  const Polygon notched = {{0, 0}, {2, 0}, {2, 2}, {1, 0.5}, {0, 2}};
+  const Triangulation cut = cut_between_corners(notched);
+  REQUIRE(cut.triangles.size() == 3);
+  double total = 0.0;
+  for (const auto& t : cut.triangles) {
+    const double part =
+        area({notched[static_cast<std::size_t>(t[0])], notched[static_cast<std::size_t>(t[1])],
+              notched[static_cast<std::size_t>(t[2])]});
+    CHECK(part > 0.0);
+    total += part;
+  }
+  CHECK(total == Approx(area(notched)));
+}
+
+TEST_CASE("The reference bridge has the paper's 78 control points, left to right", "[control-points]") {
+  const Bridge bridge = bridge_with(true, 0);
+  REQUIRE(bridge.control_points.size() == 78);
+  CHECK(bridge.control_points[0].name == "T1");
+  CHECK(bridge.control_points[39].name == "T40");
+  CHECK(bridge.control_points[40].name == "A1");
+  CHECK(bridge.control_points[77].name == "A38");
+  for (std::size_t i = 0; i < 40; ++i) {
+    CHECK(bridge.control_points[i].position.y() == Approx(6.0));
+    CHECK(bridge.control_points[i].position.x() == Approx(static_cast<double>((i + 1) / 2)));
+  }
+  const Point centre(10.0, 1.05);
+  for (std::size_t i = 40; i < 78; ++i) {
+    const Point& p = bridge.control_points[i].position;
+    if (p.y() > 1.05) CHECK((p - centre).norm() == Approx(3.5));
+    CHECK((bridge.mesh.position(bridge.control_points[i].node) - p).norm() < 1e-12);
+    if (i > 40) CHECK(p.x() >= bridge.control_points[i - 1].position.x() - 1e-12);
+  }
+}

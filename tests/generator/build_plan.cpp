@@ -1,0 +1,107 @@
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <set>
+
+#include "core/structure/mirror_symmetry.h"
+#include "generator/build_plan.h"
+#include "generator/scene_list.h"
+#include "tests/support/made_up_database.h"
+
+namespace voussoir {
+namespace {
+
+const Bridge& small_bridge() {
+  static const Bridge bridge = make_bridge(test::small_bridge_file().description);
+  return bridge;
+}
+
+bool nothing(const Scene&) {
+  return false;
+}
+
+std::multiset<Scene> recorded(const BuildPlan& plan) {
+  std::multiset<Scene> scenes;
+  for (const auto& stage : plan.stages)
+    for (const SolvingTask& task : stage) {
+      if (task.records_solved) scenes.insert(task.solved);
+      if (task.image) scenes.insert(*task.image);
+    }
+  return scenes;
+}
+
+std::size_t solved(const BuildPlan& plan) {
+  std::size_t count = 0;
+  for (const auto& stage : plan.stages) count += stage.size();
+  return count;
+}
+
+}  // namespace
+
+TEST_CASE("Every wanted scene is recorded exactly once, with and without mirror images") {
+  const auto scenes = all_scenes(small_bridge().layout.size(), 2);
+  for (const bool mirror : {false, true}) {
+    const auto records =
+        recorded(plan_build(scenes, small_bridge(), PlanRules{.mirror_images = mirror}, nothing));
+    CHECK(records == std::multiset<Scene>(scenes.begin(), scenes.end()));
+  }
+}
+
+TEST_CASE("Mirror symmetry halves what is solved, but for scenes that are their own image") {
+  REQUIRE(small_bridge().symmetry.has_value());
+  const auto scenes = all_scenes(small_bridge().layout.size(), 2);
+  const auto own_image =
+      static_cast<std::size_t>(std::count_if(scenes.begin(), scenes.end(), [](const Scene& scene) {
+        return mirrored(scene, *small_bridge().symmetry) == scene;
+      }));
+  CHECK(solved(plan_build(scenes, small_bridge(), PlanRules{.mirror_images = false}, nothing)) ==
+        scenes.size());
+  CHECK(solved(plan_build(scenes, small_bridge(), PlanRules{}, nothing)) == (scenes.size() + own_image) / 2);
+}
+
+TEST_CASE("A bridge without symmetry has every scene solved") {
+  Bridge lopsided = small_bridge();
+  lopsided.symmetry.reset();
+  const auto scenes = all_scenes(lopsided.layout.size(), 1);
+  CHECK(solved(plan_build(scenes, lopsided, PlanRules{}, nothing)) == scenes.size());
+}
+
+TEST_CASE("What a pair starts from is solved before it although nobody asked for it") {
+  const Scene pair{{BlockId{0}, BlockId{3}}};
+  const auto plan = plan_build({pair}, small_bridge(), PlanRules{.mirror_images = false}, nothing);
+  REQUIRE(plan.stages.size() == 3);
+  REQUIRE(plan.stages[0].size() == 1);
+  CHECK(plan.stages[0][0].solved == Scene{});
+  REQUIRE(plan.stages[1].size() == 2);
+  CHECK(plan.stages[1][0].solved == Scene{{BlockId{0}}});
+  CHECK(plan.stages[1][1].solved == Scene{{BlockId{3}}});
+  REQUIRE(plan.stages[2].size() == 1);
+  CHECK(plan.stages[2][0].solved == pair);
+}
+
+TEST_CASE("Without warm starts nothing is solved that nobody asked for") {
+  const Scene pair{{BlockId{0}, BlockId{3}}};
+  CHECK(solved(plan_build({pair}, small_bridge(), PlanRules{.warm_starts = false}, nothing)) == 1);
+}
+
+TEST_CASE("Which of a scene and its image is solved does not depend on which one is wanted") {
+  const Scene scene{{BlockId{0}, BlockId{3}}};
+  const Scene image = mirrored(scene, *small_bridge().symmetry);
+  REQUIRE(scene != image);
+  for (const Scene& wanted : {scene, image}) {
+    const auto plan = plan_build({wanted}, small_bridge(), PlanRules{}, nothing);
+    REQUIRE(plan.stages[2].size() == 1);
+    CHECK(plan.stages[2][0].solved == std::min(scene, image));
+    CHECK(recorded(plan).contains(wanted));
+  }
+}
+
+TEST_CASE("Known scenes are not solved again") {
+  const auto scenes = all_scenes(small_bridge().layout.size(), 2);
+  const auto is_known = [](const Scene& scene) { return scene.missing() < 2 || value(scene.removed[0]) > 0; };
+  for (const bool mirror : {false, true})
+    for (const Scene& scene :
+         recorded(plan_build(scenes, small_bridge(), PlanRules{.mirror_images = mirror}, is_known)))
+      CHECK_FALSE(is_known(scene));
+}
+
+}  // namespace voussoir

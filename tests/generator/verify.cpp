@@ -1,0 +1,196 @@
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <fstream>
+#include <random>
+
+#include "database/records/database.h"
+#include "database/records/schema.h"
+#include "database/search/stored_index.h"
+#include "generator/build.h"
+#include "generator/verify.h"
+#include "tests/support/bridges.h"
+#include "tests/support/file_text.h"
+#include "tests/support/made_up_solver.h"
+#include "tests/support/temporary_folder.h"
+
+namespace voussoir {
+namespace {
+
+/// A database of a few scenes of the small bridge, solved for real.
+struct FewScenes {
+  test::TemporaryFolder folder;
+  std::filesystem::path path = folder / "few.h5";
+  std::string bytes;
+
+  FewScenes() {
+    Progress quiet(Progress::Mode::quiet);
+    BuildRequest request;
+    request.bridge = read_bridge_file(test::example_bridge("small"));
+    request.output = path;
+    request.scenes = "intact;4,1..3;0,5;4,1+4,2";
+    request.threads = 1;
+    build_database(request, quasi_static(), quiet);
+    bytes = test::text_of(path);
+  }
+
+  VerifyReport verify_with(const std::string& changed, std::size_t recompute = 0) const {
+    std::ofstream(path, std::ios::binary | std::ios::trunc) << changed;
+    VerifyRequest request{path};
+    request.threads = 1;
+    request.recompute = recompute;
+    return verify_database(request);
+  }
+};
+
+/// Part of a file that belongs to scenes.
+struct Stretch {
+  std::string what;  ///< that a report has to name: a scene or a dataset
+  std::size_t offset;
+  std::size_t size;
+};
+
+std::size_t place_of(const std::string& bytes, ByteView part) {
+  const auto* begin = reinterpret_cast<const char*>(part.data());
+  return static_cast<std::size_t>(std::search(bytes.begin(), bytes.end(), begin, begin + part.size()) -
+                                  bytes.begin());
+}
+
+/// Datasets are views into one mapping of the file; the control table, whose content is found nowhere else,
+/// tells where the mapping begins.
+std::size_t place_of(const std::string& bytes, const Database& database, const char* path) {
+  const ByteView anchor = database.dataset_bytes(dataset::kVertical);
+  return place_of(bytes, anchor) +
+         static_cast<std::size_t>(database.dataset_bytes(path).data() - anchor.data());
+}
+
+/// Rows of the scenes' datasets and stored chunks, one stretch a scene each.
+std::vector<Stretch> scene_stretches(const Database& database, const std::string& bytes) {
+  std::vector<Stretch> stretches;
+  const std::size_t rows = database.table().rows;
+  for (const char* path :
+       {dataset::kVertical, dataset::kVariant, dataset::kRemoved, dataset::kOutcome, dataset::kResidual,
+        dataset::kIterations, dataset::kCollapse, dataset::kMoving, dataset::kChecksum, dataset::kChunkCrc}) {
+    const ByteView whole = database.dataset_bytes(path);
+    const std::size_t width = whole.size() / rows;
+    for (std::size_t row = 0; row < rows; ++row)
+      stretches.push_back({path == std::string(dataset::kRemoved)
+                               ? ""
+                               : "scene " + to_string(database.table().scene(row), database.layout()) + ":",
+                           place_of(bytes, database, path) + row * width, width});
+  }
+  for (std::size_t row = 0; row < rows; ++row) {
+    const Bytes chunk = database.record(row).packed_field;
+    stretches.push_back({"scene " + to_string(database.table().scene(row), database.layout()) + ":",
+                         place_of(bytes, chunk), chunk.size()});
+  }
+  for (const char* path : {dataset::kIndexCentre, dataset::kIndexLeast, dataset::kIndexMost,
+                           dataset::kIndexRow, dataset::kIndexBounds, dataset::kIndexSketch, dataset::kTrees})
+    stretches.push_back({fmt::format("dataset '{}'", path), place_of(bytes, database, path),
+                         database.dataset_bytes(path).size()});
+  return stretches;
+}
+
+bool names(const VerifyReport& report, const std::string& what) {
+  return std::any_of(report.problems.begin(), report.problems.end(), [&](const std::string& problem) {
+    return problem.find(what) != std::string::npos || problem.find("dataset 'scenes/") != std::string::npos;
+  });
+}
+
+/// A bit, chosen evenly over all stretches or, every other time, over the small datasets only.
+std::pair<const Stretch*, std::size_t> choose_bit(const std::vector<Stretch>& stretches, bool small,
+                                                  std::mt19937_64& random) {
+  std::vector<const Stretch*> choices;
+  std::vector<std::size_t> weights;
+  for (const Stretch& stretch : stretches) {
+    choices.push_back(&stretch);
+    weights.push_back(small ? std::min<std::size_t>(stretch.size, 100) : stretch.size);
+  }
+  const Stretch* chosen =
+      choices[std::discrete_distribution<std::size_t>(weights.begin(), weights.end())(random)];
+  return {chosen, random() % (8 * chosen->size)};
+}
+
+/// Whole files, each with one bit changed.
+void flip_bits_and_verify(int trials) {
+  const FewScenes few;
+  std::vector<Stretch> stretches;
+  {
+    const Database database = Database::open(few.path);
+    stretches = scene_stretches(database, few.bytes);
+  }
+  std::mt19937_64 random(static_cast<std::uint64_t>(trials));
+  for (int trial = 0; trial < trials; ++trial) {
+    const auto [stretch, bit] = choose_bit(stretches, trial % 2 == 0, random);
+    std::string changed = few.bytes;
+    changed[stretch->offset + bit / 8] =
+        static_cast<char>(changed[stretch->offset + bit / 8] ^ (1 << (bit % 8)));
+    const VerifyReport report = few.verify_with(changed);
+    INFO("trial " << trial << ", byte " << stretch->offset + bit / 8 << ", " << stretch->what);
+    REQUIRE_FALSE(report.ok());
+    REQUIRE(names(report, stretch->what));
+  }
+}
+
+}  // namespace
+
+TEST_CASE("A database just built is in order and its scenes come out the same when solved anew") {
+  const FewScenes few;
+  const VerifyReport report = few.verify_with(few.bytes, 6);
+  CHECK(report.problems == std::vector<std::string>{});
+  CHECK(report.outcomes.scenes == 6);
+  CHECK(report.fields == 6);
+  CHECK(report.recomputed == 6);
+  CHECK(report.largest_recomputed_difference == 0.0);
+  CHECK(report.largest_unbalance > 0.0);
+  CHECK(report.largest_unbalance <= report.most_unbalance);
+}
+
+TEST_CASE("100 single bits flipped in scene data are all found, and the scene or dataset is named") {
+  flip_bits_and_verify(100);
+}
+
+TEST_CASE("1,000 single bits flipped in scene data are all found, and the scene or dataset is named",
+          "[many-scenes]") {
+  flip_bits_and_verify(1000);
+}
+
+TEST_CASE("A flipped bit in the geometry is found and its dataset named") {
+  const FewScenes few;
+  for (const char* path :
+       {dataset::kCorners, dataset::kNodes, dataset::kPointPosition, dataset::kBridgeText}) {
+    std::size_t place = 0;
+    {
+      const Database database = Database::open(few.path);
+      place = place_of(few.bytes, database, path) + 6;
+    }
+    std::string changed = few.bytes;
+    changed[place] = static_cast<char>(changed[place] ^ 1);
+    const VerifyReport report = few.verify_with(changed);
+    CHECK_FALSE(report.ok());
+    few.verify_with(few.bytes);
+  }
+}
+
+TEST_CASE("Fields that are out of equilibrium are found although every checksum is right") {
+  const test::TemporaryFolder folder;
+  const BridgeFile file = read_bridge_file(test::example_bridge("small"));
+  test::write_made_up_database(folder / "made-up.h5", file, all_scenes(38, 1));
+  const VerifyReport report = verify_database({folder / "made-up.h5"});
+  CHECK(report.outcomes.scenes == 39);
+  REQUIRE(report.problems.size() >= report.outcomes.standing);
+  CHECK_THAT(report.problems.front(),
+             Catch::Contains("scene intact: stands, but its field is out of equilibrium"));
+}
+
+TEST_CASE("Mirror images whose fields are not mirrored are found") {
+  const test::TemporaryFolder folder;
+  const BridgeFile file = read_bridge_file(test::example_bridge("small"));
+  test::write_made_up_database(folder / "made-up.h5", file, all_scenes(38, 1));
+  const VerifyReport report = verify_database({folder / "made-up.h5"});
+  CHECK(report.mirror_pairs > 10);
+  CHECK(std::any_of(report.problems.begin(), report.problems.end(), [](const std::string& problem) {
+    return problem.find("differs from its mirror image") != std::string::npos;
+  }));
+}
+
+}  // namespace voussoir

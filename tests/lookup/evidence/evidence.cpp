@@ -1,0 +1,352 @@
+/// @file Noise shapes, their evidence, and the posterior, against closed forms and brute force in extended
+/// precision.
+
+#include <array>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+#include "core/error.h"
+#include "lookup/evidence/evidence.h"
+#include "lookup/evidence/likelihood.h"
+#include "lookup/evidence/posterior.h"
+#include "lookup/readings/noise_model.h"
+#include "tests/lookup/synthetic_library.h"
+
+using namespace voussoir;
+using voussoir::test::all_rows;
+using voussoir::test::SyntheticLibrary;
+
+namespace {
+
+constexpr std::array<NoiseShape, 4> kShapes = {NoiseShape::uniform, NoiseShape::gaussian, NoiseShape::laplace,
+                                               NoiseShape::student};
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// Densities as textbooks write them, with a standard deviation (uniform: a half-width) of sigma.
+long double density(NoiseShape shape, long double error, long double sigma, long double nu) {
+  constexpr long double kPi = std::numbers::pi_v<long double>;
+  if (shape == NoiseShape::uniform) return std::abs(error) <= sigma ? 0.5L / sigma : 0.0L;
+  if (shape == NoiseShape::gaussian)
+    return std::exp(-error * error / (2.0L * sigma * sigma)) / std::sqrt(2.0L * kPi * sigma * sigma);
+  if (shape == NoiseShape::laplace) {
+    const long double b = sigma / std::sqrt(2.0L);
+    return std::exp(-std::abs(error) / b) / (2.0L * b);
+  }
+  const long double s = sigma * std::sqrt((nu - 2.0L) / nu);
+  return std::tgamma((nu + 1) / 2) / (std::tgamma(nu / 2) * std::sqrt(nu * kPi) * s) *
+         std::pow(1.0L + error * error / (nu * s * s), -(nu + 1) / 2);
+}
+
+/// p(readings | row) for a stated level, the definition in noise_model.h word for word.
+long double likelihood(const Measurements& measured, std::span<const double> prediction,
+                       std::span<const double> intact, const NoiseModel& noise, NoiseShape shape,
+                       long double level) {
+  long double product = 1.0L;
+  for (std::size_t i = 0; i < prediction.size(); ++i) {
+    if (std::isnan(measured.displacement[i])) continue;
+    if (std::isnan(prediction[i])) return 0.0L;
+    const long double own = measured.sigma[i];
+    const long double movement = std::abs(prediction[i]);
+    const long double base = std::isnan(own) ? level * (movement + 1e-6L) + noise.floor : own;
+    const long double sigma = base + noise.model_error * std::abs(prediction[i] - intact[i]);
+    product *= density(shape, measured.displacement[i] - static_cast<long double>(prediction[i]), sigma,
+                       noise.degrees_of_freedom);
+  }
+  return product;
+}
+
+/// Mean over log-uniform levels by a fine midpoint rule.
+long double over_levels(const Measurements& measured, std::span<const double> prediction,
+                        std::span<const double> intact, const NoiseModel& noise, NoiseShape shape) {
+  constexpr int kSteps = 40'000;
+  const long double range = std::log(static_cast<long double>(kLargestLevel) / kSmallestLevel);
+  long double sum = 0.0L;
+  for (int i = 0; i < kSteps; ++i)
+    sum += likelihood(measured, prediction, intact, noise, shape,
+                      kSmallestLevel * std::exp(range * (i + 0.5L) / kSteps));
+  return sum / kSteps;
+}
+
+Measurements readings_of(const SyntheticLibrary& library, std::size_t row, double level, std::uint64_t seed) {
+  Random random(seed);
+  return library.measure(row, level, NoiseShape::uniform, random);
+}
+
+}  // namespace
+
+TEST_CASE("Log densities are the logarithms of the textbook densities") {
+  for (const NoiseShape shape : kShapes)
+    for (const double z : {0.0, 0.3, -0.99, 0.99})
+      CHECK(log_density(shape, z, 5.0) ==
+            Approx(static_cast<double>(std::log(density(shape, z, 1.0L, 5.0L)))));
+  CHECK(log_density(NoiseShape::uniform, 1.01, 5.0) == -kInfinity);
+  CHECK(log_density(NoiseShape::gaussian, 6.0, 0.0) == Approx(-18.0 - 0.5 * std::log(2 * std::numbers::pi)));
+}
+
+TEST_CASE("Densities integrate to one and have the standard deviation that they claim") {
+  for (const NoiseShape shape : kShapes) {
+    double mass = 0.0, square = 0.0;
+    constexpr double kStep = 0.01;
+    for (double z = -400.0 + kStep / 2; z < 400.0; z += kStep) {
+      const double p = std::exp(log_density(shape, z, 5.0));
+      mass += p * kStep;
+      square += z * z * p * kStep;
+    }
+    INFO(to_string(shape));
+    CHECK(mass == Approx(1.0).epsilon(1e-4));
+    CHECK(std::sqrt(square) == Approx(standard_deviation(shape)).epsilon(1e-3));
+  }
+}
+
+TEST_CASE("Noise levels are shares or percentages, and anything else is refused") {
+  CHECK(parse_noise_level("5%") == Approx(0.05));
+  CHECK(parse_noise_level("0.05") == Approx(0.05));
+  CHECK(parse_noise_level("0") == 0.0);
+  for (const std::string text : {"", "%", "five", "-1%", "5 %x", "200%", "nan", "inf"})
+    CHECK_THROWS_AS(parse_noise_level(text), InputError);
+  CHECK_THROWS_WITH(parse_noise_level("5"),
+                    "'5' is no noise level, expected a share of the displacement such as 5% or 0.05");
+  CHECK(parse_noise_shape("laplace") == NoiseShape::laplace);
+  CHECK_THROWS_AS(parse_noise_shape("normal"), InputError);
+}
+
+TEST_CASE("The likelihood for a stated level is the product of the textbook densities") {
+  const SyntheticLibrary library(2, 4);
+  const Measurements measured = readings_of(library, 3, 0.05, 1);
+  const auto rows = all_rows(library.table);
+  for (const NoiseShape shape : kShapes) {
+    for (const bool everything : {false, true}) {
+      NoiseModel noise{shape, 0.3, 0.0, 0.0, 5.0};
+      Measurements with_sigma = measured;
+      if (everything) {
+        noise.floor = 2e-5;
+        noise.model_error = 0.1;
+        with_sigma.sigma[1] = 3e-4;
+      }
+      const auto logs = log_evidence_of_rows(with_sigma, library.table, rows, library.intact(), noise);
+      int possible = 0;
+      for (const std::size_t row : rows) {
+        const long double exact =
+            likelihood(with_sigma, library.table.row(row), library.intact(), noise, shape, 0.3L);
+        if (logs[row] == -kInfinity) continue;
+        ++possible;
+        REQUIRE(logs[row] == Approx(static_cast<double>(std::log(exact))).epsilon(1e-10));
+      }
+      CHECK(possible > 3);
+    }
+  }
+}
+
+TEST_CASE("The evidence over all levels is the brute-force mean over a fine grid of levels") {
+  const SyntheticLibrary library(2, 3);
+  const Measurements measured = readings_of(library, 2, 0.05, 2);
+  const auto rows = all_rows(library.table);
+  for (const NoiseShape shape : {NoiseShape::uniform, NoiseShape::gaussian, NoiseShape::laplace}) {
+    const NoiseModel noise{shape, std::nullopt};
+    const auto logs = log_evidence_of_rows(measured, library.table, rows, library.intact(), noise);
+    for (const std::size_t row : {std::size_t{0}, std::size_t{2}, std::size_t{9}}) {
+      const long double exact = over_levels(measured, library.table.row(row), library.intact(), noise, shape);
+      INFO(to_string(shape) << " row " << row);
+      // The midpoint rule cuts the uniform shape's edge within one of its 40,000 steps.
+      if (logs[row] != -kInfinity)
+        CHECK(
+            logs[row] ==
+            Approx(static_cast<double>(std::log(exact))).margin(shape == NoiseShape::uniform ? 5e-3 : 1e-6));
+    }
+  }
+}
+
+TEST_CASE(
+    "Where absolute errors stand beside an unknown level, the grid of levels agrees with the fine one") {
+  const SyntheticLibrary library(2, 3);
+  const Measurements measured = readings_of(library, 2, 0.05, 3);
+  for (const NoiseShape shape : {NoiseShape::gaussian, NoiseShape::laplace, NoiseShape::student}) {
+    const NoiseModel noise{shape, std::nullopt, 1e-5, 0.0, 5.0};
+    const auto logs =
+        log_evidence_of_rows(measured, library.table, all_rows(library.table), library.intact(), noise);
+    for (const std::size_t row : {std::size_t{2}, library.row_of({{BlockId{1}, BlockId{2}}})}) {
+      const long double exact = over_levels(measured, library.table.row(row), library.intact(), noise, shape);
+      CHECK(logs[row] == Approx(static_cast<double>(std::log(exact))).margin(0.02));
+    }
+  }
+}
+
+TEST_CASE("The automatic shape is the mean of uniform, Gaussian and Laplace") {
+  const SyntheticLibrary library(2, 3);
+  const Measurements measured = readings_of(library, 2, 0.05, 4);
+  const auto rows = all_rows(library.table);
+  for (const std::optional<double> level : {std::optional<double>(), std::optional<double>(0.1)}) {
+    long double sum = 0.0L;
+    for (const NoiseShape shape : {NoiseShape::uniform, NoiseShape::gaussian, NoiseShape::laplace})
+      sum += std::exp(static_cast<long double>(
+          log_evidence_of_rows(measured, library.table, rows, library.intact(), {shape, level})[2]));
+    const double automatic = log_evidence_of_rows(measured, library.table, rows, library.intact(),
+                                                  {NoiseShape::automatic, level})[2];
+    CHECK(automatic == Approx(static_cast<double>(std::log(sum / 3.0L))).epsilon(1e-12));
+  }
+}
+
+TEST_CASE("Points that no scene moves are left out, and readings only there are refused") {
+  SyntheticLibrary library(2, 3);
+  for (std::size_t row = 0; row < library.table.rows; ++row)
+    library.vertical[row * library.table.points] = 0.0;
+  Measurements measured = readings_of(library, 2, 0.05, 5);
+  const NoiseModel noise{NoiseShape::gaussian, 0.05};
+  const auto rows = all_rows(library.table);
+  measured.displacement[0] = 1e-4;
+  const auto with = log_evidence_of_rows(measured, library.table, rows, library.intact(), noise);
+  measured.displacement[0] = std::nan("");
+  CHECK(with == log_evidence_of_rows(measured, library.table, rows, library.intact(), noise));
+  Measurements only = measured;
+  for (double& value : only.displacement) value = std::nan("");
+  only.displacement[0] = 1e-4;
+  CHECK_THROWS_AS(log_evidence_of_rows(only, library.table, rows, library.intact(), noise), InputError);
+}
+
+TEST_CASE("The estimated level of a scene is that of the noise that made its readings") {
+  const SyntheticLibrary library(3, 12);
+  Random random(6);
+  const Measurements uniform = library.measure(5, 0.08, NoiseShape::uniform, random);
+  const NoiseEstimate bound =
+      estimate_noise(uniform, library.table.row(5), library.intact(), {NoiseShape::uniform, {}});
+  CHECK(bound.estimated);
+  CHECK(bound.level == Approx(0.08).epsilon(0.15));
+  const Measurements gaussian = library.measure(5, 0.08, NoiseShape::gaussian, random);
+  const NoiseEstimate sigma =
+      estimate_noise(gaussian, library.table.row(5), library.intact(), {NoiseShape::gaussian, {}});
+  CHECK(sigma.level == Approx(0.08).epsilon(0.5));
+  CHECK_FALSE(estimate_noise(gaussian, library.table.row(5), library.intact(), {NoiseShape::gaussian, 0.1})
+                  .estimated);
+}
+
+TEST_CASE("The posterior is prior times likelihood, normalised by brute force in extended precision") {
+  const SyntheticLibrary library(3, 5);
+  const Eligible eligible = eligible_rows(library.table, {0, 1, 2});
+  REQUIRE(eligible.rows.size() == library.table.rows);
+  for (const NoiseShape shape : kShapes) {
+    const NoiseModel noise{shape, 0.06};
+    const Measurements measured = readings_of(library, 7, 0.05, 7);
+    const Prior prior{{0, 1, 2}, {1.0, 2.0, 1.0}};
+    const auto logs = log_evidence_of_rows(measured, library.table, eligible.rows, library.intact(), noise);
+    const Posterior result = posterior(library.table, eligible, logs, prior, library.blocks);
+    const std::vector<long double> in_class = {1.0L, 15.0L, 105.0L};
+    std::vector<long double> weight(library.table.rows);
+    long double total = 0.0L;
+    for (std::size_t row = 0; row < library.table.rows; ++row) {
+      const auto missing = static_cast<std::size_t>(missing_blocks(library.table, row));
+      weight[row] = (missing == 1 ? 2.0L : 1.0L) / in_class[missing] *
+                    likelihood(measured, library.table.row(row), library.intact(), noise, shape, 0.06L);
+      total += weight[row];
+    }
+    std::vector<long double> block(library.blocks, 0.0L), missing(3, 0.0L);
+    for (std::size_t row = 0; row < library.table.rows; ++row) {
+      const long double p = weight[row] / total;
+      REQUIRE(result.probability[row] == Approx(static_cast<double>(p)).margin(1e-12));
+      missing[static_cast<std::size_t>(missing_blocks(library.table, row))] += p;
+      for (const BlockId id : library.table.scene(row).removed) block[static_cast<std::size_t>(id)] += p;
+    }
+    for (std::size_t id = 0; id < library.blocks; ++id)
+      REQUIRE(result.block_probability[id] == Approx(static_cast<double>(block[id])).margin(1e-12));
+    for (std::size_t i = 0; i < 3; ++i)
+      REQUIRE(result.missing_probability[i] == Approx(static_cast<double>(missing[i])).margin(1e-12));
+  }
+}
+
+TEST_CASE("The credible set is the shortest list of likeliest rows that holds 95 % of the probability") {
+  const SyntheticLibrary library(3, 5);
+  const Eligible eligible = eligible_rows(library.table, {1});
+  const Measurements measured = readings_of(library, 7, 0.2, 8);
+  const auto logs = log_evidence_of_rows(measured, library.table, eligible.rows, library.intact(),
+                                         {NoiseShape::gaussian, 0.3});
+  const Posterior result = posterior(library.table, eligible, logs, {{1}, {}}, library.blocks);
+  REQUIRE(result.credible.size() > 2);
+  double share = 0.0;
+  for (std::size_t i = 0; i < result.credible.size(); ++i) {
+    CHECK(share < kCredibleShare);
+    share += result.probability[result.credible[i]];
+    if (i > 0) CHECK(result.probability[result.credible[i]] <= result.probability[result.credible[i - 1]]);
+  }
+  CHECK(share >= kCredibleShare);
+}
+
+TEST_CASE(
+    "Unresolved rows take no part and are counted, and so do rows with other numbers of missing blocks") {
+  SyntheticLibrary library(3, 5);
+  library.outcome[4] = static_cast<std::uint8_t>(Outcome::unresolved);
+  const Eligible eligible = eligible_rows(library.table, {1});
+  CHECK(eligible.unresolved == 1);
+  CHECK(eligible.rows.size() == 14);
+  const Measurements measured = readings_of(library, 4, 0.0, 9);
+  const auto logs = log_evidence_of_rows(measured, library.table, eligible.rows, library.intact(),
+                                         {NoiseShape::gaussian, 0.1});
+  const Posterior result = posterior(library.table, eligible, logs, {{1}, {}}, library.blocks);
+  CHECK(result.probability[4] == 0.0);
+  CHECK(result.probability[0] == 0.0);
+  CHECK(std::accumulate(result.probability.begin(), result.probability.end(), 0.0) == Approx(1.0));
+}
+
+TEST_CASE("If every scene is impossible there is no probability at all") {
+  const SyntheticLibrary library(2, 3);
+  const Eligible eligible = eligible_rows(library.table, {0, 1, 2});
+  Measurements measured = readings_of(library, 2, 0.0, 10);
+  measured.displacement[3] *= 50.0;
+  const auto logs = log_evidence_of_rows(measured, library.table, eligible.rows, library.intact(),
+                                         {NoiseShape::uniform, 0.05});
+  const Posterior result = posterior(library.table, eligible, logs, {}, library.blocks);
+  CHECK(result.credible.empty());
+  CHECK(*std::max_element(result.probability.begin(), result.probability.end()) == 0.0);
+}
+
+TEST_CASE("A prior needs a weight for each number of missing blocks") {
+  const SyntheticLibrary library(2, 3);
+  const Eligible eligible = eligible_rows(library.table, {0, 1});
+  CHECK_THROWS_AS(
+      posterior(library.table, eligible, std::vector<double>(library.table.rows, 0.0), {{0, 1}, {1.0}}, 6),
+      InputError);
+}
+
+TEST_CASE(
+    "A silent sensor counts with its chance of failing where its block stands, and costs nothing where it is "
+    "gone") {
+  const SyntheticLibrary library(2, 4);
+  Measurements measured = readings_of(library, 0, 0.02, 11);
+  const auto rows = all_rows(library.table);
+  const NoiseModel noise{NoiseShape::gaussian, 0.05};
+  for (const std::size_t point : {std::size_t{2}, std::size_t{3}})  // both sensors of the second top block
+    measured.displacement[point] = std::nan("");
+  const auto unlisted = log_evidence_of_rows(measured, library.table, rows, library.intact(), noise);
+  for (const std::size_t point : {std::size_t{2}, std::size_t{3}}) measured.silent[point] = true;
+  const auto silent = log_evidence_of_rows(measured, library.table, rows, library.intact(), noise);
+  const BlockId block = library.points[2].block;
+  for (const std::size_t row : rows) {
+    const double expected = library.table.scene(row).lacks(block) ? 0.0 : 2.0 * std::log(noise.silence);
+    if (unlisted[row] != -kInfinity) CHECK(silent[row] - unlisted[row] == Approx(expected).margin(1e-9));
+  }
+}
+
+TEST_CASE(
+    "Simulated readings have the noise that was asked for, and silent sensors on missing blocks and by "
+    "chance") {
+  std::vector<double> truth(20'000, -2e-3);
+  truth[7] = std::nan("");
+  for (const NoiseShape shape : kShapes) {
+    Random random(12);
+    const NoiseModel noise{shape, 0.05, 1e-5, 0.0, 8.0, 0.1};
+    const Measurements measured = simulate_readings(truth, noise, random);
+    CHECK(measured.silent[7]);
+    double sum = 0.0, square = 0.0;
+    for (const double value : measured.displacement)
+      if (!std::isnan(value)) {
+        sum += value + 2e-3;
+        square += (value + 2e-3) * (value + 2e-3);
+      }
+    const auto n = static_cast<double>(measured.count());
+    const double sigma = 0.05 * 2e-3 + 1e-5;
+    INFO(to_string(shape));
+    CHECK(n / 20'000 == Approx(0.9).margin(0.01));
+    CHECK(sum / n == Approx(0.0).margin(4.0 * sigma / std::sqrt(n)));
+    CHECK(std::sqrt(square / n) == Approx(sigma * standard_deviation(shape)).epsilon(0.05));
+  }
+}

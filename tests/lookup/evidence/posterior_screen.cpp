@@ -1,0 +1,90 @@
+/// @file The screened posterior against the one that works out every row.
+
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "lookup/evidence/evidence.h"
+#include "lookup/evidence/float_statistics.h"
+#include "lookup/evidence/posterior_screen.h"
+#include "tests/lookup/synthetic_library.h"
+
+using namespace voussoir;
+using voussoir::test::SyntheticLibrary;
+
+namespace {
+
+void check_same(const SyntheticLibrary& library, const PosteriorScreen& screen, const Eligible& eligible,
+                const Prior& prior, const Measurements& measured, const NoiseModel& noise) {
+  const Posterior exact =
+      posterior(library.table, eligible,
+                log_evidence_of_rows(measured, library.table, eligible.rows, library.intact(), noise), prior,
+                library.blocks);
+  const Posterior screened = screen(measured, library.intact(), noise);
+  for (std::size_t row = 0; row < library.table.rows; ++row)
+    REQUIRE(screened.probability[row] == Approx(exact.probability[row]).margin(2.0 * kScreenedAway));
+  for (std::size_t id = 0; id < library.blocks; ++id)
+    REQUIRE(screened.block_probability[id] ==
+            Approx(exact.block_probability[id]).margin(2.0 * kScreenedAway));
+  REQUIRE(screened.credible == exact.credible);
+}
+
+}  // namespace
+
+TEST_CASE("The approximate logarithm is within a hundred-thousandth of the library's") {
+  for (double x = 1e-37; x < 1e38; x *= 1.0137) {
+    FloatLanes lanes = FloatLanes{} + static_cast<float>(x);
+    make_approximate_logarithm(lanes);
+    REQUIRE(lanes[3] == Approx(std::log(static_cast<float>(x))).margin(1e-5));
+  }
+}
+
+TEST_CASE("The screened posterior is the exact one, for stated and unknown noise of every shape and size") {
+  const SyntheticLibrary library(4, 9);
+  const Eligible eligible = eligible_rows(library.table, {0, 1, 2});
+  const Prior prior;
+  const PosteriorScreen screen(library.table, library.index.view(), eligible, prior, library.blocks);
+  Random random(1);
+  std::size_t kept = 0, trials = 0;
+  for (const double level : {0.0, 1e-5, 0.003, 0.02, 0.1, 0.3})
+    for (const NoiseShape shape : {NoiseShape::automatic, NoiseShape::uniform, NoiseShape::gaussian,
+                                   NoiseShape::laplace, NoiseShape::student})
+      for (const bool stated : {true, false}) {
+        const std::size_t truth = random.below(static_cast<std::uint32_t>(library.table.rows));
+        Measurements measured = library.measure(truth, level, NoiseShape::uniform, random);
+        for (double& value : measured.displacement)
+          if (random.below(5) == 0) value = std::nan("");
+        NoiseModel noise{shape, stated ? std::optional(std::max(level, 1e-3)) : std::nullopt};
+        check_same(library, screen, eligible, prior, measured, noise);
+        noise.floor = 1e-5;
+        if (stated) check_same(library, screen, eligible, prior, measured, noise);
+        if (level > 0.02 || shape == NoiseShape::student) continue;  // much noise leaves many scenes possible
+        noise.floor = 0.0;
+        kept += screen.rows_that_matter(measured, library.intact(), noise).size();
+        ++trials;
+      }
+  CHECK(kept < trials * library.table.rows / 2);  // the screen does screen
+}
+
+TEST_CASE("The screened posterior has no row when every scene is impossible") {
+  const SyntheticLibrary library(2, 5);
+  const Eligible eligible = eligible_rows(library.table, {0, 1, 2});
+  const PosteriorScreen screen(library.table, library.index.view(), eligible, {}, library.blocks);
+  Random random(2);
+  Measurements measured = library.measure(0, 0.0, NoiseShape::uniform, random);
+  measured.displacement[3] *= 50.0;
+  CHECK(screen(measured, library.intact(), {NoiseShape::uniform, 0.05}).credible.empty());
+}
+
+TEST_CASE("Own sigmas and model errors switch the screen off but not the posterior") {
+  const SyntheticLibrary library(2, 5);
+  const Eligible eligible = eligible_rows(library.table, {0, 1, 2});
+  const PosteriorScreen screen(library.table, library.index.view(), eligible, {}, library.blocks);
+  Random random(3);
+  Measurements measured = library.measure(3, 0.02, NoiseShape::uniform, random);
+  NoiseModel noise{NoiseShape::gaussian, 0.02, 0.0, 0.1};
+  CHECK(screen.rows_that_matter(measured, library.intact(), noise) == eligible.rows);
+  check_same(library, screen, eligible, {}, measured, noise);
+  noise.model_error = 0.0;
+  measured.sigma[1] = 1e-4;
+  check_same(library, screen, eligible, {}, measured, noise);
+}
