@@ -23,18 +23,18 @@ struct Build {
   const BuildRequest& request;
   const SolverChoice& solver;
   Progress& progress;
-  Bridge bridge;
+  Model bridge;
   std::vector<Scene> wanted;
   Provenance provenance;
 };
 
-Provenance provenance_of(const BuildRequest& request, const SolverChoice& solver, const Bridge& bridge) {
+Provenance provenance_of(const BuildRequest& request, const SolverChoice& solver, const Model& bridge) {
   const std::string settings = build_settings(solver, bridge, request.rules);
   return make_provenance(request.bridge, settings, results_key(request.bridge.description, settings));
 }
 
 Build prepare(const BuildRequest& request, const SolverChoice& solver, Progress& progress) {
-  Bridge bridge = make_bridge(request.bridge.description);
+  Model bridge = make_model(request.bridge.description);
   auto wanted = parse_scene_list(request.scenes, bridge.layout);
   Provenance provenance = provenance_of(request, solver, bridge);
   return {request, solver, progress, std::move(bridge), std::move(wanted), std::move(provenance)};
@@ -77,9 +77,9 @@ void run_batch(const Build& build, std::span<const SolvingTask> batch, const Sce
                const StartingFields& starts, KnownRecords& known) {
   std::vector<std::optional<Field>> fields;
   for (const SolvingTask& task : batch) fields.push_back(starts.start_for(task.solved));
-  std::vector<SceneStart> scenes;
+  std::vector<StageTask> scenes;
   for (std::size_t i = 0; i < batch.size(); ++i)
-    scenes.push_back({batch[i].solved, fields[i] ? &*fields[i] : nullptr});
+    scenes.push_back({.stage = {.scene = batch[i].solved}, .start = fields[i] ? &*fields[i] : nullptr});
   const std::vector<Solution> solutions = solve_for_storage(solver, scenes);
   for (std::size_t i = 0; i < batch.size(); ++i) keep_records(build, batch[i], solutions[i], known);
 }
@@ -168,7 +168,7 @@ void write_index(const Build& build) {
 }  // namespace
 
 Provenance provenance_of(const BuildRequest& request, const SolverChoice& solver) {
-  return provenance_of(request, solver, make_bridge(request.bridge.description));
+  return provenance_of(request, solver, make_model(request.bridge.description));
 }
 
 BuildSummary build_database(const BuildRequest& request, const SolverChoice& solver, Progress& progress) {

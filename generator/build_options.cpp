@@ -49,11 +49,11 @@ void add_motion_options(CLI::App& app, DynamicSettings& motion) {
   app.add_option("--damping", motion.damping,
                  "force per mass and velocity [1/s]; default: half-critical of the bridge's lowest frequency")
       ->check(CLI::NonNegativeNumber);
-  app.add_option("--patience", motion.latest_decision,
+  app.add_option("--patience", motion.decision.latest_decision,
                  "a scene that neither rests nor falls within this time [s] is unresolved")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
-  app.add_option("--rest", motion.standing_unbalance,
+  app.add_option("--rest", motion.decision.standing_unbalance,
                  "a scene in motion stands when its unbalanced forces are this share of the bridge's weight")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();

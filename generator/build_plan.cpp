@@ -17,8 +17,8 @@ int stage_of(const Scene& scene) {
 }
 
 /// The scenes that need a record and have none: those wanted that are unknown and what they start from.
-std::set<Scene> missing_records(const std::vector<Scene>& wanted, const Bridge& bridge,
-                                const PlanRules& rules, const std::function<bool(const Scene&)>& is_known) {
+std::set<Scene> missing_records(const std::vector<Scene>& wanted, const Model& bridge, const PlanRules& rules,
+                                const std::function<bool(const Scene&)>& is_known) {
   std::set<Scene> missing;
   for (auto scene = wanted.rbegin(); scene != wanted.rend(); ++scene)
     if (!is_known(*scene)) missing.insert(*scene);
@@ -31,7 +31,7 @@ std::set<Scene> missing_records(const std::vector<Scene>& wanted, const Bridge& 
 
 }  // namespace
 
-Scene representative(const Scene& scene, const Bridge& bridge, const PlanRules& rules) {
+Scene representative(const Scene& scene, const Model& bridge, const PlanRules& rules) {
   const bool mirrors = rules.mirror_images && bridge.symmetry;
   return mirrors ? std::min(scene, mirrored(scene, *bridge.symmetry)) : scene;
 }
@@ -52,7 +52,7 @@ std::size_t BuildPlan::records() const {
   return count;
 }
 
-BuildPlan plan_build(const std::vector<Scene>& wanted, const Bridge& bridge, const PlanRules& rules,
+BuildPlan plan_build(const std::vector<Scene>& wanted, const Model& bridge, const PlanRules& rules,
                      const std::function<bool(const Scene&)>& is_known) {
   std::map<Scene, SolvingTask> tasks;
   for (const Scene& scene : missing_records(wanted, bridge, rules, is_known)) {

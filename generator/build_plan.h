@@ -4,7 +4,7 @@
 #include <functional>
 #include <vector>
 
-#include "core/structure/bridge.h"
+#include "core/structure/model.h"
 
 namespace voussoir {
 
@@ -31,7 +31,7 @@ struct PlanRules {
 
 /// The scene that is solved to answer for this one: the lexicographically smaller of the scene and its mirror
 /// image, or the scene itself if mirror images are not used or the bridge has no symmetry.
-Scene representative(const Scene& scene, const Bridge& bridge, const PlanRules& rules);
+Scene representative(const Scene& scene, const Model& bridge, const PlanRules& rules);
 
 /// The scenes whose fields the solving of this one starts from (see StartingFields).
 std::vector<Scene> starting_scenes(const Scene& solved, const PlanRules& rules);
@@ -40,7 +40,7 @@ std::vector<Scene> starting_scenes(const Scene& solved, const PlanRules& rules);
 /// except for scenes that `is_known` already. With a mirror symmetry the lexicographically smaller of a scene
 /// and its image is solved, whatever scenes are wanted, so that a scene's record does not depend on the rest
 /// of the list.
-BuildPlan plan_build(const std::vector<Scene>& wanted, const Bridge& bridge, const PlanRules& rules,
+BuildPlan plan_build(const std::vector<Scene>& wanted, const Model& bridge, const PlanRules& rules,
                      const std::function<bool(const Scene&)>& is_known);
 
 }  // namespace voussoir

@@ -16,8 +16,8 @@ std::string line(const char* rule, bool used) {
 
 }  // namespace
 
-std::string build_settings(const SolverChoice& solver, const Bridge& bridge, const PlanRules& rules) {
-  return solver.settings + line(kMirrorImages, rules.mirror_images && bridge.symmetry.has_value()) +
+std::string build_settings(const SolverChoice& solver, const Model& bridge, const PlanRules& rules) {
+  return solver.settings(bridge) + line(kMirrorImages, rules.mirror_images && bridge.symmetry.has_value()) +
          line(kWarmStarts, rules.warm_starts) + fmt::format("storage_step_m = {}\n", kStorageStep);
 }
 

@@ -9,7 +9,7 @@
 namespace voussoir {
 
 /// "key = value" lines: everything beside the bridge that a database's content depends on.
-std::string build_settings(const SolverChoice& solver, const Bridge& bridge, const PlanRules& rules);
+std::string build_settings(const SolverChoice& solver, const Model& bridge, const PlanRules& rules);
 
 /// The rules that build_settings states.
 PlanRules rules_in(const std::string& settings);

@@ -5,7 +5,7 @@
 #include <optional>
 #include <set>
 
-#include "core/structure/bridge.h"
+#include "core/structure/model.h"
 #include "database/records/database.h"
 #include "database/records/journal.h"
 
@@ -15,7 +15,7 @@ namespace voussoir {
 class KnownRecords {
  public:
   /// `fields` says whether the build keeps the fields of all scenes.
-  KnownRecords(Journal journal, const Bridge& bridge, KeepField fields)
+  KnownRecords(Journal journal, const Model& bridge, KeepField fields)
       : journal_(std::move(journal)), bridge_(&bridge), fields_(fields) {}
 
   /// Takes over, from an older database with the same results key and with fields, the scenes that are wanted
@@ -33,7 +33,7 @@ class KnownRecords {
   bool has_control_points_of(const Record& record, const Field& field) const;
 
   Journal journal_;
-  const Bridge* bridge_;
+  const Model* bridge_;
   KeepField fields_;
   std::optional<Database> old_;
   std::set<Scene> reusable_;

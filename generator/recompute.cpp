@@ -31,7 +31,7 @@ std::vector<std::size_t> choose_rows(std::size_t rows, std::size_t count, std::u
   return chosen;
 }
 
-Solution recompute(const Scene& scene, const Database& database, const Bridge& bridge, const PlanRules& rules,
+Solution recompute(const Scene& scene, const Database& database, const Model& bridge, const PlanRules& rules,
                    const SceneSolver& solver) {
   const Scene solved = representative(scene, bridge, rules);
   StartingFields starts;
@@ -42,7 +42,7 @@ Solution recompute(const Scene& scene, const Database& database, const Bridge& b
     starts.add(start, solution.outcome, solution.displacement);
   }
   const auto start = starts.start_for(solved);
-  const SceneStart task{solved, start ? &*start : nullptr};
+  const StageTask task{.stage = {.scene = solved}, .start = start ? &*start : nullptr};
   const Solution solution = solve_for_storage(solver, std::span(&task, 1)).front();
   return solved == scene ? solution : mirrored_solution(solution, *bridge.symmetry);
 }

@@ -12,7 +12,7 @@ std::vector<std::size_t> choose_rows(std::size_t rows, std::size_t count, std::u
 
 /// Solves the scene by the rule that build-database follows: its mirror image if that is the one solved, from
 /// the stored fields of intact and singles, or from those solved anew where the database has none.
-Solution recompute(const Scene& scene, const Database& database, const Bridge& bridge, const PlanRules& rules,
+Solution recompute(const Scene& scene, const Database& database, const Model& bridge, const PlanRules& rules,
                    const SceneSolver& solver);
 
 /// Largest difference [m] between stored and recomputed displacements: of all nodes, or of the control points

@@ -94,10 +94,8 @@ class Examination {
   }
 
   void check_equilibrium(const Field& field) {
-    const Field clean = field.array().isNaN().select(0.0, field);
-    const auto removed = removal_mask(scene_, checked_.bridge.layout.size());
-    check_.unbalance = unbalanced_forces(checked_.system, removed, clean).cwiseAbs().maxCoeff() /
-                       checked_.system.largest_load;
+    const StageEquations equations(checked_.system, checked_.coefficients, {.scene = scene_});
+    check_.unbalance = unbalanced_force(equations, field);
     if (!(check_.unbalance <= checked_.most_unbalance))
       report(fmt::format("stands, but its field is out of equilibrium by {:.1e} of the largest nodal weight",
                          check_.unbalance));
@@ -134,19 +132,20 @@ class Examination {
 
 }  // namespace
 
-double most_stored_unbalance(const EquilibriumSystem& system, std::string_view settings) {
+double most_stored_unbalance(const EquilibriumSystem& system, const Coefficients& coefficients,
+                             std::string_view settings) {
   // A motion ends when the resultant on no block exceeds a hundredth of its weight; single nodes, which share
   // a block's resultant unevenly and still vibrate a little, may be a few times further off.
   constexpr double kRest = 0.05;
   if (settings.starts_with("solver = dynamic")) return kRest;
   constexpr double kBonded = 1.0;
-  const Field zero = Field::Zero(2, system.bridge->mesh.node_count());
-  const std::vector<bool> none_removed(system.bridge->layout.size(), false);
+  const Field zero = Field::Zero(2, system.structure->mesh.node_count());
+  const StageEquations equations(system, coefficients, Stage{});
   Eigen::SparseMatrix<double> tangent = system.pattern;
-  assemble(system, none_removed, zero, kBonded, {tangent.valuePtr()});
+  assemble(equations, zero, kBonded, {tangent.valuePtr()});
   const Eigen::VectorXd row_sums = tangent.cwiseAbs() * Eigen::VectorXd::Ones(tangent.cols());
   return QuasiStaticSettings{}.loose_tolerance +
-         0.5 * kStorageStep * row_sums.maxCoeff() / system.largest_load;
+         0.5 * kStorageStep * row_sums.maxCoeff() / equations.largest_load;
 }
 
 SceneCheck check_scene(const CheckedDatabase& checked, std::size_t row) {

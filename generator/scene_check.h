@@ -11,10 +11,11 @@ namespace voussoir {
 /// What the checks of a scene need to know of its database.
 struct CheckedDatabase {
   const Database& database;
-  const Bridge& bridge;             ///< bridge_of(database)
-  const EquilibriumSystem& system;  ///< of that bridge
-  double most_unbalance = 0.0;      ///< most_stored_unbalance(system)
-  bool mirror_images_used = false;  ///< images are then equal bit by bit
+  const Model& bridge;               ///< bridge_of(database)
+  const EquilibriumSystem& system;   ///< of that bridge
+  const Coefficients& coefficients;  ///< of that bridge
+  double most_unbalance = 0.0;       ///< most_stored_unbalance(system)
+  bool mirror_images_used = false;   ///< images are then equal bit by bit
 };
 
 struct SceneCheck {
@@ -28,7 +29,8 @@ struct SceneCheck {
 /// largest nodal weight] in a database built with these settings. From Newton's method: the solver's own
 /// limit, and half a storage step at every node against the stiffness of the bridge with all joints closed
 /// (the largest sum of absolute values in a row of the tangent). From a motion: what is taken for rest.
-double most_stored_unbalance(const EquilibriumSystem& system, std::string_view settings);
+double most_stored_unbalance(const EquilibriumSystem& system, const Coefficients& coefficients,
+                             std::string_view settings);
 
 /// Never throws for what is wrong with the scene's data.
 SceneCheck check_scene(const CheckedDatabase& checked, std::size_t row);

@@ -4,7 +4,7 @@
 
 namespace voussoir {
 
-std::vector<Solution> solve_for_storage(const SceneSolver& solver, std::span<const SceneStart> scenes) {
+std::vector<Solution> solve_for_storage(const SceneSolver& solver, std::span<const StageTask> scenes) {
   std::vector<Solution> solutions = solver(scenes);
   for (Solution& solution : solutions) solution.displacement = to_storage_precision(solution.displacement);
   return solutions;

@@ -7,34 +7,27 @@
 #include <string_view>
 #include <vector>
 
-#include "core/motion/dynamic_solver.h"
-#include "core/statics/quasi_static_solver.h"
-#include "core/statics/solution.h"
-#include "core/structure/bridge.h"
+#include "core/solve/settings.h"
 
 namespace voussoir {
 
 /// Solves scenes of one bridge, one solution a scene in their order; used by one thread at a time. A solution
 /// depends on its scene and start only, not on the others.
-using SceneSolver = std::function<std::vector<Solution>(std::span<const SceneStart>)>;
+using SceneSolver = std::function<std::vector<Solution>(std::span<const StageTask>)>;
 
 struct SolverChoice {
-  std::string settings;  ///< "key = value" lines: everything that the solver's answers depend on
-  std::function<SceneSolver(const Bridge&)> make_solver;  ///< called once for each thread
+  /// "key = value" lines: everything that the solver's answers for this model depend on.
+  std::function<std::string(const Model&)> settings;
+  std::function<SceneSolver(const Model&)> make_solver;  ///< called once for each thread
 };
 
-/// Newton for scenes that stand, motion for the others (core/solve/combined_solver.h).
-/// Newton has the motion's skips.
+/// The program's own solvers (core/solve).
+SolverChoice solver_with(const SolverSettings& settings);
 SolverChoice quasi_static(const DynamicSettings& motion = {});
-
-/// Motion for all scenes: the reference.
 SolverChoice dynamic(const DynamicSettings& motion = {});
 
-/// The solver whose settings a database states. Throws Failure if this program has none with just these.
-SolverChoice solver_with(std::string_view settings);
-
 /// Solves the scenes and rounds their fields to the storage precision.
-std::vector<Solution> solve_for_storage(const SceneSolver& solver, std::span<const SceneStart> scenes);
+std::vector<Solution> solve_for_storage(const SceneSolver& solver, std::span<const StageTask> scenes);
 
 /// The mirror image of a solution, in the same storage precision.
 Solution mirrored_solution(const Solution& solution, const MirrorSymmetry& symmetry);

@@ -27,16 +27,20 @@ std::vector<ControlPoint> stored_points(const Database& database) {
 
 }  // namespace
 
-Bridge bridge_of(const Database& database) {
-  Bridge bridge;
-  bridge.description =
-      parse_bridge_file(database.bridge_text(), database.path().string() + " (bridge text)").description;
-  bridge.layout = database.layout();
-  bridge.mesh = database.mesh();
-  bridge.joints = find_joints(bridge.mesh, bridge.description.joint_tolerance);
-  bridge.control_points = stored_points(database);
-  bridge.symmetry = find_mirror_symmetry(bridge.layout, bridge.mesh, 0.5 * bridge.description.wall.length);
-  return bridge;
+BridgeDescription description_of(const Database& database) {
+  return parse_bridge_file(database.bridge_text(), database.path().string() + " (bridge text)").description;
+}
+
+Model bridge_of(const Database& database) {
+  const BridgeDescription description = description_of(database);
+  Structure structure;
+  structure.layout = database.layout();
+  structure.mesh = database.mesh();
+  structure.joints = find_joints(structure.mesh, description.joint_tolerance);
+  structure.supports = box_supports(structure.mesh, description.supports, description.wall.length);
+  structure.control_points = stored_points(database);
+  structure.symmetry = find_mirror_symmetry(structure.layout, structure.mesh, 0.5 * description.wall.length);
+  return with_nominal_parameters(std::move(structure), description);
 }
 
 }  // namespace voussoir

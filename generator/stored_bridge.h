@@ -1,13 +1,17 @@
 #pragma once
 /// @file The bridge that a database is about.
 
-#include "core/structure/bridge.h"
+#include "core/structure/model.h"
 #include "database/records/database.h"
 
 namespace voussoir {
 
+/// What the database's bridge text says. Throws InputError if it is no bridge file.
+BridgeDescription description_of(const Database& database);
+
 /// The bridge with the blocks, mesh and control points that stand in the database and the material that its
-/// bridge text states; joints and symmetry are found anew. Throws InputError if the text is no bridge file.
-Bridge bridge_of(const Database& database);
+/// bridge text states; joints, supports and symmetry are found anew. Throws InputError if the text is no
+/// bridge file.
+Model bridge_of(const Database& database);
 
 }  // namespace voussoir

@@ -28,12 +28,13 @@ void check_digest(const Database& database, const std::vector<DatasetValue>& exp
 
 /// Geometry and control points are compared with what the bridge text gives, but only if the same program
 /// made them: another version may mesh blocks in another way.
-void check_geometry(const Database& database, const Bridge& stored, VerifyReport& report) {
+void check_geometry(const Database& database, const Model& stored, VerifyReport& report) {
   const Provenance provenance = database.provenance();
-  const Provenance own = make_provenance({provenance.bridge_name, provenance.bridge_text, stored.description},
+  const BridgeDescription description = description_of(database);
+  const Provenance own = make_provenance({provenance.bridge_name, provenance.bridge_text, description},
                                          provenance.solver_settings, provenance.results_key);
   const bool same_program = differences(own, provenance).empty();
-  const Bridge bridge = same_program ? make_bridge(stored.description) : stored;
+  const Model bridge = same_program ? make_model(description) : stored;
   const auto expected = shared_datasets(provenance, bridge.layout, bridge.mesh, bridge.control_points);
   for (const DatasetValue& value : expected)
     if (!std::ranges::equal(value.bytes, database.dataset_bytes(value.path.c_str())))
@@ -67,7 +68,7 @@ struct Recomputed {
   std::string problem;
 };
 
-Recomputed recompute_row(const Database& database, const Bridge& bridge, std::size_t row,
+Recomputed recompute_row(const Database& database, const Model& bridge, std::size_t row,
                          const SceneSolver& solver) {
   const Scene scene = database.table().scene(row);
   const PlanRules rules = rules_in(database.provenance().solver_settings);
@@ -83,9 +84,9 @@ Recomputed recompute_row(const Database& database, const Bridge& bridge, std::si
   return {difference, {}};
 }
 
-void check_recomputed(const VerifyRequest& request, const Database& database, const Bridge& bridge,
+void check_recomputed(const VerifyRequest& request, const Database& database, const Model& bridge,
                       VerifyReport& report) {
-  const SolverChoice solver = solver_with(database.provenance().solver_settings);
+  const SolverChoice solver = solver_with(parse_settings(database.provenance().solver_settings));
   const auto rows = choose_rows(database.table().rows, request.recompute, request.seed);
   std::vector<Recomputed> results(rows.size());
   oneapi::tbb::enumerable_thread_specific<SceneSolver> solvers([&] { return solver.make_solver(bridge); });
@@ -103,13 +104,15 @@ void check_content(const VerifyRequest& request, VerifyReport& report) {
   const Database database = Database::open(request.database);
   report.digest = database.digest();
   report.outcomes = count_outcomes(database);
-  const Bridge bridge = bridge_of(database);
+  const Model bridge = bridge_of(database);
   check_geometry(database, bridge, report);
   check_search(database, report);
   const EquilibriumSystem system(bridge);
+  const Coefficients coefficients(system, bridge.parameters);
   const bool mirrors = rules_in(database.provenance().solver_settings).mirror_images;
-  report.most_unbalance = most_stored_unbalance(system, database.provenance().solver_settings);
-  check_scenes({database, bridge, system, report.most_unbalance, mirrors}, request.threads, report);
+  report.most_unbalance = most_stored_unbalance(system, coefficients, database.provenance().solver_settings);
+  check_scenes({database, bridge, system, coefficients, report.most_unbalance, mirrors}, request.threads,
+               report);
   if (request.recompute > 0) check_recomputed(request, database, bridge, report);
 }
 

@@ -26,20 +26,20 @@ struct Readings {
   double seconds = 0.0;                   ///< a scene
 };
 
-std::vector<Scene> with_intact(const AccuracyOptions& options, const Bridge& bridge) {
+std::vector<Scene> with_intact(const AccuracyOptions& options, const Model& bridge) {
   std::vector<Scene> scenes = {{}};
   for (const std::string& text : options.scenes) scenes.push_back(parse_scene(text, bridge.layout));
   return scenes;
 }
 
-Readings quasi_static_readings(const Bridge& bridge, const std::vector<Scene>& scenes,
+Readings quasi_static_readings(const Model& bridge, const std::vector<Scene>& scenes,
                                const QuasiStaticSettings& settings, bool from_intact) {
   QuasiStaticSolver solver(bridge, settings);
   Readings readings;
   const Field intact = solver.solve(scenes.front()).displacement;
-  std::vector<SceneStart> starts;
+  std::vector<StageTask> starts;
   for (const Scene& scene : scenes)
-    starts.push_back({.scene = scene, .start = from_intact ? &intact : nullptr});
+    starts.push_back({.stage = {.scene = scene}, .start = from_intact ? &intact : nullptr});
   const double begin = processor_seconds();
   const std::vector<Solution> solutions = solver.solve(starts);
   readings.seconds = (processor_seconds() - begin) / static_cast<double>(scenes.size());
@@ -48,7 +48,7 @@ Readings quasi_static_readings(const Bridge& bridge, const std::vector<Scene>& s
   return readings;
 }
 
-Readings dynamic_readings(const Bridge& bridge, const std::vector<Scene>& scenes,
+Readings dynamic_readings(const Model& bridge, const std::vector<Scene>& scenes,
                           const DynamicSettings& settings) {
   DynamicSolver solver(bridge, settings);
   Readings readings;
@@ -78,17 +78,20 @@ void compare(const Readings& readings, const Readings& reference, AccuracyRow& r
   row.seconds = readings.seconds;
 }
 
-Bridge refined_bridge(BridgeDescription description, int level) {
+Model refined_bridge(BridgeDescription description, int level) {
   description.mesh.refinement = level;
-  return make_bridge(description);
+  return make_model(description);
 }
 
 /// Measures rows of one bridge against the reference.
 class Bench {
  public:
   Bench(const BridgeDescription& description, const AccuracyOptions& options)
-      : bridge_(make_bridge(description)), options_(options), scenes_(with_intact(options, bridge_)) {
-    const Bridge fine = refined_bridge(description, options.reference_refinement);
+      : description_(description),
+        bridge_(make_model(description)),
+        options_(options),
+        scenes_(with_intact(options, bridge_)) {
+    const Model fine = refined_bridge(description, options.reference_refinement);
     reference_ = quasi_static_readings(fine, scenes_, {}, false);
     for (const Eigen::VectorXd& d : reference_.of_scene)
       if (!d.array().isNaN().select(0.0, d).allFinite())
@@ -117,7 +120,7 @@ class Bench {
 
   /// The default solver on another mesh.
   void mesh(const MeshDescription& mesh, const std::string& name) {
-    BridgeDescription description = bridge_.description;
+    BridgeDescription description = description_;
     description.mesh = mesh;
     add({.solver = "quasi-static",
          .integrator = "-",
@@ -126,16 +129,16 @@ class Bench {
          .ramp = "-",
          .mesh = name,
          .variation = ""},
-        quasi_static_readings(make_bridge(description), scenes_, {}, true));
+        quasi_static_readings(make_model(description), scenes_, {}, true));
   }
 
   void dynamic(double ramp, std::optional<double> step, double unbalance, int side_by_side) {
     DynamicSettings settings;
     settings.ramp = settings.moment = ramp;
-    settings.earliest_decision = ramp + 0.1;
-    settings.latest_decision = ramp + 1.0;
+    settings.decision.earliest_decision = ramp + 0.1;
+    settings.decision.latest_decision = ramp + 1.0;
     settings.step = step;
-    settings.standing_unbalance = unbalance;
+    settings.decision.standing_unbalance = unbalance;
     settings.side_by_side = side_by_side;
     add({.solver = "dynamic",
          .integrator = "implicit blocks",
@@ -170,7 +173,8 @@ class Bench {
     rows_.push_back(row);
   }
 
-  Bridge bridge_;
+  BridgeDescription description_;
+  Model bridge_;
   AccuracyOptions options_;
   std::vector<Scene> scenes_;
   Readings reference_;

@@ -1,21 +1,94 @@
 #pragma once
-/// @file The joint law: what two faces do to each other across one straight stretch of a joint.
+/// @file The joint law: what two faces do to each other across one straight stretch of a joint. Statics and
+/// motion both use it; a number T is a double or several side by side (core/simd).
 ///
-/// Symbols and signs, along s in [0,1] of a stretch of length L:
+/// Symbols and signs, along s of a stretch of length L:
 ///   gap(s)   [m]  opening, positive when the faces are apart; linear in s
 ///   slip(s)  [m]  movement of the second face along the joint's direction relative to the first; linear in s
-///   sigma    [Pa] pressure, p_n <-gap>; never tension
-///   tau      [Pa] shear stress, p_t slip, limited to |tau| <= tan(phi) sigma (Coulomb; dry, no cohesion)
-/// A stretch's state is the vector (gap_0, slip_0, gap_1, slip_1) of its two ends.
+///   memory(s) [m] plastic slip: what friction has given way by before; linear in s
+///   xi(s)    [m]  elastic slip, slip - memory
+///   p        [Pa] pressure, p_n <-gap>; never tension
+///   tau      [Pa] shear stress, p_t xi, bounded point by point to |tau| <= mu p (Coulomb; dry, no cohesion)
+///
+/// Everything is linear by parts, so it is integrated exactly. The stretch is closed where <-gap> is
+/// positive: one interval. On it
+///     tau = p_t xi - <p_t xi - mu p> + <-p_t xi - mu p>,
+/// and each bracket is the positive part of a function that is linear on the closed part: one interval more,
+/// where the joint slips in the positive or the negative direction. Elsewhere on the closed part it sticks.
+/// So integral, moment and derivative of the stresses are sums over at most three intervals (positive_part).
+/// The stresses are continuous at the intervals' ends, so the derivative of the integrals is the integral of
+/// the derivatives.
+///
+/// Memory: where the whole closed part slips one way, the slip that is common to all its points is plastic
+/// (plastic slip that differs along the stretch would not be linear); the shear stress is the same after it
+/// has gone into the memory. An open joint forgets: its memory becomes its slip.
 
 #include <Eigen/Core>
-#include <string_view>
 
+#include "core/law/state.h"
+#include "core/simd/lane_number.h"
 #include "core/structure/bridge_description.h"
 
 namespace voussoir {
 
-using JointState = Eigen::Vector4d;  ///< (gap_0, slip_0, gap_1, slip_1) [m]
+/// The positive part of a linear function along a stretch.
+template <class T>
+struct PositivePart {
+  T integral;
+  T moment;  ///< first moment about the start of the stretch
+  T begin;   ///< where the positive part begins, from the start of the stretch
+  T length;  ///< of the positive part
+};
+
+/// `at_0` and `at_1` are the function's values at the ends of a stretch of this length.
+template <class T>
+VOUSSOIR_INLINE PositivePart<T> positive_part(T length, T at_0, T at_1) {
+  const T zero = T{};
+  const T plus_0 = larger(at_0, zero);
+  const T plus_1 = larger(at_1, zero);
+  const T sum = plus_0 + plus_1;
+  const T whole = magnitude(at_0) + magnitude(at_1);
+  const T share = whole > 0.0 ? sum / whole : zero;
+  PositivePart<T> part;
+  part.length = length * share;
+  part.begin = at_0 > 0.0 ? zero : length - part.length;
+  part.integral = 0.5 * part.length * sum;
+  part.moment = part.begin * part.integral + part.length * part.length * (sum + plus_1) * (1.0 / 6.0);
+  return part;
+}
+
+/// Where friction gives way on the closed part of a stretch, and by how much stress.
+template <class T>
+struct FrictionExcess {
+  PositivePart<T> above;  ///< of tau - cap, in the positive direction
+  PositivePart<T> below;  ///< of -tau - cap
+  T common;               ///< excess common to all points of the closed part, with its sign [stress]
+};
+
+/// `tau` is the unbounded shear stress and `cap` the friction at the ends of the closed part.
+template <class T>
+VOUSSOIR_INLINE FrictionExcess<T> friction_excess(T closed_length, T tau_0, T tau_1, T cap_0, T cap_1) {
+  FrictionExcess<T> excess;
+  excess.above = positive_part<T>(closed_length, tau_0 - cap_0, tau_1 - cap_1);
+  excess.below = positive_part<T>(closed_length, -tau_0 - cap_0, -tau_1 - cap_1);
+  const T zero = T{};
+  excess.common = larger(zero, smaller(tau_0 - cap_0, tau_1 - cap_1)) -
+                  larger(zero, smaller(-tau_0 - cap_0, -tau_1 - cap_1));
+  return excess;
+}
+
+/// State of a stretch: (gap_0, slip_0, gap_1, slip_1) of its two ends [m].
+using JointState = Eigen::Vector4d;
+
+/// A joint's law times the area of its stretch (length times thickness).
+struct JointStiffness {
+  double normal = 0.0;      ///< p_n area [N/m]
+  double tangential = 0.0;  ///< p_t area [N/m]
+  double cap = 0.0;         ///< mu p_n area: shear at the bound per penetration [N/m]
+};
+
+/// `area` is length times thickness [m2].
+JointStiffness joint_stiffness(const JointMaterial& material, double area);
 
 /// Work-conjugate of the state: virtual work = force . variation of state.
 struct JointResponse {
@@ -23,28 +96,14 @@ struct JointResponse {
   Eigen::Matrix4d tangent;  ///< d force / d state [N/m]; not symmetric where the joint slips
 };
 
-/// Integrates the law over a stretch exactly: gap and slip are linear, so the stretch falls into at most four
-/// parts that are open, sticking or slipping as a whole, and the stresses are linear in each. The stresses
-/// are continuous at the parts' ends, so the tangent is the exact derivative. `area` is length times
-/// thickness [m2].
-JointResponse integrate_joint(const JointMaterial& material, double area, const JointState& state);
+/// The law over a whole stretch, and its derivative.
+JointResponse integrate_joint(const JointStiffness& joint, const JointMemory& memory,
+                              const JointState& state);
 
-/// How the law is integrated over a stretch. All but `exact` are there to be compared with it.
-enum class JointRule {
-  exact,      ///< integrate_joint without a rule
-  lobatto_3,  ///< at both ends and the middle: 0.2 % off in displacements, many per cent in a removal's
-              ///< signal
-  gauss_16    ///< at 16 Gauss points
-};
-
-/// "exact", "lobatto-3", "gauss-16"
-std::string_view to_string(JointRule rule);
-
-/// The same by a quadrature rule: every point is open, sticking or slipping.
-JointResponse integrate_joint(const JointMaterial& material, double area, const JointState& state,
-                              JointRule rule);
+/// What the joint remembers when a stage ends in this state.
+JointMemory updated_memory(const JointStiffness& joint, const JointMemory& memory, const JointState& state);
 
 /// The tangent if the whole stretch were closed and sticking.
-Eigen::Matrix4d bonded_joint_tangent(const JointMaterial& material, double area);
+Eigen::Matrix4d bonded_joint_tangent(const JointStiffness& joint);
 
 }  // namespace voussoir

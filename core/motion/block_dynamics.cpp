@@ -3,19 +3,16 @@
 #include <Eigen/Cholesky>
 
 #include "core/law/triangle.h"
-#include "core/statics/equilibrium.h"
 
 namespace voussoir {
 namespace {
 
-void add_stiffness(const Bridge& bridge, const Triangle& triangle, BlockBody& body) {
-  const Mesh& mesh = bridge.mesh;
+void add_stiffness(const Mesh& mesh, const Triangle& triangle, const Material& material, BlockBody& body) {
   const auto& nodes = triangle.nodes;
   const TriangleShape shape =
       triangle_shape(mesh.position(nodes[0]), mesh.position(nodes[1]), mesh.position(nodes[2]));
-  const Matrix6d tangent = triangle_response(shape, plane_moduli(bridge.description.material),
-                                             bridge.description.material.thickness, Vector6d::Zero())
-                               .tangent;
+  const Matrix6d tangent =
+      triangle_response(shape, plane_moduli(material), material.thickness, Vector6d::Zero()).tangent;
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j)
       body.stiffness.block<2, 2>(2 * (value(nodes[static_cast<std::size_t>(i)]) - body.nodes.begin),
@@ -30,14 +27,14 @@ double second_moment(const Point& a, const Point& b, const Point& c) {
   return 0.5 * cross(b - a, c - a) * squares / 6.0;
 }
 
-double moment_of_inertia(const Bridge& bridge, const IndexRange& triangles, const Point& centre) {
+double moment_of_inertia(const Mesh& mesh, const IndexRange& triangles, const Material& material,
+                         const Point& centre) {
   double sum = 0.0;
   for (int t = triangles.begin; t < triangles.end; ++t) {
-    const auto& [a, b, c] = bridge.mesh.triangles[static_cast<std::size_t>(t)].nodes;
-    sum += second_moment(bridge.mesh.position(a) - centre, bridge.mesh.position(b) - centre,
-                         bridge.mesh.position(c) - centre);
+    const auto& [a, b, c] = mesh.triangles[static_cast<std::size_t>(t)].nodes;
+    sum += second_moment(mesh.position(a) - centre, mesh.position(b) - centre, mesh.position(c) - centre);
   }
-  return bridge.description.material.density * bridge.description.material.thickness * sum;
+  return material.density * material.thickness * sum;
 }
 
 double lumped_moment_of_inertia(const BlockBody& body) {
@@ -81,39 +78,36 @@ Eigen::MatrixXd rigid_response(const BlockBody& body, double inertia) {
 
 }  // namespace
 
-Eigen::VectorXd lumped_masses(const Bridge& bridge) {
-  const Material& material = bridge.description.material;
-  Eigen::VectorXd masses = Eigen::VectorXd::Zero(bridge.mesh.node_count());
-  for (const Triangle& triangle : bridge.mesh.triangles) {
-    const auto& [a, b, c] = triangle.nodes;
-    const double area =
-        triangle_shape(bridge.mesh.position(a), bridge.mesh.position(b), bridge.mesh.position(c)).area;
-    for (const NodeId node : triangle.nodes)
-      masses[value(node)] += material.density * material.thickness * area / 3.0;
+Eigen::VectorXd lumped_masses(const Model& model) {
+  const Mesh& mesh = model.mesh;
+  Eigen::VectorXd masses = Eigen::VectorXd::Zero(mesh.node_count());
+  for (std::size_t block = 0; block < mesh.block_triangles.size(); ++block) {
+    const Material& material = model.parameters.blocks[block];
+    for (int t = mesh.block_triangles[block].begin; t < mesh.block_triangles[block].end; ++t) {
+      const auto& [a, b, c] = mesh.triangles[static_cast<std::size_t>(t)].nodes;
+      const double area = triangle_shape(mesh.position(a), mesh.position(b), mesh.position(c)).area;
+      for (const NodeId node : {a, b, c})
+        masses[value(node)] += material.density * material.thickness * area / 3.0;
+    }
   }
   return masses;
 }
 
-std::vector<bool> held_components(const Bridge& bridge) {
-  const EquilibriumSystem system(bridge);
-  std::vector<bool> held;
-  for (const int unknown : system.unknown) held.push_back(unknown < 0);
-  return held;
-}
-
-std::vector<BlockBody> make_block_bodies(const Bridge& bridge, RotationalInertia inertia) {
-  const Eigen::VectorXd masses = lumped_masses(bridge);
-  const std::vector<bool> held = held_components(bridge);
+std::vector<BlockBody> make_block_bodies(const Model& model, RotationalInertia inertia) {
+  const Mesh& mesh = model.mesh;
+  const Eigen::VectorXd masses = lumped_masses(model);
+  const std::vector<bool> held = held_components(model.supports, mesh);
   std::vector<BlockBody> bodies;
-  for (std::size_t block = 0; block < bridge.layout.size(); ++block) {
+  for (std::size_t block = 0; block < model.layout.size(); ++block) {
+    const Material& material = model.parameters.blocks[block];
     BlockBody body;
-    body.nodes = bridge.mesh.block_nodes[block];
+    body.nodes = mesh.block_nodes[block];
     body.stiffness.setZero(2 * body.nodes.size(), 2 * body.nodes.size());
-    const IndexRange& range = bridge.mesh.block_triangles[block];
+    const IndexRange& range = mesh.block_triangles[block];
     for (int t = range.begin; t < range.end; ++t)
-      add_stiffness(bridge, bridge.mesh.triangles[static_cast<std::size_t>(t)], body);
-    set_masses(bridge.mesh, masses, body);
-    body.inertia = inertia == RotationalInertia::exact ? moment_of_inertia(bridge, range, body.centre)
+      add_stiffness(mesh, mesh.triangles[static_cast<std::size_t>(t)], material, body);
+    set_masses(mesh, masses, body);
+    body.inertia = inertia == RotationalInertia::exact ? moment_of_inertia(mesh, range, material, body.centre)
                                                        : lumped_moment_of_inertia(body);
     set_supports(held, body);
     bodies.push_back(std::move(body));

@@ -16,7 +16,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "core/structure/bridge.h"
+#include "core/structure/model.h"
 
 namespace voussoir {
 
@@ -42,15 +42,12 @@ struct BlockBody {
   std::vector<bool> held_components;
 };
 
-/// The bodies of all blocks of a bridge.
-std::vector<BlockBody> make_block_bodies(const Bridge& bridge,
+/// The bodies of all blocks.
+std::vector<BlockBody> make_block_bodies(const Model& model,
                                          RotationalInertia inertia = RotationalInertia::exact);
 
 /// Lumped masses of the nodes [kg].
-Eigen::VectorXd lumped_masses(const Bridge& bridge);
-
-/// Per displacement component (2 node + axis): does a support hold it?
-std::vector<bool> held_components(const Bridge& bridge);
+Eigen::VectorXd lumped_masses(const Model& model);
 
 /// (M + dt^2 K)^-1 with zero rows and columns at held components: the acceleration that a force gives the
 /// nodes during an implicit step, with lumped masses throughout [1/kg].

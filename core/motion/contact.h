@@ -18,15 +18,14 @@
 /// conserves energy, momentum and angular momentum. Friction acts on both edges at the same s; the couple
 /// that its lever arm, the gap, would leave is taken up by the frame's derivative too.
 ///
-/// Shear: xi(s), linear along the stretch, is the elastic part of the slip; tau = p_t xi, limited point by
-/// point to |tau| <= tan(phi) p and integrated exactly. xi grows by the slip of every step. Where the whole
-/// closed stretch slips one way, the slip that is common to all its points is plastic and leaves xi; an open
-/// contact forgets xi. Slip is the movement along t of points that face each other, t . (x_B - x_A), so that
-/// where the faces are apart the frame's turning counts as well: a block that rocks on its edge does not slip
-/// at its open end.
+/// Pressure, friction and its memory are those of core/law/joint_law.h; in motion xi, the elastic slip, is
+/// what is kept: it grows by the slip of every step and loses what is plastic; an open contact forgets it.
+/// Slip is the movement along t of points that face each other, t . (x_B - x_A), so that where the faces are
+/// apart the frame's turning counts as well: a block that rocks on its edge does not slip at its open end.
 
 #include <array>
 
+#include "core/law/joint_law.h"
 #include "core/simd/lane_number.h"
 
 namespace voussoir {
@@ -38,20 +37,27 @@ inline constexpr double kFullyFacing = 3.4142135623730951;
 inline constexpr double kNotFacingLength = 1.7320508075688772;
 inline constexpr double kFullyFacingLength = 1.8477590650225735;
 
-/// What the contact of two edges needs to know, the same in all scenes.
+/// A joint's law per length of contact (times the thickness), and what the kernels need of it.
+struct ContactMaterial {
+  ContactMaterial() = default;
+  ContactMaterial(const JointMaterial& joint, double thickness);
+
+  double normal = 0.0;            ///< [N/m2]
+  double tangential = 0.0;        ///< [N/m2]
+  double friction = 0.0;          ///< mu
+  double half_compliance = 0.0;   ///< 1 / (2 normal)
+  double sixth_compliance = 0.0;  ///< 1 / (6 normal)
+  double per_tangential = 0.0;    ///< 1 / tangential
+};
+
+/// What the contact of two edges needs to know, the same in all scenes of a variant.
 struct EdgeContact {
   std::array<int, 4> nodes;          ///< a0, a1, b0, b1
   std::array<int, 2> blocks;         ///< of A and B
   std::array<double, 2> per_length;  ///< 1 / L_A, 1 / L_B [1/m]
   std::array<double, 4>
       corner_share;  ///< 1 / tan(half the angle) at the nodes; 0 where the boundary runs on straight
-};
-
-/// Joint material per unit length of joint (times the thickness).
-struct ContactMaterial {
-  double normal;      ///< [N/m2]
-  double tangential;  ///< [N/m2]
-  double friction;    ///< tan(phi)
+  ContactMaterial material;
 };
 
 /// Elastic part of the slip at s_0 and s_1 [m].
@@ -73,32 +79,6 @@ struct EdgePlaces {
 /// Forces on the four nodes [N].
 template <class T>
 using EdgeForces = std::array<Pair<T>, 4>;
-
-/// Integral and first moment, about the start of the stretch, of the positive part of a linear function.
-template <class T>
-struct PositivePart {
-  T integral;
-  T moment;
-  T begin;   ///< where the positive part begins, from the start of the stretch
-  T length;  ///< of the positive part
-};
-
-/// `at_0` and `at_1` are the function's values at the ends of a stretch of this length.
-template <class T>
-VOUSSOIR_INLINE PositivePart<T> positive_part(T length, T at_0, T at_1) {
-  constexpr double kNoDivisionByZero = 1e-300;
-  const T zero = T{};
-  const T plus_0 = larger(at_0, zero);
-  const T plus_1 = larger(at_1, zero);
-  const T sum = plus_0 + plus_1;
-  const T share = sum / (magnitude(at_0) + magnitude(at_1) + kNoDivisionByZero);
-  PositivePart<T> part;
-  part.length = length * share;
-  part.begin = at_0 > 0.0 ? zero : length - part.length;
-  part.integral = 0.5 * part.length * sum;
-  part.moment = part.begin * part.integral + part.length * part.length * (sum + plus_1) * (1.0 / 6.0);
-  return part;
-}
 
 /// A condition in every lane.
 template <class T>
@@ -217,8 +197,9 @@ struct Closure {
 };
 
 template <class T>
-VOUSSOIR_INLINE Closure<T> closure_of(const EdgeContact& contact, const ContactMaterial& material,
-                                      const RoughCover<T>& c, const Stretch<T>& x) {
+VOUSSOIR_INLINE Closure<T> closure_of(const EdgeContact& contact, const RoughCover<T>& c,
+                                      const Stretch<T>& x) {
+  const ContactMaterial& material = contact.material;
   constexpr double kSteepest = 0.05;  // beyond, the bisector of the corner never meets the other face
   const T zero = T{};
   const T one = zero + 1.0;
@@ -240,9 +221,8 @@ VOUSSOIR_INLINE Closure<T> closure_of(const EdgeContact& contact, const ContactM
   const PositivePart<T> part = positive_part<T>(s_end - s_begin, p_begin, p_end);
   r.p_0 = larger(p_begin, zero);
   r.p_1 = larger(p_end, zero);
-  const double half_compliance = 0.5 / material.normal;
-  r.pull_0 = half_compliance * r.p_0 * r.p_0 * q_0;
-  r.pull_1 = half_compliance * r.p_1 * r.p_1 * q_1;
+  r.pull_0 = material.half_compliance * r.p_0 * r.p_0 * q_0;
+  r.pull_1 = material.half_compliance * r.p_1 * r.p_1 * q_1;
   const T left_out_0 = share_0 * r.pull_0;  // a deeper face owns less: this much of the pressure does no work
   const T left_out_1 = share_1 * r.pull_1;
   r.pressure.total = part.integral - left_out_0 - left_out_1;
@@ -283,9 +263,10 @@ VOUSSOIR_INLINE T frame_turn(const EdgeContact& contact, const std::array<Pair<T
 
 /// Shear stress on the closed part, and what the shear is afterwards.
 template <class T>
-VOUSSOIR_INLINE Traction<T> friction_of(const EdgeContact& contact, const ContactMaterial& material,
-                                        const EdgePlaces<T>& edges, const Stretch<T>& x,
-                                        const Closure<T>& closure, ContactShear<T>& shear) {
+VOUSSOIR_INLINE Traction<T> friction_of(const EdgeContact& contact, const EdgePlaces<T>& edges,
+                                        const Stretch<T>& x, const Closure<T>& closure,
+                                        ContactShear<T>& shear) {
+  const ContactMaterial& material = contact.material;
   const T zero = T{};
   const T one = zero + 1.0;
   // The change of t . (x_B - x_A) in the last step, to second order: frame and gap are those of the step's
@@ -302,16 +283,13 @@ VOUSSOIR_INLINE Traction<T> friction_of(const EdgeContact& contact, const Contac
   const T tau_1 = tau_0 + material.tangential * xi_slope * closure.length;
   const T cap_0 = material.friction * closure.p_0;
   const T cap_1 = material.friction * closure.p_1;
-  const PositivePart<T> above = positive_part<T>(closure.length, tau_0 - cap_0, tau_1 - cap_1);
-  const PositivePart<T> below = positive_part<T>(closure.length, -tau_0 - cap_0, -tau_1 - cap_1);
+  const FrictionExcess<T> excess = friction_excess<T>(closure.length, tau_0, tau_1, cap_0, cap_1);
   Traction<T> drag;
-  drag.total = 0.5 * closure.length * (tau_0 + tau_1) - above.integral + below.integral;
-  drag.moment = closure.length * closure.length * (tau_0 + 2.0 * tau_1) * (1.0 / 6.0) - above.moment +
-                below.moment + closure.begin * drag.total;
+  drag.total = 0.5 * closure.length * (tau_0 + tau_1) - excess.above.integral + excess.below.integral;
+  drag.moment = closure.length * closure.length * (tau_0 + 2.0 * tau_1) * (1.0 / 6.0) - excess.above.moment +
+                excess.below.moment + closure.begin * drag.total;
 
-  const T common_above = larger(zero, smaller(tau_0 - cap_0, tau_1 - cap_1));
-  const T common_below = larger(zero, smaller(-tau_0 - cap_0, -tau_1 - cap_1));
-  const T plastic = (common_above - common_below) * (1.0 / material.tangential);
+  const T plastic = excess.common * material.per_tangential;
   const auto in_contact = closure.length > 0.0;
   shear.at_0 = in_contact ? xi_0 - plastic : zero;
   shear.at_1 = in_contact ? xi_1 - plastic : zero;
@@ -358,15 +336,15 @@ VOUSSOIR_INLINE FrameForces<T> frame_forces(const EdgeContact& contact, const Ro
 
 /// Weakens the forces of edges that hardly face each other, and adds the derivative of the weight.
 template <class T>
-VOUSSOIR_INLINE void fade(const EdgeContact& contact, const ContactMaterial& material, const RoughCover<T>& c,
-                          const Stretch<T>& x, const Closure<T>& closure, FrameForces<T>& f) {
+VOUSSOIR_INLINE void fade(const EdgeContact& contact, const RoughCover<T>& c, const Stretch<T>& x,
+                          const Closure<T>& closure, FrameForces<T>& f) {
   constexpr double kRange = kFullyFacingLength - kNotFacingLength;
   const T one = T{} + 1.0;
   const T share = smaller(one, larger(T{}, (c.squared * x.per_direction - kNotFacingLength) / kRange));
   const T weight = share * share * (3.0 - 2.0 * share);
   const T weight_slope = 6.0 * share * (1.0 - share) / kRange;
   const T squares = closure.p_0 * closure.p_0 + closure.p_0 * closure.p_1 + closure.p_1 * closure.p_1;
-  const T pull = closure.length * squares * (1.0 / (6.0 * material.normal)) * weight_slope;
+  const T pull = closure.length * squares * contact.material.sixth_compliance * weight_slope;
   for (std::size_t i = 0; i < 4; ++i) {
     f.along[i] = f.along[i] * weight;
     f.across[i] = f.across[i] * weight;
@@ -380,9 +358,8 @@ VOUSSOIR_INLINE void fade(const EdgeContact& contact, const ContactMaterial& mat
 /// Forces of the contact, and the shear carried over to the next evaluation. False, with the shear forgotten
 /// and no forces, if the edges touch in no lane. Lanes in which `present` is 0 have no contact.
 template <class T>
-VOUSSOIR_INLINE bool contact_forces(const EdgeContact& contact, const ContactMaterial& material,
-                                    const T& present, const EdgePlaces<T>& edges, ContactShear<T>& shear,
-                                    EdgeForces<T>& forces) {
+VOUSSOIR_INLINE bool contact_forces(const EdgeContact& contact, const T& present, const EdgePlaces<T>& edges,
+                                    ContactShear<T>& shear, EdgeForces<T>& forces) {
   const RoughCover<T> cover = rough_cover<T>(contact, present, edges.now);
   const bool some_cover = any(cover.covering);
   const Stretch<T> stretch = some_cover ? stretch_of(cover) : Stretch<T>{};
@@ -390,11 +367,10 @@ VOUSSOIR_INLINE bool contact_forces(const EdgeContact& contact, const ContactMat
     shear = {T{}, T{}};
     return false;
   }
-  const Closure<T> closure = closure_of(contact, material, cover, stretch);
-  const Traction<T> drag = friction_of(contact, material, edges, stretch, closure, shear);
+  const Closure<T> closure = closure_of(contact, cover, stretch);
+  const Traction<T> drag = friction_of(contact, edges, stretch, closure, shear);
   FrameForces<T> f = frame_forces(contact, cover, stretch, closure, drag);
-  if (any(closure.closed & (cover.squared < kFullyFacing)))
-    fade(contact, material, cover, stretch, closure, f);
+  if (any(closure.closed & (cover.squared < kFullyFacing))) fade(contact, cover, stretch, closure, f);
   for (std::size_t i = 0; i < 4; ++i) forces[i] = stretch.t * f.along[i] + stretch.n * f.across[i];
   return true;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace voussoir {
 namespace {
@@ -71,10 +72,20 @@ std::vector<int> edges_by_first_node(const Mesh& mesh) {
 
 }  // namespace
 
-ContactSearch::ContactSearch(const Mesh& mesh, const std::vector<Joint>& joints)
-    : mesh_(&mesh),
-      edge_block_(mesh.edges.size()),
-      corner_share_(static_cast<std::size_t>(mesh.node_count())) {
+ContactMaterial::ContactMaterial(const JointMaterial& joint, double thickness)
+    : normal(joint.normal_stiffness * thickness),
+      tangential(joint.tangential_stiffness * thickness),
+      friction(joint.friction_coefficient()),
+      half_compliance(0.5 / normal),
+      sixth_compliance(1.0 / (6.0 * normal)),
+      per_tangential(1.0 / tangential) {}
+
+ContactSearch::ContactSearch(const Model& model)
+    : mesh_(&model.mesh),
+      parameters_(&model.parameters),
+      edge_block_(model.mesh.edges.size()),
+      corner_share_(static_cast<std::size_t>(model.mesh.node_count())) {
+  const Mesh& mesh = model.mesh;
   const auto along = [&](const BoundaryEdge& e) -> Point {
     return mesh.position(e.to) - mesh.position(e.from);
   };
@@ -90,8 +101,16 @@ ContactSearch::ContactSearch(const Mesh& mesh, const std::vector<Joint>& joints)
   }
   const std::vector<int> edge_from = edges_by_first_node(mesh);
   const auto edge = [&](const BoundaryEdge& e) { return edge_from[static_cast<std::size_t>(value(e.from))]; };
-  for (const Joint& joint : joints) joined_.emplace_back(edge(joint.first_edge), edge(joint.second_edge));
-  std::sort(joined_.begin(), joined_.end());
+  std::map<EdgePair, ContactMaterial> joined;
+  for (std::size_t j = 0; j < model.joints.size(); ++j) {
+    const Joint& joint = model.joints[j];
+    joined[{edge(joint.first_edge), edge(joint.second_edge)}] =
+        ContactMaterial(model.parameters.joints[j], joint_thickness(joint, model.parameters));
+  }
+  for (const auto& [pair, material] : joined) {
+    joined_.push_back(pair);
+    joined_material_.push_back(material);
+  }
 }
 
 std::vector<EdgePair> ContactSearch::candidates(const Eigen::Matrix2Xd& places,
@@ -125,7 +144,11 @@ EdgeContact ContactSearch::contact(const EdgePair& pair) const {
   const auto b = static_cast<std::size_t>(pair.second);
   const BoundaryEdge& edge_a = mesh_->edges[a];
   const BoundaryEdge& edge_b = mesh_->edges[b];
-  const bool joined = std::binary_search(joined_.begin(), joined_.end(), pair);
+  const auto found = std::lower_bound(joined_.begin(), joined_.end(), pair);
+  const bool joined = found != joined_.end() && *found == pair;
+  const auto thickness = [&](int block) {
+    return parameters_->blocks[static_cast<std::size_t>(block)].thickness;
+  };
   const auto share = [&](NodeId node) {
     return joined ? 0.0 : corner_share_[static_cast<std::size_t>(value(node))];
   };
@@ -135,7 +158,10 @@ EdgeContact ContactSearch::contact(const EdgePair& pair) const {
   return {.nodes = {value(edge_a.from), value(edge_a.to), value(edge_b.from), value(edge_b.to)},
           .blocks = {edge_block_[a], edge_block_[b]},
           .per_length = {per_length(edge_a), per_length(edge_b)},
-          .corner_share = {share(edge_a.from), share(edge_a.to), share(edge_b.from), share(edge_b.to)}};
+          .corner_share = {share(edge_a.from), share(edge_a.to), share(edge_b.from), share(edge_b.to)},
+          .material = joined ? joined_material_[static_cast<std::size_t>(found - joined_.begin())]
+                             : ContactMaterial(parameters_->contact, std::min(thickness(edge_block_[a]),
+                                                                              thickness(edge_block_[b])))};
 }
 
 }  // namespace voussoir

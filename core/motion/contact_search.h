@@ -5,8 +5,7 @@
 #include <vector>
 
 #include "core/motion/contact.h"
-#include "core/structure/joint.h"
-#include "core/structure/mesh.h"
+#include "core/structure/model.h"
 
 namespace voussoir {
 
@@ -15,8 +14,8 @@ using EdgePair = std::pair<int, int>;
 
 class ContactSearch {
  public:
-  /// The mesh and the joints must outlive the search.
-  ContactSearch(const Mesh& mesh, const std::vector<Joint>& joints);
+  /// The model must outlive the search.
+  explicit ContactSearch(const Model& model);
 
   /// Pairs of edges of different blocks that face each other roughly (within 75 degrees) and whose bounding
   /// boxes are at most `margin` [m] apart at these places of the nodes [m], in ascending order. Blocks in
@@ -24,15 +23,17 @@ class ContactSearch {
   std::vector<EdgePair> candidates(const Eigen::Matrix2Xd& places, const std::vector<bool>& absent,
                                    double margin) const;
 
-  /// The contact of two edges. Edges that form a joint at rest own their whole stretch, as in the
-  /// quasi-static equations; others share out what penetrates at corners (see contact.h).
+  /// The contact of two edges. Edges that form a joint at rest have its material and own their whole stretch,
+  /// as in the quasi-static equations; others share out what penetrates at corners (see contact.h).
   EdgeContact contact(const EdgePair& pair) const;
 
  private:
   const Mesh* mesh_;
-  std::vector<int> edge_block_;       ///< per edge
-  std::vector<double> corner_share_;  ///< per node, see EdgeContact
-  std::vector<EdgePair> joined_;      ///< edges that form a joint at rest, ascending
+  const Parameters* parameters_;
+  std::vector<int> edge_block_;                   ///< per edge
+  std::vector<double> corner_share_;              ///< per node, see EdgeContact
+  std::vector<EdgePair> joined_;                  ///< edges that form a joint at rest, ascending
+  std::vector<ContactMaterial> joined_material_;  ///< of `joined_`
 };
 
 }  // namespace voussoir

@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/statics/equilibrium.h"
-
 namespace voussoir {
 namespace {
 
@@ -19,15 +17,17 @@ struct JointSpring {
   Matrix8d stiffness;
 };
 
-std::vector<JointSpring> joint_springs(const Bridge& bridge) {
+std::vector<JointSpring> joint_springs(const Model& model) {
   std::vector<JointSpring> springs;
-  for (const Joint& joint : bridge.joints) {
-    const JointKinematics k = joint_kinematics(make_joint_frame(joint, bridge.mesh), Vector8d::Zero());
-    const double area = joint.length * bridge.description.material.thickness;
+  for (std::size_t j = 0; j < model.joints.size(); ++j) {
+    const Joint& joint = model.joints[j];
+    const JointKinematics k = joint_kinematics(make_joint_frame(joint, model.mesh), Vector8d::Zero());
+    const double area = joint.length * joint_thickness(joint, model.parameters);
     springs.push_back({.nodes = {value(joint.first_edge.from), value(joint.first_edge.to),
                                  value(joint.second_edge.from), value(joint.second_edge.to)},
                        .stiffness = k.gradient.transpose() *
-                                    bonded_joint_tangent(bridge.description.joints, area) * k.gradient});
+                                    bonded_joint_tangent(joint_stiffness(model.parameters.joints[j], area)) *
+                                    k.gradient});
   }
   return springs;
 }
@@ -62,11 +62,11 @@ Eigen::VectorXd start_vector(Eigen::Index size) {
 }
 
 /// `joint_share` multiplies the joints' stiffness: damped joints act on a step as stiffer ones.
-double highest_frequency(const Bridge& bridge, const std::vector<BlockBody>& bodies, Integrator integrator,
+double highest_frequency(const Model& model, const std::vector<BlockBody>& bodies, Integrator integrator,
                          double step, double joint_share) {
-  const std::vector<JointSpring> springs = joint_springs(bridge);
+  const std::vector<JointSpring> springs = joint_springs(model);
   const std::vector<Eigen::MatrixXd> mobility = mobilities(bodies, integrator, step);
-  Eigen::VectorXd x = start_vector(2 * bridge.mesh.node_count());
+  Eigen::VectorXd x = start_vector(2 * model.mesh.node_count());
   Eigen::VectorXd y(x.size());
   double squared = 0.0;
   for (int iteration = 0; iteration < kPowerIterations; ++iteration) {
@@ -88,8 +88,8 @@ double highest_frequency(const Bridge& bridge, const std::vector<BlockBody>& bod
   return std::sqrt(squared);
 }
 
-Eigen::VectorXd masses_of_unknowns(const Bridge& bridge, const EquilibriumSystem& system) {
-  const Eigen::VectorXd masses = lumped_masses(bridge);
+Eigen::VectorXd masses_of_unknowns(const Model& model, const EquilibriumSystem& system) {
+  const Eigen::VectorXd masses = lumped_masses(model);
   Eigen::VectorXd result(system.unknown_count());
   for (int i = 0; i < result.size(); ++i)
     result[i] = masses[system.component[static_cast<std::size_t>(i)] / 2];
@@ -98,40 +98,44 @@ Eigen::VectorXd masses_of_unknowns(const Bridge& bridge, const EquilibriumSystem
 
 /// How far the largest block sinks between two neighbours that hold it by shear alone, over faces as high as
 /// itself [m].
-double slump(const Bridge& bridge) {
+double slump(const Model& model) {
   double largest = 0.0;
-  for (const Block& block : bridge.layout.blocks) largest = std::max(largest, area(block.polygon));
-  const BridgeDescription& d = bridge.description;
-  return d.material.density * d.gravity * std::sqrt(largest) / (2.0 * d.joints.tangential_stiffness);
+  for (const Block& block : model.layout.blocks) largest = std::max(largest, area(block.polygon));
+  double heaviest = 0.0;
+  for (const Material& material : model.parameters.blocks) heaviest = std::max(heaviest, material.density);
+  double softest = model.parameters.contact.tangential_stiffness;
+  for (const JointMaterial& joint : model.parameters.joints)
+    softest = std::min(softest, joint.tangential_stiffness);
+  return heaviest * model.parameters.gravity * std::sqrt(largest) / (2.0 * softest);
 }
 
 }  // namespace
 
-double critical_step(const Bridge& bridge, const std::vector<BlockBody>& bodies, Integrator integrator,
+double critical_step(const Model& model, const std::vector<BlockBody>& bodies, Integrator integrator,
                      double contact_damping) {
   if (integrator == Integrator::implicit_blocks) {
     const auto stable = [&](double step) {
-      const double half_period = 2.0 / highest_frequency(bridge, bodies, integrator, step, 1.0);
+      const double half_period = 2.0 / highest_frequency(model, bodies, integrator, step, 1.0);
       return std::hypot(contact_damping, half_period) - contact_damping;
     };
     return stable(stable(1.0));  // elasticity as soft as a long step makes it, then as the step itself does
   }
-  double step = 2.0 / highest_frequency(bridge, bodies, integrator, 0.0, 1.0);
+  double step = 2.0 / highest_frequency(model, bodies, integrator, 0.0, 1.0);
   for (int i = 0; i < kStepIterations; ++i)  // the joints add little to the blocks' own frequencies
-    step = 2.0 / highest_frequency(bridge, bodies, integrator, 0.0, 1.0 + 2.0 * contact_damping / step);
+    step = 2.0 / highest_frequency(model, bodies, integrator, 0.0, 1.0 + 2.0 * contact_damping / step);
   return step;
 }
 
-NaturalMotion natural_motion(const Bridge& bridge) {
-  const EquilibriumSystem system(bridge);
-  const std::vector<bool> removed(bridge.layout.size(), false);
+NaturalMotion natural_motion(const Model& model, const EquilibriumSystem& system) {
+  const Coefficients coefficients(system, model.parameters);
   Eigen::SparseMatrix<double> stiffness = system.pattern;
-  const Field forces = assemble(system, removed, Field::Zero(2, bridge.mesh.node_count()), 1.0,
-                                {.first = stiffness.valuePtr(), .stride = 1});
+  const Field forces =
+      assemble(StageEquations(system, coefficients, Stage{}), Field::Zero(2, model.mesh.node_count()), 1.0,
+               {.first = stiffness.valuePtr(), .stride = 1});
   Eigen::VectorXd load(system.unknown_count());
   for (int i = 0; i < load.size(); ++i)
     load[i] = forces.data()[system.component[static_cast<std::size_t>(i)]];
-  const Eigen::VectorXd masses = masses_of_unknowns(bridge, system);
+  const Eigen::VectorXd masses = masses_of_unknowns(model, system);
   const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> linear(stiffness);
   const Eigen::VectorXd sag = linear.solve(load);
   Eigen::VectorXd mode = start_vector(load.size());
@@ -143,7 +147,7 @@ NaturalMotion natural_motion(const Bridge& bridge) {
     mode.normalize();
   }
   return {.frequency = std::sqrt(squared),
-          .sag = std::max(sag.cwiseAbs().maxCoeff(), slump(bridge)),
+          .sag = std::max(sag.cwiseAbs().maxCoeff(), slump(model)),
           .work = 0.5 * load.dot(sag)};
 }
 

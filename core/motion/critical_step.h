@@ -3,6 +3,7 @@
 /// measured by.
 
 #include "core/motion/block_dynamics.h"
+#include "core/statics/equilibrium.h"
 
 namespace voussoir {
 
@@ -15,7 +16,7 @@ enum class Integrator {
 /// Longest stable step [s]: 2 / omega with the highest frequency omega of the bridge with all joints closed
 /// and sticking, found by power iteration. Joints that see the places a time `contact_damping` [s] later act
 /// on a step dt like joints 1 + 2 contact_damping / dt times as stiff.
-double critical_step(const Bridge& bridge, const std::vector<BlockBody>& bodies, Integrator integrator,
+double critical_step(const Model& model, const std::vector<BlockBody>& bodies, Integrator integrator,
                      double contact_damping);
 
 /// The linear bridge, all joints closed and sticking, under its weight.
@@ -26,6 +27,7 @@ struct NaturalMotion {
   double work;  ///< half the work of the weight on the displacement [J]
 };
 
-NaturalMotion natural_motion(const Bridge& bridge);
+/// `system`: of the model's structure.
+NaturalMotion natural_motion(const Model& model, const EquilibriumSystem& system);
 
 }  // namespace voussoir

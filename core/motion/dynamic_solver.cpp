@@ -5,7 +5,6 @@
 
 #include "core/error.h"
 #include "core/motion/motion_step.h"
-#include "core/statics/equilibrium.h"
 
 namespace voussoir {
 namespace {
@@ -14,12 +13,6 @@ constexpr double kOfCritical = 0.9;         ///< default step; the power iterati
 constexpr double kDampingShare = 0.5;       ///< of the critical damping
 constexpr double kSearchMargin = 0.01;      ///< of the mean block size: contacts are searched this far
 constexpr double kTimeBetweenLooks = 0.01;  ///< [s] between two looks at a scene
-
-double mean_block_size(const Bridge& bridge) {
-  double sum = 0.0;
-  for (const Block& block : bridge.layout.blocks) sum += std::sqrt(area(block.polygon));
-  return sum / bridge.block_count();
-}
 
 double checked_step(const DynamicSettings& settings, double critical) {
   if (!settings.step) return kOfCritical * critical;
@@ -40,9 +33,9 @@ double load_share(double time, double ramp) {
 }  // namespace
 
 struct DynamicSolver::Workspace {
-  Workspace(const Bridge& bridge, const DynamicSettings& settings_)
+  Workspace(const Model& bridge, const EquilibriumSystem& system, const DynamicSettings& settings_)
       : settings(settings_),
-        natural(natural_motion(bridge)),
+        natural(natural_motion(bridge, system)),
         critical(voussoir::critical_step(bridge, make_block_bodies(bridge, settings.inertia),
                                          settings.integrator, settings.contact_damping)),
         model(bridge, checked_step(settings, critical),
@@ -83,17 +76,18 @@ struct LaneRun {
 
 /// Follows a list of scenes with as many lanes as T has.
 template <class T, class Shared>
-class Procession {
+class MotionRun {
  public:
-  Procession(const Shared& shared, std::span<const Scene> scenes)
+  MotionRun(const Shared& shared, const DecisionRules& rules, std::span<const Scene> scenes)
       : shared_(shared),
+        rules_(rules),
         model_(shared.model),
         scenes_(scenes),
         solutions_(scenes.size()),
         motion_(at_rest<T>(model_)) {}
 
   std::vector<DynamicSolution> run() {
-    for (int lane = 0; lane < kLaneCount<T>; ++lane) empty(lane);
+    for (int lane = 0; lane < kLaneCount<T>; ++lane) clear(lane);
     start_in_idle_lanes();
     while (any_busy()) {
       prepare_step();
@@ -122,7 +116,7 @@ class Procession {
   }
 
   /// An idle lane holds no blocks.
-  void empty(int lane_index) {
+  void clear(int lane_index) {
     runs_[static_cast<std::size_t>(lane_index)].busy = false;
     place_scene(model_, std::vector<bool>(model_.bodies.size(), true), lane_index, motion_);
   }
@@ -152,27 +146,25 @@ class Procession {
     if (!decided(lane_index, time, run.solution)) return;
     run.solution.solution.iterations = static_cast<int>(run.steps);
     solutions_[run.scene] = std::move(run.solution);
-    empty(lane_index);
+    clear(lane_index);
   }
 
   /// Fills in the outcome, if there is one by now.
   bool decided(int i, double time, DynamicSolution& result) const {
-    const DynamicSettings& settings = shared_.settings;
     const double unbalanced = lane(motion_.unbalanced, i) / model_.weight;
     const double kinetic = kinetic_energy(model_, motion_, i);
     const double largest = lane(motion_.largest_unbalanced, i);
-    const bool early = time < settings.earliest_decision;
-    if (early && !settings.skips.early_outcome) return false;
-    const bool last = time >= settings.latest_decision;
-    const bool quiet = !early && unbalanced <= settings.standing_unbalance &&
+    const bool early = time < rules_.earliest_decision;
+    if (early && !shared_.settings.skips.early_outcome) return false;
+    const bool last = time >= rules_.latest_decision;
+    const bool quiet = !early && unbalanced <= rules_.standing_unbalance &&
                        kinetic <= unbalanced * shared_.natural.work &&
-                       largest <= settings.largest_standing_unbalance;
+                       largest <= rules_.largest_standing_unbalance;
     const Field now = displacement(model_, motion_, i);
-    const Mesh& mesh = model_.bridge->mesh;
-    result.solution.moving = blocks_moved_beyond(settings.moving_sags * shared_.natural.sag, mesh, now);
-    result.solution.extent = collapse_extent(model_.bridge->layout, result.solution.moving);
-    const bool plain =
-        early ? unbalanced >= settings.plain_unbalance : largest >= settings.collapsing_unbalance;
+    const Mesh& mesh = model_.structure->mesh;
+    result.solution.moving = blocks_moved_beyond(rules_.moving_sags * shared_.natural.sag, mesh, now);
+    result.solution.extent = collapse_extent(model_.structure->layout, result.solution.moving);
+    const bool plain = early ? unbalanced >= rules_.plain_unbalance : largest >= rules_.collapsing_unbalance;
     const bool falling = !quiet && !result.solution.moving.empty() && plain;
     if (!quiet && !falling && !last) return false;
     result.kinetic_energy = kinetic;
@@ -185,6 +177,7 @@ class Procession {
   }
 
   const Shared& shared_;
+  const DecisionRules& rules_;
   const MotionModel& model_;
   std::span<const Scene> scenes_;
   std::vector<DynamicSolution> solutions_;
@@ -195,18 +188,34 @@ class Procession {
 
 }  // namespace
 
-DynamicSolver::DynamicSolver(const Bridge& bridge, DynamicSettings settings)
-    : workspace_(std::make_unique<Workspace>(bridge, settings)) {}
+DecisionRules patient(DecisionRules rules) {
+  // Measured on the reference bridge: a bridge at rest goes below 1e-7 of its weight within a second; a block
+  // that creeps keeps 4e-3 and more of its own weight unbalanced and takes up to four seconds to move away.
+  rules.standing_unbalance = 1e-7;
+  rules.collapsing_unbalance = 1e-3;
+  rules.latest_decision = 8.0;
+  return rules;
+}
+
+DynamicSolver::DynamicSolver(const Model& model, DynamicSettings settings)
+    : DynamicSolver(model, EquilibriumSystem(model), settings) {}
+
+DynamicSolver::DynamicSolver(const Model& model, const EquilibriumSystem& system, DynamicSettings settings)
+    : workspace_(std::make_unique<Workspace>(model, system, settings)) {}
 DynamicSolver::~DynamicSolver() = default;
 DynamicSolver::DynamicSolver(DynamicSolver&&) noexcept = default;
 DynamicSolver& DynamicSolver::operator=(DynamicSolver&&) noexcept = default;
 
-std::vector<DynamicSolution> DynamicSolver::solve(std::span<const Scene> scenes) {
+std::vector<DynamicSolution> DynamicSolver::solve(std::span<const Scene> scenes, const DecisionRules& rules) {
   const Workspace& shared = *workspace_;
   const bool several = shared.settings.side_by_side > 1 && scenes.size() > 1 &&
                        shared.settings.integrator == Integrator::implicit_blocks;
-  if (several) return Procession<Lanes<4>, Workspace>(shared, scenes).run();
-  return Procession<Lanes<1>, Workspace>(shared, scenes).run();
+  if (several) return MotionRun<Lanes<4>, Workspace>(shared, rules, scenes).run();
+  return MotionRun<Lanes<1>, Workspace>(shared, rules, scenes).run();
+}
+
+std::vector<DynamicSolution> DynamicSolver::solve(std::span<const Scene> scenes) {
+  return solve(scenes, workspace_->settings.decision);
 }
 
 DynamicSolution DynamicSolver::solve(const Scene& scene) {

@@ -11,9 +11,27 @@
 #include "core/motion/critical_step.h"
 #include "core/statics/skips.h"
 #include "core/statics/solution.h"
-#include "core/structure/bridge.h"
+#include "core/structure/model.h"
 
 namespace voussoir {
+
+/// When a scene in motion has come to rest, and when it falls. Times in seconds of the bridge's own time.
+struct DecisionRules {
+  double earliest_decision = 0.4;  ///< but for collapses that are plain at the moment of the field
+  double latest_decision = 1.0;    ///< a scene that neither rests nor falls by then is unresolved
+  double standing_unbalance =
+      2.3e-4;  ///< sum of the blocks' resultant forces over the bridge's weight [-], at most
+  double collapsing_unbalance =
+      0.05;  ///< resultant force on a block over its weight, at least, when blocks have moved away
+  double plain_unbalance =
+      1e-2;  ///< unbalance over the bridge's weight, at least, of a collapse that is plain at its moment
+  double largest_standing_unbalance = 1e-2;  ///< resultant force on a block over its weight, at most
+  double moving_sags =
+      2.0;  ///< blocks that have moved further than this many sags of the bonded bridge have moved away
+};
+
+/// Rules that follow a motion until friction that nearly holds has let go, or the bridge is really at rest.
+DecisionRules patient(DecisionRules rules);
 
 /// Times in seconds of the bridge's own time.
 struct DynamicSettings {
@@ -23,20 +41,10 @@ struct DynamicSettings {
   double ramp = 0.3;           ///< gravity grows from 0 as 3 x^2 - 2 x^3, x = time / ramp; 0: at once
   std::optional<double>
       damping;  ///< force per mass and velocity [1/s]; empty: half-critical of the lowest frequency
-  double contact_damping = 1e-4;   ///< joints resist what they will see this much later
-  double moment = 0.3;             ///< of the field of a scene that collapses
-  double earliest_decision = 0.4;  ///< but for collapses that are plain at `moment`
-  double latest_decision = 1.0;    ///< a scene that neither rests nor falls by then is unresolved
-  double standing_unbalance =
-      2.3e-4;  ///< sum of the blocks' resultant forces over the bridge's weight [-], at most
-  double collapsing_unbalance =
-      0.05;  ///< resultant force on a block over its weight, at least, when blocks have moved away
-  double plain_unbalance =
-      1e-2;  ///< unbalance over the bridge's weight, at least, of a collapse that is plain at `moment`
-  double largest_standing_unbalance = 1e-2;  ///< resultant force on a block over its weight, at most
-  double moving_sags =
-      2.0;  ///< blocks that have moved further than this many sags of the bonded bridge have moved away
-  Skips skips;
+  double contact_damping = 1e-4;  ///< joints resist what they will see this much later
+  double moment = 0.3;            ///< of the field of a scene that collapses
+  DecisionRules decision{};
+  Skips skips{};
   int side_by_side = 4;  ///< scenes at a time: 1 or 4; the answers have the same bits
 };
 
@@ -48,19 +56,26 @@ struct DynamicSolution {
   double kinetic_energy = 0.0;  ///< at the decision [J]
 };
 
-/// Follows scenes of one bridge, several side by side; lanes that finish early take the next scene. A
-/// solution depends on its scene only, to the last bit. Not thread-safe: one solver a thread. The bridge must
+/// Follows scenes of one variant, several side by side; lanes that finish early take the next scene. A
+/// solution depends on its scene only, to the last bit. Not thread-safe: one solver a thread. The model must
 /// outlive the solver.
 class DynamicSolver {
  public:
   /// Throws InputError for a step above the critical one and for settings that make no sense.
-  explicit DynamicSolver(const Bridge& bridge, DynamicSettings settings = {});
+  explicit DynamicSolver(const Model& model, DynamicSettings settings = {});
+
+  /// The same with equations of the model's structure that are there already.
+  DynamicSolver(const Model& model, const EquilibriumSystem& system, DynamicSettings settings);
   ~DynamicSolver();
   DynamicSolver(DynamicSolver&&) noexcept;
   DynamicSolver& operator=(DynamicSolver&&) noexcept;
 
   /// Outcomes, in the scenes' order.
   std::vector<DynamicSolution> solve(std::span<const Scene> scenes);
+
+  /// The same motion, decided by other rules.
+  std::vector<DynamicSolution> solve(std::span<const Scene> scenes, const DecisionRules& rules);
+
   DynamicSolution solve(const Scene& scene);
 
   double step() const;           ///< [s]

@@ -6,14 +6,6 @@
 namespace voussoir {
 namespace {
 
-ContactMaterial contact_material(const Bridge& bridge) {
-  const JointMaterial& joints = bridge.description.joints;
-  const double thickness = bridge.description.material.thickness;
-  return {.normal = joints.normal_stiffness * thickness,
-          .tangential = joints.tangential_stiffness * thickness,
-          .friction = std::tan(joints.friction_angle)};
-}
-
 template <class T>
 Eigen::Matrix2Xd places_in_lane(const Motion<T>& motion, int lane_index) {
   Eigen::Matrix2Xd places(2, static_cast<Eigen::Index>(motion.places.size()));
@@ -39,20 +31,22 @@ void set_pair(Pair<T>& pair, int i, double x, double y) {
 
 }  // namespace
 
-MotionModel::MotionModel(const Bridge& bridge_, double step_, double damping_, double contact_damping_,
+MotionModel::MotionModel(const Model& model, double step_, double damping_, double contact_damping_,
                          RotationalInertia inertia)
-    : bridge(&bridge_),
+    : structure(&model),
       step(step_),
       damping(damping_),
       contact_damping(contact_damping_),
-      gravity(bridge_.description.gravity),
-      material(contact_material(bridge_)),
-      search(bridge_.mesh, bridge_.joints),
-      bodies(make_block_bodies(bridge_, inertia)),
-      masses(lumped_masses(bridge_)),
-      held(held_components(bridge_)),
-      moduli(plane_moduli(bridge_.description.material)) {
-  const Mesh& mesh = bridge->mesh;
+      gravity(model.parameters.gravity),
+      search(model),
+      bodies(make_block_bodies(model, inertia)),
+      masses(lumped_masses(model)),
+      held(held_components(model.supports, model.mesh)) {
+  const Mesh& mesh = model.mesh;
+  for (const Material& material : model.parameters.blocks) {
+    moduli.push_back(plane_moduli(material));
+    thickness.push_back(material.thickness);
+  }
   for (const Triangle& triangle : mesh.triangles)
     triangles.push_back(triangle_shape(mesh.position(triangle.nodes[0]), mesh.position(triangle.nodes[1]),
                                        mesh.position(triangle.nodes[2])));
@@ -68,7 +62,7 @@ MotionModel::MotionModel(const Bridge& bridge_, double step_, double damping_, d
 
 template <class T>
 Motion<T> at_rest(const MotionModel& model) {
-  const Mesh& mesh = model.bridge->mesh;
+  const Mesh& mesh = model.structure->mesh;
   const auto nodes = static_cast<std::size_t>(mesh.node_count());
   const Pair<T> nothing = {T{}, T{}};
   Motion<T> motion;
@@ -89,7 +83,7 @@ Motion<T> at_rest(const MotionModel& model) {
 
 template <class T>
 void place_scene(const MotionModel& model, const std::vector<bool>& removed, int i, Motion<T>& motion) {
-  const Mesh& mesh = model.bridge->mesh;
+  const Mesh& mesh = model.structure->mesh;
   for (std::size_t node = 0; node < motion.places.size(); ++node) {
     const Point x = mesh.nodes.col(static_cast<Eigen::Index>(node));
     set_pair(motion.places[node], i, x.x(), x.y());
@@ -140,7 +134,7 @@ void search_contacts(const MotionModel& model, double margin, Motion<T>& motion)
 
 template <class T>
 Field displacement(const MotionModel& model, const Motion<T>& motion, int lane_index) {
-  Field field = places_in_lane(motion, lane_index) - model.bridge->mesh.nodes;
+  Field field = places_in_lane(motion, lane_index) - model.structure->mesh.nodes;
   const std::vector<bool> absent = absent_in_lane(motion, lane_index);
   for (std::size_t b = 0; b < absent.size(); ++b)
     if (absent[b])

@@ -12,24 +12,24 @@
 
 namespace voussoir {
 
-/// What all scenes of a bridge share at one time step.
+/// What all scenes of a variant share at one time step.
 struct MotionModel {
-  MotionModel(const Bridge& bridge, double step, double damping, double contact_damping,
+  MotionModel(const Model& model, double step, double damping, double contact_damping,
               RotationalInertia inertia = RotationalInertia::exact);
 
-  const Bridge* bridge;    ///< outlives the model
-  double step;             ///< dt [s]
-  double damping;          ///< force on a mass per mass and velocity [1/s]
-  double contact_damping;  ///< joints resist the gap and slip that they would have this much later [s]
-  double gravity;          ///< [m/s2]
-  ContactMaterial material;
+  const Structure* structure;  ///< outlives this
+  double step;                 ///< dt [s]
+  double damping;              ///< force on a mass per mass and velocity [1/s]
+  double contact_damping;      ///< joints resist the gap and slip that they would have this much later [s]
+  double gravity;              ///< [m/s2]
   ContactSearch search;
   std::vector<BlockBody> bodies;
   std::vector<double> responses;               ///< deformation_response of all blocks, row by row
   std::vector<std::size_t> response_of_block;  ///< where each block's begins
   Eigen::VectorXd masses;                      ///< of the nodes [kg]
   std::vector<bool> held;                      ///< per displacement component
-  PlaneModuli moduli;
+  std::vector<PlaneModuli> moduli;             ///< of each block
+  std::vector<double> thickness;               ///< of each block [m]
   std::vector<TriangleShape> triangles;
   double weight = 0.0;             ///< of the whole bridge [N]
   std::vector<double> per_weight;  ///< per block: 1 / its weight [1/N]

@@ -41,8 +41,7 @@ MotionView<T> view_of(Motion<T>& motion) {
 
 /// forces += contact, at the places that the nodes will have `ahead` steps later: contact damping.
 template <class T>
-VOUSSOIR_INLINE void add_contact_forces(const ContactMaterial& material, double ahead,
-                                        const MotionView<T>& view) {
+VOUSSOIR_INLINE void add_contact_forces(double ahead, const MotionView<T>& view) {
   for (std::size_t c = 0; c < view.contact_count; ++c) {
     const EdgeContact& contact = view.contacts[c];
     const T present = view.present[contact.blocks[0]].value * view.present[contact.blocks[1]].value;
@@ -53,7 +52,7 @@ VOUSSOIR_INLINE void add_contact_forces(const ContactMaterial& material, double 
       edges.now[i] = view.places[contact.nodes[i]] + edges.moved[i] * ahead;
     }
     EdgeForces<T> forces;
-    if (contact_forces<T>(contact, material, present, edges, view.shear[c], forces))
+    if (contact_forces<T>(contact, present, edges, view.shear[c], forces))
       for (std::size_t i = 0; i < 4; ++i)
         view.forces[contact.nodes[i]] = view.forces[contact.nodes[i]] + forces[i];
   }
@@ -182,7 +181,7 @@ VOUSSOIR_INLINE void report_balance(const BlockBody& body, const Resultant<T>& s
 template <class T>
 VOUSSOIR_INLINE void start_forces(const MotionModel& model, const MotionView<T>& view) {
   for (std::size_t i = 0; i < view.node_count; ++i) view.forces[i] = {T{}, T{}};
-  add_contact_forces(model.material, model.contact_damping / model.step, view);
+  add_contact_forces(model.contact_damping / model.step, view);
 }
 
 /// One implicit step in all lanes.

@@ -7,22 +7,23 @@ namespace voussoir {
 namespace {
 
 void add_element_forces(const MotionModel& model, Motion<Lanes<1>>& motion) {
-  const Mesh& mesh = model.bridge->mesh;
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    const auto& nodes = mesh.triangles[t].nodes;
-    Vector6d q;
-    for (std::size_t i = 0; i < 3; ++i) {
-      const Pair<double>& place = motion.places[static_cast<std::size_t>(value(nodes[i]))];
-      q.segment<2>(2 * static_cast<Eigen::Index>(i)) = Point(place.x, place.y) - mesh.position(nodes[i]);
+  const Mesh& mesh = model.structure->mesh;
+  for (std::size_t b = 0; b < mesh.block_triangles.size(); ++b)
+    for (int triangle = mesh.block_triangles[b].begin; triangle < mesh.block_triangles[b].end; ++triangle) {
+      const auto t = static_cast<std::size_t>(triangle);
+      const auto& nodes = mesh.triangles[t].nodes;
+      Vector6d q;
+      for (std::size_t i = 0; i < 3; ++i) {
+        const Pair<double>& place = motion.places[static_cast<std::size_t>(value(nodes[i]))];
+        q.segment<2>(2 * static_cast<Eigen::Index>(i)) = Point(place.x, place.y) - mesh.position(nodes[i]);
+      }
+      const Vector6d force = triangle_force(model.triangles[t], model.moduli[b], model.thickness[b], q);
+      for (std::size_t i = 0; i < 3; ++i) {
+        Pair<double>& sum = motion.forces[static_cast<std::size_t>(value(nodes[i]))];
+        sum = sum - Pair<double>{force[2 * static_cast<Eigen::Index>(i)],
+                                 force[2 * static_cast<Eigen::Index>(i) + 1]};
+      }
     }
-    const Vector6d force =
-        triangle_force(model.triangles[t], model.moduli, model.bridge->description.material.thickness, q);
-    for (std::size_t i = 0; i < 3; ++i) {
-      Pair<double>& sum = motion.forces[static_cast<std::size_t>(value(nodes[i]))];
-      sum = sum - Pair<double>{force[2 * static_cast<Eigen::Index>(i)],
-                               force[2 * static_cast<Eigen::Index>(i) + 1]};
-    }
-  }
 }
 
 }  // namespace

@@ -37,25 +37,13 @@ void subtract_at(Field& field, const std::array<NodeId, N>& nodes, const Vector&
 }
 
 /// Numbers the displacement components that the supports leave free.
-void number_unknowns(const Bridge& bridge, EquilibriumSystem& system) {
-  const SupportDescription& supports = bridge.description.supports;
-  const double tolerance = 1e-9 * bridge.description.wall.length;
-  system.unknown.assign(static_cast<std::size_t>(2 * bridge.mesh.node_count()), -1);
-  const auto holds = [](Support support, bool along_normal) {
-    return support == Support::clamped || (support == Support::roller && along_normal);
-  };
-  for (int node = 0; node < bridge.mesh.node_count(); ++node) {
-    const Point x = bridge.mesh.nodes.col(node);
-    const bool base = std::abs(x.y()) <= tolerance;
-    const bool side =
-        std::abs(x.x()) <= tolerance || std::abs(x.x() - bridge.description.wall.length) <= tolerance;
-    for (int axis = 0; axis < 2; ++axis) {
-      const bool held =
-          (base && holds(supports.base, axis == 1)) || (side && holds(supports.sides, axis == 0));
-      if (held) continue;
-      system.unknown[static_cast<std::size_t>(2 * node + axis)] = system.unknown_count();
-      system.component.push_back(2 * node + axis);
-    }
+void number_unknowns(EquilibriumSystem& system) {
+  const std::vector<bool> held = held_components(system.structure->supports, system.structure->mesh);
+  system.unknown.assign(held.size(), -1);
+  for (std::size_t c = 0; c < held.size(); ++c) {
+    if (held[c]) continue;
+    system.unknown[c] = system.unknown_count();
+    system.component.push_back(static_cast<int>(c));
   }
 }
 
@@ -90,20 +78,21 @@ std::array<int, N * N> local_slots(const EquilibriumSystem& system, const std::a
   return slots;
 }
 
-void build_pattern(const Bridge& bridge, EquilibriumSystem& system) {
+void build_pattern(EquilibriumSystem& system) {
+  const Structure& structure = *system.structure;
   std::vector<Eigen::Triplet<double>> entries;
-  for (const Triangle& triangle : bridge.mesh.triangles)
+  for (const Triangle& triangle : structure.mesh.triangles)
     add_entries(system, components(triangle.nodes), entries);
-  for (const Joint& joint : bridge.joints) add_entries(system, components(corners(joint)), entries);
+  for (const Joint& joint : structure.joints) add_entries(system, components(corners(joint)), entries);
   const int n = system.unknown_count();
   for (int i = 0; i < n; ++i) entries.emplace_back(i, i, 0.0);
   system.pattern.resize(n, n);
   system.pattern.setFromTriplets(entries.begin(), entries.end());
   system.pattern.makeCompressed();
 
-  for (const Triangle& triangle : bridge.mesh.triangles)
+  for (const Triangle& triangle : structure.mesh.triangles)
     system.triangle_slots.push_back(local_slots(system, components(triangle.nodes)));
-  for (const Joint& joint : bridge.joints)
+  for (const Joint& joint : structure.joints)
     system.joint_slots.push_back(local_slots(system, components(corners(joint))));
   for (int i = 0; i < n; ++i) system.diagonal_slots.push_back(slot(system.pattern, i, i));
 }
@@ -114,24 +103,16 @@ void add_local(const std::array<int, N>& slots, const Matrix& local, TangentTarg
     if (slots[k] >= 0) tangent.first[static_cast<std::size_t>(slots[k]) * tangent.stride] += local.data()[k];
 }
 
-Field loads_of_present_blocks(const EquilibriumSystem& system, const std::vector<bool>& removed) {
-  const Mesh& mesh = system.bridge->mesh;
-  Field forces = system.load;
-  for (std::size_t block = 0; block < removed.size(); ++block)
-    if (removed[block])
-      forces.middleCols(mesh.block_nodes[block].begin, mesh.block_nodes[block].size()).setZero();
-  return forces;
-}
-
 bool present(const std::vector<bool>& removed, BlockId block) {
   return !removed[static_cast<std::size_t>(value(block))];
 }
 
 /// Gives the unknowns of removed blocks an equation of their own: 1 * change = 0.
-void pin_removed(const EquilibriumSystem& system, const std::vector<bool>& removed, TangentTarget tangent) {
-  const Mesh& mesh = system.bridge->mesh;
-  for (std::size_t block = 0; block < removed.size(); ++block) {
-    if (!removed[block]) continue;
+void pin_removed(const StageEquations& equations, TangentTarget tangent) {
+  const EquilibriumSystem& system = *equations.system;
+  const Mesh& mesh = system.structure->mesh;
+  for (std::size_t block = 0; block < equations.removed.size(); ++block) {
+    if (!equations.removed[block]) continue;
     for (int c = 2 * mesh.block_nodes[block].begin; c < 2 * mesh.block_nodes[block].end; ++c) {
       const int i = system.unknown[static_cast<std::size_t>(c)];
       if (i >= 0)
@@ -146,89 +127,138 @@ void clear_held(const EquilibriumSystem& system, Field& forces) {
     if (system.unknown[c] < 0) forces.data()[c] = 0.0;
 }
 
-}  // namespace
-
-EquilibriumSystem::EquilibriumSystem(const Bridge& bridge_, const Field& dead_load, JointRule rule)
-    : bridge(&bridge_), joint_rule(rule), moduli(plane_moduli(bridge_.description.material)) {
-  const Mesh& mesh = bridge->mesh;
-  weight.setZero(mesh.node_count());
-  const double specific = bridge->description.material.density * bridge->description.gravity *
-                          bridge->description.material.thickness;
-  for (std::size_t block = 0; block < bridge->layout.size(); ++block)
-    for (int t = mesh.block_triangles[block].begin; t < mesh.block_triangles[block].end; ++t) {
-      const auto& nodes = mesh.triangles[static_cast<std::size_t>(t)].nodes;
-      triangles.push_back(
-          triangle_shape(mesh.position(nodes[0]), mesh.position(nodes[1]), mesh.position(nodes[2])));
-      triangle_block.push_back(BlockId{static_cast<std::int32_t>(block)});
-      for (const NodeId node : nodes) weight[value(node)] += specific * triangles.back().area / 3.0;
-    }
-  load = dead_load.size() > 0 ? dead_load : Field::Zero(2, mesh.node_count());
-  load.row(1) -= weight.transpose();
-  largest_load = load.cwiseAbs().maxCoeff();
-  if (largest_load == 0.0) largest_load = 1.0;
-  for (const Joint& joint : bridge->joints) joints.push_back(make_joint_frame(joint, mesh));
-  number_unknowns(*bridge, *this);
-  build_pattern(*bridge, *this);
+/// Calls `visit(triangle, block)` for every triangle of a block that is there.
+template <class Visit>
+void for_present_triangles(const StageEquations& equations, const Visit& visit) {
+  const Mesh& mesh = equations.system->structure->mesh;
+  for (std::size_t block = 0; block < equations.removed.size(); ++block) {
+    if (equations.removed[block]) continue;
+    const IndexRange& range = mesh.block_triangles[block];
+    for (int t = range.begin; t < range.end; ++t) visit(static_cast<std::size_t>(t), block);
+  }
 }
 
-Field unbalanced_forces(const EquilibriumSystem& system, const std::vector<bool>& removed,
-                        const Field& displacement) {
-  const Bridge& bridge = *system.bridge;
-  const double thickness = bridge.description.material.thickness;
-  Field forces = loads_of_present_blocks(system, removed);
-  for (std::size_t t = 0; t < system.triangles.size(); ++t) {
-    if (!present(removed, system.triangle_block[t])) continue;
-    const auto& nodes = bridge.mesh.triangles[t].nodes;
-    subtract_at(forces, nodes,
-                triangle_force(system.triangles[t], system.moduli, thickness, gathered(displacement, nodes)));
+/// Calls `visit(joint, its number)` for every joint between blocks that are there.
+template <class Visit>
+void for_present_joints(const StageEquations& equations, const Visit& visit) {
+  const std::vector<Joint>& joints = equations.system->structure->joints;
+  for (std::size_t j = 0; j < joints.size(); ++j)
+    if (present(equations.removed, joints[j].first) && present(equations.removed, joints[j].second))
+      visit(joints[j], j);
+}
+
+}  // namespace
+
+EquilibriumSystem::EquilibriumSystem(const Structure& structure_, JointRule rule)
+    : structure(&structure_), joint_rule(rule) {
+  const Mesh& mesh = structure->mesh;
+  for (const Triangle& triangle : mesh.triangles)
+    triangles.push_back(triangle_shape(mesh.position(triangle.nodes[0]), mesh.position(triangle.nodes[1]),
+                                       mesh.position(triangle.nodes[2])));
+  for (const Joint& joint : structure->joints) joints.push_back(make_joint_frame(joint, mesh));
+  number_unknowns(*this);
+  build_pattern(*this);
+}
+
+Coefficients::Coefficients(const EquilibriumSystem& system, const Parameters& parameters) {
+  const Structure& structure = *system.structure;
+  weight.setZero(structure.mesh.node_count());
+  for (std::size_t block = 0; block < structure.layout.size(); ++block) {
+    const Material& material = parameters.blocks[block];
+    moduli.push_back(plane_moduli(material));
+    thickness.push_back(material.thickness);
+    const double specific = material.density * parameters.gravity * material.thickness;
+    const IndexRange& range = structure.mesh.block_triangles[block];
+    for (auto t = static_cast<std::size_t>(range.begin); t < static_cast<std::size_t>(range.end); ++t)
+      for (const NodeId node : structure.mesh.triangles[t].nodes)
+        weight[value(node)] += specific * system.triangles[t].area / 3.0;
   }
-  for (std::size_t j = 0; j < system.joints.size(); ++j) {
-    const Joint& joint = bridge.joints[j];
-    if (!present(removed, joint.first) || !present(removed, joint.second)) continue;
+  for (std::size_t j = 0; j < structure.joints.size(); ++j) {
+    const Joint& joint = structure.joints[j];
+    joints.push_back(
+        joint_stiffness(parameters.joints[j], joint.length * joint_thickness(joint, parameters)));
+  }
+}
+
+StageEquations::StageEquations(const EquilibriumSystem& system_, const Coefficients& coefficients_,
+                               const Stage& stage, std::vector<JointMemory> memory_)
+    : system(&system_),
+      coefficients(&coefficients_),
+      removed(removal_mask(stage.scene, system_.structure->layout.size())),
+      memory(std::move(memory_)) {
+  const Mesh& mesh = system->structure->mesh;
+  memory.resize(system->joints.size());
+  load = stage.load.size() > 0 ? stage.load : Field::Zero(2, mesh.node_count());
+  load.row(1) -= stage.gravity_share * coefficients->weight.transpose();
+  largest_load = load.cwiseAbs().maxCoeff();
+  if (largest_load == 0.0) largest_load = 1.0;
+  for (std::size_t block = 0; block < removed.size(); ++block)
+    if (removed[block])
+      load.middleCols(mesh.block_nodes[block].begin, mesh.block_nodes[block].size()).setZero();
+}
+
+Field unbalanced_forces(const StageEquations& equations, const Field& displacement) {
+  const EquilibriumSystem& system = *equations.system;
+  const Coefficients& with = *equations.coefficients;
+  Field forces = equations.load;
+  for_present_triangles(equations, [&](std::size_t t, std::size_t block) {
+    const auto& nodes = system.structure->mesh.triangles[t].nodes;
+    subtract_at(forces, nodes,
+                triangle_force(system.triangles[t], with.moduli[block], with.thickness[block],
+                               gathered(displacement, nodes)));
+  });
+  for_present_joints(equations, [&](const Joint& joint, std::size_t j) {
     const JointKinematics kinematics =
         joint_kinematics(system.joints[j], gathered(displacement, corners(joint)));
-    const JointResponse response = integrate_joint(bridge.description.joints, joint.length * thickness,
-                                                   kinematics.state, system.joint_rule);
+    const JointResponse response =
+        integrate_joint(with.joints[j], equations.memory[j], kinematics.state, system.joint_rule);
     subtract_at(forces, corners(joint), kinematics.gradient.transpose().lazyProduct(response.force).eval());
-  }
+  });
   clear_held(system, forces);
   return forces;
 }
 
-Field assemble(const EquilibriumSystem& system, const std::vector<bool>& removed, const Field& displacement,
-               double bonding, TangentTarget tangent) {
-  const Bridge& bridge = *system.bridge;
-  const double thickness = bridge.description.material.thickness;
-  Field forces = loads_of_present_blocks(system, removed);
+Field assemble(const StageEquations& equations, const Field& displacement, double bonding,
+               TangentTarget tangent) {
+  const EquilibriumSystem& system = *equations.system;
+  const Coefficients& with = *equations.coefficients;
+  Field forces = equations.load;
   for (std::size_t i = 0; i < static_cast<std::size_t>(system.pattern.nonZeros()); ++i)
     tangent.first[i * tangent.stride] = 0.0;
-  for (std::size_t t = 0; t < system.triangles.size(); ++t) {
-    if (!present(removed, system.triangle_block[t])) continue;
-    const auto& nodes = bridge.mesh.triangles[t].nodes;
-    const TriangleResponse response =
-        triangle_response(system.triangles[t], system.moduli, thickness, gathered(displacement, nodes));
+  for_present_triangles(equations, [&](std::size_t t, std::size_t block) {
+    const auto& nodes = system.structure->mesh.triangles[t].nodes;
+    const TriangleResponse response = triangle_response(system.triangles[t], with.moduli[block],
+                                                        with.thickness[block], gathered(displacement, nodes));
     subtract_at(forces, nodes, response.force);
     add_local(system.triangle_slots[t], response.tangent, tangent);
-  }
-  for (std::size_t j = 0; j < system.joints.size(); ++j) {
-    const Joint& joint = bridge.joints[j];
-    if (!present(removed, joint.first) || !present(removed, joint.second)) continue;
+  });
+  for_present_joints(equations, [&](const Joint& joint, std::size_t j) {
     const Vector8d q = gathered(displacement, corners(joint));
     const JointKinematics kinematics = joint_kinematics(system.joints[j], q);
-    JointResponse response = integrate_joint(bridge.description.joints, joint.length * thickness,
-                                             kinematics.state, system.joint_rule);
+    JointResponse response =
+        integrate_joint(with.joints[j], equations.memory[j], kinematics.state, system.joint_rule);
     subtract_at(forces, corners(joint), kinematics.gradient.transpose().lazyProduct(response.force).eval());
     if (bonding > 0.0)
-      response.tangent = (1.0 - bonding) * response.tangent +
-                         bonding * bonded_joint_tangent(bridge.description.joints, joint.length * thickness);
+      response.tangent = (1.0 - bonding) * response.tangent + bonding * bonded_joint_tangent(with.joints[j]);
     Matrix8d stiffness = joint_geometric_stiffness(system.joints[j], q, kinematics, response.force);
     const Eigen::Matrix<double, 4, 8> turned = response.tangent.lazyProduct(kinematics.gradient);
     stiffness += kinematics.gradient.transpose().lazyProduct(turned);
     add_local(system.joint_slots[j], stiffness, tangent);
-  }
-  pin_removed(system, removed, tangent);
+  });
+  pin_removed(equations, tangent);
   clear_held(system, forces);
   return forces;
+}
+
+std::vector<JointMemory> updated_memory(const StageEquations& equations, const Field& displacement) {
+  const EquilibriumSystem& system = *equations.system;
+  std::vector<JointMemory> memory = equations.memory;
+  for_present_joints(equations, [&](const Joint& joint, std::size_t j) {
+    const JointKinematics kinematics =
+        joint_kinematics(system.joints[j], gathered(displacement, corners(joint)));
+    memory[j] = updated_memory(equations.coefficients->joints[j], memory[j], kinematics.state);
+  });
+  return memory;
 }
 
 std::vector<bool> removal_mask(const Scene& scene, std::size_t block_count) {
@@ -237,11 +267,15 @@ std::vector<bool> removal_mask(const Scene& scene, std::size_t block_count) {
   return removed;
 }
 
-double unbalanced_force(const Bridge& bridge, const Scene& scene, const Field& displacement) {
-  const EquilibriumSystem system(bridge);
+double unbalanced_force(const StageEquations& equations, const Field& displacement) {
   const Field clean = displacement.array().isNaN().select(0.0, displacement);
-  return unbalanced_forces(system, removal_mask(scene, bridge.layout.size()), clean).cwiseAbs().maxCoeff() /
-         system.largest_load;
+  return unbalanced_forces(equations, clean).cwiseAbs().maxCoeff() / equations.largest_load;
+}
+
+double unbalanced_force(const Model& model, const Scene& scene, const Field& displacement) {
+  const EquilibriumSystem system(model);
+  const Coefficients coefficients(system, model.parameters);
+  return unbalanced_force(StageEquations(system, coefficients, {.scene = scene}), displacement);
 }
 
 }  // namespace voussoir

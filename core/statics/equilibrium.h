@@ -5,34 +5,29 @@
 ///   r(u) = load - internal forces of the triangles - forces of the joints,   tangent = - dr/du
 ///
 /// Removed blocks keep their places in the vectors and the matrix (unit diagonal, zero residual), so that all
-/// scenes of a bridge share one sparsity pattern and one symbolic factorisation.
+/// scenes and all variants of a bridge share one sparsity pattern and one symbolic factorisation.
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 #include <vector>
 
 #include "core/law/joint_kinematics.h"
+#include "core/law/joint_quadrature.h"
+#include "core/law/state.h"
 #include "core/law/triangle.h"
-#include "core/structure/bridge.h"
+#include "core/structure/model.h"
+#include "core/structure/stage.h"
 
 namespace voussoir {
 
-/// Everything about the equations that no scene and no displacement changes.
+/// Everything about the equations that no parameter, no scene and no displacement changes.
 struct EquilibriumSystem {
-  /// `dead_load`: forces on the nodes beside the blocks' weight [N], 2 x nodes, of fixed direction; empty for
-  /// none. Those on removed blocks and held components do not act.
-  explicit EquilibriumSystem(const Bridge& bridge, const Field& dead_load = {},
-                             JointRule rule = JointRule::exact);
+  explicit EquilibriumSystem(const Structure& structure, JointRule rule = JointRule::exact);
 
-  const Bridge* bridge;  ///< outlives the system
+  const Structure* structure;  ///< outlives the system
   JointRule joint_rule;
-  PlaneModuli moduli;
   std::vector<TriangleShape> triangles;
   std::vector<JointFrame> joints;
-  std::vector<BlockId> triangle_block;
-  Eigen::VectorXd weight;      ///< of each node [N], positive
-  Field load;                  ///< weight and dead load of each node [N]
-  double largest_load;         ///< component of `load` [N]: the unit of residuals; 1 if nothing is loaded
   std::vector<int> unknown;    ///< per displacement component 2 node + axis: its unknown, or -1 if held
   std::vector<int> component;  ///< the inverse: per unknown its displacement component
   Eigen::SparseMatrix<double> pattern;              ///< of the tangent, all values zero
@@ -43,10 +38,35 @@ struct EquilibriumSystem {
   int unknown_count() const { return static_cast<int>(component.size()); }
 };
 
+/// What a variant's parameters make of the equations.
+struct Coefficients {
+  Coefficients(const EquilibriumSystem& system, const Parameters& parameters);
+
+  std::vector<PlaneModuli> moduli;     ///< of each block
+  std::vector<double> thickness;       ///< of each block [m]
+  std::vector<JointStiffness> joints;  ///< of each joint
+  Eigen::VectorXd weight;              ///< of each node under full gravity [N], positive
+};
+
+/// The equations of one stage of one variant. Shares `system` and `coefficients`, which must outlive it.
+struct StageEquations {
+  /// `memory`: of each joint, what the stages before have left; empty: nothing. The stage's load on removed
+  /// blocks and held components does not act.
+  StageEquations(const EquilibriumSystem& system, const Coefficients& coefficients, const Stage& stage,
+                 std::vector<JointMemory> memory = {});
+
+  const EquilibriumSystem* system;
+  const Coefficients* coefficients;
+  std::vector<bool> removed;  ///< per block
+  std::vector<JointMemory> memory;
+  Field load;           ///< weight and load of the stage on present blocks [N]
+  double largest_load;  ///< component of the load on the whole bridge [N]: the unit of residuals; 1 if
+                        ///< nothing is loaded
+};
+
 /// Unbalanced force of every displacement component [N] (2 x nodes); zero at removed blocks and held
 /// components.
-Field unbalanced_forces(const EquilibriumSystem& system, const std::vector<bool>& removed,
-                        const Field& displacement);
+Field unbalanced_forces(const StageEquations& equations, const Field& displacement);
 
 /// Where an assembly writes a matrix: value i of the pattern at first[i * stride]. A stride lets matrices lie
 /// side by side.
@@ -59,14 +79,20 @@ struct TangentTarget {
 /// of bonded (closed and sticking) joints into the exact one: 0 is the exact derivative, 1 the linear bridge
 /// without openings; in between, loose blocks are held just enough to make the matrix regular. Forces are
 /// exact always.
-Field assemble(const EquilibriumSystem& system, const std::vector<bool>& removed, const Field& displacement,
-               double bonding, TangentTarget tangent);
+Field assemble(const StageEquations& equations, const Field& displacement, double bonding,
+               TangentTarget tangent);
+
+/// What the joints remember when the stage ends with this displacement.
+std::vector<JointMemory> updated_memory(const StageEquations& equations, const Field& displacement);
 
 /// Per block: is it missing?
 std::vector<bool> removal_mask(const Scene& scene, std::size_t block_count);
 
 /// Largest unbalanced force component of a field over the largest nodal weight, computed from the field alone
 /// (NaN at nodes of removed blocks is expected and ignored). What a stored field is checked by.
-double unbalanced_force(const Bridge& bridge, const Scene& scene, const Field& displacement);
+double unbalanced_force(const StageEquations& equations, const Field& displacement);
+
+/// The same for a scene under its weight.
+double unbalanced_force(const Model& model, const Scene& scene, const Field& displacement);
 
 }  // namespace voussoir

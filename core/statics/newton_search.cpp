@@ -16,21 +16,21 @@ constexpr double kFallingSags =
 constexpr double kMovingShare = 0.1;  ///< of the way of the block that has fallen: further means moving away
 
 /// How a phase behaves.
-struct Manner {
+struct PhaseRules {
   double largest_step;  ///< in units of the largest displacement so far; loose blocks would jump further
   double rise;          ///< that a step may make of the worst of the last residuals
   int patience;         ///< steps after which the phase is given up ..
-  double hope;          ///< .. unless the residual is below this share of the first step's
+  double promising;     ///< .. unless the residual is below this share of the first step's
 };
 
 constexpr int kForever = std::numeric_limits<int>::max();
 /// Nine of ten standing scenes have a hundredth of the residual after three steps, falling ones more than a
 /// half.
-constexpr Manner kQuick{.largest_step = 0.5, .rise = 1.0, .patience = 3, .hope = 0.3};
-constexpr Manner kPatient{.largest_step = 0.5, .rise = 1.0, .patience = kForever, .hope = 0.0};
-constexpr Manner kFalling{.largest_step = 2.0, .rise = 3.0, .patience = kForever, .hope = 0.0};
+constexpr PhaseRules kQuick{.largest_step = 0.5, .rise = 1.0, .patience = 3, .promising = 0.3};
+constexpr PhaseRules kPatient{.largest_step = 0.5, .rise = 1.0, .patience = kForever, .promising = 0.0};
+constexpr PhaseRules kFalling{.largest_step = 2.0, .rise = 3.0, .patience = kForever, .promising = 0.0};
 
-const Manner& manner(SearchPhase phase) {
+const PhaseRules& rules_of(SearchPhase phase) {
   if (phase == SearchPhase::falling) return kFalling;
   return phase == SearchPhase::patient ? kPatient : kQuick;
 }
@@ -47,23 +47,23 @@ void fill_removed(const Mesh& mesh, const std::vector<bool>& removed, double fil
 }
 
 /// Zero where the start says nothing, where supports hold and where blocks are gone.
-Field admissible(const EquilibriumSystem& system, const std::vector<bool>& removed, const Field& start) {
+Field admissible(const StageEquations& equations, const Field& start) {
+  const EquilibriumSystem& system = *equations.system;
   Field field = start.array().isNaN().select(0.0, start);
   for (std::size_t c = 0; c < system.unknown.size(); ++c)
     if (system.unknown[c] < 0) field.data()[c] = 0.0;
-  fill_removed(system.bridge->mesh, removed, 0.0, field);
+  fill_removed(system.structure->mesh, equations.removed, 0.0, field);
   return field;
 }
 
 }  // namespace
 
-NewtonSearch::NewtonSearch(const EquilibriumSystem& system, const QuasiStaticSettings& settings,
-                           const Scene& scene, const Field* start, TangentTarget tangent)
-    : system_(&system),
+NewtonSearch::NewtonSearch(StageEquations equations, const QuasiStaticSettings& settings, const Field* start,
+                           TangentTarget tangent)
+    : equations_(std::move(equations)),
       settings_(&settings),
       tangent_(tangent),
-      removed_(removal_mask(scene, system.bridge->layout.size())),
-      displacement_(Field::Zero(2, system.bridge->mesh.node_count())) {
+      displacement_(Field::Zero(2, system().structure->mesh.node_count())) {
   if (start != nullptr)
     begin(SearchPhase::warm, *start, 0.0);
   else
@@ -72,7 +72,7 @@ NewtonSearch::NewtonSearch(const EquilibriumSystem& system, const QuasiStaticSet
 
 void NewtonSearch::begin(SearchPhase phase, const Field& start, double bonding) {
   phase_ = phase;
-  displacement_ = admissible(*system_, removed_, start);
+  displacement_ = admissible(equations_, start);
   bonding_ = bonding;
   recent_.fill(std::numeric_limits<double>::infinity());
   steps_ = 0;
@@ -100,7 +100,7 @@ void NewtonSearch::begin_next_phase() {
 }
 
 void NewtonSearch::evaluate() {
-  unbalanced_ = assemble(*system_, removed_, displacement_, bonding_, tangent_);
+  unbalanced_ = assemble(equations_, displacement_, bonding_, tangent_);
 }
 
 void NewtonSearch::advance(bool regular, const Eigen::VectorXd& step) {
@@ -126,12 +126,12 @@ bool NewtonSearch::within_bounds(bool regular, const Eigen::VectorXd& step) cons
   if (!regular || !step.allFinite()) return false;
   const double so_far = largest_displacement();
   return bonding_ >= 1.0 || so_far == 0.0 ||
-         step.cwiseAbs().maxCoeff() <= manner(phase_).largest_step * so_far;
+         step.cwiseAbs().maxCoeff() <= rules_of(phase_).largest_step * so_far;
 }
 
 /// Halves the step while the unbalance rises too far.
 void NewtonSearch::take_step(const Eigen::VectorXd& step) {
-  const double bound = manner(phase_).rise * *std::max_element(recent_.begin(), recent_.end());
+  const double bound = rules_of(phase_).rise * *std::max_element(recent_.begin(), recent_.end());
   const Field before = displacement_;
   const bool bonded_from_rest = steps_ == 0 && bonding_ >= 1.0;
   bonding_ = bonding_ > kLeastBonding ? bonding_ / kBondingFactor : 0.0;
@@ -139,10 +139,10 @@ void NewtonSearch::take_step(const Eigen::VectorXd& step) {
   double norm = 0.0;
   for (int halving = 0; halving <= kMostHalvings; ++halving, factor *= 0.5) {
     displacement_ = before;
-    for (int i = 0; i < system_->unknown_count(); ++i)
-      displacement_.data()[system_->component[static_cast<std::size_t>(i)]] += factor * step[i];
+    for (int i = 0; i < system().unknown_count(); ++i)
+      displacement_.data()[system().component[static_cast<std::size_t>(i)]] += factor * step[i];
     evaluate();
-    norm = (unbalanced_ / system_->largest_load).norm();  // squares of tiny loads would vanish
+    norm = (unbalanced_ / equations_.largest_load).norm();  // squares of tiny loads would vanish
     if (norm < bound) break;
   }
   last_step_ = factor * step.cwiseAbs().maxCoeff();
@@ -153,14 +153,14 @@ void NewtonSearch::take_step(const Eigen::VectorXd& step) {
 }
 
 bool NewtonSearch::exhausted() const {
-  const Manner& how = manner(phase_);
-  const bool hopeless =
-      settings_->skips.early_outcome && steps_ >= how.patience && recent_.back() > how.hope * first_norm_;
-  return hopeless || fallen() || phase_iterations_ >= most_iterations(phase_, *settings_);
+  const PhaseRules& rules = rules_of(phase_);
+  const bool without_progress = settings_->skips.early_outcome && steps_ >= rules.patience &&
+                                recent_.back() > rules.promising * first_norm_;
+  return without_progress || fallen() || phase_iterations_ >= most_iterations(phase_, *settings_);
 }
 
 double NewtonSearch::residual() const {
-  return unbalanced_.cwiseAbs().maxCoeff() / system_->largest_load;
+  return unbalanced_.cwiseAbs().maxCoeff() / equations_.largest_load;
 }
 
 bool NewtonSearch::in_equilibrium() const {
@@ -186,14 +186,16 @@ Solution NewtonSearch::solution() const {
   solution.residual = residual();
   solution.iterations = iterations_;
   if (fallen()) {
-    const Bridge& bridge = *system_->bridge;
+    const Structure& structure = *system().structure;
     solution.outcome = Outcome::collapsed;
-    solution.moving = blocks_moved_beyond(kMovingShare * falling_displacement(), bridge.mesh, displacement_);
-    solution.extent = collapse_extent(bridge.layout, solution.moving);
+    solution.moving =
+        blocks_moved_beyond(kMovingShare * falling_displacement(), structure.mesh, displacement_);
+    solution.extent = collapse_extent(structure.layout, solution.moving);
   } else if (in_equilibrium()) {
     solution.outcome = Outcome::standing;
+    solution.memory = updated_memory(equations_, displacement_);
   }
-  fill_removed(system_->bridge->mesh, removed_, std::numeric_limits<double>::quiet_NaN(),
+  fill_removed(system().structure->mesh, equations_.removed, std::numeric_limits<double>::quiet_NaN(),
                solution.displacement);
   return solution;
 }

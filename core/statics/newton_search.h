@@ -23,9 +23,10 @@ enum class SearchPhase {
 /// holds the tangent and `unbalanced` the right-hand side of the next linear system.
 class NewtonSearch {
  public:
-  /// `start` may be null: the search then begins at rest. System and settings outlive the search.
-  NewtonSearch(const EquilibriumSystem& system, const QuasiStaticSettings& settings, const Scene& scene,
-               const Field* start, TangentTarget tangent);
+  /// `start` may be null: the search then begins at rest. System, coefficients and settings outlive the
+  /// search.
+  NewtonSearch(StageEquations equations, const QuasiStaticSettings& settings, const Field* start,
+               TangentTarget tangent);
 
   bool finished() const { return phase_ == SearchPhase::done; }
   const Field& unbalanced() const { return unbalanced_; }
@@ -50,18 +51,19 @@ class NewtonSearch {
   double largest_displacement() const { return displacement_.cwiseAbs().maxCoeff(); }
   Field at_rest() const { return Field::Zero(2, displacement_.cols()); }
 
-  static constexpr std::size_t kMemory = 5;
+  static constexpr std::size_t kRecent = 5;
 
-  const EquilibriumSystem* system_;
+  const EquilibriumSystem& system() const { return *equations_.system; }
+
+  StageEquations equations_;
   const QuasiStaticSettings* settings_;
   TangentTarget tangent_;
-  std::vector<bool> removed_;
   SearchPhase phase_ = SearchPhase::done;
   Field displacement_;
   Field unbalanced_;        ///< at `displacement_` [N]
   double bonding_ = 0.0;    ///< share of bonded joints in the tangent
   double last_step_ = 0.0;  ///< largest component [m]
-  std::array<double, kMemory>
+  std::array<double, kRecent>
       recent_{};             ///< the last norms of `unbalanced_`: a step may rise to the worst of them
   double bonded_sag_ = 0.0;  ///< largest displacement after the bonded first step from rest [m]; 0 before
   double first_norm_ = 0.0;  ///< after the start's first step

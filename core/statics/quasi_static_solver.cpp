@@ -11,14 +11,16 @@ namespace voussoir {
 struct QuasiStaticSolver::Workspace {
   QuasiStaticSettings settings;
   EquilibriumSystem system;
+  Coefficients nominal;
   LaneFactorisation linear;
   LaneVector tangents;
   LaneVector steps;
   Eigen::VectorXd step;
 
-  Workspace(const Bridge& bridge, QuasiStaticSettings settings_, const Field& dead_load)
+  Workspace(const Model& model, QuasiStaticSettings settings_)
       : settings(settings_),
-        system(bridge, dead_load, settings.joint_rule),
+        system(model, settings.joint_rule),
+        nominal(system, model.parameters),
         linear(system.pattern),
         tangents(static_cast<std::size_t>(system.pattern.nonZeros())),
         steps(static_cast<std::size_t>(system.unknown_count())),
@@ -33,55 +35,86 @@ struct QuasiStaticSolver::Workspace {
     for (std::size_t i = 0; i < steps.size(); ++i) step[static_cast<Eigen::Index>(i)] = steps[i][lane];
     return step;
   }
+
+  /// Answers for the linear systems that stand in the lanes; per lane: is the matrix regular?
+  std::array<bool, kLanes> solve_linear_systems() {
+    if (!settings.skips.shared_analysis) linear = LaneFactorisation(system.pattern);
+    const std::array<bool, kLanes> regular = linear.factorise(tangents);
+    linear.solve(steps);
+    return regular;
+  }
 };
 
-QuasiStaticSolver::QuasiStaticSolver(const Bridge& bridge, QuasiStaticSettings settings,
-                                     const Field& dead_load)
-    : workspace_(std::make_unique<Workspace>(bridge, settings, dead_load)) {}
+namespace {
+
+/// A task under way in a lane.
+struct LaneSearch {
+  std::size_t task = 0;
+  std::optional<Coefficients> own;  ///< of a variant that is not the solver's model
+  std::optional<NewtonSearch> search;
+
+  template <class Workspace>
+  void begin(const StageTask& stage_task, std::size_t number, std::size_t lane, Workspace& w) {
+    task = number;
+    own.reset();
+    if (stage_task.parameters != nullptr) own.emplace(w.system, *stage_task.parameters);
+    auto memory = stage_task.before != nullptr ? stage_task.before->memory : std::vector<JointMemory>{};
+    search.emplace(StageEquations(w.system, own ? *own : w.nominal, stage_task.stage, std::move(memory)),
+                   w.settings, stage_task.start, w.lane_of_tangents(lane));
+  }
+};
+
+}  // namespace
+
+QuasiStaticSolver::QuasiStaticSolver(const Model& model, QuasiStaticSettings settings)
+    : workspace_(std::make_unique<Workspace>(model, settings)) {}
 QuasiStaticSolver::~QuasiStaticSolver() = default;
 QuasiStaticSolver::QuasiStaticSolver(QuasiStaticSolver&&) noexcept = default;
 QuasiStaticSolver& QuasiStaticSolver::operator=(QuasiStaticSolver&&) noexcept = default;
 
-std::vector<Solution> QuasiStaticSolver::solve(std::span<const SceneStart> scenes) {
+std::vector<Solution> QuasiStaticSolver::solve(std::span<const StageTask> tasks) {
   Workspace& w = *workspace_;
-  std::vector<Solution> solutions(scenes.size());
-  std::array<std::optional<NewtonSearch>, kLanes> searches;
-  std::array<std::size_t, kLanes> scene_in_lane{};
+  std::vector<Solution> solutions(tasks.size());
+  std::array<LaneSearch, kLanes> lanes;
   std::size_t next = 0;
   std::size_t solved = 0;
-  while (solved < scenes.size()) {
+  while (solved < tasks.size()) {
     const bool refill = w.settings.skips.lane_refill || solved == next;
-    if (!w.settings.skips.shared_analysis) w.linear = LaneFactorisation(w.system.pattern);
     for (std::size_t lane = 0; lane < kLanes; ++lane) {
-      if (!searches[lane] && refill && next < scenes.size()) {
-        const SceneStart& task = scenes[next];
-        searches[lane].emplace(w.system, w.settings, task.scene, task.start, w.lane_of_tangents(lane));
-        scene_in_lane[lane] = next++;
+      if (!lanes[lane].search && refill && next < tasks.size()) {
+        lanes[lane].begin(tasks[next], next, lane, w);
+        ++next;
       }
-      if (searches[lane]) w.put_right_hand_side(lane, searches[lane]->unbalanced());
+      if (lanes[lane].search) w.put_right_hand_side(lane, lanes[lane].search->unbalanced());
     }
-    const std::array<bool, kLanes> regular = w.linear.factorise(w.tangents);
-    w.linear.solve(w.steps);
+    const std::array<bool, kLanes> regular = w.solve_linear_systems();
     for (std::size_t lane = 0; lane < kLanes; ++lane) {
-      if (!searches[lane]) continue;
-      searches[lane]->advance(regular[lane], w.get_step(lane));
-      if (!searches[lane]->finished()) continue;
-      solutions[scene_in_lane[lane]] = searches[lane]->solution();
-      searches[lane].reset();
+      std::optional<NewtonSearch>& search = lanes[lane].search;
+      if (!search) continue;
+      search->advance(regular[lane], w.get_step(lane));
+      if (!search->finished()) continue;
+      solutions[lanes[lane].task] = search->solution();
+      search.reset();
       ++solved;
     }
   }
   return solutions;
 }
 
+Solution QuasiStaticSolver::solve(const StageTask& task) {
+  return std::move(solve({&task, 1}).front());
+}
+
 Solution QuasiStaticSolver::solve(const Scene& scene) {
-  const SceneStart task{scene, nullptr};
-  return solve({&task, 1}).front();
+  return solve(StageTask{.stage = {.scene = scene}});
 }
 
 Solution QuasiStaticSolver::solve(const Scene& scene, const Field& start) {
-  const SceneStart task{scene, &start};
-  return solve({&task, 1}).front();
+  return solve(StageTask{.stage = {.scene = scene}, .start = &start});
+}
+
+const EquilibriumSystem& QuasiStaticSolver::system() const {
+  return workspace_->system;
 }
 
 }  // namespace voussoir

@@ -5,12 +5,15 @@
 #include <span>
 #include <vector>
 
-#include "core/law/joint_law.h"
+#include "core/law/joint_quadrature.h"
 #include "core/statics/skips.h"
 #include "core/statics/solution.h"
-#include "core/structure/bridge.h"
+#include "core/structure/model.h"
+#include "core/structure/stage.h"
 
 namespace voussoir {
+
+struct EquilibriumSystem;
 
 struct QuasiStaticSettings {
   double tolerance = 1e-8;  ///< largest unbalanced nodal force over the largest nodal load [-]
@@ -21,44 +24,46 @@ struct QuasiStaticSettings {
       12;                    ///< factorisations from a given start before the search starts again from zero
   int most_iterations = 30;  ///< factorisations of a search from zero
   int most_falling_iterations = 40;  ///< factorisations of a fall
-  bool follow_falls = true;          ///< false: a search without hope ends there, `unresolved`
+  bool follow_falls = true;          ///< false: a search without progress ends there, `unresolved`
   double collapse_displacement =
       0.1;  ///< [m] beyond it, and beyond ten sags of the bonded scene, blocks are falling
   JointRule joint_rule = JointRule::exact;
   Skips skips;
 };
 
-/// A scene and where to look for its equilibrium.
-struct SceneStart {
-  Scene scene;
-  const Field* start = nullptr;  ///< 2 x nodes, near the answer, NaN counts as zero; null: from rest
+/// A stage and where to look for its equilibrium. What is pointed to must outlive the call.
+struct StageTask {
+  Stage stage;
+  const Field* start = nullptr;   ///< 2 x nodes, near the answer, NaN counts as zero; null: from rest
+  const State* before = nullptr;  ///< the stage before, whose memory counts; null: nothing has slipped
+  const Parameters* parameters = nullptr;  ///< of the variant; null: those of the solver's model
 };
 
-/// Solves scenes of one bridge, several side by side in SIMD lanes. Not thread-safe: one solver a thread. A
-/// solution depends on its scene and start only, to the last bit: not on the other lanes, nor on earlier
-/// calls. The bridge must outlive the solver.
+/// Solves stages of the variants of one structure, several side by side in SIMD lanes. Not thread-safe: one
+/// solver a thread. A solution depends on its task only, to the last bit: not on the other lanes, nor on
+/// earlier calls. The model must outlive the solver.
 class QuasiStaticSolver {
  public:
-  /// `dead_load`: forces on the nodes beside the weight [N], 2 x nodes; empty for none.
-  explicit QuasiStaticSolver(const Bridge& bridge, QuasiStaticSettings settings = {},
-                             const Field& dead_load = {});
+  explicit QuasiStaticSolver(const Model& model, QuasiStaticSettings settings = {});
   ~QuasiStaticSolver();
   QuasiStaticSolver(QuasiStaticSolver&&) noexcept;
   QuasiStaticSolver& operator=(QuasiStaticSolver&&) noexcept;
 
-  /// Equilibria under full gravity with the scenes' blocks absent; one solution a scene, in their order. A
-  /// lane that finishes early takes the next scene.
+  /// Equilibria of the stages, with the scenes' blocks absent; one solution a task, in their order. A lane
+  /// that finishes early takes the next task.
   ///
-  /// A search from a given start that fails begins again from rest. One without hope goes on as a fall with
-  /// bolder steps: `collapsed`, with the field at the moment when a displacement passes the limit. If nothing
-  /// falls either, a patient search from rest has the last word: `standing` or `unresolved`.
-  std::vector<Solution> solve(std::span<const SceneStart> scenes);
+  /// A search from a given start that fails begins again from rest. One without progress goes on as a fall
+  /// with bolder steps: `collapsed`, with the field at the moment when a displacement passes the limit. If
+  /// nothing falls either, a patient search from rest has the last word: `standing` or `unresolved`.
+  std::vector<Solution> solve(std::span<const StageTask> tasks);
 
-  /// One scene, from rest.
+  Solution solve(const StageTask& task);
+
+  /// One scene under its weight, from rest or from a start.
   Solution solve(const Scene& scene);
-
-  /// One scene, from a start.
   Solution solve(const Scene& scene, const Field& start);
+
+  const EquilibriumSystem& system() const;
 
  private:
   struct Workspace;

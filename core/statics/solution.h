@@ -2,9 +2,9 @@
 /// @file What a solver says of a scene.
 
 #include <string_view>
-
 #include <vector>
 
+#include "core/law/state.h"
 #include "core/structure/collapse.h"
 
 namespace voussoir {
@@ -18,9 +18,9 @@ enum class Outcome : std::uint8_t {
 /// "standing", "collapsed", "unresolved"
 std::string_view to_string(Outcome outcome);
 
-struct Solution {
+/// A state, and how it came about. The memory is that of standing scenes; empty otherwise.
+struct Solution : State {
   Outcome outcome = Outcome::unresolved;
-  Field displacement;  ///< [m], 2 x nodes; NaN at nodes of removed blocks
   double residual =
       0.0;  ///< of equilibrium: largest unbalanced nodal force over the largest nodal weight [-]; of
             ///< a collapse in motion: sum of the blocks' resultant forces over the bridge's weight [-]

@@ -19,19 +19,24 @@ Point ring_point(const SpanDescription& span, double radius, int j) {
   return {span.centre_x + (right ? offset : -offset), span.centre_y + radius * std::sin(angle)};
 }
 
-void add_arch_blocks(const SpanDescription& span, std::vector<Block>& blocks) {
+void add_ring(const SpanDescription& span, int ring, std::vector<Block>& blocks) {
   const double inner = span.intrados_radius;
   const double outer = span.extrados_radius();
-  const auto leg = [&](double left, double right) {
+  const auto ring_block = [ring](BlockKind kind) {
     Block block;
-    block.kind = BlockKind::leg;
+    block.role = BlockRole::ring;
+    block.ring = ring;
+    block.kind = kind;
+    return block;
+  };
+  const auto leg = [&](double left, double right) {
+    Block block = ring_block(BlockKind::leg);
     block.polygon = {{left, 0.0}, {right, 0.0}, {right, span.centre_y}, {left, span.centre_y}};
     return block;
   };
   if (span.centre_y > 0.0) blocks.push_back(leg(span.centre_x - outer, span.centre_x - inner));
   for (int j = 0; j < span.voussoirs; ++j) {
-    Block block;
-    block.kind = BlockKind::voussoir;
+    Block block = ring_block(BlockKind::voussoir);
     block.polygon = {ring_point(span, outer, j), ring_point(span, inner, j), ring_point(span, inner, j + 1),
                      ring_point(span, outer, j + 1)};
     blocks.push_back(block);
@@ -86,12 +91,20 @@ void add_course(const BridgeDescription& description, int course, std::vector<Bl
     const Polygon rectangle = {{x[i], bottom}, {x[i + 1], bottom}, {x[i + 1], top}, {x[i], top}};
     for (const Polygon& part : cut_by_spans(rectangle, description)) {
       const bool whole = std::abs(area(part) - area(rectangle)) <= 1e-9 * area(rectangle);
-      blocks.push_back({.index = {course, ++position},
-                        .kind = whole ? BlockKind::plain : BlockKind::cut,
-                        .polygon = whole ? rectangle : part,
-                        .top_course = course == description.wall.courses});
+      Block& block = blocks.emplace_back();
+      block.index = {course, ++position};
+      block.kind = whole ? BlockKind::plain : BlockKind::cut;
+      block.top_course = course == description.wall.courses;
+      block.polygon = whole ? rectangle : part;
     }
   }
+}
+
+template <class Condition>
+std::optional<BlockId> first_block(const std::vector<Block>& blocks, Condition condition) {
+  const auto found = std::find_if(blocks.begin(), blocks.end(), condition);
+  if (found == blocks.end()) return std::nullopt;
+  return BlockId{static_cast<std::int32_t>(found - blocks.begin())};
 }
 
 }  // namespace
@@ -101,10 +114,16 @@ std::string to_string(BlockIndex index) {
 }
 
 std::optional<BlockId> BlockLayout::find(BlockIndex index) const {
-  const auto found =
-      std::find_if(blocks.begin(), blocks.end(), [&](const Block& b) { return b.index == index; });
-  if (found == blocks.end()) return std::nullopt;
-  return BlockId{static_cast<std::int32_t>(found - blocks.begin())};
+  return first_block(blocks, [&](const Block& b) { return b.index == index; });
+}
+
+std::optional<BlockId> BlockLayout::find_label(std::string_view label) const {
+  return first_block(blocks, [&](const Block& b) { return b.label == label; });
+}
+
+int BlockLayout::count_with(BlockRole role) const {
+  return static_cast<int>(
+      std::count_if(blocks.begin(), blocks.end(), [&](const Block& b) { return b.role == role; }));
 }
 
 int BlockLayout::count_in_course(int course) const {
@@ -114,7 +133,8 @@ int BlockLayout::count_in_course(int course) const {
 
 BlockLayout lay_blocks(const BridgeDescription& description) {
   BlockLayout layout;
-  for (const SpanDescription& span : description.spans) add_arch_blocks(span, layout.blocks);
+  for (std::size_t i = 0; i < description.spans.size(); ++i)
+    add_ring(description.spans[i], static_cast<int>(i), layout.blocks);
   std::stable_sort(layout.blocks.begin(), layout.blocks.end(), [](const Block& a, const Block& b) {
     return centroid(a.polygon).x() < centroid(b.polygon).x();
   });
@@ -122,6 +142,7 @@ BlockLayout lay_blocks(const BridgeDescription& description) {
     layout.blocks[i].index = {0, static_cast<int>(i) + 1};
   for (int course = 1; course <= description.wall.courses; ++course)
     add_course(description, course, layout.blocks);
+  for (Block& block : layout.blocks) block.label = to_string(block.index);
   if (layout.blocks.empty()) throw InputError("the bridge has no blocks: give it courses or spans");
   return layout;
 }

@@ -2,6 +2,7 @@
 /// @file From the description of a bridge to its blocks.
 
 #include <optional>
+#include <string_view>
 #include <vector>
 
 #include "core/structure/block.h"
@@ -9,15 +10,20 @@
 
 namespace voussoir {
 
-/// All blocks of a bridge, arch blocks first, then the wall course by course, each from left to right.
+/// All blocks of a bridge. Laid by lay_blocks: arch blocks first, then the wall course by course, each from
+/// left to right.
 struct BlockLayout {
   std::vector<Block> blocks;
 
   std::size_t size() const { return blocks.size(); }
   const Block& operator[](BlockId id) const { return blocks[static_cast<std::size_t>(id)]; }
 
-  /// The block with this index, or nothing.
+  /// The block with this index or label, or nothing.
   std::optional<BlockId> find(BlockIndex index) const;
+  std::optional<BlockId> find_label(std::string_view label) const;
+
+  /// Number of blocks that play this part.
+  int count_with(BlockRole role) const;
 
   /// Number of blocks in a course; 0 is the arch.
   int count_in_course(int course) const;

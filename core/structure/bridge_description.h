@@ -57,15 +57,15 @@ struct JointMaterial {
   double friction_coefficient() const { return std::tan(friction_angle); }
 };
 
-enum class Support {
+enum class SupportKind {
   clamped,  ///< both displacements are zero
   roller,   ///< the displacement along the outward normal is zero
   free
 };
 
 struct SupportDescription {
-  Support base = Support::clamped;  ///< nodes at y = 0
-  Support sides = Support::roller;  ///< nodes at x = 0 and x = length
+  SupportKind base = SupportKind::clamped;  ///< nodes at y = 0
+  SupportKind sides = SupportKind::roller;  ///< nodes at x = 0 and x = length
 };
 
 /// Which sets of points are measured. T1.. are the upper corners of the top course's blocks, A1.. the

@@ -183,8 +183,9 @@ void read_joints(Section section, BridgeDescription& description) {
 
 void read_supports(Section section, SupportDescription& supports) {
   for (const auto& [key, target] : {std::pair{"base", &supports.base}, std::pair{"sides", &supports.sides}})
-    section.choice(key, *target,
-                   {{"clamped", Support::clamped}, {"roller", Support::roller}, {"free", Support::free}});
+    section.choice(
+        key, *target,
+        {{"clamped", SupportKind::clamped}, {"roller", SupportKind::roller}, {"free", SupportKind::free}});
   section.refuse_unknown_keys();
 }
 

@@ -19,7 +19,7 @@ std::string_view to_string(CollapseExtent extent) {
 CollapseExtent collapse_extent(const BlockLayout& layout, const std::vector<BlockId>& moving) {
   if (moving.empty()) return CollapseExtent::none;
   const bool ring =
-      std::any_of(moving.begin(), moving.end(), [&](BlockId b) { return layout[b].index.course == 0; });
+      std::any_of(moving.begin(), moving.end(), [&](BlockId b) { return layout[b].role == BlockRole::ring; });
   return ring ? CollapseExtent::arch : CollapseExtent::local;
 }
 

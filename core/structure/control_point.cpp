@@ -40,12 +40,8 @@ std::pair<Point, Point> upper_corners(const Polygon& polygon) {
 std::pair<Point, Point> intrados_corners(const Block& block, const std::vector<SpanDescription>& spans) {
   const auto& p = block.polygon;
   if (block.kind == BlockKind::voussoir) return {p[1], p[2]};
-  const double x = centroid(p).x();
-  const auto span = std::min_element(spans.begin(), spans.end(), [&](const auto& a, const auto& b) {
-    return std::abs(a.centre_x - x) < std::abs(b.centre_x - x);
-  });
-  return x < span->centre_x ? std::pair{p[1], p[2]}
-                            : std::pair{p[3], p[0]};  // up on the left, down on the right
+  const bool left = centroid(p).x() < spans[static_cast<std::size_t>(block.ring)].centre_x;
+  return left ? std::pair{p[1], p[2]} : std::pair{p[3], p[0]};  // up on the left, down on the right
 }
 
 }  // namespace
@@ -65,7 +61,7 @@ std::vector<ControlPoint> find_control_points(const BlockLayout& layout, const M
       const BlockId id{static_cast<std::int32_t>(b)};
       if (pass == 0 && description.control_points.top && block.top_course)
         add_pair('T', top_count, id, upper_corners(block.polygon));
-      if (pass == 1 && description.control_points.arch && block.index.course == 0)
+      if (pass == 1 && description.control_points.arch && block.role == BlockRole::ring)
         add_pair('A', arch_count, id, intrados_corners(block, description.spans));
     }
   return points;

@@ -39,8 +39,8 @@ std::optional<std::vector<BlockId>> block_images(const BlockLayout& layout, doub
     const Point image_centre = across(centroid(block.polygon), axis_x);
     const double image_area = area(block.polygon);
     const auto image = std::find_if(layout.blocks.begin(), layout.blocks.end(), [&](const Block& other) {
-      return other.index.course == block.index.course && other.kind == block.kind &&
-             other.polygon.size() == block.polygon.size() &&
+      return other.role == block.role && other.index.course == block.index.course &&
+             other.kind == block.kind && other.polygon.size() == block.polygon.size() &&
              (centroid(other.polygon) - image_centre).norm() <= tolerance &&
              std::abs(area(other.polygon) - image_area) <= tolerance * tolerance + 1e-9 * image_area;
     });

@@ -21,19 +21,29 @@ int parse_count(std::string_view text) {
   return error == std::errc{} && end == text.data() + text.size() ? number : -1;
 }
 
-BlockId parse_block(std::string_view text, const BlockLayout& layout) {
-  const auto comma = text.find(',');
-  const int course = comma == std::string_view::npos ? -1 : parse_count(trimmed(text.substr(0, comma)));
-  const int position = comma == std::string_view::npos ? -1 : parse_count(trimmed(text.substr(comma + 1)));
-  if (course < 0 || position < 0)
-    throw InputError(fmt::format("'{}' names no block: expected COURSE,POSITION such as 10,4", text));
-  const auto id = layout.find({course, position});
-  if (!id && layout.count_in_course(course) == 0)
+[[noreturn]] void refuse_index(BlockIndex index, const BlockLayout& layout) {
+  const int count = layout.count_in_course(index.course);
+  if (count == 0)
     throw InputError(
-        fmt::format("there is no block {},{}: this bridge has no course {}", course, position, course));
-  if (!id)
-    throw InputError(fmt::format("there is no block {},{}: course {} has positions 1 to {}", course, position,
-                                 course, layout.count_in_course(course)));
+        fmt::format("there is no block {}: this bridge has no course {}", to_string(index), index.course));
+  throw InputError(fmt::format("there is no block {}: course {} has positions 1 to {}", to_string(index),
+                               index.course, count));
+}
+
+/// A block by its label, or by course and position with any spaces.
+BlockId parse_block(std::string_view text, const BlockLayout& layout) {
+  if (const auto id = layout.find_label(text)) return *id;
+  const auto comma = text.find(',');
+  const bool split = comma != std::string_view::npos;
+  const BlockIndex index{split ? parse_count(trimmed(text.substr(0, comma))) : -1,
+                         split ? parse_count(trimmed(text.substr(comma + 1))) : -1};
+  if (index.course < 0 || index.position < 0)
+    throw InputError(fmt::format("'{}' names no block: expected COURSE,POSITION such as 10,4{}", text,
+                                 layout.size() > 0 && layout.blocks.front().index.course < 0
+                                     ? fmt::format(" or a label such as {}", layout.blocks.front().label)
+                                     : ""));
+  const auto id = layout.find(index);
+  if (!id) refuse_index(index, layout);
   return *id;
 }
 
@@ -68,17 +78,14 @@ Scene parse_scene(std::string_view text, const BlockLayout& layout) {
   std::sort(scene.removed.begin(), scene.removed.end());
   const auto repeated = std::adjacent_find(scene.removed.begin(), scene.removed.end());
   if (repeated != scene.removed.end())
-    throw InputError(
-        fmt::format("scene '{}' names block {} twice", text, to_string(layout[*repeated].index)));
+    throw InputError(fmt::format("scene '{}' names block {} twice", text, layout[*repeated].label));
   return scene;
 }
 
 std::string to_string(const Scene& scene, const BlockLayout& layout) {
   if (scene.removed.empty()) return "intact";
-  std::vector<BlockIndex> indices;
-  for (const BlockId id : scene.removed) indices.push_back(layout[id].index);
   std::string text;
-  for (const BlockIndex& index : indices) text += (text.empty() ? "" : "+") + to_string(index);
+  for (const BlockId id : scene.removed) text += (text.empty() ? "" : "+") + layout[id].label;
   return text;
 }
 

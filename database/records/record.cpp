@@ -22,8 +22,14 @@ Record make_record(const Scene& scene, const Solution& solution, const std::vect
 }
 
 Solution solution_of(const Record& record, Field displacement) {
-  return {record.outcome,    std::move(displacement), record.residual,
-          record.iterations, record.extent,           record.moving};
+  Solution solution;
+  solution.displacement = std::move(displacement);
+  solution.outcome = record.outcome;
+  solution.residual = record.residual;
+  solution.iterations = record.iterations;
+  solution.extent = record.extent;
+  solution.moving = record.moving;
+  return solution;
 }
 
 Sha256 scene_checksum(const Record& record, std::span<const double> field) {

@@ -71,7 +71,12 @@ BlockLayout read_layout(const Hdf5File& file) {
   const auto ranges = read_ranges(file, dataset::kBlockCorners, blocks, corners.size() / 2);
   BlockLayout layout;
   for (std::size_t i = 0; i < blocks; ++i) {
-    Block block{{index[2 * i], index[2 * i + 1]}, static_cast<BlockKind>(kind[i]), {}, top[i] != 0};
+    Block block;
+    block.index = {index[2 * i], index[2 * i + 1]};
+    block.kind = static_cast<BlockKind>(kind[i]);
+    block.top_course = top[i] != 0;
+    block.label = to_string(block.index);
+    block.role = block.index.course == 0 ? BlockRole::ring : BlockRole::wall;
     for (auto corner = static_cast<std::size_t>(ranges[i].begin);
          corner < static_cast<std::size_t>(ranges[i].end); ++corner)
       block.polygon.emplace_back(corners[2 * corner], corners[2 * corner + 1]);

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <functional>
 
-#include "core/structure/bridge.h"
+#include "core/structure/model.h"
 #include "database/records/provenance.h"
 #include "database/records/record.h"
 
@@ -13,7 +13,7 @@ namespace voussoir {
 /// What a database holds beside the records of its scenes.
 struct DatabaseContent {
   Provenance provenance;
-  const Bridge& bridge;
+  const Model& bridge;
   std::vector<Scene> scenes;  ///< in the order of all_scenes, no scene twice
   KeepField fields = KeepField::yes;
 };

@@ -24,7 +24,7 @@ constexpr double kDisc = 3.0;
 constexpr const char* kAcross = "control point, from left to right";
 
 bool on_arch(const ReportPictures& report, std::size_t point) {
-  return report.library.layout[report.library.points[point].block].index.course == 0;
+  return report.library.layout[report.library.points[point].block].role == BlockRole::ring;
 }
 
 std::span<const double> best_fit(const ReportPictures& report) {

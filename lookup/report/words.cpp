@@ -34,8 +34,9 @@ std::string place_in_words(BlockId id, const BlockLayout& layout) {
   if (block.index.course > 0)
     return fmt::format("course {}, {} from the left, {}", block.index.course, ordinal(block.index.position),
                        box);
+  if (block.index.course < 0) return fmt::format("block {}, {}", block.label, box);
   return fmt::format("{} {} of {} of the arch, {}", block.kind == BlockKind::leg ? "leg block" : "voussoir",
-                     block.index.position, layout.count_in_course(0), box);
+                     block.index.position, layout.count_with(BlockRole::ring), box);
 }
 
 std::string place_in_words(const Scene& scene, const BlockLayout& layout) {

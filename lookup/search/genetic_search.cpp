@@ -160,7 +160,8 @@ class Evolution {
 GeneSpace::GeneSpace(const BlockLayout& layout, const SceneTable& table)
     : blocks_(layout.size()), row_of_pair_((blocks_ + 1) * (blocks_ + 1), kNoRow) {
   for (std::size_t id = 0; id < blocks_; ++id) {
-    const auto course = static_cast<std::size_t>(layout.blocks[id].index.course);
+    // Blocks that are not laid in courses are one row.
+    const auto course = static_cast<std::size_t>(std::max(layout.blocks[id].index.course, 0));
     courses_.resize(std::max(courses_.size(), course + 1));
     courses_[course].push_back(BlockId{static_cast<std::int32_t>(id)});
   }

@@ -102,7 +102,7 @@ TEST_CASE("Mirror images are recorded with mirrored fields, bit by bit") {
   const Site site;
   site.build();
   const Database database = site.open();
-  const Bridge bridge = make_bridge(site.request.bridge.description);
+  const Model bridge = make_model(site.request.bridge.description);
   for (std::size_t row = 0; row < database.table().rows; ++row) {
     const Scene scene = database.table().scene(row);
     const Scene image = mirrored(scene, *bridge.symmetry);
@@ -117,7 +117,7 @@ TEST_CASE("Without mirror images every scene is solved and the digest says so") 
   site.request.rules.mirror_images = false;
   CHECK(site.build().digest != digest_of_reference());
   const Database database = site.open();
-  const Bridge bridge = make_bridge(site.request.bridge.description);
+  const Model bridge = make_model(site.request.bridge.description);
   const Scene last = database.table().scene(database.table().rows - 1);
   StartingFields starts;
   starts.add(Scene{}, Outcome::standing, database.field(0));

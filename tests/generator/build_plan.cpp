@@ -10,8 +10,8 @@
 namespace voussoir {
 namespace {
 
-const Bridge& small_bridge() {
-  static const Bridge bridge = make_bridge(test::small_bridge_file().description);
+const Model& small_bridge() {
+  static const Model bridge = make_model(test::small_bridge_file().description);
   return bridge;
 }
 
@@ -59,7 +59,7 @@ TEST_CASE("Mirror symmetry halves what is solved, but for scenes that are their 
 }
 
 TEST_CASE("A bridge without symmetry has every scene solved") {
-  Bridge lopsided = small_bridge();
+  Model lopsided = small_bridge();
   lopsided.symmetry.reset();
   const auto scenes = all_scenes(lopsided.layout.size(), 1);
   CHECK(solved(plan_build(scenes, lopsided, PlanRules{}, nothing)) == scenes.size());

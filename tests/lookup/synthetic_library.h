@@ -65,7 +65,10 @@ struct SyntheticLibrary {
 
  private:
   void add_block(int course, int position) {
-    Block block{{course, position}, BlockKind::plain, {}, false};
+    Block block;
+    block.index = {course, position};
+    block.label = to_string(block.index);
+    block.kind = BlockKind::plain;
     const double x = position - 1, y = course - 1;
     block.polygon = {Point(x, y), Point(x + 1, y), Point(x + 1, y + 1), Point(x, y + 1)};
     layout.blocks.push_back(block);

@@ -1,8 +1,8 @@
 #pragma once
 /// @file Bridges that tests share.
 
-#include "core/structure/bridge.h"
 #include "core/structure/bridge_file.h"
+#include "core/structure/model.h"
 
 namespace voussoir::test {
 
@@ -10,12 +10,16 @@ inline std::filesystem::path example_bridge(const std::string& name) {
   return std::filesystem::path(VOUSSOIR_SOURCE_DIR) / "examples" / "bridges" / (name + ".toml");
 }
 
-inline Bridge small_bridge() {
-  return make_bridge(read_bridge_file(example_bridge("small")).description);
+inline BridgeDescription small_description() {
+  return read_bridge_file(example_bridge("small")).description;
 }
 
-inline Bridge reference_bridge() {
-  return make_bridge(reference_bridge_file().description);
+inline Model small_bridge() {
+  return make_model(small_description());
+}
+
+inline Model reference_bridge() {
+  return make_model(reference_bridge_file().description);
 }
 
 /// NaN (nodes of removed blocks) becomes zero, so that fields can be compared and added.

@@ -5,9 +5,9 @@
 #include <limits>
 
 #include "core/error.h"
-#include "core/structure/bridge.h"
 #include "core/structure/bridge_file.h"
 #include "core/structure/control_point.h"
+#include "core/structure/model.h"
 #include "database/format/field_codec.h"
 #include "database/records/provenance.h"
 #include "database/records/writer.h"
@@ -20,7 +20,7 @@ inline BridgeFile small_bridge_file() {
 
 /// Millimetres that vary from node to node and with the removed blocks; every seventh scene is said to have
 /// collapsed, with one block that moves away.
-inline Solution made_up_solution(const Bridge& bridge, const Scene& scene) {
+inline Solution made_up_solution(const Model& bridge, const Scene& scene) {
   double phase = 0.0;
   for (const BlockId id : scene.removed) phase = 1.7 * phase + 0.37 * (value(id) + 1);
   Field field(2, bridge.mesh.node_count());
@@ -33,8 +33,11 @@ inline Solution made_up_solution(const Bridge& bridge, const Scene& scene) {
     field.middleCols(gone.begin, gone.size()).setConstant(std::numeric_limits<double>::quiet_NaN());
   }
   const bool collapsed = static_cast<int>(10.0 * phase) % 7 == 3;
-  Solution solution{collapsed ? Outcome::collapsed : Outcome::standing, to_storage_precision(field),
-                    1e-11 * (1.0 + phase), 5 + scene.missing()};
+  Solution solution;
+  solution.outcome = collapsed ? Outcome::collapsed : Outcome::standing;
+  solution.displacement = to_storage_precision(field);
+  solution.residual = 1e-11 * (1.0 + phase);
+  solution.iterations = 5 + scene.missing();
   if (collapsed) solution.moving = {BlockId{static_cast<std::int32_t>(10.0 * phase) % bridge.block_count()}};
   solution.extent = collapse_extent(bridge.layout, solution.moving);
   return solution;
@@ -47,7 +50,7 @@ inline Provenance made_up_provenance(const BridgeFile& file) {
 inline WrittenDatabase write_made_up_database(const std::filesystem::path& path, const BridgeFile& file,
                                               const std::vector<Scene>& scenes,
                                               KeepField fields = KeepField::yes) {
-  const Bridge bridge = make_bridge(file.description);
+  const Model bridge = make_model(file.description);
   return write_database(path, {made_up_provenance(file), bridge, scenes, fields}, [&](std::size_t row) {
     return make_record(scenes[row], made_up_solution(bridge, scenes[row]), bridge.control_points, fields,
                        fields);

@@ -10,7 +10,7 @@
 namespace voussoir::test {
 
 /// Answers are those of made_up_solution plus a tenth of the start, so that a wrong start shows.
-inline Solution answer_from(const Bridge& bridge, const Scene& scene, const std::optional<Field>& start) {
+inline Solution answer_from(const Model& bridge, const Scene& scene, const std::optional<Field>& start) {
   Solution solution = made_up_solution(bridge, scene);
   if (start) solution.displacement += 0.1 * *start;
   return solution;
@@ -19,16 +19,20 @@ inline Solution answer_from(const Bridge& bridge, const Scene& scene, const std:
 /// What every solver does with its scenes, one after the other.
 template <class Answer>
 SceneSolver one_by_one(const Answer& answer) {
-  return [answer](std::span<const SceneStart> scenes) {
+  return [answer](std::span<const StageTask> scenes) {
     std::vector<Solution> solutions;
-    for (const SceneStart& task : scenes)
-      solutions.push_back(answer(task.scene, task.start ? std::optional(*task.start) : std::nullopt));
+    for (const StageTask& task : scenes)
+      solutions.push_back(answer(task.stage.scene, task.start ? std::optional(*task.start) : std::nullopt));
     return solutions;
   };
 }
 
+inline std::string made_up_settings(const Model&) {
+  return "solver = made up\n";
+}
+
 inline SolverChoice made_up_solver() {
-  return {"solver = made up\n", [](const Bridge& bridge) {
+  return {made_up_settings, [](const Model& bridge) {
             return one_by_one([&bridge](const Scene& scene, const std::optional<Field>& start) {
               return answer_from(bridge, scene, start);
             });
@@ -38,7 +42,7 @@ inline SolverChoice made_up_solver() {
 /// The same, but throws Failure at its `scenes`-th answer and from then on, like a build that is interrupted.
 inline SolverChoice failing_solver(int scenes) {
   const auto left = std::make_shared<std::atomic<int>>(scenes);
-  return {"solver = made up\n", [left](const Bridge& bridge) {
+  return {made_up_settings, [left](const Model& bridge) {
             return one_by_one([&bridge, left](const Scene& scene, const std::optional<Field>& start) {
               if (--*left <= 0) throw Failure("interrupted");
               return answer_from(bridge, scene, start);

@@ -23,7 +23,7 @@ Extent extent_of(const Subject& subject, bool arch) {
   Extent extent;
   for (std::size_t i = 0; i < mm.size(); ++i) {
     const BlockId block = subject.database.control_points()[i].block;
-    if ((subject.database.layout()[block].index.course == 0) != arch || std::isnan(mm[i])) continue;
+    if ((subject.database.layout()[block].role == BlockRole::ring) != arch || std::isnan(mm[i])) continue;
     extent.least = std::min(extent.least, std::abs(mm[i]));
     extent.most = std::max(extent.most, std::abs(mm[i]));
   }

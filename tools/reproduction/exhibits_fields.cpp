@@ -23,7 +23,7 @@ struct Profile {
 };
 
 bool on_arch(const Subject& subject, std::size_t point) {
-  return subject.database.layout()[subject.database.control_points()[point].block].index.course == 0;
+  return subject.database.layout()[subject.database.control_points()[point].block].role == BlockRole::ring;
 }
 
 std::string profile_chart(const Subject& subject, const std::vector<Profile>& profiles, bool arch) {

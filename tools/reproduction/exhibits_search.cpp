@@ -89,7 +89,7 @@ Chart objective_chart(const Subject& subject, const Misfits& objective) {
   for (std::size_t i = 0; i < layout.size(); ++i) {
     const BlockId id{static_cast<std::int32_t>(i)};
     const double f = objective.value[i];
-    Series& series = id == objective.truth ? truth : layout[id].index.course == 0 ? arch : wall;
+    Series& series = id == objective.truth ? truth : layout[id].role == BlockRole::ring ? arch : wall;
     series.x.push_back(centroid(layout[id].polygon).x());
     series.y.push_back(std::max(f, floor));
     series.tips.push_back(look_of(objective, layout, id).tip);

@@ -87,7 +87,7 @@ OperatingPoint operating_point(const Subject& subject, const Trial& trial,
 /// The arch block of a scene, if it lacks one.
 std::optional<BlockId> arch_block(const Scene& scene, const BlockLayout& layout) {
   for (const BlockId id : scene.removed)
-    if (layout[id].index.course == 0) return id;
+    if (layout[id].role == BlockRole::ring) return id;
   return std::nullopt;
 }
 

@@ -33,7 +33,7 @@ double compliance(double normal_stiffness) {
   return kSpecificWeight / normal_stiffness;
 }
 
-bool newton_stands(const Bridge& ring, Field& start) {
+bool newton_stands(const Model& ring, Field& start) {
   QuasiStaticSettings settings;
   settings.most_warm_iterations = 200;
   settings.most_iterations = 100;
@@ -210,16 +210,16 @@ DynamicSettings slow_gravity() {
   DynamicSettings settings;
   settings.ramp = 3.0;
   settings.moment = 3.2;
-  settings.earliest_decision = 3.2;
-  settings.latest_decision = 12.0;
-  settings.standing_unbalance = 1e-5;
-  settings.plain_unbalance = 1.0;
-  settings.collapsing_unbalance = 1e-2;
+  settings.decision.earliest_decision = 3.2;
+  settings.decision.latest_decision = 12.0;
+  settings.decision.standing_unbalance = 1e-5;
+  settings.decision.plain_unbalance = 1.0;
+  settings.decision.collapsing_unbalance = 1e-2;
   return settings;
 }
 
 HardCase in_motion(double mu, double thickness, bool stands) {
-  const Bridge ring = semicircular_ring(kFrictionRing, thickness, mu, 1e9);
+  const Model ring = semicircular_ring(kFrictionRing, thickness, mu, 1e9);
   const DynamicSolution moved = DynamicSolver(ring, slow_gravity()).solve(Scene{});
   return {.sweep = "arch near its limit, motion",
           .setting = fmt::format("mu = {}, t/R = {:.4f}", mu, thickness),

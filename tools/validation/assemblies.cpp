@@ -1,5 +1,7 @@
 #include "tools/validation/assemblies.h"
 
+#include <fmt/format.h>
+
 #include <Eigen/Geometry>
 #include <numbers>
 #include <random>
@@ -9,21 +11,23 @@
 
 namespace voussoir::validation {
 
-Bridge assemble_blocks(BridgeDescription description, const std::vector<Polygon>& polygons) {
-  Bridge bridge;
+Model assemble_blocks(const BridgeDescription& description, const std::vector<Polygon>& polygons) {
+  std::vector<Block> blocks;
   for (std::size_t i = 0; i < polygons.size(); ++i) {
-    Block block;
-    block.index = {1, static_cast<int>(i) + 1};
+    Block& block = blocks.emplace_back();
+    block.label = fmt::format("{}", i + 1);
+    block.kind = BlockKind::plain;
     block.polygon = polygons[i];
-    bridge.layout.blocks.push_back(block);
   }
-  bridge.mesh = make_mesh(bridge.layout, description.mesh, 0.5 * description.wall.length);
-  bridge.joints = find_joints(bridge.mesh, description.joint_tolerance);
-  bridge.description = std::move(description);
-  return bridge;
+  Structure structure = assemble(std::move(blocks), {.mesh = description.mesh,
+                                                     .joint_tolerance = description.joint_tolerance,
+                                                     .mirror_axis = 0.5 * description.wall.length});
+  structure.symmetry.reset();
+  structure.supports = box_supports(structure.mesh, description.supports, description.wall.length);
+  return with_nominal_parameters(std::move(structure), description);
 }
 
-void disturb_inner_nodes(double spacing, double share, Bridge& bridge) {
+void disturb_inner_nodes(double spacing, double share, Model& bridge) {
   std::vector<bool> inside(static_cast<std::size_t>(bridge.mesh.node_count()), true);
   for (const BoundaryEdge& edge : bridge.mesh.edges)
     inside[static_cast<std::size_t>(value(edge.from))] = false;
@@ -52,7 +56,7 @@ Polygon turned(const Polygon& polygon, double angle, const Point& shift) {
   return result;
 }
 
-Bridge block_on_wedge(double slope, double friction_angle, double size) {
+Model block_on_wedge(double slope, double friction_angle, double size) {
   const double length = 6.0 * size;
   const Point along(-std::cos(slope), std::sin(slope));
   const Point up(std::sin(slope), std::cos(slope));
@@ -62,34 +66,34 @@ Bridge block_on_wedge(double slope, double friction_angle, double size) {
   description.wall.length = length;
   description.joints.friction_angle = friction_angle;
   description.joint_tolerance *= size;
-  description.supports.sides = Support::free;
+  description.supports.sides = SupportKind::free;
   return assemble_blocks(description, {{Point(0.0, 0.0), foot, Point(0.0, length * std::tan(slope))},
                                        {corner, corner + 0.5 * size * up, corner + size * (along + 0.5 * up),
                                         corner + size * along}});
 }
 
-Bridge floating_course(int blocks, double friction_angle) {
+Model floating_course(int blocks, double friction_angle) {
   BridgeDescription description;
   description.wall = {.length = static_cast<double>(blocks), .courses = 1, .bond = Bond::stack};
   description.spans.clear();
-  description.supports = {.base = Support::free, .sides = Support::free};
+  description.supports = {.base = SupportKind::free, .sides = SupportKind::free};
   description.joints.friction_angle = friction_angle;
   description.gravity = 0.0;
-  return make_bridge(description);
+  return make_model(description);
 }
 
-Bridge column(int courses, double young_modulus) {
+Model column(int courses, double young_modulus) {
   BridgeDescription description;
   description.spans.clear();
   description.wall = {
       .length = 1.0, .courses = courses, .course_height = 0.5, .block_length = 1.0, .bond = Bond::stack};
-  description.supports.sides = Support::free;
+  description.supports.sides = SupportKind::free;
   description.control_points.arch = false;
   description.material.young_modulus = young_modulus;
-  return make_bridge(description);
+  return make_model(description);
 }
 
-Bridge semicircular_ring(int voussoirs, double thickness, double friction, double normal_stiffness) {
+Model semicircular_ring(int voussoirs, double thickness, double friction, double normal_stiffness) {
   constexpr double kFooting = 0.1;
   constexpr double kCentre = 50.0;
   const double inner = 1.0 - 0.5 * thickness;
@@ -108,7 +112,7 @@ Bridge semicircular_ring(int voussoirs, double thickness, double friction, doubl
   }
   BridgeDescription description;
   description.wall.length = 2.0 * kCentre;
-  description.supports.sides = Support::free;
+  description.supports.sides = SupportKind::free;
   description.material.young_modulus = 100.0 * normal_stiffness;
   description.joints = {.normal_stiffness = normal_stiffness,
                         .tangential_stiffness = normal_stiffness,
@@ -117,12 +121,12 @@ Bridge semicircular_ring(int voussoirs, double thickness, double friction, doubl
   return assemble_blocks(description, blocks);
 }
 
-Field boundary_tractions(const Bridge& bridge, const Eigen::Vector3d& stress) {
+Field boundary_tractions(const Model& bridge, const Eigen::Vector3d& stress) {
   Field forces = Field::Zero(2, bridge.mesh.node_count());
   for (const BoundaryEdge& edge : bridge.mesh.edges) {
     const Point along = bridge.mesh.position(edge.to) - bridge.mesh.position(edge.from);
     const Point normal(along.y(), -along.x());  // times the length
-    const Point half = 0.5 * bridge.description.material.thickness *
+    const Point half = 0.5 * bridge.parameters.blocks.front().thickness *
                        Point(stress[0] * normal.x() + stress[2] * normal.y(),
                              stress[2] * normal.x() + stress[1] * normal.y());
     forces.col(value(edge.from)) += half;
@@ -131,9 +135,11 @@ Field boundary_tractions(const Bridge& bridge, const Eigen::Vector3d& stress) {
   return forces;
 }
 
-Point joint_force(const Bridge& bridge, const Field& displacement, BlockId first, BlockId second) {
+Point joint_force(const Model& bridge, const Field& displacement, BlockId first, BlockId second) {
   Point force = Point::Zero();
-  for (const Joint& joint : bridge.joints) {
+  for (std::size_t j = 0; j < bridge.joints.size(); ++j) {
+    const Joint& joint = bridge.joints[j];
+    const double area = joint.length * joint_thickness(joint, bridge.parameters);
     const bool forward = joint.first == first && joint.second == second;
     if (!forward && !(joint.first == second && joint.second == first)) continue;
     Vector8d q;
@@ -142,9 +148,7 @@ Point joint_force(const Bridge& bridge, const Field& displacement, BlockId first
     const JointKinematics kinematics = joint_kinematics(make_joint_frame(joint, bridge.mesh), q);
     const Vector8d nodal =
         kinematics.gradient.transpose() *
-        integrate_joint(bridge.description.joints, joint.length * bridge.description.material.thickness,
-                        kinematics.state)
-            .force;
+        integrate_joint(joint_stiffness(bridge.parameters.joints[j], area), {}, kinematics.state).force;
     const Point on_second = -(nodal.segment<2>(4) + nodal.segment<2>(6));
     force += forward ? on_second : Point(-on_second);
   }

@@ -1,17 +1,17 @@
 #pragma once
 /// @file Bodies and assemblies of blocks that are no bridges: columns, beams, wedges, rings.
 
-#include "core/structure/bridge.h"
+#include "core/structure/model.h"
 
 namespace voussoir::validation {
 
 /// Blocks of any shape, numbered as in `polygons`, meshed by the bridges' rule. Supports act at y = 0, x = 0
 /// and x = description.wall.length, as in a bridge. No control points.
-Bridge assemble_blocks(BridgeDescription description, const std::vector<Polygon>& polygons);
+Model assemble_blocks(const BridgeDescription& description, const std::vector<Polygon>& polygons);
 
 /// Moves the nodes inside blocks at random by up to `share` of `spacing` [m], and leaves the boundaries
 /// alone.
-void disturb_inner_nodes(double spacing, double share, Bridge& bridge);
+void disturb_inner_nodes(double spacing, double share, Model& bridge);
 
 /// Rectangle with its lower left corner at `corner` and extra corners every `spacing` along both long sides.
 Polygon rectangle(const Point& corner, double width, double height);
@@ -21,24 +21,24 @@ Polygon strip(double length, double depth, int parts);
 Polygon turned(const Polygon& polygon, double angle, const Point& shift = Point::Zero());
 
 /// A block of 1 m x 0.5 m times `size` on the upper side of a wedge of this slope [rad].
-Bridge block_on_wedge(double slope, double friction_angle, double size = 1.0);
+Model block_on_wedge(double slope, double friction_angle, double size = 1.0);
 
 /// A course of blocks of 1 m x 0.5 m that nothing holds and nothing pulls.
-Bridge floating_course(int blocks, double friction_angle);
+Model floating_course(int blocks, double friction_angle);
 
 /// A column of square-edged blocks of 1 m x 0.5 m on a clamped one, free at the sides.
-Bridge column(int courses, double young_modulus = 2.5e10);
+Model column(int courses, double young_modulus = 2.5e10);
 
 /// A semicircular ring of mean radius 1 m with curved faces (chords of less than 6 degrees) and radial
 /// joints, on two clamped footings; `thickness` in m. Tangential stiffness is the normal one, E is 100 p_n x
 /// 1 m.
-Bridge semicircular_ring(int voussoirs, double thickness, double friction, double normal_stiffness);
+Model semicircular_ring(int voussoirs, double thickness, double friction, double normal_stiffness);
 
 /// Forces that a constant Piola stress (xx, yy, xy) [Pa] does on the outline of all blocks, node by node [N]:
 /// a dead load.
-Field boundary_tractions(const Bridge& bridge, const Eigen::Vector3d& stress);
+Field boundary_tractions(const Model& bridge, const Eigen::Vector3d& stress);
 
 /// Force that block `first` gives block `second` through their joints [N].
-Point joint_force(const Bridge& bridge, const Field& displacement, BlockId first, BlockId second);
+Point joint_force(const Model& bridge, const Field& displacement, BlockId first, BlockId second);
 
 }  // namespace voussoir::validation

@@ -13,7 +13,7 @@ namespace {
 constexpr std::array<const char*, 6> kScenes = {"10,4", "6,4", "2,6", "4,10", "8,12", "10,12"};
 
 Signals signals_of(const BridgeDescription& description, JointRule rule = JointRule::exact) {
-  const Bridge bridge = make_bridge(description);
+  const Model bridge = make_model(description);
   QuasiStaticSettings settings;
   settings.joint_rule = rule;
   QuasiStaticSolver solver(bridge, settings);
@@ -134,7 +134,7 @@ Eigen::Vector4d summed(const JointMaterial& m, double area, const JointState& st
 
 /// The closed form on the joints as they are in a solved scene.
 Case closed_form() {
-  const Bridge bridge = make_bridge({});
+  const Model bridge = make_model({});
   const Scene scene = parse_scene("10,4", bridge.layout);
   const Field field = QuasiStaticSolver(bridge).solve(scene).displacement;
   double error = 0.0;
@@ -145,8 +145,9 @@ Case closed_form() {
     q << field.col(value(joint.first_edge.from)), field.col(value(joint.first_edge.to)),
         field.col(value(joint.second_edge.from)), field.col(value(joint.second_edge.to));
     const JointState state = joint_kinematics(make_joint_frame(joint, bridge.mesh), q).state;
-    const Eigen::Vector4d closed = integrate_joint(bridge.description.joints, joint.length, state).force;
-    error = std::max(error, (closed - summed(bridge.description.joints, joint.length, state)).norm());
+    const JointMaterial& material = bridge.parameters.contact;
+    const Eigen::Vector4d closed = integrate_joint(joint_stiffness(material, joint.length), {}, state).force;
+    error = std::max(error, (closed - summed(material, joint.length, state)).norm());
     largest = std::max(largest, closed.norm());
   }
   return absolute_case(
@@ -173,21 +174,20 @@ Findings joint_integration() {
 }
 
 Field in_load_steps(const std::string& name, int steps) {
+  const Model bridge = make_model({});
+  QuasiStaticSolver solver(bridge);
   Field field;
   for (int i = 1; i <= steps; ++i) {
-    BridgeDescription description;
-    description.gravity *= static_cast<double>(i) / steps;
-    const Bridge bridge = make_bridge(description);
-    const Scene scene = parse_scene(name, bridge.layout);
-    QuasiStaticSolver solver(bridge);
-    field = i == 1 ? solver.solve(scene).displacement : solver.solve(scene, field).displacement;
+    const Stage stage{.scene = parse_scene(name, bridge.layout),
+                      .gravity_share = static_cast<double>(i) / steps};
+    field = solver.solve({.stage = stage, .start = i == 1 ? nullptr : &field}).displacement;
   }
   return field;
 }
 
 Findings load_steps() {
   Findings findings;
-  const Bridge bridge = make_bridge({});
+  const Model bridge = make_model({});
   for (const std::string name : {"intact", "10,4", "10,12"}) {
     const Eigen::VectorXd once = vertical_displacements(in_load_steps(name, 1), bridge.control_points);
     const Eigen::VectorXd often = vertical_displacements(in_load_steps(name, 10), bridge.control_points);

@@ -16,15 +16,14 @@ QuasiStaticSettings tightest() {
   return settings;
 }
 
-Eigen::VectorXd readings(const Bridge& bridge, const Field& field) {
+Eigen::VectorXd readings(const Model& bridge, const Field& field) {
   return vertical_displacements(field, bridge.control_points);
 }
 
 std::vector<Solution> solve_all(const Setting& setting) {
-  std::vector<Scene> scenes;
-  std::vector<SceneStart> starts;
+  std::vector<StageTask> starts;
   for (const Expectation& e : setting.scenes)
-    starts.push_back({parse_scene(e.scene, setting.bridge.layout), nullptr});
+    starts.push_back({.stage = {.scene = parse_scene(e.scene, setting.bridge.layout)}});
   return CombinedSolver(setting.bridge).solve(starts);
 }
 
@@ -35,16 +34,18 @@ Signals polished_signals(const Setting& setting, const std::vector<Solution>& so
   for (std::size_t i = 0; i < solutions.size(); ++i) {
     const std::string& name = setting.scenes[i].scene;
     if (solutions[i].outcome == Outcome::standing)
-      signals[name] = readings(
-          setting.bridge,
-          solver.solve(parse_scene(name, setting.bridge.layout), solutions[i].displacement).displacement);
+      signals[name] =
+          readings(setting.bridge, solver
+                                       .solve({.stage = {.scene = parse_scene(name, setting.bridge.layout)},
+                                               .start = &solutions[i].displacement})
+                                       .displacement);
   }
   for (auto& [name, signal] : signals)
     if (name != "intact" && signals.contains("intact")) signal -= signals["intact"];
   return signals;
 }
 
-bool in_equilibrium(const Bridge& bridge, const std::string& scene, const Solution& solution) {
+bool in_equilibrium(const Model& bridge, const std::string& scene, const Solution& solution) {
   const Scene removed = parse_scene(scene, bridge.layout);
   Eigen::Index gone = 0;
   for (const BlockId block : removed.removed)
@@ -76,7 +77,7 @@ double relative_difference(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
   return size > 0.0 ? distance / size : distance;
 }
 
-Signals tightest_signals(const Bridge& bridge, const std::vector<Expectation>& scenes) {
+Signals tightest_signals(const Model& bridge, const std::vector<Expectation>& scenes) {
   const Setting setting{.sweep = {}, .value = {}, .bridge = bridge, .scenes = scenes};
   return polished_signals(setting, solve_all(setting));
 }

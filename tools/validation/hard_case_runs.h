@@ -3,7 +3,7 @@
 
 #include <map>
 
-#include "core/structure/bridge.h"
+#include "core/structure/model.h"
 #include "tools/validation/findings.h"
 
 namespace voussoir::validation {
@@ -18,7 +18,7 @@ struct Expectation {
 struct Setting {
   std::string sweep;
   std::string value;
-  Bridge bridge;
+  Model bridge;
   std::vector<Expectation> scenes;
 };
 
@@ -31,7 +31,7 @@ std::vector<Expectation> usual_scenes();
 using Signals = std::map<std::string, Eigen::VectorXd>;
 
 /// Of the standing ones among the scenes, by Newton's method as tight as it gets.
-Signals tightest_signals(const Bridge& bridge, const std::vector<Expectation>& scenes);
+Signals tightest_signals(const Model& bridge, const std::vector<Expectation>& scenes);
 
 /// L1 distance over L1 size, where both are numbers.
 double relative_difference(const Eigen::VectorXd& a, const Eigen::VectorXd& b);

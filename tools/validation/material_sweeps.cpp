@@ -17,7 +17,7 @@ void run_changed(const std::string& sweep, const std::string& value, const Bridg
                  const std::vector<Expectation>& scenes, const Change& change, Findings& findings) {
   BridgeDescription description = base;
   change(description);
-  run_setting({.sweep = sweep, .value = value, .bridge = make_bridge(description), .scenes = scenes},
+  run_setting({.sweep = sweep, .value = value, .bridge = make_model(description), .scenes = scenes},
               kSignalTolerance, nullptr, findings);
 }
 

@@ -16,7 +16,7 @@ constexpr double kGravity = 9.81;
 
 /// Blocks in motion without damping but for the contacts'.
 struct MovingBlocks {
-  MovingBlocks(const Bridge& bridge, double size, double share_of_critical, double contact_damping)
+  MovingBlocks(const Model& bridge, double size, double share_of_critical, double contact_damping)
       : model(bridge,
               share_of_critical * critical_step(bridge, make_block_bodies(bridge),
                                                 Integrator::implicit_blocks, contact_damping),
@@ -46,7 +46,7 @@ struct Slide {
 /// Contacts are damped, for a block that slides with its joint partly open chatters on it otherwise (mu =
 /// 0.7).
 Slide slide(double slope, double friction_angle, double size) {
-  const Bridge bridge = block_on_wedge(slope, friction_angle, size);
+  const Model bridge = block_on_wedge(slope, friction_angle, size);
   const double unit = std::sqrt(size);
   MovingBlocks blocks(bridge, size, 0.3, 1e-3 * unit);
   const auto speed = [&] {
@@ -103,8 +103,8 @@ Findings incline() {
 /// Two blocks of E / p_n = 1000 m thrown at each other, frictionless.
 Findings impact() {
   constexpr double kSpeed = 1.0;
-  Bridge bridge = floating_course(2, 0.0);
-  bridge.description.material.young_modulus = 1e13;
+  Model bridge = floating_course(2, 0.0);
+  for (Material& material : bridge.parameters.blocks) material.young_modulus = 1e13;
   MovingBlocks blocks(bridge, 1.0, 0.01, 0.0);
   blocks.frame(0).velocity = {kSpeed, 0.0};
   const double mass = blocks.model.bodies[0].mass;
@@ -114,7 +114,7 @@ Findings impact() {
     blocks.step();
     if (blocks.frame(1).velocity.x - before > 1e-9 * kSpeed) touching += blocks.model.step;
   }
-  const double stiffness = 0.5 * bridge.description.joints.normal_stiffness;  // face of 0.5 m x 1 m
+  const double stiffness = 0.5 * bridge.parameters.contact.normal_stiffness;  // face of 0.5 m x 1 m
   const double duration = std::numbers::pi * std::sqrt(0.5 * mass / stiffness);
   const std::string reason =
       "the blocks' own vibrations, which the step damps, take a share of p_n L / E = 1e-4";
@@ -161,10 +161,10 @@ struct Rocker {
   double inset(double angle) const { return std::sqrt(2.0 * weight() / (normal_stiffness * angle)) / 3.0; }
 };
 
-Bridge rocking_bridge(const Rocker& rocker) {
+Model rocking_bridge(const Rocker& rocker) {
   BridgeDescription description;
   description.wall.length = 100.0;
-  description.supports.sides = Support::free;
+  description.supports.sides = SupportKind::free;
   description.material.young_modulus = 100.0 * rocker.normal_stiffness;
   description.joints = {.normal_stiffness = rocker.normal_stiffness,
                         .tangential_stiffness = rocker.normal_stiffness,
@@ -194,7 +194,8 @@ void lean(const Rocker& rocker, double angle, MovingBlocks& blocks) {
   blocks.frame(1).centre = place(body.centre);
   blocks.frame(1).rotation = {std::cos(angle), -std::sin(angle)};
   for (int node = body.nodes.begin; node < body.nodes.end; ++node)
-    blocks.motion.places[static_cast<std::size_t>(node)] = place(blocks.model.bridge->mesh.nodes.col(node));
+    blocks.motion.places[static_cast<std::size_t>(node)] =
+        place(blocks.model.structure->mesh.nodes.col(node));
 }
 
 double leaning(MovingBlocks& blocks) {
@@ -208,7 +209,7 @@ struct Rocking {
 };
 
 Rocking rock(const Rocker& rocker, double start, double contact_damping) {
-  const Bridge bridge = rocking_bridge(rocker);
+  const Model bridge = rocking_bridge(rocker);
   MovingBlocks blocks(bridge, 1.0, 0.5, contact_damping);
   blocks.motion.load = 1.0;
   lean(rocker, start, blocks);

@@ -12,7 +12,7 @@ namespace {
 Findings stack() {
   Findings findings;
   constexpr int kCourses = 12;
-  const Bridge bridge = column(kCourses, 1e16);
+  const Model bridge = column(kCourses, 1e16);
   const Field field = QuasiStaticSolver(bridge).solve(Scene{}).displacement;
   const double block = 0.5 * 2400.0 * 9.81;
   double largest = 0.0;
@@ -21,7 +21,7 @@ Findings stack() {
     const double above = (kCourses - below) * block;
     const Point force = joint_force(bridge, field, BlockId{below}, BlockId{below - 1});
     largest = std::max(largest, (force - Point(0.0, -above)).norm() / above);
-    settlement += above / bridge.description.joints.normal_stiffness;
+    settlement += above / bridge.parameters.contact.normal_stiffness;
   }
   const NodeId top = bridge.control_points.front().node;
   findings.cases = {
@@ -44,10 +44,10 @@ constexpr double kBlockWidth = 1.0;
 constexpr double kHeight = 2.0;
 
 /// A block of 1 m x 2 m on a clamped slab.
-Bridge table(double normal_stiffness, double young_modulus) {
+Model table(double normal_stiffness, double young_modulus) {
   BridgeDescription description;
   description.wall.length = 100.0;
-  description.supports.sides = Support::free;
+  description.supports.sides = SupportKind::free;
   description.gravity = 0.0;
   description.material.young_modulus = young_modulus;
   description.joints = {.normal_stiffness = normal_stiffness,
@@ -58,18 +58,18 @@ Bridge table(double normal_stiffness, double young_modulus) {
 }
 
 /// The weight in a table that is tilted by an angle [rad].
-Field tilted_weight(const Bridge& bridge, double angle) {
-  Bridge with_gravity = bridge;
-  with_gravity.description.gravity = 9.81;
-  const Eigen::VectorXd weight = EquilibriumSystem(with_gravity).weight;
+Field tilted_weight(const Model& bridge, double angle) {
+  Parameters with_gravity = bridge.parameters;
+  with_gravity.gravity = 9.81;
+  const Eigen::VectorXd weight = Coefficients(EquilibriumSystem(bridge), with_gravity).weight;
   return Point(std::sin(angle), -std::cos(angle)) * weight.transpose();
 }
 
 double topples_at(double normal_stiffness) {
-  const Bridge bridge = table(normal_stiffness, 100.0 * normal_stiffness);
+  const Model bridge = table(normal_stiffness, 100.0 * normal_stiffness);
   return last_true(0.0, std::atan(1.0), 1e-6, [&](double angle) {
-    return QuasiStaticSolver(bridge, {}, tilted_weight(bridge, angle)).solve(Scene{}).outcome ==
-           Outcome::standing;
+    const Stage tilted{.load = tilted_weight(bridge, angle)};
+    return QuasiStaticSolver(bridge).solve(StageTask{.stage = tilted}).outcome == Outcome::standing;
   });
 }
 

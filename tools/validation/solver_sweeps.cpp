@@ -14,19 +14,19 @@ namespace {
 
 constexpr const char* kScene = "4,2";
 
-Eigen::VectorXd readings(const Bridge& bridge, const Field& field) {
+Eigen::VectorXd readings(const Model& bridge, const Field& field) {
   return vertical_displacements(field, bridge.control_points);
 }
 
-DynamicSolution moved(const Bridge& bridge, double step) {
+DynamicSolution moved(const Model& bridge, double step) {
   DynamicSettings settings;
   settings.step = step;
-  settings.standing_unbalance = 1e-7;
-  settings.latest_decision = 3.0;
+  settings.decision.standing_unbalance = 1e-7;
+  settings.decision.latest_decision = 3.0;
   return DynamicSolver(bridge, settings).solve(parse_scene(kScene, bridge.layout));
 }
 
-HardCase step_case(const Bridge& bridge, double share, double critical, const Eigen::VectorXd& tightest) {
+HardCase step_case(const Model& bridge, double share, double critical, const Eigen::VectorXd& tightest) {
   HardCase row{.sweep = "time step", .setting = fmt::format("{:g} of the critical", share), .scene = kScene};
   try {
     const DynamicSolution solution = moved(bridge, share * critical);
@@ -45,7 +45,7 @@ HardCase step_case(const Bridge& bridge, double share, double critical, const Ei
 /// Friction remembers the way, and the way depends a little on the step: 1 %.
 Findings time_steps() {
   Findings findings;
-  const Bridge bridge = make_bridge(small_bridge());
+  const Model bridge = make_model(small_bridge());
   const double critical = DynamicSolver(bridge).critical_step();
   const Eigen::VectorXd tightest = readings(bridge, moved(bridge, 0.05 * critical).solution.displacement);
   for (const double share : {0.1, 0.3, 0.9, 0.99, 1.0, 1.01, 2.0, 100.0})
@@ -54,7 +54,7 @@ Findings time_steps() {
 }
 
 /// Starts that no sensible caller would give.
-std::vector<std::pair<std::string, Field>> bad_starts(const Bridge& bridge, const Field& answer) {
+std::vector<std::pair<std::string, Field>> bad_starts(const Model& bridge, const Field& answer) {
   const auto nodes = bridge.mesh.node_count();
   std::mt19937 random(9);
   std::normal_distribution<double> normal;
@@ -75,7 +75,7 @@ std::vector<std::pair<std::string, Field>> bad_starts(const Bridge& bridge, cons
 
 Findings starting_guesses() {
   Findings findings;
-  const Bridge bridge = make_bridge(small_bridge());
+  const Model bridge = make_model(small_bridge());
   const Scene scene = parse_scene(kScene, bridge.layout);
   QuasiStaticSolver solver(bridge);
   const Field answer = solver.solve(scene).displacement;
@@ -99,7 +99,7 @@ Findings starting_guesses() {
 Findings single_precision() {
   Findings findings;
   for (const bool reference : {false, true}) {
-    const Bridge bridge = make_bridge(reference ? BridgeDescription{} : small_bridge());
+    const Model bridge = make_model(reference ? BridgeDescription{} : small_bridge());
     const std::string name = reference ? "10,4" : kScene;
     QuasiStaticSolver solver(bridge);
     const Eigen::VectorXd intact = readings(bridge, solver.solve(Scene{}).displacement);

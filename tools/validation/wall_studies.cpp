@@ -15,10 +15,10 @@ constexpr double kFooting = 0.1;    ///< [m]
 constexpr int kCourses = 10;
 
 /// Ten courses in running bond between a clamped footing and a beam.
-Bridge shear_wall(double friction) {
+Model shear_wall(double friction) {
   BridgeDescription description;
   description.wall.length = 100.0;
-  description.supports.sides = Support::free;
+  description.supports.sides = SupportKind::free;
   description.material = {
       .young_modulus = 15.5e9, .poisson_ratio = 0.2, .density = 2400.0, .thickness = kThickness};
   description.joints = {
@@ -38,7 +38,7 @@ Bridge shear_wall(double friction) {
 }
 
 /// The vertical force along the beam's top, the horizontal one at its left end [N].
-Field load_on_beam(const Bridge& bridge, double vertical, double horizontal) {
+Field load_on_beam(const Model& bridge, double vertical, double horizontal) {
   Field load = Field::Zero(2, bridge.mesh.node_count());
   const double top = kFooting + kWallWidth + 0.1;
   for (const BoundaryEdge& edge : bridge.mesh.edges) {
@@ -71,15 +71,16 @@ QuasiStaticSettings patient_newton() {
 /// The force grows by steps that are halved when nothing stands, until they are a two-thousandth of the
 /// vertical force.
 Response push(double friction, double vertical) {
-  const Bridge bridge = shear_wall(friction);
+  const Model bridge = shear_wall(friction);
   const NodeId corner{bridge.mesh.block_nodes.back().end - 1};
+  QuasiStaticSolver solver(bridge, patient_newton());
   Response response;
   Field start;
   double step = 0.02 * vertical;
   while (step > 5e-4 * vertical && response.greatest < vertical) {
     const double force = start.size() > 0 ? response.greatest + step : 0.0;
-    QuasiStaticSolver solver(bridge, patient_newton(), load_on_beam(bridge, vertical, force));
-    const Solution solution = start.size() > 0 ? solver.solve(Scene{}, start) : solver.solve(Scene{});
+    const Stage pushed{.load = load_on_beam(bridge, vertical, force)};
+    const Solution solution = solver.solve({.stage = pushed, .start = start.size() > 0 ? &start : nullptr});
     if (solution.outcome == Outcome::standing) {
       start = solution.displacement;
       response.greatest = force;

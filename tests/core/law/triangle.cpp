@@ -156,9 +156,10 @@ TEST_CASE("Gradient and geometric stiffness of a joint are derivatives of its st
 }
 
 TEST_CASE("The bridge's tangent is the derivative of its unbalanced forces", "[equilibrium]") {
-  const Bridge bridge = test::small_bridge();
+  const Model bridge = test::small_bridge();
   const EquilibriumSystem system(bridge);
-  const std::vector<bool> removed = removal_mask(parse_scene("4,2", bridge.layout), bridge.layout.size());
+  const Coefficients coefficients(system, bridge.parameters);
+  const StageEquations equations(system, coefficients, {.scene = parse_scene("4,2", bridge.layout)});
   std::mt19937 generator(7);
   std::normal_distribution<double> normal(0.0, 1.0);
   Field u = Field::Zero(2, bridge.mesh.node_count());
@@ -168,11 +169,11 @@ TEST_CASE("The bridge's tangent is the derivative of its unbalanced forces", "[e
     direction.data()[c] = normal(generator);
   }
   Eigen::SparseMatrix<double> tangent = system.pattern;
-  assemble(system, removed, u, 0.0, {tangent.valuePtr()});
+  assemble(equations, u, 0.0, {tangent.valuePtr()});
   const double h = 1e-9;
-  const Field difference = (unbalanced_forces(system, removed, u - h * direction) -
-                            unbalanced_forces(system, removed, u + h * direction)) /
-                           (2 * h);
+  const Field difference =
+      (unbalanced_forces(equations, u - h * direction) - unbalanced_forces(equations, u + h * direction)) /
+      (2 * h);
   Eigen::VectorXd along(system.unknown_count());
   for (int i = 0; i < along.size(); ++i)
     along[i] = direction.data()[system.component[static_cast<std::size_t>(i)]];

@@ -12,15 +12,20 @@ namespace {
 
 using Places = std::array<Pair<double>, 4>;
 
-constexpr ContactMaterial kSmooth{.normal = 1e9, .tangential = 1e8, .friction = 0.0};
-constexpr ContactMaterial kRough{.normal = 1e9, .tangential = 1e8, .friction = 0.7};
+JointMaterial material_with(double friction) {
+  return {.normal_stiffness = 1e9, .tangential_stiffness = 1e8, .friction_angle = std::atan(friction)};
+}
+
+const ContactMaterial kSmooth(material_with(0.0), 1.0);
+const ContactMaterial kRough(material_with(0.7), 1.0);
 
 /// Two edges of lengths 1 and 0.8 at rest.
-EdgeContact edges(double share) {
+EdgeContact edges(double share, const ContactMaterial& material = kSmooth) {
   return {.nodes = {0, 1, 2, 3},
           .blocks = {0, 1},
           .per_length = {1.0, 1.25},
-          .corner_share = {share, share, share, share}};
+          .corner_share = {share, share, share, share},
+          .material = material};
 }
 
 /// Edge A on the x axis with its block below; edge B above it, turned by an angle, its middle at (x, gap).
@@ -30,11 +35,10 @@ Places placed(double x, double gap, double angle) {
   return {{{1.0, 0.0}, {0.0, 0.0}, {x - half_x, gap - half_y}, {x + half_x, gap + half_y}}};
 }
 
-EdgeForces<double> forces_of(const EdgeContact& contact, const ContactMaterial& material, const Places& now,
-                             const Places& moved = {}) {
+EdgeForces<double> forces_of(const EdgeContact& contact, const Places& now, const Places& moved = {}) {
   ContactShear<double> shear{0.0, 0.0};
   EdgeForces<double> forces{};
-  contact_forces<double>(contact, material, 1.0, {.now = now, .moved = moved}, shear, forces);
+  contact_forces<double>(contact, 1.0, {.now = now, .moved = moved}, shear, forces);
   return forces;
 }
 
@@ -88,7 +92,7 @@ TEST_CASE("Forces of a smooth contact are the derivatives of its energy (brute f
       for (const double x : {0.5, 0.2, 0.9}) {
         const EdgeContact contact = edges(share);
         const Places now = placed(x, -0.02, angle);
-        const EdgeForces<double> forces = forces_of(contact, kSmooth, now);
+        const EdgeForces<double> forces = forces_of(contact, now);
         double largest = 0.0;
         for (int c = 0; c < 8; ++c) largest = std::max(largest, std::abs(component(forces, c)));
         for (int c = 0; c < 8; ++c) {
@@ -113,7 +117,7 @@ TEST_CASE(
     const Places now = placed(0.5 + 0.6 * any(random), 0.03 * any(random), 0.5 * any(random));
     Places moved{};
     for (Pair<double>& node : moved) node = {1e-3 * any(random), 1e-3 * any(random)};
-    const EdgeForces<double> forces = forces_of(edges(1.0), kRough, now, moved);
+    const EdgeForces<double> forces = forces_of(edges(1.0, kRough), now, moved);
     Pair<double> sum{0.0, 0.0};
     double couple = 0.0;
     double size = 0.0;
@@ -143,8 +147,8 @@ TEST_CASE("A contact turned and shifted as a whole has forces turned alike (fram
     now_turned[i] = turned(now[i]) + Pair<double>{3.0, -2.0};
     moved_turned[i] = turned(moved[i]);
   }
-  const EdgeForces<double> forces = forces_of(edges(1.0), kRough, now, moved);
-  const EdgeForces<double> forces_turned = forces_of(edges(1.0), kRough, now_turned, moved_turned);
+  const EdgeForces<double> forces = forces_of(edges(1.0, kRough), now, moved);
+  const EdgeForces<double> forces_turned = forces_of(edges(1.0, kRough), now_turned, moved_turned);
   for (std::size_t i = 0; i < 4; ++i) {
     const Pair<double> expected = turned(forces[i]);
     CHECK(forces_turned[i].x == Approx(expected.x).epsilon(1e-9));
@@ -153,18 +157,20 @@ TEST_CASE("A contact turned and shifted as a whole has forces turned alike (fram
 }
 
 TEST_CASE("Two facing edges of one length answer as the joint law of the quasi-static equations does") {
-  const EdgeContact contact{
-      .nodes = {0, 1, 2, 3}, .blocks = {0, 1}, .per_length = {1.0, 1.0}, .corner_share = {}};
-  const JointMaterial material{
-      .normal_stiffness = 1e9, .tangential_stiffness = 1e8, .friction_angle = std::atan(0.7)};
+  const EdgeContact contact{.nodes = {0, 1, 2, 3},
+                            .blocks = {0, 1},
+                            .per_length = {1.0, 1.0},
+                            .corner_share = {},
+                            .material = kRough};
+  const JointStiffness joint = joint_stiffness(material_with(0.7), 1.0);
   for (const double gap_1 : {-2e-6, 1e-6})
     for (const double slip : {3e-6, 1e-5, -4e-5}) {
       const double gap_0 = -3e-6;
       // t along +x: A from 0 to 1, its block above, so B lies below and the gap is towards -y.
       const Places now = {{{0.0, 0.0}, {1.0, 0.0}, {1.0, -gap_1}, {0.0, -gap_0}}};
       const Places moved = {{{0.0, 0.0}, {0.0, 0.0}, {slip, 0.0}, {slip, 0.0}}};
-      const EdgeForces<double> forces = forces_of(contact, kRough, now, moved);
-      const JointResponse law = integrate_joint(material, 1.0, {gap_0, slip, gap_1, slip});
+      const EdgeForces<double> forces = forces_of(contact, now, moved);
+      const JointResponse law = integrate_joint(joint, {}, {gap_0, slip, gap_1, slip});
       INFO("gap_1 " << gap_1 << " slip " << slip);
       // The law's forces work on the opening: force on B is their negative.
       const double scale = law.force.cwiseAbs().maxCoeff();
@@ -177,8 +183,11 @@ TEST_CASE("Two facing edges of one length answer as the joint law of the quasi-s
 TEST_CASE("A block that leans over on its edge does not slip at the end that opens (kinematics)") {
   // B above A turns about the common corner in small steps; its base and A's face keep their lengths in the
   // frame.
-  const EdgeContact contact{
-      .nodes = {0, 1, 2, 3}, .blocks = {0, 1}, .per_length = {1.0, 1.0}, .corner_share = {}};
+  const EdgeContact contact{.nodes = {0, 1, 2, 3},
+                            .blocks = {0, 1},
+                            .per_length = {1.0, 1.0},
+                            .corner_share = {},
+                            .material = kRough};
   constexpr int kSteps = 200;
   constexpr double kLean = 0.2;
   const auto lean = [](double angle) {
@@ -195,7 +204,7 @@ TEST_CASE("A block that leans over on its edge does not slip at the end that ope
         edges.now[n] = after[n] + edges.moved[n] * ahead;
       }
       EdgeForces<double> forces{};
-      contact_forces<double>(contact, kRough, 1.0, edges, shear, forces);
+      contact_forces<double>(contact, 1.0, edges, shear, forces);
     }
     // Along a frame that stands still the open end would slip by 1 - cos 0.2 = 0.02, by half of it in the
     // mean frame.
@@ -207,7 +216,7 @@ TEST_CASE("A block that leans over on its edge does not slip at the end that ope
 
 TEST_CASE("A lane's forces have the same bits whatever the other lanes hold") {
   using Four = Lanes<4>;
-  const EdgeContact contact = edges(1.0);
+  const EdgeContact contact = edges(1.0, kRough);
   const std::array<Places, 4> lanes = {placed(0.5, -0.01, 0.0), placed(0.2, 0.5, 0.3),
                                        placed(0.9, -0.02, 0.8), placed(0.4, -0.03, -0.1)};
   EdgePlaces<Four> together{};
@@ -218,9 +227,9 @@ TEST_CASE("A lane's forces have the same bits whatever the other lanes hold") {
     }
   ContactShear<Four> shear{Four{}, Four{}};
   EdgeForces<Four> forces{};
-  REQUIRE(contact_forces<Four>(contact, kRough, Four{} + 1.0, together, shear, forces));
+  REQUIRE(contact_forces<Four>(contact, Four{} + 1.0, together, shear, forces));
   for (int l = 0; l < 4; ++l) {
-    const EdgeForces<double> alone = forces_of(contact, kRough, lanes[static_cast<std::size_t>(l)]);
+    const EdgeForces<double> alone = forces_of(contact, lanes[static_cast<std::size_t>(l)]);
     for (std::size_t i = 0; i < 4; ++i) {
       CHECK(lane(forces[i].x, l) == alone[i].x);
       CHECK(lane(forces[i].y, l) == alone[i].y);

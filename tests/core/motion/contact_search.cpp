@@ -4,16 +4,16 @@
 #include <catch2/catch.hpp>
 #include <random>
 
-#include "core/structure/bridge.h"
+#include "core/structure/model.h"
 
 namespace voussoir {
 namespace {
 
-Bridge three_courses() {
+Model three_courses() {
   BridgeDescription description;
   description.wall = {.length = 4.0, .courses = 3};
   description.spans.clear();
-  return make_bridge(description);
+  return make_model(description);
 }
 
 bool boxes_near(const Eigen::Matrix2Xd& places, const BoundaryEdge& a, const BoundaryEdge& b, double margin) {
@@ -28,8 +28,8 @@ bool boxes_near(const Eigen::Matrix2Xd& places, const BoundaryEdge& a, const Bou
 }  // namespace
 
 TEST_CASE("The contact search finds every pair of edges that brute force finds, in order and once") {
-  const Bridge bridge = three_courses();
-  const ContactSearch search(bridge.mesh, bridge.joints);
+  const Model bridge = three_courses();
+  const ContactSearch search(bridge);
   std::mt19937 random(3);
   std::uniform_real_distribution<double> any(-0.2, 0.2);
   for (int trial = 0; trial < 20; ++trial) {
@@ -60,8 +60,8 @@ TEST_CASE("The contact search finds every pair of edges that brute force finds, 
 }
 
 TEST_CASE("All joints at rest are among the candidates and own their corners") {
-  const Bridge bridge = three_courses();
-  const ContactSearch search(bridge.mesh, bridge.joints);
+  const Model bridge = three_courses();
+  const ContactSearch search(bridge);
   const std::vector<EdgePair> pairs =
       search.candidates(bridge.mesh.nodes, std::vector<bool>(bridge.layout.size(), false), 1e-3);
   std::size_t joined = 0;

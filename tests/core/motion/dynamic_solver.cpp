@@ -7,6 +7,7 @@
 #include "core/error.h"
 #include "core/statics/quasi_static_solver.h"
 #include "core/structure/bridge_file.h"
+#include "tests/support/bridges.h"
 #include "tools/validation/hard_case_runs.h"
 
 namespace voussoir {
@@ -14,18 +15,18 @@ namespace {
 
 using validation::relative_difference;
 
-const Bridge& reference() {
-  static const Bridge bridge = make_bridge(reference_bridge_file().description);
+const Model& reference() {
+  static const Model bridge = make_model(reference_bridge_file().description);
   return bridge;
 }
 
-const Bridge& small() {
-  static const Bridge bridge =
-      make_bridge(read_bridge_file(VOUSSOIR_SOURCE_DIR "/examples/bridges/small.toml").description);
+const Model& small() {
+  static const Model bridge =
+      make_model(read_bridge_file(VOUSSOIR_SOURCE_DIR "/examples/bridges/small.toml").description);
   return bridge;
 }
 
-Eigen::VectorXd readings(const Bridge& bridge, const Field& field) {
+Eigen::VectorXd readings(const Model& bridge, const Field& field) {
   return vertical_displacements(field, bridge.control_points);
 }
 
@@ -44,7 +45,7 @@ bool same_bits(const Field& a, const Field& b) {
 /// Followed until nothing moves.
 DynamicSettings patient() {
   DynamicSettings settings;
-  settings.standing_unbalance = 1e-6;
+  settings.decision.standing_unbalance = 1e-6;
   return settings;
 }
 
@@ -53,7 +54,7 @@ DynamicSettings patient() {
 TEST_CASE(
     "Standing scenes of the reference bridge: dynamic and quasi-static solver agree (independent solver)",
     "[many-scenes]") {
-  const Bridge& bridge = reference();
+  const Model& bridge = reference();
   std::vector<Scene> scenes;
   for (const char* text : {"intact", "10,4", "6,4", "2,6", "4,10", "8,12", "10,12", "4,2+11,3", "4,10+2,6"})
     scenes.push_back(parse_scene(text, bridge.layout));
@@ -79,7 +80,7 @@ TEST_CASE(
 
 TEST_CASE(
     "Outcomes of the reference bridge: arch and local collapses are told apart (published cases, friction)") {
-  const Bridge& bridge = reference();
+  const Model& bridge = reference();
   struct Case {
     const char* scene;
     Outcome outcome;
@@ -108,8 +109,8 @@ TEST_CASE("Where gravity acts at once, the half blocks slide down and the arch f
   DynamicSettings sudden;
   sudden.ramp = 0.0;
   sudden.damping = 5.0;  // a twentieth of critical
-  sudden.latest_decision = 6.0;
-  const Bridge& bridge = reference();
+  sudden.decision.latest_decision = 6.0;
+  const Model& bridge = reference();
   const BlockIndex keystone{0, 10};
   struct Case {
     const char* scene;
@@ -137,7 +138,7 @@ TEST_CASE("Where gravity acts at once, the half blocks slide down and the arch f
 }
 
 TEST_CASE("The field of a collapse is the mirror image of its mirrored scene's within 1 % (symmetry)") {
-  const Bridge& bridge = reference();
+  const Model& bridge = reference();
   REQUIRE(bridge.symmetry);
   const std::vector<Scene> scenes = {parse_scene("0,5", bridge.layout), parse_scene("0,15", bridge.layout)};
   const std::vector<DynamicSolution> solutions = DynamicSolver(bridge).solve(scenes);
@@ -149,7 +150,7 @@ TEST_CASE("The field of a collapse is the mirror image of its mirrored scene's w
 }
 
 TEST_CASE("One scene at a time and four side by side give the same bits, in any order (the scalar solver)") {
-  const Bridge& bridge = small();
+  const Model& bridge = small();
   std::vector<Scene> scenes = {{}};
   for (const int block : {3, 20, 25, 30, 14, 5}) scenes.push_back({{BlockId{block}}});
   DynamicSettings alone;
@@ -168,10 +169,10 @@ TEST_CASE("One scene at a time and four side by side give the same bits, in any 
 
 TEST_CASE("Implicit blocks and plain central differences agree within 0.01 % (independent integrator)",
           "[long]") {
-  const Bridge& bridge = small();
+  const Model& bridge = small();
   const Scene scene{{BlockId{25}}};
   DynamicSettings settings;
-  settings.standing_unbalance = 1e-7;
+  settings.decision.standing_unbalance = 1e-7;
   const DynamicSolution fast = DynamicSolver(bridge, settings).solve(scene);
   settings.integrator = Integrator::central_differences;
   const DynamicSolution plain = DynamicSolver(bridge, settings).solve(scene);
@@ -185,7 +186,7 @@ TEST_CASE("Implicit blocks and plain central differences agree within 0.01 % (in
 TEST_CASE("The two integrators agree within 0.01 % on the reference bridge, too (independent integrator)",
           "[long]") {
   DynamicSettings settings;
-  settings.standing_unbalance = 1e-6;
+  settings.decision.standing_unbalance = 1e-6;
   const Scene scene = parse_scene("10,4", reference().layout);
   const Eigen::VectorXd fast =
       readings(reference(), DynamicSolver(reference(), settings).solve(scene).solution.displacement);
@@ -196,7 +197,7 @@ TEST_CASE("The two integrators agree within 0.01 % on the reference bridge, too 
 }
 
 TEST_CASE("Metres or millimetres, the answer is the same but for the unit (dimensional analysis)") {
-  BridgeDescription metres = small().description;
+  BridgeDescription metres = test::small_description();
   BridgeDescription millimetres = metres;
   constexpr double kLong = 1000.0;
   millimetres.wall.length *= kLong;
@@ -216,7 +217,7 @@ TEST_CASE("Metres or millimetres, the answer is the same but for the unit (dimen
   millimetres.joints.tangential_stiffness /= kLong * kLong;
   millimetres.gravity *= kLong;
   millimetres.joint_tolerance *= kLong;
-  const Bridge other = make_bridge(millimetres);
+  const Model other = make_model(millimetres);
   const Scene scene{{BlockId{25}}};
   const DynamicSolution a = DynamicSolver(small()).solve(scene);
   const DynamicSolution b = DynamicSolver(other).solve(scene);
@@ -236,7 +237,7 @@ TEST_CASE("A step above the critical one is refused with the reason") {
 TEST_CASE("Steps just below the critical one are stable, and give the answer of shorter steps (refinement)") {
   const Scene scene{{BlockId{25}}};
   DynamicSettings settings;
-  settings.standing_unbalance = 1e-6;
+  settings.decision.standing_unbalance = 1e-6;
   settings.step = 0.99 * DynamicSolver(small()).critical_step();
   const DynamicSolution longest = DynamicSolver(small(), settings).solve(scene);
   settings.step = *settings.step / 3.0;

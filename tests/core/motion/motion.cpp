@@ -5,7 +5,7 @@
 
 #include "core/motion/critical_step.h"
 #include "core/motion/motion_step.h"
-#include "core/structure/bridge.h"
+#include "core/structure/model.h"
 #include "tools/validation/assemblies.h"
 
 namespace voussoir {
@@ -65,7 +65,7 @@ constexpr double kThirtyFive = 35.0 * std::numbers::pi / 180.0;
 }  // namespace
 
 TEST_CASE("A block in free flight keeps its momentum and energy to round-off (conservation laws)") {
-  const Bridge bridge = floating_course(1, kThirtyFive);
+  const Model bridge = floating_course(1, kThirtyFive);
   const MotionModel model(bridge, 3e-4, 0.0, 0.0);
   Motion<One> motion = at_rest<One>(model);
   motion.frames[0].velocity = {3.0, -1.0};
@@ -85,7 +85,7 @@ TEST_CASE("A block in free flight keeps its momentum and energy to round-off (co
 TEST_CASE(
     "A free block under central differences keeps linear and angular momentum to round-off (conservation "
     "laws)") {
-  const Bridge bridge = floating_course(1, kThirtyFive);
+  const Model bridge = floating_course(1, kThirtyFive);
   const std::vector<BlockBody> bodies = make_block_bodies(bridge);
   const double step = 0.5 * critical_step(bridge, bodies, Integrator::central_differences, 0.0);
   const MotionModel model(bridge, step, 0.0, 0.0);
@@ -104,7 +104,7 @@ TEST_CASE(
 TEST_CASE(
     "Blocks that collide without friction keep linear and angular momentum, and gain no energy (conservation "
     "laws)") {
-  const Bridge bridge = floating_course(2, 0.0);
+  const Model bridge = floating_course(2, 0.0);
   const MotionModel model(bridge, 2e-5, 0.0, 0.0);
   Motion<One> motion = collision(model);
   const Momentum before = momentum(model, motion);
@@ -119,7 +119,7 @@ TEST_CASE(
 }
 
 TEST_CASE("Friction and damping never add energy to colliding blocks (second law)") {
-  const Bridge bridge = floating_course(3, kThirtyFive);
+  const Model bridge = floating_course(3, kThirtyFive);
   for (const double damping : {0.0, 5.0}) {
     const MotionModel model(bridge, 1e-4, damping, 1e-4);
     Motion<One> motion = collision(model);
@@ -137,16 +137,16 @@ TEST_CASE("Friction and damping never add energy to colliding blocks (second law
 }
 
 TEST_CASE("A block's moment of inertia is that of its area, whatever its triangles (closed form)") {
-  const Bridge coarse = floating_course(1, kThirtyFive);
-  BridgeDescription description = coarse.description;
-  description.mesh.refinement = 2;
+  const Model coarse = floating_course(1, kThirtyFive);
+  Model fine = coarse;
+  static_cast<Structure&>(fine) = assemble(coarse.layout.blocks, {.mesh = {.refinement = 2}});
   const double expected = 0.5 * 2400.0 * (1.0 + 0.25) / 12.0;  // m (b^2 + h^2) / 12
   CHECK(make_block_bodies(coarse)[0].inertia == Approx(expected).epsilon(1e-12));
-  CHECK(make_block_bodies(make_bridge(description))[0].inertia == Approx(expected).epsilon(1e-12));
+  CHECK(make_block_bodies(fine)[0].inertia == Approx(expected).epsilon(1e-12));
 }
 
 TEST_CASE("The shear of contacts survives a new search (the same run without searches)") {
-  const Bridge bridge = block_on_wedge(30.0 * std::numbers::pi / 180.0, kThirtyFive);
+  const Model bridge = block_on_wedge(30.0 * std::numbers::pi / 180.0, kThirtyFive);
   const MotionModel model(bridge, 2e-4, 20.0, 1e-4);
   Motion<One> once = at_rest<One>(model);
   Motion<One> often = at_rest<One>(model);

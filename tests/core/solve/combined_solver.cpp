@@ -9,16 +9,16 @@ using namespace voussoir;
 
 namespace {
 
-std::vector<SceneStart> from_rest(const std::vector<Scene>& scenes) {
-  std::vector<SceneStart> tasks;
-  for (const Scene& scene : scenes) tasks.push_back({scene, nullptr});
+std::vector<StageTask> from_rest(const std::vector<Scene>& scenes) {
+  std::vector<StageTask> tasks;
+  for (const Scene& scene : scenes) tasks.push_back({.stage = {.scene = scene}});
   return tasks;
 }
 
 }  // namespace
 
 TEST_CASE("Every scene of the small bridge with up to one block missing has an outcome", "[combined]") {
-  const Bridge bridge = test::small_bridge();
+  const Model bridge = test::small_bridge();
   const std::vector<Scene> scenes = all_scenes(bridge.layout.size(), 1);
   const std::vector<Solution> solutions = CombinedSolver(bridge).solve(from_rest(scenes));
   for (std::size_t i = 0; i < scenes.size(); ++i) {
@@ -31,7 +31,7 @@ TEST_CASE("Every scene of the small bridge with up to one block missing has an o
 }
 
 TEST_CASE("Scenes that Newton alone leaves open stand or creep away in motion", "[combined]") {
-  const Bridge bridge = test::reference_bridge();
+  const Model bridge = test::reference_bridge();
   const std::vector<std::pair<const char*, Outcome>> expected =
       {
           {"intact", Outcome::standing},       {"11,8", Outcome::standing},  // no hope seen after three steps
@@ -49,7 +49,7 @@ TEST_CASE("Scenes that Newton alone leaves open stand or creep away in motion", 
 }
 
 TEST_CASE("The combined solver's answers do not depend on their company, to the last bit", "[combined]") {
-  const Bridge bridge = test::small_bridge();
+  const Model bridge = test::small_bridge();
   CombinedSolver solver(bridge);
   const std::vector<Scene> scenes = all_scenes(bridge.layout.size(), 1);
   const std::vector<Solution> together = solver.solve(from_rest(scenes));

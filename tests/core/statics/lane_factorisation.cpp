@@ -29,7 +29,7 @@ void put(const Eigen::SparseMatrix<double>& matrix, std::size_t lane, LaneVector
 }  // namespace
 
 TEST_CASE("Every lane has the solution of an independent sparse LU", "[lanes]") {
-  const Bridge bridge = test::small_bridge();
+  const Model bridge = test::small_bridge();
   const EquilibriumSystem system(bridge);
   LaneFactorisation lanes(system.pattern);
   LaneVector values(static_cast<std::size_t>(system.pattern.nonZeros()));
@@ -50,7 +50,7 @@ TEST_CASE("Every lane has the solution of an independent sparse LU", "[lanes]") 
 }
 
 TEST_CASE("A lane's solution does not depend on its neighbours, to the last bit", "[lanes]") {
-  const Bridge bridge = test::small_bridge();
+  const Model bridge = test::small_bridge();
   const EquilibriumSystem system(bridge);
   LaneFactorisation lanes(system.pattern);
   LaneVector values(static_cast<std::size_t>(system.pattern.nonZeros()));
@@ -69,7 +69,7 @@ TEST_CASE("A lane's solution does not depend on its neighbours, to the last bit"
 }
 
 TEST_CASE("A singular matrix is reported in its lane and in no other", "[lanes]") {
-  const Bridge bridge = test::small_bridge();
+  const Model bridge = test::small_bridge();
   const EquilibriumSystem system(bridge);
   LaneFactorisation lanes(system.pattern);
   LaneVector values(static_cast<std::size_t>(system.pattern.nonZeros()));

@@ -9,13 +9,13 @@ using namespace voussoir;
 
 namespace {
 
-double vertical_mm(const Bridge& bridge, const Solution& solution, const std::string& point) {
+double vertical_mm(const Model& bridge, const Solution& solution, const std::string& point) {
   for (const ControlPoint& p : bridge.control_points)
     if (p.name == point) return 1e3 * solution.displacement(1, value(p.node));
   throw std::runtime_error("no point " + point);
 }
 
-Eigen::VectorXd control_displacements(const Bridge& bridge, QuasiStaticSolver& solver,
+Eigen::VectorXd control_displacements(const Model& bridge, QuasiStaticSolver& solver,
                                       const std::string& scene) {
   const Solution solution = solver.solve(parse_scene(scene, bridge.layout));
   REQUIRE(solution.outcome == Outcome::standing);
@@ -26,7 +26,7 @@ Eigen::VectorXd control_displacements(const Bridge& bridge, QuasiStaticSolver& s
 }  // namespace
 
 TEST_CASE("The intact reference bridge has the published displacements within half a per cent", "[solver]") {
-  const Bridge bridge = test::reference_bridge();
+  const Model bridge = test::reference_bridge();
   const Solution solution = QuasiStaticSolver(bridge).solve(Scene{});
   REQUIRE(solution.outcome == Outcome::standing);
   CHECK(solution.iterations <= 8);
@@ -41,7 +41,7 @@ TEST_CASE("Displacements are nearly proportional to the joints' compliance", "[s
   BridgeDescription soft;
   soft.joints.normal_stiffness = 1e8;
   soft.joints.tangential_stiffness = 1e7;
-  const Bridge bridge = make_bridge(soft);
+  const Model bridge = make_model(soft);
   const Solution solution = QuasiStaticSolver(bridge).solve(Scene{});
   // Published for p_n = 1e8: 7.7 mm at the ends and 36 mm at the centre.
   CHECK(vertical_mm(bridge, solution, "T1") == Approx(-7.7).epsilon(0.01));
@@ -54,7 +54,7 @@ TEST_CASE(
   BridgeDescription soft;
   soft.joints.normal_stiffness = 1e7;
   soft.joints.tangential_stiffness = 1e6;
-  const Bridge bridge = make_bridge(soft);
+  const Model bridge = make_model(soft);
   const Solution solution = QuasiStaticSolver(bridge).solve(Scene{});
   CHECK(solution.outcome == Outcome::standing);
   CHECK(solution.displacement.cwiseAbs().maxCoeff() > QuasiStaticSettings{}.collapse_displacement);
@@ -62,13 +62,13 @@ TEST_CASE(
 }
 
 TEST_CASE("Loads too small to be squared are carried like any other (proportionality)", "[solver]") {
-  BridgeDescription description = test::small_bridge().description;
+  BridgeDescription description = test::small_description();
   const Scene scene = parse_scene("4,2", test::small_bridge().layout);
   description.gravity = 1.0;
-  const Bridge usual_bridge = make_bridge(description);
+  const Model usual_bridge = make_model(description);
   const Solution usual = QuasiStaticSolver(usual_bridge).solve(scene);
   description.gravity = 1e-300;
-  const Bridge bridge = make_bridge(description);
+  const Model bridge = make_model(description);
   const Solution tiny = QuasiStaticSolver(bridge).solve(scene);
   REQUIRE(tiny.outcome == Outcome::standing);
   const Field scaled = test::without_nan(usual.displacement) * 1e-300;
@@ -79,20 +79,22 @@ TEST_CASE("Loads too small to be squared are carried like any other (proportiona
 
 TEST_CASE("A dead load equal to the weight does what twice the gravity does (superposition of loads)",
           "[solver]") {
-  BridgeDescription description = test::small_bridge().description;
-  const Bridge once = make_bridge(description);
+  const Model once = test::small_bridge();
   Field weight = Field::Zero(2, once.mesh.node_count());
-  weight.row(1) = -EquilibriumSystem(once).weight.transpose();
-  description.gravity *= 2.0;
+  weight.row(1) = -Coefficients(EquilibriumSystem(once), once.parameters).weight.transpose();
   const Scene scene = parse_scene("4,2", once.layout);
-  const Field loaded = test::without_nan(QuasiStaticSolver(once, {}, weight).solve(scene).displacement);
-  const Bridge twice = make_bridge(description);
-  const Field heavy = test::without_nan(QuasiStaticSolver(twice).solve(scene).displacement);
+  QuasiStaticSolver solver(once);
+  const Field loaded =
+      test::without_nan(solver.solve({.stage = {.scene = scene, .load = weight}}).displacement);
+  Parameters twice = once.parameters;
+  twice.gravity *= 2.0;
+  const Field heavy =
+      test::without_nan(solver.solve({.stage = {.scene = scene}, .parameters = &twice}).displacement);
   CHECK((loaded - heavy).cwiseAbs().maxCoeff() < 1e-7 * heavy.cwiseAbs().maxCoeff());
 }
 
 TEST_CASE("A mirrored scene has the mirrored field", "[solver]") {
-  const Bridge bridge = test::reference_bridge();
+  const Model bridge = test::reference_bridge();
   QuasiStaticSolver solver(bridge);
   for (const char* name : {"intact", "10,4", "2,6", "4,10+2,6", "10,12"}) {
     const Scene scene = parse_scene(name, bridge.layout);
@@ -104,13 +106,14 @@ TEST_CASE("A mirrored scene has the mirrored field", "[solver]") {
 }
 
 TEST_CASE("Every wall single of the reference bridge stands, no arch single does", "[solver][many-scenes]") {
-  const Bridge bridge = test::reference_bridge();
+  const Model bridge = test::reference_bridge();
   QuasiStaticSolver solver(bridge);
   const Solution intact = solver.solve(Scene{});
   for (const Scene& scene : all_scenes(bridge.layout.size(), 1)) {
     INFO(to_string(scene, bridge.layout));
-    const bool lacks_arch_block = scene.missing() == 1 && bridge.layout[scene.removed[0]].index.course == 0;
-    const Solution solution = solver.solve(scene, intact.displacement);
+    const bool lacks_arch_block =
+        scene.missing() == 1 && bridge.layout[scene.removed[0]].role == BlockRole::ring;
+    const Solution solution = solver.solve({.stage = {.scene = scene}, .start = &intact.displacement});
     CHECK((solution.outcome == Outcome::standing) == !lacks_arch_block);
     if (solution.outcome == Outcome::standing)
       CHECK(unbalanced_force(bridge, scene, solution.displacement) < 1e-7);
@@ -118,26 +121,27 @@ TEST_CASE("Every wall single of the reference bridge stands, no arch single does
 }
 
 TEST_CASE("Pairs that need care in the search stand", "[solver]") {
-  const Bridge bridge = test::reference_bridge();
+  const Model bridge = test::reference_bridge();
   QuasiStaticSolver solver(bridge);
   for (const char* name : {"10,4+10,12", "9,8+9,11", "4,2+11,3", "4,10+2,6"})
     CHECK(solver.solve(parse_scene(name, bridge.layout)).outcome == Outcome::standing);
 }
 
 TEST_CASE("The answer depends on the scene, not on the start or on earlier scenes", "[solver]") {
-  const Bridge bridge = test::small_bridge();
+  const Model bridge = test::small_bridge();
   QuasiStaticSolver solver(bridge);
   const Scene scene = parse_scene("4,2", bridge.layout);
   const Field first = test::without_nan(solver.solve(scene).displacement);
   const Field intact = solver.solve(Scene{}).displacement;
   solver.solve(parse_scene("0,5", bridge.layout));
   CHECK((test::without_nan(solver.solve(scene).displacement) - first).norm() == 0.0);
-  const Field warm = test::without_nan(solver.solve(scene, intact).displacement);
+  const Field warm =
+      test::without_nan(solver.solve({.stage = {.scene = scene}, .start = &intact}).displacement);
   CHECK((warm - first).cwiseAbs().maxCoeff() < 1e-9 * first.cwiseAbs().maxCoeff());
 }
 
 TEST_CASE("A removed block has no displacement and the others have one", "[solver]") {
-  const Bridge bridge = test::small_bridge();
+  const Model bridge = test::small_bridge();
   const Scene scene = parse_scene("5,2", bridge.layout);
   const Solution solution = QuasiStaticSolver(bridge).solve(scene);
   const IndexRange gone = bridge.mesh.block_nodes[static_cast<std::size_t>(value(scene.removed[0]))];
@@ -149,8 +153,8 @@ TEST_CASE("The signal of a removal is within two per cent of the converged answe
   // Oracle: the same bridge with two more levels of refinement (16 times the triangles).
   BridgeDescription fine_description;
   fine_description.mesh.refinement = 2;
-  const Bridge fine = make_bridge(fine_description);
-  const Bridge usual = test::reference_bridge();
+  const Model fine = make_model(fine_description);
+  const Model usual = test::reference_bridge();
   QuasiStaticSolver fine_solver(fine);
   QuasiStaticSolver usual_solver(usual);
   const Eigen::VectorXd fine_intact = control_displacements(fine, fine_solver, "intact");
@@ -165,17 +169,46 @@ TEST_CASE("The signal of a removal is within two per cent of the converged answe
 }
 
 TEST_CASE("Scenes solved side by side have the very bits of scenes solved alone", "[solver]") {
-  const Bridge bridge = test::small_bridge();
+  const Model bridge = test::small_bridge();
   QuasiStaticSolver solver(bridge);
   const Field intact = solver.solve(Scene{}).displacement;
-  std::vector<SceneStart> tasks;
-  for (const Scene& scene : all_scenes(bridge.layout.size(), 1)) tasks.push_back({scene, &intact});
+  std::vector<StageTask> tasks;
+  for (const Scene& scene : all_scenes(bridge.layout.size(), 1))
+    tasks.push_back({.stage = {.scene = scene}, .start = &intact});
   const std::vector<Solution> together = solver.solve(tasks);
   for (std::size_t i = 0; i < tasks.size(); ++i) {
-    const Solution alone = solver.solve(tasks[i].scene, intact);
-    INFO(to_string(tasks[i].scene, bridge.layout));
+    const Solution alone = solver.solve(tasks[i]);
+    INFO(to_string(tasks[i].stage.scene, bridge.layout));
     CHECK(alone.outcome == together[i].outcome);
     CHECK(alone.iterations == together[i].iterations);
     CHECK(test::without_nan(alone.displacement) == test::without_nan(together[i].displacement));
+  }
+}
+
+TEST_CASE("Lanes with different joints and blocks have the very bits of each alone", "[solver]") {
+  const Model bridge = test::small_bridge();
+  std::vector<Parameters> variants(5, bridge.parameters);
+  for (std::size_t v = 0; v < variants.size(); ++v) {
+    for (std::size_t j = 0; j < variants[v].joints.size(); ++j) {
+      variants[v].joints[j].normal_stiffness *= 1.0 + 0.1 * static_cast<double>((j * 7 + v * 3) % 11);
+      variants[v].joints[j].tangential_stiffness *= 1.0 + 0.2 * static_cast<double>((j + v) % 5);
+    }
+    for (std::size_t b = 0; b < variants[v].blocks.size(); ++b)
+      variants[v].blocks[b].young_modulus *= 1.0 + 0.1 * static_cast<double>((b + v) % 3);
+  }
+  const Scene scene = parse_scene("4,2", bridge.layout);
+  std::vector<StageTask> tasks;
+  for (const Parameters& variant : variants)
+    tasks.push_back({.stage = {.scene = scene}, .parameters = &variant});
+  QuasiStaticSolver solver(bridge);
+  const std::vector<Solution> together = solver.solve(tasks);
+  for (std::size_t v = 0; v < variants.size(); ++v) {
+    Model alone = bridge;
+    alone.parameters = variants[v];
+    const Solution expected = QuasiStaticSolver(alone).solve(scene);
+    CHECK(expected.outcome == Outcome::standing);
+    CHECK(test::without_nan(expected.displacement) == test::without_nan(together[v].displacement));
+    for (std::size_t other = 0; other < v; ++other)
+      CHECK(test::without_nan(together[other].displacement) != test::without_nan(together[v].displacement));
   }
 }

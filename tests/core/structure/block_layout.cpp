@@ -57,7 +57,7 @@ TEST_CASE("A bridge without spans is a plain wall in running bond", "[layout]") 
 }
 
 TEST_CASE("Two spans number their arch blocks through from left to right", "[layout]") {
-  const Bridge bridge = make_bridge(read_bridge_file(test::example_bridge("two-span")).description);
+  const Model bridge = make_model(read_bridge_file(test::example_bridge("two-span")).description);
   CHECK(bridge.layout.count_in_course(0) == 30);
   for (int i = 1; i < 30; ++i)
     CHECK(centroid(bridge.layout.blocks[static_cast<std::size_t>(i)].polygon).x() >

@@ -27,7 +27,7 @@ TEST_CASE("An empty bridge file is the reference bridge", "[bridge-file]") {
 
 TEST_CASE("Every example bridge makes a symmetric bridge with control points", "[bridge-file]") {
   for (const char* name : {"reference", "small", "two-span"}) {
-    const Bridge bridge = make_bridge(read_bridge_file(test::example_bridge(name)).description);
+    const Model bridge = make_model(read_bridge_file(test::example_bridge(name)).description);
     INFO(name);
     CHECK(bridge.symmetry.has_value());
     CHECK(bridge.control_points.size() > 30);
@@ -37,7 +37,7 @@ TEST_CASE("Every example bridge makes a symmetric bridge with control points", "
 TEST_CASE("Bad bridge files are refused with file, line and what was expected", "[bridge-file]") {
   const auto message = [](const std::string& text) {
     try {
-      make_bridge(parse_bridge_file(text, "b.toml").description);
+      make_model(parse_bridge_file(text, "b.toml").description);
     } catch (const InputError& error) {
       return std::string(error.what());
     }

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "core/error.h"
-#include "core/structure/bridge.h"
 #include "core/structure/bridge_file.h"
+#include "core/structure/model.h"
 #include "tests/support/fuzzing.h"
 
 using namespace voussoir;
@@ -72,7 +72,7 @@ const std::vector<std::string> kNasty = {"nan",
                                          "centre_y_m = 0\n",
                                          "bond = \"stack\"\n"};
 
-bool is_sound(const Bridge& bridge) {
+bool is_sound(const Model& bridge) {
   for (const Block& block : bridge.layout.blocks)
     if (!(area(block.polygon) > 0.0 && std::isfinite(area(block.polygon)))) return false;
   return bridge.mesh.nodes.allFinite() && bridge.mesh.block_nodes.size() == bridge.layout.size();
@@ -83,7 +83,7 @@ test::Verdict read(const std::string& text) {
     const BridgeDescription description = parse_bridge_file(text, "fuzz.toml").description;
     if (lay_blocks(description).size() > kMostBlocksMeshed || description.mesh.refinement > 1)
       return test::Verdict::set_aside;
-    if (!is_sound(make_bridge(description))) FAIL("accepted an unsound bridge: " << text);
+    if (!is_sound(make_model(description))) FAIL("accepted an unsound bridge: " << text);
     return test::Verdict::accepted;
   } catch (const InputError& error) {
     if (std::string(error.what()).empty()) FAIL("refused without a word: " << text);
@@ -105,7 +105,7 @@ test::Tally feed(int inputs, std::uint64_t seed) {
 
 TEST_CASE("Every bridge file of the corpus makes a bridge", "[fuzz]") {
   for (const std::string& text : test::corpus("bridges"))
-    CHECK(is_sound(make_bridge(parse_bridge_file(text, "corpus").description)));
+    CHECK(is_sound(make_model(parse_bridge_file(text, "corpus").description)));
 }
 
 TEST_CASE("Two thousand damaged bridge files make a bridge or are refused", "[fuzz]") {

@@ -16,10 +16,10 @@ Polygon corners(const Mesh& mesh, const Triangle& triangle) {
           mesh.position(triangle.nodes[2])};
 }
 
-Bridge bridge_with(bool split, int refinement) {
+Model bridge_with(bool split, int refinement) {
   BridgeDescription description;
   description.mesh = {.refinement = refinement, .split_at_corners = split};
-  return make_bridge(description);
+  return make_model(description);
 }
 
 }  // namespace
@@ -27,7 +27,7 @@ Bridge bridge_with(bool split, int refinement) {
 TEST_CASE("Triangles are counter-clockwise and fill every block exactly", "[mesh]") {
   for (const bool split : {false, true})
     for (const int refinement : {0, 1}) {
-      const Bridge bridge = bridge_with(split, refinement);
+      const Model bridge = bridge_with(split, refinement);
       for (std::size_t block = 0; block < bridge.layout.size(); ++block) {
         double total = 0.0;
         for (int t = bridge.mesh.block_triangles[block].begin; t < bridge.mesh.block_triangles[block].end;
@@ -42,7 +42,7 @@ TEST_CASE("Triangles are counter-clockwise and fill every block exactly", "[mesh
 }
 
 TEST_CASE("Without splitting the reference mesh comes near the paper's 529 triangles", "[mesh]") {
-  const Bridge bridge = bridge_with(false, 0);
+  const Model bridge = bridge_with(false, 0);
   CHECK(bridge.mesh.triangles.size() == 507);
   for (std::size_t block = 0; block < bridge.layout.size(); ++block) {
     const int count = bridge.mesh.block_triangles[block].size();
@@ -61,7 +61,7 @@ TEST_CASE("Each level of refinement makes four triangles of one", "[mesh]") {
 
 TEST_CASE("Splitting puts a node of a block wherever a neighbour's corner touches it", "[mesh]") {
   // Oracle: brute force over all corners and all blocks.
-  const Bridge bridge = bridge_with(true, 0);
+  const Model bridge = bridge_with(true, 0);
   int touching = 0;
   for (std::size_t block = 0; block < bridge.layout.size(); ++block)
     for (const Block& other : bridge.layout.blocks)
@@ -78,7 +78,7 @@ TEST_CASE("Splitting puts a node of a block wherever a neighbour's corner touche
 TEST_CASE("Joints cover the whole length over which blocks touch", "[mesh]") {
   // Oracle: perimeter of all blocks = 2 x joints + outer boundary (base, sides, top, intrados chords and
   // legs).
-  const Bridge bridge = bridge_with(true, 0);
+  const Model bridge = bridge_with(true, 0);
   double perimeter = 0.0;
   for (const BoundaryEdge& edge : bridge.mesh.edges)
     perimeter += (bridge.mesh.position(edge.to) - bridge.mesh.position(edge.from)).norm();
@@ -104,7 +104,7 @@ TEST_CASE("Cutting between corners gives n - 2 triangles also round a reflex cor
 }
 
 TEST_CASE("The reference bridge has the paper's 78 control points, left to right", "[control-points]") {
-  const Bridge bridge = bridge_with(true, 0);
+  const Model bridge = bridge_with(true, 0);
   REQUIRE(bridge.control_points.size() == 78);
   CHECK(bridge.control_points[0].name == "T1");
   CHECK(bridge.control_points[39].name == "T40");

@@ -200,7 +200,7 @@ TEST_CASE("Indices that point outside of their tables are refused") {
     forged.fill(path, H5T_STD_I32LE, std::vector<std::int32_t>(count, number));
     return forged.refusal();
   };
-  const Bridge bridge = make_bridge(test::small_bridge_file().description);
+  const Model bridge = make_model(test::small_bridge_file().description);
   for (const std::int32_t number : {-2, -1000000, 1000000, std::numeric_limits<std::int32_t>::max()}) {
     CHECK_THAT(refusal(dataset::kTriangles, 3 * bridge.mesh.triangles.size(), number),
                Catch::Contains(dataset::kTriangles));

@@ -14,7 +14,7 @@ struct Fixture {
   test::TemporaryFolder folder;
   std::filesystem::path target = folder / "small.h5";
   BridgeFile file = test::small_bridge_file();
-  Bridge bridge = make_bridge(file.description);
+  Model bridge = make_model(file.description);
   std::vector<Scene> scenes = all_scenes(bridge.layout.size(), 1);
   Provenance provenance = test::made_up_provenance(file);
 

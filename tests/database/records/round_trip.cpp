@@ -19,7 +19,7 @@ bool same_bits(const Field& first, const Field& second) {
 struct SmallDatabase {
   test::TemporaryFolder folder;
   BridgeFile file = test::small_bridge_file();
-  Bridge bridge = make_bridge(file.description);
+  Model bridge = make_model(file.description);
   std::vector<Scene> scenes = all_scenes(bridge.layout.size(), 2);
   std::filesystem::path path = folder / "small.h5";
   WrittenDatabase written;

@@ -1,0 +1,15 @@
+#include "core/structure/model.h"
+
+namespace voussoir {
+
+Model with_nominal_parameters(Structure structure, const BridgeDescription& description) {
+  Parameters parameters =
+      uniform_parameters(structure, description.material, description.joints, description.gravity);
+  return {std::move(structure), std::move(parameters)};
+}
+
+Model make_model(const BridgeDescription& description) {
+  return with_nominal_parameters(make_structure(description), description);
+}
+
+}  // namespace voussoir

@@ -1,0 +1,19 @@
+#pragma once
+/// @file One variant of a bridge: a structure and its parameters.
+
+#include "core/structure/parameters.h"
+#include "core/structure/structure.h"
+
+namespace voussoir {
+
+struct Model : Structure {
+  Parameters parameters;
+};
+
+/// The bridge of a description, everything as stated there. Throws InputError as make_structure does.
+Model make_model(const BridgeDescription& description);
+
+/// A structure with the materials and the gravity of a description.
+Model with_nominal_parameters(Structure structure, const BridgeDescription& description);
+
+}  // namespace voussoir

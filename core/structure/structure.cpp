@@ -1,0 +1,53 @@
+#include "core/structure/structure.h"
+
+#include <cmath>
+#include <set>
+
+#include "core/error.h"
+
+namespace voussoir {
+namespace {
+
+void check_blocks(const std::vector<Block>& blocks) {
+  std::set<std::string> labels;
+  for (const Block& block : blocks) {
+    if (!labels.insert(block.label).second)
+      throw InputError(
+          fmt::format("two blocks are called '{}': expected a label of its own for each block", block.label));
+    if (block.polygon.size() < 3 || area(block.polygon) <= 0.0)
+      throw InputError(
+          fmt::format("block '{}': expected at least three corners, counter-clockwise", block.label));
+  }
+}
+
+}  // namespace
+
+double mean_block_size(const Structure& structure) {
+  double sum = 0.0;
+  for (const Block& block : structure.layout.blocks) sum += std::sqrt(area(block.polygon));
+  return sum / structure.block_count();
+}
+
+Structure assemble(std::vector<Block> blocks, const AssemblyRules& rules) {
+  check_blocks(blocks);
+  Structure structure;
+  structure.layout.blocks = std::move(blocks);
+  structure.mesh = make_mesh(structure.layout, rules.mesh, rules.mirror_axis);
+  structure.joints = find_joints(structure.mesh, rules.joint_tolerance);
+  structure.symmetry = find_mirror_symmetry(structure.layout, structure.mesh, rules.mirror_axis);
+  return structure;
+}
+
+Structure make_structure(const BridgeDescription& description) {
+  Structure structure =
+      assemble(lay_blocks(description).blocks, {.mesh = description.mesh,
+                                                .joint_tolerance = description.joint_tolerance,
+                                                .mirror_axis = 0.5 * description.wall.length});
+  structure.supports = box_supports(structure.mesh, description.supports, description.wall.length);
+  structure.control_points = find_control_points(structure.layout, structure.mesh, description);
+  if (structure.control_points.empty())
+    throw InputError("the bridge has no control points: switch on top or arch");
+  return structure;
+}
+
+}  // namespace voussoir

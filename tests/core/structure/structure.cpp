@@ -1,0 +1,71 @@
+#include "core/structure/structure.h"
+
+#include <catch2/catch.hpp>
+
+#include "core/error.h"
+#include "tests/support/bridges.h"
+
+using namespace voussoir;
+
+namespace {
+
+Block square(const std::string& label, double x, double y) {
+  Block block;
+  block.label = label;
+  block.polygon = {{x, y}, {x + 1.0, y}, {x + 1.0, y + 1.0}, {x, y + 1.0}};
+  return block;
+}
+
+}  // namespace
+
+TEST_CASE("Blocks given as polygons are found by their labels and meet where they touch", "[structure]") {
+  const Structure pile = assemble({square("foot", 0.0, 0.0), square("head", 0.0, 1.0)}, {.mirror_axis = 0.5});
+  CHECK(pile.layout.find_label("head") == BlockId{1});
+  CHECK_FALSE(pile.layout.find_label("hat"));
+  CHECK(pile.layout.blocks[0].index.course < 0);
+  double length = 0.0;
+  for (const Joint& joint : pile.joints) length += joint.length;
+  CHECK(length == Approx(1.0));  // one face of 1 m
+  CHECK(pile.symmetry.has_value());
+  CHECK(to_string(parse_scene("head", pile.layout), pile.layout) == "head");
+  CHECK_THROWS_WITH(parse_scene("hat", pile.layout), Catch::Contains("or a label such as foot"));
+}
+
+TEST_CASE("Two blocks of one label, and polygons that run clockwise, are refused by their label",
+          "[structure]") {
+  CHECK_THROWS_WITH(assemble({square("a", 0.0, 0.0), square("a", 2.0, 0.0)}, {}),
+                    "two blocks are called 'a': expected a label of its own for each block");
+  Block inside_out = square("b", 0.0, 0.0);
+  std::reverse(inside_out.polygon.begin(), inside_out.polygon.end());
+  CHECK_THROWS_WITH(assemble({inside_out}, {}),
+                    "block 'b': expected at least three corners, counter-clockwise");
+}
+
+TEST_CASE(
+    "The reference bridge is held at its foot and, sideways, at its ends (by the coordinates of all nodes)",
+    "[structure]") {
+  const Model bridge = test::reference_bridge();
+  const std::vector<bool> held = held_components(bridge.supports, bridge.mesh);
+  std::size_t held_count = 0;
+  for (int node = 0; node < bridge.mesh.node_count(); ++node) {
+    const Point x = bridge.mesh.nodes.col(node);
+    const bool base = x.y() == 0.0;
+    const bool side = x.x() == 0.0 || x.x() == 20.0;
+    CHECK(held[static_cast<std::size_t>(2 * node)] == (base || side));
+    CHECK(held[static_cast<std::size_t>(2 * node + 1)] == base);
+    held_count += base || side;
+  }
+  CHECK(held_count > 40);
+}
+
+TEST_CASE("Ring blocks know their ring, wall blocks have none", "[structure]") {
+  BridgeDescription description;
+  description.wall.length = 20.0;
+  description.spans = {{.centre_x = 5.0, .intrados_radius = 3.0}, {.centre_x = 15.0, .intrados_radius = 3.0}};
+  const Structure bridge = make_structure(description);
+  CHECK(bridge.layout.count_with(BlockRole::ring) == 38);
+  for (const Block& block : bridge.layout.blocks)
+    CHECK(block.ring == (block.role == BlockRole::wall        ? kNoRing
+                         : centroid(block.polygon).x() < 10.0 ? 0
+                                                              : 1));
+}
