@@ -167,7 +167,7 @@ TEST_CASE("One scene at a time and four side by side give the same bits, in any 
 }
 
 TEST_CASE("Implicit blocks and plain central differences agree within 0.01 % (independent integrator)",
-          "[long]") {
+          "[.long]") {
   const Bridge& bridge = small();
   const Scene scene{{BlockId{25}}};
   DynamicSettings settings;
@@ -183,7 +183,7 @@ TEST_CASE("Implicit blocks and plain central differences agree within 0.01 % (in
 }
 
 TEST_CASE("The two integrators agree within 0.01 % on the reference bridge, too (independent integrator)",
-          "[long]") {
+          "[.long]") {
   DynamicSettings settings;
   settings.standing_unbalance = 1e-6;
   const Scene scene = parse_scene("10,4", reference().layout);
