@@ -147,25 +147,30 @@ TEST_CASE("Where gravity acts at once, the half blocks slide down and the arch f
 }
 
 TEST_CASE("Collapses of mirrored scenes have mirrored fields to round-off at the stated moment (symmetry)") {
-  // Round-off of 1e-16 grows on the way through a thousand steps: of all collapses of the reference bridge
-  // half agree to 2e-12 of their largest displacement, and the worst to 3e-10.
+  // Round-off of 1e-16 grows on the way through a thousand steps. Of 1,983 mirrored pairs of collapses of the
+  // reference bridge half agree to 2e-12 of their largest displacement, 99 of 100 to 4e-10; the worst, the
+  // last one here, to 1.4e-8.
   const Bridge& bridge = reference();
   REQUIRE(bridge.symmetry);
+  const std::vector<std::pair<const char*, double>> cases = {
+      {"0,5", 1e-9}, {"0,11", 1e-9}, {"0,4+10,12", 1e-9}, {"10,17+10,18", 1e-9}, {"0,3+2,6", 1e-7}};
   std::vector<Scene> scenes;
-  for (const char* name : {"0,5", "0,11", "0,4+10,12", "10,17+10,18"}) {
+  for (const auto& [name, tolerance] : cases) {
     scenes.push_back(parse_scene(name, bridge.layout));
     scenes.push_back(mirrored(scenes.back(), *bridge.symmetry));
     REQUIRE(scenes.back() != scenes[scenes.size() - 2]);
   }
   const std::vector<DynamicSolution> solutions = DynamicSolver(bridge).solve(scenes);
-  for (std::size_t i = 0; i < scenes.size(); i += 2) {
-    INFO(to_string(scenes[i], bridge.layout));
-    REQUIRE(solutions[i].solution.outcome == Outcome::collapsed);
-    REQUIRE(solutions[i + 1].solution.outcome == Outcome::collapsed);
-    CHECK(solutions[i].time == solutions[i + 1].time);
-    const Field image = mirrored(solutions[i].solution.displacement, *bridge.symmetry);
-    CHECK(largest_difference(solutions[i + 1].solution.displacement, image) < 1e-9 * largest(image));
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    INFO(cases[i].first);
+    const DynamicSolution& solution = solutions[2 * i];
+    const DynamicSolution& other = solutions[2 * i + 1];
+    REQUIRE(solution.solution.outcome == Outcome::collapsed);
+    REQUIRE(other.solution.outcome == Outcome::collapsed);
+    CHECK(solution.time == other.time);
+    const Field image = mirrored(solution.solution.displacement, *bridge.symmetry);
     CHECK(largest(image) > 1e-3);
+    CHECK(largest_difference(other.solution.displacement, image) < cases[i].second * largest(image));
   }
 }
 
