@@ -4,8 +4,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <ctime>
+#include <limits>
 
 #include "generator/build.h"
 #include "generator/build_switches.h"
@@ -35,16 +37,27 @@ Built build(BuildRequest request, const SolverChoice& solver) {
 }
 
 SkipRow compare(std::string name, const Built& with, const Built& without, double stated_change) {
-  SkipRow row{std::move(name), with.seconds, without.seconds, 0.0, stated_change, 0};
-  for (std::size_t i = 0; i < with.vertical.size(); ++i)
-    if (!std::isnan(with.vertical[i]))
-      row.largest_change = std::max(row.largest_change, std::abs(with.vertical[i] - without.vertical[i]));
+  SkipRow row{std::move(name), with.seconds,
+              without.seconds, largest_change(with.vertical, without.vertical),
+              stated_change,   0};
   for (std::size_t i = 0; i < with.outcome.size(); ++i)
     row.other_outcomes += with.outcome[i] != without.outcome[i] ? 1 : 0;
   return row;
 }
 
 }  // namespace
+
+double largest_change(std::span<const double> with, std::span<const double> without) {
+  if (with.size() != without.size()) return std::numeric_limits<double>::infinity();
+  double largest = 0.0;
+  for (std::size_t i = 0; i < with.size(); ++i) {
+    if (std::isnan(with[i]) && std::isnan(without[i])) continue;
+    const double change = std::abs(with[i] - without[i]);
+    if (std::isnan(change)) return std::numeric_limits<double>::infinity();
+    largest = std::max(largest, change);
+  }
+  return largest;
+}
 
 std::vector<SkipRow> measure_skips(const BridgeFile& bridge, const std::string& scenes) {
   BuildRequest request;

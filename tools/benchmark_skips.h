@@ -1,6 +1,7 @@
 #pragma once
 /// @file What each skip of a build gains and changes.
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,10 @@ struct SkipRow {
   double stated_change = 0.0;   ///< its bound [m]
   std::size_t other_outcomes = 0;
 };
+
+/// The largest change of a displacement. NaN (a block that is gone) has to be NaN in both: a number beside a
+/// NaN is an infinite change.
+double largest_change(std::span<const double> with, std::span<const double> without);
 
 /// Builds the database of some scenes (as --scenes takes them) once with all skips and once without each. The
 /// builds with all skips frame the others, and their mean is what the others are compared with.

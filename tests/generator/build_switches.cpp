@@ -1,10 +1,24 @@
 #include <catch2/catch.hpp>
+#include <cmath>
+#include <limits>
 
 #include "generator/build_switches.h"
 #include "tests/support/bridges.h"
 #include "tools/benchmark_skips.h"
 
 namespace voussoir {
+
+TEST_CASE("A displacement beside a NaN is an infinite change, whichever of the two has it (written out)") {
+  const double gone = std::nan("");
+  const double infinite = std::numeric_limits<double>::infinity();
+  using Values = std::vector<double>;
+  CHECK(largest_change(Values{1.0, gone, 3.0}, Values{1.5, gone, 2.75}) == 0.5);
+  CHECK(largest_change(Values{1.0, gone}, Values{1.0, 2.0}) == infinite);
+  CHECK(largest_change(Values{1.0, 2.0}, Values{1.0, gone}) == infinite);
+  CHECK(largest_change(Values{gone, 1.0}, Values{2.0, 1.0}) == infinite);
+  CHECK(largest_change(Values{infinite}, Values{infinite}) == infinite);
+  CHECK(largest_change(Values{1.0}, Values{1.0, 1.0}) == infinite);
+}
 
 TEST_CASE(
     "No skip changes an outcome, or a displacement by more than its stated bound (the scenes solved without "

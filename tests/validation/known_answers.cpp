@@ -53,7 +53,7 @@ TEST_CASE("Quick studies of many scenes, too, have answers within tolerance and 
 }
 
 TEST_CASE("All studies' known answers are within tolerance and their hard cases correct",
-          "[validation][long]") {
+          "[validation][.long]") {
   run_and_check(chosen_studies({}, false));
 }
 

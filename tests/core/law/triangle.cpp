@@ -66,6 +66,46 @@ TEST_CASE("A constant strain gives the stress of Hooke's law in any direction", 
   CHECK(std::abs(stress[2]) < 1e-9 * stress[0]);
 }
 
+TEST_CASE("A patch in pure shear carries G = E / (2 (1 + nu)) times the shear strain (closed form)",
+          "[element]") {
+  // A square of 1 m, cut into four triangles about a place that is not its middle, sheared by u = (k y, k x)
+  // / 2.
+  const std::vector<Point> corners = {{0.0, 0.0}, {1.0, 0.0}, {1.0, 1.0}, {0.0, 1.0}};
+  const Point inside(0.4, 0.55);
+  const double shear = 1e-6;
+  const double thickness = 0.7;
+  const auto displaced = [&](const Point& p) { return Point(0.5 * shear * p.y(), 0.5 * shear * p.x()); };
+  for (const PlaneState plane : {PlaneState::stress, PlaneState::strain}) {
+    Material material;
+    material.plane = plane;
+    std::array<Point, 4> force;
+    force.fill(Point::Zero());
+    Point force_inside = Point::Zero();
+    for (std::size_t i = 0; i < 4; ++i) {
+      const std::size_t next = (i + 1) % 4;
+      const TriangleShape part = triangle_shape(corners[i], corners[next], inside);
+      Vector6d q;
+      q << displaced(corners[i]), displaced(corners[next]), displaced(inside);
+      const Eigen::Vector3d stress = triangle_stress(part, plane_moduli(material), q);
+      CHECK(stress[2] == Approx(2.5e10 / 2.4 * shear).epsilon(1e-9));
+      const Vector6d f = triangle_force(part, plane_moduli(material), thickness, q);
+      force[i] += f.segment<2>(0);
+      force[next] += f.segment<2>(2);
+      force_inside += f.segment<2>(4);
+    }
+    // Normal stresses are of the order of the shear squared: a millionth of the shear stress.
+    const double edge = 2.5e10 / 2.4 * shear * thickness;  // on each edge of 1 m, along it
+    CHECK(force_inside.norm() < 1e-12 * edge);
+    for (std::size_t i = 0; i < 4; ++i) {
+      const double x = corners[i].x() > 0.5 ? 1.0 : -1.0;
+      const double y = corners[i].y() > 0.5 ? 1.0 : -1.0;
+      INFO("corner " << i);
+      CHECK(force[i].x() == Approx(0.5 * y * edge).epsilon(1e-5));
+      CHECK(force[i].y() == Approx(0.5 * x * edge).epsilon(1e-5));
+    }
+  }
+}
+
 TEST_CASE("Plane strain is stiffer than plane stress by the closed form", "[element]") {
   Material strain;
   strain.plane = PlaneState::strain;

@@ -114,7 +114,7 @@ TEST_CASE("Two thousand damaged bridge files make a bridge or are refused", "[fu
   CHECK(tally.refused > 500);
 }
 
-TEST_CASE("Ten minutes or a million damaged bridge files make a bridge or are refused", "[long][fuzz]") {
+TEST_CASE("Ten minutes or a million damaged bridge files make a bridge or are refused", "[.long][fuzz]") {
   const test::Tally tally = feed(1'000'000, 2);
   WARN(tally.accepted << " made, " << tally.refused << " refused");
   CHECK(tally.accepted > 0);

@@ -49,8 +49,9 @@ TEST_CASE("Without splitting the reference mesh comes near the paper's 529 trian
     const Block& b = bridge.layout.blocks[block];
     if (b.kind == BlockKind::leg || b.top_course) CHECK(count == 4);
     if (b.kind == BlockKind::voussoir) CHECK(count == 3);
-    if (b.kind == BlockKind::plain && !b.top_course)
-      CHECK((count == 2 || std::abs(centroid(b.polygon).x() - 10) < 1e-9));
+    // A block on the axis is cut on both sides alike, which takes two more.
+    const bool on_axis = std::abs(centroid(b.polygon).x() - 10) < 1e-9;
+    if (b.kind == BlockKind::plain && !b.top_course) CHECK(count == (on_axis ? 4 : 2));
   }
 }
 
@@ -101,24 +102,4 @@ TEST_CASE("Cutting between corners gives n - 2 triangles also round a reflex cor
     total += part;
   }
   CHECK(total == Approx(area(notched)));
-}
-
-TEST_CASE("The reference bridge has the paper's 78 control points, left to right", "[control-points]") {
-  const Model bridge = bridge_with(true, 0);
-  REQUIRE(bridge.control_points.size() == 78);
-  CHECK(bridge.control_points[0].name == "T1");
-  CHECK(bridge.control_points[39].name == "T40");
-  CHECK(bridge.control_points[40].name == "A1");
-  CHECK(bridge.control_points[77].name == "A38");
-  for (std::size_t i = 0; i < 40; ++i) {
-    CHECK(bridge.control_points[i].position.y() == Approx(6.0));
-    CHECK(bridge.control_points[i].position.x() == Approx(static_cast<double>((i + 1) / 2)));
-  }
-  const Point centre(10.0, 1.05);
-  for (std::size_t i = 40; i < 78; ++i) {
-    const Point& p = bridge.control_points[i].position;
-    if (p.y() > 1.05) CHECK((p - centre).norm() == Approx(3.5));
-    CHECK((bridge.mesh.position(bridge.control_points[i].node) - p).norm() < 1e-12);
-    if (i > 40) CHECK(p.x() >= bridge.control_points[i - 1].position.x() - 1e-12);
-  }
 }

@@ -150,7 +150,7 @@ TEST_CASE("Three thousand damaged and forged databases are read or refused, neve
 }
 
 TEST_CASE("Ten minutes or a million damaged and forged databases are read or refused, never worse",
-          "[long][fuzz]") {
+          "[.long][fuzz]") {
   const test::Tally tally = feed(1'000'000, 6);
   WARN(tally.accepted << " read, " << tally.refused << " refused");
   CHECK(tally.accepted > 0);

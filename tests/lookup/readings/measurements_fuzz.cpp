@@ -77,7 +77,7 @@ TEST_CASE("Thirty thousand damaged measurement files are read or refused cleanly
   CHECK(tally.refused > 1000);
 }
 
-TEST_CASE("Ten minutes or a million damaged measurement files are read or refused cleanly", "[long][fuzz]") {
+TEST_CASE("Ten minutes or a million damaged measurement files are read or refused cleanly", "[.long][fuzz]") {
   const test::Tally tally = feed(1'000'000, 2);
   WARN(tally.accepted << " accepted, " << tally.refused << " refused");
   CHECK(tally.accepted > 0);
