@@ -1,5 +1,6 @@
 /// locate-damage and query-field as a user runs them, on the small bridge's database.
 
+#include <fmt/format.h>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <fstream>

@@ -2,6 +2,7 @@
 /// query-field's CSV. tools/install-dependencies --with-checks installs the libraries; without them these
 /// tests are skipped, and say so.
 
+#include <fmt/format.h>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <sstream>

@@ -1,5 +1,6 @@
 /// @file Known answers of the semicircular arch.
 
+#include <fmt/format.h>
 #include <array>
 
 #include "core/motion/dynamic_solver.h"

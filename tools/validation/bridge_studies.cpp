@@ -1,5 +1,6 @@
 /// @file The reference bridge: what its discretisation costs, in the signal.
 
+#include <fmt/format.h>
 #include <array>
 
 #include "core/law/joint_kinematics.h"

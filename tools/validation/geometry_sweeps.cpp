@@ -1,5 +1,6 @@
 /// @file Hard cases: slivers, gaps, sizes, directions, offsets.
 
+#include <fmt/format.h>
 #include <numbers>
 #include <random>
 

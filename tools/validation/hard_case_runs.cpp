@@ -1,5 +1,7 @@
 #include "tools/validation/hard_case_runs.h"
 
+#include <fmt/format.h>
+
 #include "core/solve/combined_solver.h"
 #include "core/statics/equilibrium.h"
 #include "core/structure/bridge_file.h"

@@ -1,5 +1,6 @@
 /// @file Hard cases: stiffness, friction, loads.
 
+#include <fmt/format.h>
 #include <numbers>
 
 #include "tools/validation/hard_case_runs.h"

@@ -1,5 +1,6 @@
 /// @file Known answers of one or two blocks in motion.
 
+#include <fmt/format.h>
 #include <numbers>
 
 #include "core/motion/critical_step.h"

@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <limits>
 
 #include "lookup/report/drawing/page.h"

@@ -1,5 +1,7 @@
 /// @file Known answers of blocks at rest.
 
+#include <fmt/format.h>
+
 #include "core/statics/equilibrium.h"
 #include "core/statics/quasi_static_solver.h"
 #include "tools/validation/assemblies.h"

@@ -1,5 +1,7 @@
 /// @file Dry-stone shear walls: a comparison with tests.
 
+#include <fmt/format.h>
+
 #include "core/statics/quasi_static_solver.h"
 #include "tools/validation/assemblies.h"
 #include "tools/validation/studies.h"
