@@ -27,7 +27,7 @@
 
 #include <array>
 
-#include "core/simd/lane_number.h"
+#include "core/simd/pair.h"
 
 namespace voussoir {
 

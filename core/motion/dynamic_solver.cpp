@@ -62,14 +62,14 @@ struct DynamicSolver::Workspace {
 namespace {
 
 /// Takes one step; only the implicit one knows several lanes.
-void take_step(Integrator integrator, const MotionModel& model, Motion<Lanes<1>>& motion) {
+void take_step(Integrator integrator, const MotionModel& model, Motion<double>& motion) {
   if (integrator == Integrator::implicit_blocks)
     take_implicit_step(model, motion);
   else
     take_explicit_step(model, motion);
 }
 
-void take_step(Integrator, const MotionModel& model, Motion<Lanes<4>>& motion) {
+void take_step(Integrator, const MotionModel& model, Motion<DoubleLanes>& motion) {
   take_implicit_step(model, motion);
 }
 
@@ -205,8 +205,8 @@ std::vector<DynamicSolution> DynamicSolver::solve(std::span<const Scene> scenes)
   const Workspace& shared = *workspace_;
   const bool several = shared.settings.side_by_side > 1 && scenes.size() > 1 &&
                        shared.settings.integrator == Integrator::implicit_blocks;
-  if (several) return Procession<Lanes<4>, Workspace>(shared, scenes).run();
-  return Procession<Lanes<1>, Workspace>(shared, scenes).run();
+  if (several) return Procession<DoubleLanes, Workspace>(shared, scenes).run();
+  return Procession<double, Workspace>(shared, scenes).run();
 }
 
 DynamicSolution DynamicSolver::solve(const Scene& scene) {
