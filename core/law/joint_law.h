@@ -26,7 +26,7 @@
 #include <Eigen/Core>
 
 #include "core/law/state.h"
-#include "core/simd/lane_number.h"
+#include "core/simd/lanes.h"
 #include "core/structure/bridge_description.h"
 
 namespace voussoir {

@@ -26,7 +26,7 @@
 #include <array>
 
 #include "core/law/joint_law.h"
-#include "core/simd/lane_number.h"
+#include "core/simd/pair.h"
 
 namespace voussoir {
 

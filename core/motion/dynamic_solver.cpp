@@ -55,14 +55,14 @@ struct DynamicSolver::Workspace {
 namespace {
 
 /// Takes one step; only the implicit one knows several lanes.
-void take_step(Integrator integrator, const MotionModel& model, Motion<Lanes<1>>& motion) {
+void take_step(Integrator integrator, const MotionModel& model, Motion<double>& motion) {
   if (integrator == Integrator::implicit_blocks)
     take_implicit_step(model, motion);
   else
     take_explicit_step(model, motion);
 }
 
-void take_step(Integrator, const MotionModel& model, Motion<Lanes<4>>& motion) {
+void take_step(Integrator, const MotionModel& model, Motion<DoubleLanes>& motion) {
   take_implicit_step(model, motion);
 }
 
@@ -210,8 +210,8 @@ std::vector<DynamicSolution> DynamicSolver::solve(std::span<const Scene> scenes,
   const Workspace& shared = *workspace_;
   const bool several = shared.settings.side_by_side > 1 && scenes.size() > 1 &&
                        shared.settings.integrator == Integrator::implicit_blocks;
-  if (several) return MotionRun<Lanes<4>, Workspace>(shared, rules, scenes).run();
-  return MotionRun<Lanes<1>, Workspace>(shared, rules, scenes).run();
+  if (several) return MotionRun<DoubleLanes, Workspace>(shared, rules, scenes).run();
+  return MotionRun<double, Workspace>(shared, rules, scenes).run();
 }
 
 std::vector<DynamicSolution> DynamicSolver::solve(std::span<const Scene> scenes) {

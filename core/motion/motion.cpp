@@ -167,8 +167,8 @@ double kinetic_energy(const MotionModel& model, const Motion<T>& motion, int i) 
   template void search_contacts<T>(const MotionModel&, double, Motion<T>&);                    \
   template Field displacement<T>(const MotionModel&, const Motion<T>&, int);                   \
   template double kinetic_energy<T>(const MotionModel&, const Motion<T>&, int);
-VOUSSOIR_INSTANTIATE(Lanes<1>)
-VOUSSOIR_INSTANTIATE(Lanes<4>)
+VOUSSOIR_INSTANTIATE(double)
+VOUSSOIR_INSTANTIATE(DoubleLanes)
 #undef VOUSSOIR_INSTANTIATE
 
 }  // namespace voussoir

@@ -8,7 +8,7 @@
 #include "core/motion/block_dynamics.h"
 #include "core/motion/contact.h"
 #include "core/motion/contact_search.h"
-#include "core/simd/lane_number.h"
+#include "core/simd/pair.h"
 
 namespace voussoir {
 

@@ -6,7 +6,7 @@
 namespace voussoir {
 namespace {
 
-void add_element_forces(const MotionModel& model, Motion<Lanes<1>>& motion) {
+void add_element_forces(const MotionModel& model, Motion<double>& motion) {
   const Mesh& mesh = model.structure->mesh;
   for (std::size_t b = 0; b < mesh.block_triangles.size(); ++b)
     for (int triangle = mesh.block_triangles[b].begin; triangle < mesh.block_triangles[b].end; ++triangle) {
@@ -28,15 +28,15 @@ void add_element_forces(const MotionModel& model, Motion<Lanes<1>>& motion) {
 
 }  // namespace
 
-void take_implicit_step(const MotionModel& model, Motion<Lanes<1>>& motion) {
+void take_implicit_step(const MotionModel& model, Motion<double>& motion) {
   implicit_step(model, motion);
 }
 
-VOUSSOIR_FOR_EVERY_PROCESSOR void take_implicit_step(const MotionModel& model, Motion<Lanes<4>>& motion) {
+VOUSSOIR_FOR_EVERY_PROCESSOR void take_implicit_step(const MotionModel& model, Motion<DoubleLanes>& motion) {
   implicit_step(model, motion);
 }
 
-void take_explicit_step(const MotionModel& model, Motion<Lanes<1>>& motion) {
+void take_explicit_step(const MotionModel& model, Motion<double>& motion) {
   using Node = Pair<double>;
   const MotionView<double> view = view_of(motion);
   start_forces(model, view);

@@ -6,28 +6,24 @@ namespace {
 /// Applies a function of lanes to all values.
 template <typename Function>
 VOUSSOIR_INLINE void make_each(double* values, std::size_t count, Function function) {
-  Lanes lanes;
-  std::size_t i = 0;
-  for (; i + kLanes <= count; i += kLanes) {
-    load(values + i, lanes);
+  for (std::size_t i = 0; i < count; i += kLanes) {
+    const std::size_t some = count - i < kLanes ? count - i : kLanes;
+    DoubleLanes lanes = load_some<DoubleLanes>(values + i, some, 0.0);
     function(lanes);
-    store(lanes, values + i, kLanes);
+    store_some(lanes, some, values + i);
   }
-  load_some(values + i, count - i, lanes);
-  function(lanes);
-  store(lanes, values + i, count - i);
 }
 
 VOUSSOIR_FOR_EVERY_PROCESSOR
 void make_all_logarithms(double* values, std::size_t count) {
   make_each(
-      values, count, [](Lanes & lanes) __attribute__((always_inline)) { make_logarithm(lanes); });
+      values, count, [](DoubleLanes & lanes) __attribute__((always_inline)) { make_logarithm(lanes); });
 }
 
 VOUSSOIR_FOR_EVERY_PROCESSOR
 void make_all_exponentials(double* values, std::size_t count) {
   make_each(
-      values, count, [](Lanes & lanes) __attribute__((always_inline)) { make_exponential(lanes); });
+      values, count, [](DoubleLanes & lanes) __attribute__((always_inline)) { make_exponential(lanes); });
 }
 
 }  // namespace

@@ -1,12 +1,11 @@
 #pragma once
-/// @file Logarithm and exponential of four doubles at once, in plain arithmetic: the same bits on every
-/// machine.
+/// @file Logarithm and exponential of lanes, in plain arithmetic: the same bits on every machine.
 
 #include <cstdint>
 #include <limits>
 #include <span>
 
-#include "core/simd/lane_arithmetic.h"
+#include "core/simd/lanes.h"
 
 namespace voussoir {
 
@@ -15,24 +14,25 @@ namespace voussoir {
 ///
 /// x = 2^e f with f in [sqrt(1/2), sqrt(2)); log f = 2 atanh(s) with s = (f - 1) / (f + 1), |s| < 0.1716, by
 /// its odd series up to s^19 (the next term is below 1e-17).
-VOUSSOIR_INLINE void make_logarithm(Lanes& x) {
+VOUSSOIR_INLINE void make_logarithm(DoubleLanes& x) {
   constexpr std::int64_t kRootHalfBits = 0x3FE6A09E667F3BCD;
   constexpr std::int64_t kExponentMask = static_cast<std::int64_t>(0xFFF0000000000000);
-  const LaneMask bits = reinterpret_cast<LaneMask>(x);
-  const LaneMask shifted = (bits - kRootHalfBits) & kExponentMask;
-  const Lanes f = reinterpret_cast<Lanes>(bits - shifted);
-  const Lanes e = __builtin_convertvector(shifted >> 52, Lanes);
-  const Lanes s = (f - 1.0) / (f + 1.0);
-  const Lanes q = s * s;
-  Lanes series = Lanes{} + 1.0 / 19.0;
+  const DoubleMask bits = reinterpret_cast<DoubleMask>(x);
+  const DoubleMask shifted = (bits - kRootHalfBits) & kExponentMask;
+  const DoubleLanes f = reinterpret_cast<DoubleLanes>(bits - shifted);
+  const DoubleLanes e = __builtin_convertvector(shifted >> 52, DoubleLanes);
+  const DoubleLanes s = (f - 1.0) / (f + 1.0);
+  const DoubleLanes q = s * s;
+  DoubleLanes series = DoubleLanes{} + 1.0 / 19.0;
   for (const double divisor : {17.0, 15.0, 13.0, 11.0, 9.0, 7.0, 5.0, 3.0})
     series = series * q + 1.0 / divisor;
-  const Lanes tail = s * q * series;
+  const DoubleLanes tail = s * q * series;
   constexpr double kLn2High = 0x1.62e42fefa3800p-1;  // the last bits are zero: e times it is exact
   constexpr double kLn2Low = 0x1.ef35793c76730p-45;
-  const Lanes result = e * kLn2High + (2.0 * s + (2.0 * tail + e * kLn2Low));
+  const DoubleLanes result = e * kLn2High + (2.0 * s + (2.0 * tail + e * kLn2Low));
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  const Lanes special = x < kInfinity ? Lanes{} - kInfinity : x;  // comparisons with NaN are false: NaN stays
+  const DoubleLanes special =
+      x < kInfinity ? DoubleLanes{} - kInfinity : x;  // comparisons with NaN are false: NaN stays
   x = (x >= std::numeric_limits<double>::min()) & (x < kInfinity) ? result : special;
 }
 
@@ -40,26 +40,39 @@ VOUSSOIR_INLINE void make_logarithm(Lanes& x) {
 ///
 /// x = k log 2 + r with |r| <= log(2) / 2; exp r by its Taylor polynomial of degree 13 (remainder below
 /// 1e-17).
-VOUSSOIR_INLINE void make_exponential(Lanes& x) {
+VOUSSOIR_INLINE void make_exponential(DoubleLanes& x) {
   constexpr double kLowest = -708.0;
   constexpr double kRound = 0x1.8p52;  // adding it leaves the nearest whole number in the low bits
   constexpr double kLn2High = 0x1.62e42fefa3800p-1;
   constexpr double kLn2Low = 0x1.ef35793c76730p-45;
-  const Lanes bounded = x > kLowest ? x : Lanes{} + kLowest;
-  const Lanes rounded = bounded * 0x1.71547652b82fep0 + kRound;
-  const Lanes k = rounded - kRound;
-  const Lanes r = (bounded - k * kLn2High) - k * kLn2Low;
-  Lanes series = Lanes{} + 1.0 / 6227020800.0;
+  const DoubleLanes bounded = x > kLowest ? x : DoubleLanes{} + kLowest;
+  const DoubleLanes rounded = bounded * 0x1.71547652b82fep0 + kRound;
+  const DoubleLanes k = rounded - kRound;
+  const DoubleLanes r = (bounded - k * kLn2High) - k * kLn2Low;
+  DoubleLanes series = DoubleLanes{} + 1.0 / 6227020800.0;
   for (const double factorial : {479001600.0, 39916800.0, 3628800.0, 362880.0, 40320.0, 5040.0, 720.0, 120.0,
                                  24.0, 6.0, 2.0, 1.0, 1.0})
     series = series * r + 1.0 / factorial;
-  const LaneMask scale = (__builtin_convertvector(k, LaneMask) + 1023) << 52;
-  const Lanes result = series * reinterpret_cast<Lanes>(scale);
-  const Lanes special = x <= kLowest ? Lanes{} : x;
+  const DoubleMask scale = (__builtin_convertvector(k, DoubleMask) + 1023) << 52;
+  const DoubleLanes result = series * reinterpret_cast<DoubleLanes>(scale);
+  const DoubleLanes special = x <= kLowest ? DoubleLanes{} : x;
   x = x > kLowest ? result : special;
 }
 
-/// The same for arrays: each value becomes its logarithm, its exponential.
+/// x = log(x) within 1e-5 for positive normal numbers; anything for others.
+VOUSSOIR_INLINE void make_approximate_logarithm(FloatLanes& x) {
+  constexpr float kLog2 = 0.69314718F;
+  constexpr std::int32_t kRootHalfBits = 0x3F3504F3;
+  const FloatMask bits = reinterpret_cast<FloatMask>(x);
+  const FloatMask exponent = (bits - kRootHalfBits) >> 23;  // x = 2^exponent f with f in [sqrt(1/2), sqrt(2))
+  const FloatLanes f = reinterpret_cast<FloatLanes>(bits - (exponent << 23));
+  const FloatLanes s = (f - 1.0F) / (f + 1.0F);
+  const FloatLanes q = s * s;
+  x = __builtin_convertvector(exponent, FloatLanes) * kLog2 +
+      2.0F * s * (1.0F + q * (1.0F / 3.0F + q * (1.0F / 5.0F)));
+}
+
+/// Of doubles, for arrays: each value becomes its logarithm, its exponential.
 void make_logarithms(std::span<double> values);
 void make_exponentials(std::span<double> values);
 

@@ -1,9 +1,19 @@
 #pragma once
-/// @file Scenes side by side: one value of each of several scenes in neighbouring memory.
+/// @file Numbers side by side in one register, one for each scene of a group or each reading of a row: the
+/// types, how they are compiled for every processor, and arithmetic that is the same for all of them.
+///
+/// Kernels are templates on a number, which is a double or DoubleLanes, or loops over DoubleLanes or
+/// FloatLanes. Conditions are masks (bool, or one whole number for each lane), `mask ? a : b` picks lane by
+/// lane, and no operation mixes lanes unless it says so: a lane's bits do not depend on what the others hold.
 
-#include <array>
 #include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <type_traits>
 #include <vector>
+
+/// What is compiled for every processor must be inlined there, or it is compiled for the oldest only.
+#define VOUSSOIR_INLINE inline __attribute__((always_inline))
 
 /// Compiles a function twice, for processors with and without AVX2, and picks at start-up. Without
 /// contraction to fused operations (the whole project is compiled so) both give the same bits. Not under
@@ -16,25 +26,145 @@
 
 namespace voussoir {
 
-/// Scenes side by side: four doubles are one AVX register.
+template <class Element, std::size_t count>
+struct LanesOf {
+  using Type [[gnu::vector_size(count * sizeof(Element))]] = Element;
+};
+
+/// Doubles, or scenes, side by side: four doubles are one AVX register.
 inline constexpr std::size_t kLanes = 4;
+using DoubleLanes = LanesOf<double, kLanes>::Type;
+using DoubleMask = LanesOf<std::int64_t, kLanes>::Type;
 
-/// One value per lane.
-using LaneValue = std::array<double, kLanes>;
+inline constexpr std::size_t kFloatLanes = 8;
+using FloatLanes = LanesOf<float, kFloatLanes>::Type;
+using FloatMask = LanesOf<std::int32_t, kFloatLanes>::Type;
 
-/// Values of all lanes: entry i of lane l is `[i][l]`.
-using LaneVector = std::vector<LaneValue>;
+template <class Lanes>
+using ElementOf = std::remove_cvref_t<decltype(Lanes{}[0])>;
 
-/// What kernels read and write LaneValues as: one register, at any address.
-using LaneRegister =
-    double __attribute__((vector_size(kLanes * sizeof(double)), aligned(sizeof(double)), may_alias));
+/// How many scenes a number is for: 1 for a double.
+template <class T>
+inline constexpr int kLaneCount = static_cast<int>(sizeof(T) / sizeof(double));
 
-inline LaneRegister* registers(LaneVector& values) {
-  return reinterpret_cast<LaneRegister*>(values.data());
+template <class T>
+VOUSSOIR_INLINE double lane(const T& number, [[maybe_unused]] int i) {
+  if constexpr (kLaneCount<T> == 1)
+    return number;
+  else
+    return number[i];
 }
 
-inline const LaneRegister* registers(const LaneVector& values) {
-  return reinterpret_cast<const LaneRegister*>(values.data());
+template <class T>
+VOUSSOIR_INLINE void set_lane(T& number, [[maybe_unused]] int i, double value) {
+  if constexpr (kLaneCount<T> == 1)
+    number = value;
+  else
+    number[i] = value;
+}
+
+/// As many values as there are lanes, from any address, converted if they are of another type.
+template <class Lanes, class From>
+VOUSSOIR_INLINE Lanes load(const From* from) {
+  typename LanesOf<From, sizeof(Lanes) / sizeof(ElementOf<Lanes>)>::Type values;
+  std::memcpy(&values, from, sizeof values);
+  return __builtin_convertvector(values, Lanes);
+}
+
+/// The first `count` (at most all) lanes; `filling` behind them.
+template <class Lanes>
+VOUSSOIR_INLINE Lanes load_some(const ElementOf<Lanes>* from, std::size_t count, ElementOf<Lanes> filling) {
+  if (count * sizeof *from == sizeof(Lanes)) return load<Lanes>(from);
+  Lanes lanes = Lanes{} + filling;
+  for (std::size_t i = 0; i < count; ++i) lanes[i] = from[i];
+  return lanes;
+}
+template <class Lanes>
+VOUSSOIR_INLINE void store_some(const Lanes& lanes, std::size_t count, ElementOf<Lanes>* to) {
+  std::memcpy(to, &lanes, count * sizeof *to == sizeof lanes ? sizeof lanes : count * sizeof *to);
+}
+
+template <class T>
+VOUSSOIR_INLINE T larger(T a, T b) {
+  return a > b ? a : b;
+}
+
+template <class T>
+VOUSSOIR_INLINE T smaller(T a, T b) {
+  return a < b ? a : b;
+}
+
+/// |a|
+VOUSSOIR_INLINE double magnitude(double a) {
+  return __builtin_fabs(a);
+}
+VOUSSOIR_INLINE DoubleLanes magnitude(DoubleLanes a) {
+  return reinterpret_cast<DoubleLanes>(reinterpret_cast<DoubleMask>(a) & INT64_MAX);
+}
+VOUSSOIR_INLINE FloatLanes magnitude(FloatLanes a) {
+  return reinterpret_cast<FloatLanes>(reinterpret_cast<FloatMask>(a) & INT32_MAX);
+}
+
+template <class T>
+VOUSSOIR_INLINE T square_root(T a) {
+  T root{};
+  for (int i = 0; i < kLaneCount<T>; ++i) set_lane(root, i, __builtin_sqrt(lane(a, i)));
+  return root;
+}
+
+/// 1 / sqrt(a) to round-off for a in [3, 4.2]; a is taken to the nearer end outside. Without roots and
+/// quotients, which take longest of all.
+template <class T>
+VOUSSOIR_INLINE T inverse_root_near_four(T a) {
+  const T bounded = smaller(larger(a, T{} + 3.0), T{} + 4.2);
+  T root = 0.7999 - 0.0745 * bounded;  // within 0.2 %
+  for (int i = 0; i < 3; ++i) root = root * (1.5 - 0.5 * bounded * root * root);
+  return root;
+}
+
+/// True if the condition holds in some lane.
+template <class Mask>
+VOUSSOIR_INLINE bool any(const Mask& mask) {
+  if constexpr (sizeof(Mask) <= sizeof(int)) {
+    return static_cast<bool>(mask);
+  } else {
+    std::int64_t either = 0;
+    for (std::size_t i = 0; i < sizeof(Mask) / sizeof(std::int64_t); ++i) either |= mask[i];
+    return either != 0;
+  }
+}
+
+/// Sum and largest of all lanes, always in one order.
+VOUSSOIR_INLINE double sum_of(const DoubleLanes& lanes) {
+  return (lanes[0] + lanes[1]) + (lanes[2] + lanes[3]);
+}
+VOUSSOIR_INLINE float sum_of(const FloatLanes& lanes) {
+  using HalfLanes = LanesOf<float, kFloatLanes / 2>::Type;
+  HalfLanes low, high;
+  std::memcpy(&low, &lanes, sizeof low);
+  std::memcpy(&high, reinterpret_cast<const char*>(&lanes) + sizeof low, sizeof high);
+  low += high;
+  return (low[0] + low[2]) + (low[1] + low[3]);
+}
+VOUSSOIR_INLINE double largest_of(const DoubleLanes& lanes) {
+  return larger(larger(lanes[0], lanes[1]), larger(lanes[2], lanes[3]));
+}
+
+/// A number by itself in memory. Aligned for the widest instruction set that any clone of a kernel may use,
+/// which the compiler does not do when it compiles for the oldest.
+template <class T>
+struct alignas(sizeof(T)) Cell {
+  T value;
+};
+
+/// Values of several scenes: entry i of scene l is `[i].value[l]`.
+using LaneVector = std::vector<Cell<DoubleLanes>>;
+
+inline DoubleLanes* registers_of(LaneVector& values) {
+  return reinterpret_cast<DoubleLanes*>(values.data());
+}
+inline const DoubleLanes* registers_of(const LaneVector& values) {
+  return reinterpret_cast<const DoubleLanes*>(values.data());
 }
 
 }  // namespace voussoir

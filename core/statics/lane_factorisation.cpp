@@ -18,21 +18,20 @@ constexpr int kWidest = 8;
 /// work[row] -= sum_c l(row, c) factor[c] for the rows below a supernode; `l` points at the first column
 /// used.
 template <int Count>
-[[gnu::always_inline]] inline void update_rows(const LaneRegister* __restrict l, int stride,
-                                               const int* __restrict rows, int height,
-                                               const LaneRegister* __restrict factor,
-                                               LaneRegister* __restrict work) {
-  LaneRegister f[Count];
+VOUSSOIR_INLINE void update_rows(const DoubleLanes* __restrict l, int stride, const int* __restrict rows,
+                                 int height, const DoubleLanes* __restrict factor,
+                                 DoubleLanes* __restrict work) {
+  DoubleLanes f[Count];
   for (int c = 0; c < Count; ++c) f[c] = factor[c];
   for (int r = 0; r < height; ++r, l += stride) {
-    LaneRegister value = work[rows[r]];
+    DoubleLanes value = work[rows[r]];
     for (int c = 0; c < Count; ++c) value -= l[c] * f[c];
     work[rows[r]] = value;
   }
 }
 
-[[gnu::always_inline]] inline void update_rows(int count, const LaneRegister* l, int stride, const int* rows,
-                                               int height, const LaneRegister* factor, LaneRegister* work) {
+VOUSSOIR_INLINE void update_rows(int count, const DoubleLanes* l, int stride, const int* rows, int height,
+                                 const DoubleLanes* factor, DoubleLanes* work) {
   switch (count) {
     case 1:
       return update_rows<1>(l, stride, rows, height, factor, work);
@@ -66,11 +65,11 @@ struct LaneFactorisation::Kernel {
   const int* row;
   const int* upper_begin;
   const UpperPart* upper;
-  LaneRegister* l;
-  LaneRegister* u;
-  LaneRegister* pivot;
-  LaneRegister* diagonal;
-  LaneRegister* work;
+  DoubleLanes* l;
+  DoubleLanes* u;
+  DoubleLanes* pivot;
+  DoubleLanes* diagonal;
+  DoubleLanes* work;
 
   explicit Kernel(LaneFactorisation& f)
       : n(f.n_),
@@ -82,27 +81,27 @@ struct LaneFactorisation::Kernel {
         row(f.row_.data()),
         upper_begin(f.upper_begin_.data()),
         upper(f.upper_.data()),
-        l(registers(f.l_)),
-        u(registers(f.u_)),
-        pivot(registers(f.pivot_)),
-        diagonal(registers(f.diagonal_)),
-        work(registers(f.work_)) {}
+        l(registers_of(f.l_)),
+        u(registers_of(f.u_)),
+        pivot(registers_of(f.pivot_)),
+        diagonal(registers_of(f.diagonal_)),
+        work(registers_of(f.work_)) {}
 
-  static void factorise(const Kernel& k, const LaneRegister* values);
-  static void substitute(const Kernel& k, LaneRegister* x);
+  static void factorise(const Kernel& k, const DoubleLanes* values);
+  static void substitute(const Kernel& k, DoubleLanes* x);
 };
 
 /// Left-looking: column k of A minus the earlier columns of L times column k of U.
 VOUSSOIR_FOR_EVERY_PROCESSOR
-void LaneFactorisation::Kernel::factorise(const Kernel& kernel, const LaneRegister* values) {
+void LaneFactorisation::Kernel::factorise(const Kernel& kernel, const DoubleLanes* values) {
   const Kernel f = kernel;
   for (int k = 0; k < f.n; ++k) {
     const Supernode own = f.supernodes[f.supernode_of[k]];
-    for (int c = own.first; c < own.first + own.width; ++c) f.work[c] = LaneRegister{};
-    for (int r = 0; r < own.height; ++r) f.work[f.row[own.rows + r]] = LaneRegister{};
+    for (int c = own.first; c < own.first + own.width; ++c) f.work[c] = DoubleLanes{};
+    for (int r = 0; r < own.height; ++r) f.work[f.row[own.rows + r]] = DoubleLanes{};
     for (int p = f.upper_begin[k]; p < f.upper_begin[k + 1]; ++p) {
       const Supernode& s = f.supernodes[f.upper[p].supernode];
-      for (int c = f.upper[p].first; c < s.first + s.width; ++c) f.work[c] = LaneRegister{};
+      for (int c = f.upper[p].first; c < s.first + s.width; ++c) f.work[c] = DoubleLanes{};
     }
     for (int p = f.a_begin[k]; p < f.a_begin[k + 1]; ++p) f.work[f.a_row[p]] = values[f.a_slot[p]];
     f.diagonal[k] = f.work[k];
@@ -111,9 +110,9 @@ void LaneFactorisation::Kernel::factorise(const Kernel& kernel, const LaneRegist
       const UpperPart part = f.upper[p];
       const Supernode s = f.supernodes[part.supernode];
       const int end = std::min(s.first + s.width, k);
-      const LaneRegister* block = f.l + s.values;  // rows and columns of the supernode
+      const DoubleLanes* block = f.l + s.values;  // rows and columns of the supernode
       for (int c = part.first; c < end; ++c) {
-        const LaneRegister factor = f.work[c];
+        const DoubleLanes factor = f.work[c];
         f.u[part.values + c - part.first] = factor;
         for (int r = c + 1; r < s.first + s.width; ++r)
           f.work[r] -= block[(r - s.first) * s.width + c - s.first] * factor;
@@ -122,9 +121,9 @@ void LaneFactorisation::Kernel::factorise(const Kernel& kernel, const LaneRegist
                   s.height, f.u + part.values, f.work);
     }
 
-    const LaneRegister pivot = f.work[k];
+    const DoubleLanes pivot = f.work[k];
     f.pivot[k] = pivot;
-    LaneRegister* block = f.l + own.values + k - own.first;
+    DoubleLanes* block = f.l + own.values + k - own.first;
     for (int r = k + 1; r < own.first + own.width; ++r)
       block[(r - own.first) * own.width] = f.work[r] / pivot;
     block += own.width * own.width;
@@ -133,16 +132,16 @@ void LaneFactorisation::Kernel::factorise(const Kernel& kernel, const LaneRegist
 }
 
 VOUSSOIR_FOR_EVERY_PROCESSOR
-void LaneFactorisation::Kernel::substitute(const Kernel& kernel, LaneRegister* x) {
+void LaneFactorisation::Kernel::substitute(const Kernel& kernel, DoubleLanes* x) {
   const Kernel f = kernel;
   for (int k = 0; k < f.n; ++k) {
     const Supernode s = f.supernodes[f.supernode_of[k]];
-    const LaneRegister* block = f.l + s.values + k - s.first;
+    const DoubleLanes* block = f.l + s.values + k - s.first;
     for (int r = k + 1; r < s.first + s.width; ++r) x[r] -= block[(r - s.first) * s.width] * x[k];
     update_rows<1>(block + s.width * s.width, s.width, f.row + s.rows, s.height, x + k, x);
   }
   for (int k = f.n - 1; k >= 0; --k) {
-    const LaneRegister value = x[k] / f.pivot[k];
+    const DoubleLanes value = x[k] / f.pivot[k];
     x[k] = value;
     for (int p = f.upper_begin[k]; p < f.upper_begin[k + 1]; ++p) {
       const UpperPart& part = f.upper[p];
@@ -247,19 +246,20 @@ void LaneFactorisation::form_supernodes(const std::vector<std::vector<int>>& low
 }
 
 std::array<bool, kLanes> LaneFactorisation::factorise(const LaneVector& values) {
-  Kernel::factorise(Kernel(*this), registers(values));
+  Kernel::factorise(Kernel(*this), registers_of(values));
   std::array<bool, kLanes> regular;
   regular.fill(true);
   for (std::size_t k = 0; k < pivot_.size(); ++k)
     for (std::size_t lane = 0; lane < kLanes; ++lane)
-      if (!(std::abs(pivot_[k][lane]) > kLostDigits * std::abs(diagonal_[k][lane]))) regular[lane] = false;
+      if (!(std::abs(pivot_[k].value[lane]) > kLostDigits * std::abs(diagonal_[k].value[lane])))
+        regular[lane] = false;
   return regular;
 }
 
 void LaneFactorisation::solve(LaneVector& right_hand_side) {
   for (std::size_t k = 0; k < permutation_.size(); ++k)
     work_[k] = right_hand_side[static_cast<std::size_t>(permutation_[k])];
-  Kernel::substitute(Kernel(*this), registers(work_));
+  Kernel::substitute(Kernel(*this), registers_of(work_));
   for (std::size_t k = 0; k < permutation_.size(); ++k)
     right_hand_side[static_cast<std::size_t>(permutation_[k])] = work_[k];
 }

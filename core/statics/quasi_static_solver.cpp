@@ -26,13 +26,16 @@ struct QuasiStaticSolver::Workspace {
         steps(static_cast<std::size_t>(system.unknown_count())),
         step(system.unknown_count()) {}
 
-  TangentTarget lane_of_tangents(std::size_t lane) { return {tangents.front().data() + lane, kLanes}; }
+  TangentTarget lane_of_tangents(std::size_t lane) {
+    return {reinterpret_cast<double*>(tangents.data()) + lane, kLanes};
+  }
 
   void put_right_hand_side(std::size_t lane, const Field& unbalanced) {
-    for (std::size_t i = 0; i < steps.size(); ++i) steps[i][lane] = unbalanced.data()[system.component[i]];
+    for (std::size_t i = 0; i < steps.size(); ++i)
+      steps[i].value[lane] = unbalanced.data()[system.component[i]];
   }
   const Eigen::VectorXd& get_step(std::size_t lane) {
-    for (std::size_t i = 0; i < steps.size(); ++i) step[static_cast<Eigen::Index>(i)] = steps[i][lane];
+    for (std::size_t i = 0; i < steps.size(); ++i) step[static_cast<Eigen::Index>(i)] = steps[i].value[lane];
     return step;
   }
 

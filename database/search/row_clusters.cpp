@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "core/simd/float_lanes.h"
+#include "core/simd/lanes.h"
 
 namespace voussoir {
 namespace {
@@ -18,11 +18,10 @@ VOUSSOIR_FOR_EVERY_PROCESSOR
 void find_squares(const float* const* rows, std::size_t count, const float* from, std::size_t stride,
                   float* squares) {
   for (std::size_t row = 0; row < count; ++row) {
-    FloatLanes sum{}, a, b;
+    FloatLanes sum{};
     for (std::size_t i = 0; i < stride; i += kFloatLanes) {
-      load(rows[row] + i, a);
-      load(from + i, b);
-      sum += (a - b) * (a - b);
+      const FloatLanes apart = load<FloatLanes>(rows[row] + i) - load<FloatLanes>(from + i);
+      sum += apart * apart;
     }
     squares[row] = sum_of(sum);
   }

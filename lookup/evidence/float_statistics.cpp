@@ -6,7 +6,7 @@
 #include <cstring>
 #include <limits>
 
-#include "core/simd/float_lanes.h"
+#include "core/simd/lane_math.h"
 
 namespace voussoir {
 namespace {
@@ -61,16 +61,10 @@ VOUSSOIR_INLINE void collect_row(const FloatView& view, float inverse_unit, cons
                                  std::size_t i_row, const Columns& columns) {
   FloatSums sums;
   for (std::size_t i = 0; i < view.reading.size(); i += kFloatLanes) {
-    FloatLanes reading, predicted, slope, offset;
-    load(view.reading.data() + i, reading);
-    load(row + i, predicted);
-    load(view.slope.data() + i, slope);
-    load(view.offset.data() + i, offset);
-    FloatLanes movement = predicted, error = reading - predicted;
-    make_absolute(movement);
-    make_absolute(error);
-    const FloatLanes scale = slope * movement + offset;
-    add(reading, error, scale, scale, inverse_unit, sums);
+    const auto reading = load<FloatLanes>(view.reading.data() + i), predicted = load<FloatLanes>(row + i);
+    const FloatLanes scale = load<FloatLanes>(view.slope.data() + i) * magnitude(predicted) +
+                             load<FloatLanes>(view.offset.data() + i);
+    add(reading, magnitude(reading - predicted), scale, scale, inverse_unit, sums);
   }
   store(sums, i_row, columns);
 }
@@ -92,14 +86,11 @@ void collect_boxes(const FloatView& view, float inverse_unit, const std::int16_t
   for (std::size_t cluster = 0; cluster < count; ++cluster) {
     FloatSums sums;
     for (std::size_t i = 0; i < places; i += kFloatLanes) {
-      FloatLanes reading, low, high, slope, offset;
-      load(view.reading.data() + i, reading);
-      load(least + cluster * places + i, low);
-      load(most + cluster * places + i, high);
-      load(view.slope.data() + i, slope);
-      load(view.offset.data() + i, offset);
-      low *= units[cluster];
-      high *= units[cluster];
+      const auto reading = load<FloatLanes>(view.reading.data() + i);
+      const auto slope = load<FloatLanes>(view.slope.data() + i);
+      const auto offset = load<FloatLanes>(view.offset.data() + i);
+      const FloatLanes low = load<FloatLanes>(least + cluster * places + i) * units[cluster];
+      const FloatLanes high = load<FloatLanes>(most + cluster * places + i) * units[cluster];
       FloatLanes error = low - reading > reading - high ? low - reading : reading - high;
       error = error > zero ? error : zero;
       const FloatLanes farthest = -low > high ? -low : high;
@@ -115,8 +106,7 @@ VOUSSOIR_FOR_EVERY_PROCESSOR
 void make_logs(float* values, std::size_t count) {
   for (std::size_t i = 0; i < count; i += kFloatLanes) {
     const std::size_t size = std::min(kFloatLanes, count - i);
-    FloatLanes lanes{};
-    load_some(values + i, size, lanes);
+    auto lanes = load_some<FloatLanes>(values + i, size, 0.0F);
     make_approximate_logarithm(lanes);
     store_some(lanes, size, values + i);
   }

@@ -4,7 +4,6 @@
 #include <cstddef>
 #include <vector>
 
-#include "core/simd/float_lanes.h"
 #include "database/search/search_index.h"
 #include "lookup/evidence/row_statistics.h"
 

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "core/simd/lane_math.h"
 #include "lookup/evidence/evidence.h"
 #include "lookup/evidence/float_statistics.h"
 #include "lookup/evidence/level_curve.h"
@@ -86,9 +87,8 @@ void raise_to(const ShapeBound& bound, const Loss& loss, const float* sums, std:
   const FloatLanes none = FloatLanes{} - kInfinity, least = FloatLanes{} + kLeastSum;
   for (std::size_t i = 0; i < count; i += kFloatLanes) {
     const std::size_t size = std::min(kFloatLanes, count - i);
-    FloatLanes sum{}, old{};
-    load_some(sums + i, size, sum);
-    load_some(bounds + i, size, old);
+    auto sum = load_some<FloatLanes>(sums + i, size, 0.0F);
+    const auto old = load_some<FloatLanes>(bounds + i, size, 0.0F);
     sum = sum - loss.share * sum - loss.loss;
     sum = sum < least ? least : sum;  // NaN stays
     FloatLanes value = sum;

@@ -16,8 +16,8 @@ constexpr std::size_t kSafeProducts = 16;  // factors within 1e+-19 of the unit 
 
 /// Running statistics, lane by lane, with the product of scales in place of the sum of their logarithms.
 struct LaneStatistics {
-  Lanes sum_absolute{}, sum_square{}, largest{};
-  Lanes product = Lanes{} + 1.0;
+  DoubleLanes sum_absolute{}, sum_square{}, largest{};
+  DoubleLanes product = DoubleLanes{} + 1.0;
 };
 
 /// The arrays of an Observation, as the loop below wants them.
@@ -33,39 +33,19 @@ struct View {
 
 VOUSSOIR_INLINE void add_errors(const View& view, std::size_t i, std::size_t count, const double* prediction,
                                 LaneStatistics& statistics) {
-  Lanes reading, predicted, slope, offset;
-  if (count == kLanes) {
-    load(view.reading + i, reading);
-    load(prediction + i, predicted);
-    load(view.slope + i, slope);
-    load(view.offset + i, offset);
-  } else {
-    load_some(view.reading + i, count, reading);
-    load_some(prediction + i, count, predicted);
-    load_some(view.slope + i, count, slope);
-    load_some(view.offset + i, count, offset);
-  }
-  Lanes movement = predicted;
-  make_absolute(movement);
-  Lanes scale = slope * movement + offset;
-  if (view.model_error > 0.0) {
-    Lanes change;
-    if (count == kLanes)
-      load(view.intact + i, change);
-    else
-      load_some(view.intact + i, count, change);
-    change -= predicted;
-    make_absolute(change);
-    scale += view.model_error * change;
-  }
-  Lanes error = reading - predicted;
-  make_absolute(error);
-  const LaneMask has_reading = reading == reading;
-  const Lanes z = has_reading ? error / scale : Lanes{};
+  const auto at = [&](const double* values) __attribute__((always_inline)) {
+    return load_some<DoubleLanes>(values + i, count, kNan);
+  };
+  const DoubleLanes reading = at(view.reading),
+                    predicted = load_some<DoubleLanes>(prediction + i, count, kNan);
+  DoubleLanes scale = at(view.slope) * magnitude(predicted) + at(view.offset);
+  if (view.model_error > 0.0) scale += view.model_error * magnitude(at(view.intact) - predicted);
+  const DoubleMask has_reading = reading == reading;
+  const DoubleLanes z = has_reading ? magnitude(reading - predicted) / scale : DoubleLanes{};
   statistics.sum_absolute += z;
   statistics.sum_square += z * z;
   statistics.largest = z > statistics.largest ? z : statistics.largest;
-  statistics.product *= has_reading ? scale * view.inverse_unit : Lanes{} + 1.0;
+  statistics.product *= has_reading ? scale * view.inverse_unit : DoubleLanes{} + 1.0;
 }
 
 /// A positive number as mantissa times two to the power of the exponent: products of any length keep their
@@ -76,19 +56,15 @@ struct WideProduct {
 };
 
 /// Multiplies the lanes' products into the wide one and starts the lanes anew.
-VOUSSOIR_INLINE void flush(Lanes& product, WideProduct& wide) {
+VOUSSOIR_INLINE void flush(DoubleLanes& product, WideProduct& wide) {
   constexpr std::int64_t kMantissaBits = 0x000FFFFFFFFFFFFF;
   constexpr std::int64_t kOneBits = 0x3FF0000000000000;
-  const LaneMask bits = reinterpret_cast<LaneMask>(product);
-  const LaneMask exponents = (bits >> 52) - 1023;
-  const Lanes mantissas = reinterpret_cast<Lanes>((bits & kMantissaBits) | kOneBits);
+  const DoubleMask bits = reinterpret_cast<DoubleMask>(product);
+  const DoubleMask exponents = (bits >> 52) - 1023;
+  const DoubleLanes mantissas = reinterpret_cast<DoubleLanes>((bits & kMantissaBits) | kOneBits);
   wide.mantissa *= (mantissas[0] * mantissas[1]) * (mantissas[2] * mantissas[3]);
   wide.exponent += static_cast<double>((exponents[0] + exponents[1]) + (exponents[2] + exponents[3]));
-  product = Lanes{} + 1.0;
-}
-
-VOUSSOIR_INLINE double sum_of(const Lanes& lanes) {
-  return (lanes[0] + lanes[1]) + (lanes[2] + lanes[3]);
+  product = DoubleLanes{} + 1.0;
 }
 
 /// Where the statistics go; the logarithms are taken of all rows at once, later.
@@ -113,10 +89,9 @@ void collect(const View& view, const double* table, std::size_t rows, const Colu
     }
     if (i < view.points) add_errors(view, i, view.points - i, prediction, lanes);
     flush(lanes.product, product);
-    const Lanes& top = lanes.largest;
     columns.sum_absolute[row] = sum_of(lanes.sum_absolute);
     columns.sum_square[row] = sum_of(lanes.sum_square);
-    columns.largest[row] = std::max(std::max(top[0], top[1]), std::max(top[2], top[3]));
+    columns.largest[row] = largest_of(lanes.largest);
     columns.mantissa[row] = product.mantissa;
     columns.exponent[row] = product.exponent;
   }

@@ -1,39 +1,33 @@
 #include "lookup/search/misfit.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "core/simd/lane_arithmetic.h"
+#include "core/simd/lanes.h"
 
 namespace voussoir {
 namespace {
 
 /// NaN stays out of the sum where there is no reading, and stays in it where there is no prediction.
-VOUSSOIR_INLINE void add_differences(const Lanes& reading, const Lanes& prediction, Lanes& sum) {
-  Lanes difference = reading - prediction;
-  make_absolute(difference);
-  sum += reading == reading ? difference : Lanes{};
+VOUSSOIR_INLINE DoubleLanes differences(const DoubleLanes& reading, const DoubleLanes& prediction) {
+  return reading == reading ? magnitude(reading - prediction) : DoubleLanes{};
 }
 
 VOUSSOIR_INLINE double sum_row(const double* readings, const double* prediction, std::size_t points) {
-  Lanes even{}, odd{}, reading, predicted;
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  DoubleLanes even{}, odd{};
   std::size_t i = 0;
   for (; i + 2 * kLanes <= points; i += 2 * kLanes) {
-    load(readings + i, reading);
-    load(prediction + i, predicted);
-    add_differences(reading, predicted, even);
-    load(readings + i + kLanes, reading);
-    load(prediction + i + kLanes, predicted);
-    add_differences(reading, predicted, odd);
+    even += differences(load<DoubleLanes>(readings + i), load<DoubleLanes>(prediction + i));
+    odd += differences(load<DoubleLanes>(readings + i + kLanes), load<DoubleLanes>(prediction + i + kLanes));
   }
   for (; i < points; i += kLanes) {
-    const std::size_t left = points - i < kLanes ? points - i : kLanes;
-    load_some(readings + i, left, reading);
-    load_some(prediction + i, left, predicted);
-    add_differences(reading, predicted, even);
+    const std::size_t left = std::min(points - i, kLanes);
+    even += differences(load_some<DoubleLanes>(readings + i, left, kNan),
+                        load_some<DoubleLanes>(prediction + i, left, kNan));
   }
-  even += odd;
-  const double sum = (even[0] + even[1]) + (even[2] + even[3]);
+  const double sum = sum_of(even + odd);
   return std::isnan(sum) ? std::numeric_limits<double>::infinity() : sum;
 }
 

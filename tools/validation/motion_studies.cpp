@@ -11,7 +11,7 @@
 namespace voussoir::validation {
 namespace {
 
-using One = Lanes<1>;
+using One = double;
 constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kGravity = 9.81;
 

@@ -215,7 +215,7 @@ TEST_CASE("A block that leans over on its edge does not slip at the end that ope
 }
 
 TEST_CASE("A lane's forces have the same bits whatever the other lanes hold") {
-  using Four = Lanes<4>;
+  using Four = DoubleLanes;
   const EdgeContact contact = edges(1.0, kRough);
   const std::array<Places, 4> lanes = {placed(0.5, -0.01, 0.0), placed(0.2, 0.5, 0.3),
                                        placed(0.9, -0.02, 0.8), placed(0.4, -0.03, -0.1)};

@@ -11,7 +11,7 @@
 namespace voussoir {
 namespace {
 
-using One = Lanes<1>;
+using One = double;
 using validation::block_on_wedge;
 using validation::floating_course;
 

@@ -23,7 +23,7 @@ Eigen::SparseMatrix<double> random_matrix(const Eigen::SparseMatrix<double>& pat
 }
 
 void put(const Eigen::SparseMatrix<double>& matrix, std::size_t lane, LaneVector& values) {
-  for (std::size_t i = 0; i < values.size(); ++i) values[i][lane] = matrix.valuePtr()[i];
+  for (std::size_t i = 0; i < values.size(); ++i) values[i].value[lane] = matrix.valuePtr()[i];
 }
 
 }  // namespace
@@ -37,7 +37,7 @@ TEST_CASE("Every lane has the solution of an independent sparse LU", "[lanes]") 
   const Eigen::VectorXd b = Eigen::VectorXd::LinSpaced(system.unknown_count(), -1.0, 2.0);
   for (std::size_t lane = 0; lane < kLanes; ++lane) {
     put(random_matrix(system.pattern, static_cast<int>(lane)), lane, values);
-    for (std::size_t i = 0; i < x.size(); ++i) x[i][lane] = b[static_cast<Eigen::Index>(i)];
+    for (std::size_t i = 0; i < x.size(); ++i) x[i].value[lane] = b[static_cast<Eigen::Index>(i)];
   }
   for (const bool regular : lanes.factorise(values)) CHECK(regular);
   lanes.solve(x);
@@ -45,7 +45,7 @@ TEST_CASE("Every lane has the solution of an independent sparse LU", "[lanes]") 
     const Eigen::SparseMatrix<double> matrix = random_matrix(system.pattern, static_cast<int>(lane));
     const Eigen::VectorXd expected = Eigen::SparseLU<Eigen::SparseMatrix<double>>(matrix).solve(b);
     for (std::size_t i = 0; i < x.size(); ++i)
-      CHECK(x[i][lane] == Approx(expected[static_cast<Eigen::Index>(i)]).margin(1e-12));
+      CHECK(x[i].value[lane] == Approx(expected[static_cast<Eigen::Index>(i)]).margin(1e-12));
   }
 }
 
@@ -58,11 +58,11 @@ TEST_CASE("A lane's solution does not depend on its neighbours, to the last bit"
     put(random_matrix(system.pattern, 7), 2, values);
     for (const std::size_t lane : {0, 1, 3})
       put(random_matrix(system.pattern, seed + static_cast<int>(lane)), lane, values);
-    LaneVector x(static_cast<std::size_t>(system.unknown_count()), {1.0, 2.0, 3.0, 4.0});
+    LaneVector x(static_cast<std::size_t>(system.unknown_count()), {DoubleLanes{1.0, 2.0, 3.0, 4.0}});
     lanes.factorise(values);
     lanes.solve(x);
     std::vector<double> own;
-    for (const LaneValue& value : x) own.push_back(value[2]);
+    for (const auto& cell : x) own.push_back(cell.value[2]);
     return own;
   };
   CHECK(solution_beside(100) == solution_beside(200));
@@ -74,7 +74,7 @@ TEST_CASE("A singular matrix is reported in its lane and in no other", "[lanes]"
   LaneFactorisation lanes(system.pattern);
   LaneVector values(static_cast<std::size_t>(system.pattern.nonZeros()));
   for (std::size_t lane = 0; lane < kLanes; ++lane) put(random_matrix(system.pattern, 3), lane, values);
-  for (LaneValue& value : values) value[1] = 0.0;
+  for (auto& cell : values) cell.value[1] = 0.0;
   const auto regular = lanes.factorise(values);
   CHECK(regular[0]);
   CHECK_FALSE(regular[1]);

@@ -30,14 +30,6 @@ void check_same(const SyntheticLibrary& library, const PosteriorScreen& screen, 
 
 }  // namespace
 
-TEST_CASE("The approximate logarithm is within a hundred-thousandth of the library's") {
-  for (double x = 1e-37; x < 1e38; x *= 1.0137) {
-    FloatLanes lanes = FloatLanes{} + static_cast<float>(x);
-    make_approximate_logarithm(lanes);
-    REQUIRE(lanes[3] == Approx(std::log(static_cast<float>(x))).margin(1e-5));
-  }
-}
-
 TEST_CASE("The screened posterior is the exact one, for stated and unknown noise of every shape and size") {
   const SyntheticLibrary library(4, 9);
   const Eligible eligible = eligible_rows(library.table, {0, 1, 2});
