@@ -3,6 +3,7 @@
 #include "core/error.h"
 #include "core/structure/bridge_file.h"
 #include "database/records/schema.h"
+#include "generator/variants.h"
 
 namespace voussoir {
 namespace {
@@ -33,10 +34,19 @@ Bridge bridge_of(const Database& database) {
       parse_bridge_file(database.bridge_text(), database.path().string() + " (bridge text)").description;
   bridge.layout = database.layout();
   bridge.mesh = database.mesh();
-  bridge.joints = find_joints(bridge.mesh, bridge.description.joint_tolerance);
+  bridge.joints = database.joints();
   bridge.control_points = stored_points(database);
   bridge.symmetry = find_mirror_symmetry(bridge.layout, bridge.mesh, 0.5 * bridge.description.wall.length);
   return bridge;
+}
+
+Bridge bridge_of(const Database& database, const Bridge& nominal, std::int32_t variant) {
+  if (variant == kNominalVariant) return nominal;
+  try {
+    return variant_of(nominal, database.variants().at(static_cast<std::size_t>(variant)));
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}: variant {}: {}", database.path().string(), variant, error.what()));
+  }
 }
 
 }  // namespace voussoir

@@ -1,7 +1,8 @@
 #include "database/records/stored_geometry.h"
-#include "database/records/schema.h"
 
 #include <algorithm>
+
+#include "database/records/schema.h"
 
 namespace voussoir {
 namespace {
@@ -97,22 +98,60 @@ Mesh read_mesh(const Hdf5File& file, std::size_t blocks) {
   return mesh;
 }
 
+std::vector<Joint> read_joints(const Hdf5File& file, std::size_t blocks, std::size_t nodes) {
+  std::vector<Joint> joints;
+  if (!file.has(dataset::kJointBlocks)) return joints;
+  const auto joint_blocks = read_indices(file, dataset::kJointBlocks, 2, blocks);
+  const auto joint_nodes = read_indices(file, dataset::kJointNodes, 4, nodes);
+  const auto ends = file.numbers<double>(dataset::kJointEnds, ElementType::float64, 4);
+  const auto lengths = file.numbers<double>(dataset::kJointLength, ElementType::float64, kFlat);
+  require_size(file, dataset::kJointNodes, joint_nodes.size() / 4, joint_blocks.size() / 2);
+  require_size(file, dataset::kJointEnds, ends.size() / 4, joint_blocks.size() / 2);
+  require_size(file, dataset::kJointLength, lengths.size(), joint_blocks.size() / 2);
+  for (std::size_t i = 0; i < lengths.size(); ++i) {
+    const auto node = joint_nodes.subspan(4 * i, 4);
+    const auto at = ends.subspan(4 * i, 4);
+    joints.push_back({BlockId{joint_blocks[2 * i]},
+                      BlockId{joint_blocks[2 * i + 1]},
+                      {NodeId{node[0]}, NodeId{node[1]}},
+                      {NodeId{node[2]}, NodeId{node[3]}},
+                      {at[0], at[1]},
+                      {at[2], at[3]},
+                      lengths[i]});
+  }
+  return joints;
+}
+
+namespace {
+
+/// Names of fixed width without their padding.
+std::vector<std::string> read_names(const Hdf5File& file, const char* path, std::size_t width) {
+  const DatasetView found = file.view(path);
+  file.require(found.type == ElementType::text && found.shape.size() == 1 && found.text_width == width,
+               fmt::format("dataset '{}' has not the expected type and shape", path));
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < found.shape[0]; ++i) {
+    const auto* name = reinterpret_cast<const char*>(found.bytes.data()) + i * width;
+    names.emplace_back(name, std::find(name, name + width, '\0'));
+  }
+  return names;
+}
+
+}  // namespace
+
+std::vector<std::string> read_states(const Hdf5File& file) {
+  return read_names(file, dataset::kStates, kStateNameWidth);
+}
+
 std::vector<StoredPoint> read_control_points(const Hdf5File& file) {
-  const DatasetView names = file.view(dataset::kPointName);
-  file.require(
-      names.type == ElementType::text && names.shape.size() == 1 && names.text_width == kPointNameWidth,
-      "dataset 'control/point_name' has not the expected type and shape");
+  const auto names = read_names(file, dataset::kPointName, kPointNameWidth);
   const auto positions = read_points(file, dataset::kPointPosition);
   const auto blocks = read_ints(file, dataset::kPointBlock, kFlat);
-  require_size(file, dataset::kPointPosition, positions.size() / 2, names.shape[0]);
-  require_size(file, dataset::kPointBlock, blocks.size(), names.shape[0]);
+  require_size(file, dataset::kPointPosition, positions.size() / 2, names.size());
+  require_size(file, dataset::kPointBlock, blocks.size(), names.size());
   std::vector<StoredPoint> points;
-  for (std::size_t i = 0; i < blocks.size(); ++i) {
-    const auto* name = reinterpret_cast<const char*>(names.bytes.data()) + i * kPointNameWidth;
-    points.push_back({std::string(name, std::find(name, name + kPointNameWidth, '\0')),
-                      {positions[2 * i], positions[2 * i + 1]},
-                      BlockId{blocks[i]}});
-  }
+  for (std::size_t i = 0; i < blocks.size(); ++i)
+    points.push_back({names[i], {positions[2 * i], positions[2 * i + 1]}, BlockId{blocks[i]}});
   return points;
 }
 
