@@ -6,22 +6,19 @@
 #include "core/structure/bridge_file.h"
 #include "database/records/provenance.h"
 #include "database/records/record.h"
-#include "generator/build_plan.h"
+#include "database/records/variant_parameters.h"
 #include "generator/outcome_counts.h"
-#include "generator/progress.h"
-#include "generator/scene_solving.h"
+#include "generator/plan_run.h"
 
 namespace voussoir {
-
-/// The most scenes that one thread solves before it keeps their records: what a killed build can lose a
-/// thread.
-inline constexpr std::size_t kLargestBatch = 32;
 
 struct BuildRequest {
   BridgeFile bridge;
   std::filesystem::path output = "bridge.h5";
-  std::string scenes = "all";  ///< as parse_scene_list reads it
-  int threads = 0;             ///< 0: one for each core
+  std::string scenes = "all";  ///< as parse_scene_list reads it; the same of every variant
+  /// Variants 1, 2..: the bridge with other parameters (see variant_of). Variant 0 is the bridge as it is.
+  std::vector<VariantParameters> other_variants;
+  int threads = 0;  ///< 0: one for each core
   KeepField fields = KeepField::yes;
   PlanRules rules;
   std::string xdmf_scenes;  ///< scenes of the XDMF index beside the database; empty: no index
@@ -45,8 +42,8 @@ struct BuildSummary {
 Provenance provenance_of(const BuildRequest& request, const SolverChoice& solver);
 
 /// Builds the database of a bridge. The content does not depend on threads, interruptions or what the file
-/// held before. Throws InputError for a bad list of scenes and Failure if files cannot be written; every
-/// scene computed until then is kept in the journal and the same call goes on from there.
+/// held before. Throws InputError for a bad list of scenes or variants and Failure if files cannot be
+/// written; every scene computed until then is kept in the journal and the same call goes on from there.
 BuildSummary build_database(const BuildRequest& request, const SolverChoice& solver, Progress& progress);
 
 }  // namespace voussoir

@@ -5,7 +5,6 @@
 #include <set>
 
 #include "core/structure/mirror_symmetry.h"
-#include "generator/scene_list.h"
 
 namespace voussoir {
 namespace {
@@ -16,16 +15,19 @@ int stage_of(const Scene& scene) {
   return std::min(scene.missing(), kStages - 1);
 }
 
-/// The scenes that need a record and have none: those wanted that are unknown and what they start from.
-std::set<Scene> missing_records(const std::vector<Scene>& wanted, const Model& bridge, const PlanRules& rules,
-                                const std::function<bool(const Scene&)>& is_known) {
-  std::set<Scene> missing;
-  for (auto scene = wanted.rbegin(); scene != wanted.rend(); ++scene)
-    if (!is_known(*scene)) missing.insert(*scene);
+/// The keys that need a record and have none: those wanted that are unknown and what they start from.
+std::set<RecordKey> missing_records(const std::vector<RecordKey>& wanted, std::span<const Model> bridges,
+                                    const PlanRules& rules,
+                                    const std::function<bool(const RecordKey&)>& is_known) {
+  std::set<RecordKey> missing;
+  for (const RecordKey& key : wanted)
+    if (!is_known(key)) missing.insert(missing.end(), key);
   for (int pass = 1; pass < kStages; ++pass)  // pairs start from singles, singles from the intact bridge
-    for (const Scene& scene : std::vector<Scene>(missing.begin(), missing.end()))
+    for (const auto& [variant, scene] : std::vector<RecordKey>(missing.begin(), missing.end())) {
+      const Model& bridge = bridges[static_cast<std::size_t>(variant)];
       for (const Scene& start : starting_scenes(representative(scene, bridge, rules), rules))
-        if (!is_known(start)) missing.insert(start);
+        if (!is_known({variant, start})) missing.insert({variant, start});
+    }
   return missing;
 }
 
@@ -52,12 +54,13 @@ std::size_t BuildPlan::records() const {
   return count;
 }
 
-BuildPlan plan_build(const std::vector<Scene>& wanted, const Model& bridge, const PlanRules& rules,
-                     const std::function<bool(const Scene&)>& is_known) {
-  std::map<Scene, SolvingTask> tasks;
-  for (const Scene& scene : missing_records(wanted, bridge, rules, is_known)) {
-    const Scene solved = representative(scene, bridge, rules);
-    SolvingTask& task = tasks[solved];
+BuildPlan plan_build(const std::vector<RecordKey>& wanted, std::span<const Model> bridges,
+                     const PlanRules& rules, const std::function<bool(const RecordKey&)>& is_known) {
+  std::map<RecordKey, SolvingTask> tasks;
+  for (const auto& [variant, scene] : missing_records(wanted, bridges, rules, is_known)) {
+    const Scene solved = representative(scene, bridges[static_cast<std::size_t>(variant)], rules);
+    SolvingTask& task = tasks[{variant, solved}];
+    task.variant = variant;
     task.solved = solved;
     if (scene == solved)
       task.records_solved = true;
@@ -66,8 +69,8 @@ BuildPlan plan_build(const std::vector<Scene>& wanted, const Model& bridge, cons
   }
   BuildPlan plan;
   plan.stages.resize(kStages);
-  for (auto& [solved, task] : tasks)
-    plan.stages[static_cast<std::size_t>(stage_of(solved))].push_back(std::move(task));
+  for (auto& [key, task] : tasks)
+    plan.stages[static_cast<std::size_t>(stage_of(key.scene))].push_back(std::move(task));
   return plan;
 }
 

@@ -1,15 +1,18 @@
 #pragma once
-/// @file Which scenes are solved, in which order.
+/// @file Which scenes of which variants are solved, in which order.
 
 #include <functional>
+#include <span>
 #include <vector>
 
 #include "core/structure/model.h"
+#include "database/records/record_key.h"
 
 namespace voussoir {
 
 /// One equilibrium search and the scenes that it answers for: the scene itself, its mirror image or both.
 struct SolvingTask {
+  std::int32_t variant = kNominalVariant;
   Scene solved;
   bool records_solved = false;
   std::optional<Scene> image;  ///< the mirror image, if it is wanted and is another scene
@@ -17,7 +20,7 @@ struct SolvingTask {
 
 struct BuildPlan {
   /// Stages follow each other: intact, then singles, then everything else, which starts from their fields.
-  /// Tasks of a stage do not depend on each other.
+  /// Tasks of a stage do not depend on each other and are ordered by variant.
   std::vector<std::vector<SolvingTask>> stages;
 
   std::size_t records() const;  ///< that the tasks of all stages give
@@ -36,11 +39,11 @@ Scene representative(const Scene& scene, const Model& bridge, const PlanRules& r
 /// The scenes whose fields the solving of this one starts from (see StartingFields).
 std::vector<Scene> starting_scenes(const Scene& solved, const PlanRules& rules);
 
-/// A task for every wanted scene and for the intact bridge and the singles that wanted scenes start from,
-/// except for scenes that `is_known` already. With a mirror symmetry the lexicographically smaller of a scene
-/// and its image is solved, whatever scenes are wanted, so that a scene's record does not depend on the rest
-/// of the list.
-BuildPlan plan_build(const std::vector<Scene>& wanted, const Model& bridge, const PlanRules& rules,
-                     const std::function<bool(const Scene&)>& is_known);
+/// A task for every wanted record and for the intact bridge and the singles that wanted scenes start from, in
+/// the same variant, except for records that are known already. With a mirror symmetry of the variant the
+/// lexicographically smaller of a scene and its image is solved, whatever records are wanted, so that a
+/// record does not depend on the rest of the list. `bridges` are the variants.
+BuildPlan plan_build(const std::vector<RecordKey>& wanted, std::span<const Model> bridges,
+                     const PlanRules& rules, const std::function<bool(const RecordKey&)>& is_known);
 
 }  // namespace voussoir

@@ -6,28 +6,32 @@
 namespace voussoir {
 namespace {
 
-bool has_scenes(const Database& database, const std::vector<Scene>& wanted) {
-  if (database.table().rows != wanted.size()) return false;
+bool has_keys(const Database& database, const std::vector<RecordKey>& wanted) {
+  if (database.rows() != wanted.size()) return false;
   for (std::size_t row = 0; row < wanted.size(); ++row)
-    if (database.table().scene(row) != wanted[row]) return false;
+    if (database.key(row) != wanted[row]) return false;
   return true;
 }
 
-std::vector<std::string> find_changes(const Database& database, const Provenance& provenance,
-                                      const std::vector<Scene>& wanted, KeepField fields) {
-  std::vector<std::string> changes = differences(provenance, database.provenance());
-  if (!has_scenes(database, wanted))
+std::vector<std::string> find_changes(const Database& database, const WantedDatabase& wanted) {
+  std::vector<std::string> changes = differences(wanted.provenance, database.provenance());
+  if (database.states() != std::vector<std::string>{kBuiltState})
+    changes.push_back("other states are wanted");
+  if (database.variants() != wanted.variants)
+    changes.push_back(fmt::format("other variants of the bridge are wanted ({}, was {})",
+                                  wanted.variants.size(), database.variants().size()));
+  if (!has_keys(database, wanted.keys))
     changes.push_back(
-        fmt::format("other scenes are wanted ({}, was {})", wanted.size(), database.table().rows));
-  if (database.has_fields() != (fields == KeepField::yes))
-    changes.push_back(fields == KeepField::yes ? "fields are wanted" : "fields are no longer wanted");
+        fmt::format("other scenes are wanted ({}, was {})", wanted.keys.size(), database.rows()));
+  if (database.has_fields() != (wanted.fields == KeepField::yes))
+    changes.push_back(wanted.fields == KeepField::yes ? "fields are wanted" : "fields are no longer wanted");
   return changes;
 }
 
 }  // namespace
 
-ExistingDatabase examine_existing(const std::filesystem::path& output, const Provenance& provenance,
-                                  const std::vector<Scene>& wanted, KeepField fields, bool force) {
+ExistingDatabase examine_existing(const std::filesystem::path& output, const WantedDatabase& wanted,
+                                  bool force) {
   ExistingDatabase existing;
   if (!std::filesystem::exists(output)) return existing;
   if (force) {
@@ -40,10 +44,10 @@ ExistingDatabase examine_existing(const std::filesystem::path& output, const Pro
                     output.string()));
   try {
     existing.database = Database::open(output);
-    existing.changes = find_changes(*existing.database, provenance, wanted, fields);
+    existing.changes = find_changes(*existing.database, wanted);
     existing.up_to_date = existing.changes.empty();
     existing.reusable = existing.database->has_fields() &&
-                        existing.database->provenance().results_key == provenance.results_key;
+                        existing.database->provenance().results_key == wanted.provenance.results_key;
   } catch (const InputError& error) {
     existing = {};
     existing.changes = {fmt::format("the old file cannot be used ({})", error.what())};

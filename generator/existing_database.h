@@ -15,10 +15,18 @@ struct ExistingDatabase {
   std::vector<std::string> changes;  ///< why it is not up to date, in words
 };
 
+/// What is to be built.
+struct WantedDatabase {
+  const Provenance& provenance;
+  const std::vector<VariantParameters>& variants;
+  const std::vector<RecordKey>& keys;
+  KeepField fields;
+};
+
 /// Looks at the file; `force` makes any file out of date and its records worthless. Throws Failure for a file
 /// that is no HDF5 file (unless forced): a build should not replace what is none of its own.
-ExistingDatabase examine_existing(const std::filesystem::path& output, const Provenance& provenance,
-                                  const std::vector<Scene>& wanted, KeepField fields, bool force);
+ExistingDatabase examine_existing(const std::filesystem::path& output, const WantedDatabase& wanted,
+                                  bool force);
 
 /// Fills in the summary's scenes, size and digest from a file that is up to date.
 void summarise_existing(const Database& database, BuildSummary& summary);

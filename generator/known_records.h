@@ -1,47 +1,34 @@
 #pragma once
-/// @file Records that need not be computed: those of an interrupted build and those of the database to be
-/// replaced.
+/// @file Records that need not be computed: those of the build's journal, among them an interrupted build's,
+/// and those of other sources.
 
-#include <optional>
-#include <set>
+#include <memory>
+#include <vector>
 
-#include "core/structure/model.h"
-#include "database/records/database.h"
 #include "database/records/journal.h"
 
 namespace voussoir {
 
 /// Where finished records are found during a build. Reading is not thread-safe, asking and appending are.
-class KnownRecords {
+class KnownRecords : public RecordSource {
  public:
-  /// `fields` says whether the build keeps the fields of all scenes.
-  KnownRecords(Journal journal, const Model& bridge, KeepField fields)
-      : journal_(std::move(journal)), bridge_(&bridge), fields_(fields) {}
+  explicit KnownRecords(Journal journal) : journal_(std::move(journal)) {}
 
-  /// Takes over, from an older database with the same results key and with fields, the scenes that are wanted
-  /// or can start others; records whose checksum is not right stay behind. Returns how many were taken.
-  std::size_t reuse(Database old, const std::vector<Scene>& wanted);
+  void add(std::unique_ptr<RecordSource> source) { others_.push_back(std::move(source)); }
 
   Journal& journal() { return journal_; }
-  bool contains(const Scene& scene) const { return journal_.contains(scene) || reusable_.contains(scene); }
-  Record read(const Scene& scene) const;
-  /// The displacements of a scene that others start from, with its outcome.
-  Solution read_solution(const Scene& scene) const;
+  const Journal& journal() const { return journal_; }
+  bool contains(const RecordKey& key) const override;
+  Record read(const RecordKey& key) const override;
+  /// The displacements of a scene that others start from, with its outcome, in the first state. Throws
+  /// Failure if they are not those of so many nodes.
+  Solution read_solution(const RecordKey& key, Eigen::Index nodes) const;
 
  private:
-  std::optional<Record> adopted(const Scene& scene) const;
-  bool has_control_points_of(const Record& record, const Field& field) const;
+  const RecordSource* source_of(const RecordKey& key) const;
 
   Journal journal_;
-  const Model* bridge_;
-  KeepField fields_;
-  std::optional<Database> old_;
-  std::set<Scene> reusable_;
+  std::vector<std::unique_ptr<RecordSource>> others_;
 };
-
-/// True if fields of this scene start others and are kept even if the database is to hold none.
-inline bool starts_others(const Scene& scene) {
-  return scene.missing() <= 1;
-}
 
 }  // namespace voussoir

@@ -13,26 +13,29 @@ constexpr std::size_t kMostListed = 20;  ///< unresolved scenes
 }  // namespace
 
 void OutcomeCounts::add(const Record& record, const BlockLayout& layout) {
+  const RecordedState& state = record.states.front();
   ++scenes;
-  if (record.outcome == Outcome::standing) ++standing;
-  if (record.outcome == Outcome::unresolved)
-    unresolved.push_back({to_string(record.scene, layout), record.residual});
-  if (record.outcome != Outcome::collapsed) return;
+  if (state.outcome == Outcome::standing) ++standing;
+  if (state.outcome == Outcome::unresolved)
+    unresolved.push_back({to_string(record.key, layout), state.residual});
+  if (state.outcome != Outcome::collapsed) return;
   ++collapsed;
-  if (record.extent == CollapseExtent::arch) ++arch_collapses;
-  if (record.extent == CollapseExtent::local) ++local_collapses;
+  if (state.extent == CollapseExtent::arch) ++arch_collapses;
+  if (state.extent == CollapseExtent::local) ++local_collapses;
 }
 
 OutcomeCounts count_outcomes(const Database& database) {
   OutcomeCounts counts;
-  const SceneTable& table = database.table();
-  for (std::size_t row = 0; row < table.rows; ++row) {
-    Record record;
-    record.scene = table.scene(row);
-    record.outcome = static_cast<Outcome>(table.outcome[row]);
-    record.extent = static_cast<CollapseExtent>(table.collapse[row]);
-    if (record.outcome == Outcome::unresolved) record.residual = database.residual(row);
-    counts.add(record, database.layout());
+  for (std::size_t variant = 0; variant < database.variant_count(); ++variant) {
+    const SceneTable table = database.table(static_cast<std::int32_t>(variant), 0);
+    for (std::size_t row = 0; row < table.rows; ++row) {
+      Record record;
+      RecordedState& state = record.states.emplace_back();
+      state.outcome = static_cast<Outcome>(table.outcome[row]);
+      state.extent = static_cast<CollapseExtent>(table.collapse[row]);
+      if (state.outcome == Outcome::unresolved) record = database.record(table.first_record + row);
+      counts.add(record, database.layout());
+    }
   }
   return counts;
 }

@@ -1,5 +1,6 @@
 #pragma once
-/// @file How many scenes of a database stand, collapse, or have no outcome, and which these last are.
+/// @file How many scenes of a database stand, collapse, or have no outcome, and which these last are: of all
+/// variants, in the first state.
 
 #include <nlohmann/json_fwd.hpp>
 #include <string>

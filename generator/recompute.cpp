@@ -31,20 +31,20 @@ std::vector<std::size_t> choose_rows(std::size_t rows, std::size_t count, std::u
   return chosen;
 }
 
-Solution recompute(const Scene& scene, const Database& database, const Model& bridge, const PlanRules& rules,
-                   const SceneSolver& solver) {
-  const Scene solved = representative(scene, bridge, rules);
+Solution recompute(const RecordKey& key, const Database& database, const Model& bridge,
+                   const PlanRules& rules, const SceneSolver& solver) {
+  const Scene solved = representative(key.scene, bridge, rules);
   StartingFields starts;
   for (const Scene& start : starting_scenes(solved, rules)) {
-    const auto row = database.has_fields() ? database.find(start) : std::nullopt;
+    const auto row = database.has_fields() ? database.find(key.variant, start) : std::nullopt;
     const Solution solution =
-        row ? database.solution(*row) : recompute(start, database, bridge, rules, solver);
+        row ? database.solution(*row) : recompute({key.variant, start}, database, bridge, rules, solver);
     starts.add(start, solution.outcome, solution.displacement);
   }
   const auto start = starts.start_for(solved);
   const StageTask task{.stage = {.scene = solved}, .start = start ? &*start : nullptr};
   const Solution solution = solve_for_storage(solver, std::span(&task, 1)).front();
-  return solved == scene ? solution : mirrored_solution(solution, *bridge.symmetry);
+  return solved == key.scene ? solution : mirrored_solution(solution, *bridge.symmetry);
 }
 
 double largest_difference(const Solution& recomputed, const Database& database, std::size_t row,
@@ -57,7 +57,7 @@ double largest_difference(const Solution& recomputed, const Database& database, 
     const Field stored = database.field(row);
     compare(recomputed.displacement.reshaped(), stored.reshaped());
   } else {
-    const auto stored = database.table().row(row);
+    const std::vector<double> stored = database.record(row).states.front().vertical;
     compare(vertical_displacements(recomputed.displacement, points),
             Eigen::Map<const Eigen::VectorXd>(stored.data(), static_cast<Eigen::Index>(stored.size())));
   }

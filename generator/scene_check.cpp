@@ -1,5 +1,6 @@
 #include "generator/scene_check.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/error.h"
@@ -11,20 +12,21 @@
 namespace voussoir {
 namespace {
 
-/// One scene under examination.
+/// One scene of one variant under examination.
 class Examination {
  public:
-  Examination(const CheckedDatabase& checked, std::size_t row)
-      : checked_(checked), row_(row), scene_(checked.database.table().scene(row)) {}
+  Examination(const CheckedVariant& checked, std::size_t row)
+      : checked_(checked), row_(row), key_(checked.database.key(row)) {}
 
   SceneCheck run() {
     try {
       const Record record = checked_.database.record(row_);
-      check_variant();
-      const auto field = take_field(record);
-      check_checksum(record, field);
-      check_collapse(record);
-      if (field) check_field(record, *field);
+      const std::vector<Field> fields = take_fields(record);
+      check_checksum(record, fields);
+      for (std::size_t state = 0; state < record.states.size(); ++state) {
+        check_collapse(record.states[state]);
+        if (!fields.empty()) check_field(state, record.states[state], fields[state]);
+      }
     } catch (const InputError& error) {
       report(error.what());
     }
@@ -33,48 +35,47 @@ class Examination {
 
  private:
   void report(const std::string& what) {
-    check_.problems.push_back(fmt::format("scene {}: {}", to_string(scene_, checked_.bridge.layout), what));
+    check_.problems.push_back(fmt::format("scene {}: {}", to_string(key_, checked_.bridge.layout), what));
   }
 
-  void check_variant() {
-    if (checked_.database.variant(row_) != kOnlyVariant)
-      report("belongs to a variant that this version does not know");
+  /// The fields of the record's states; none if the database has none. Throws InputError if one cannot be
+  /// decoded.
+  std::vector<Field> take_fields(const Record& record) {
+    std::vector<Field> fields;
+    if (!checked_.database.has_fields()) return fields;
+    for (const RecordedState& state : record.states) {
+      if (crc32_of(state.packed_field) != state.field_crc)
+        report("the stored bytes of its field do not have the stored CRC-32");
+      auto field = unpack_field(state.packed_field, checked_.bridge.mesh.node_count());
+      if (!field) throw InputError("its field cannot be decompressed");
+      fields.push_back(std::move(*field));
+    }
+    return fields;
   }
 
-  /// The record's field if the database has fields and this one can be decoded.
-  std::optional<Field> take_field(const Record& record) {
-    if (!checked_.database.has_fields()) return std::nullopt;
-    if (crc32_of(record.packed_field) != checked_.database.chunk_crc(row_))
-      report("the stored bytes of its field do not have the stored CRC-32");
-    auto field = unpack_field(record.packed_field, checked_.bridge.mesh.node_count());
-    if (!field) report("its field cannot be decompressed");
-    return field;
-  }
-
-  void check_checksum(const Record& record, const std::optional<Field>& field) {
-    if (checked_.database.has_fields() && !field) return;
-    const std::span<const double> numbers =
-        field ? std::span(field->data(), static_cast<std::size_t>(field->size())) : std::span<const double>{};
+  void check_checksum(const Record& record, const std::vector<Field>& fields) {
+    std::vector<std::span<const double>> numbers;
+    for (const Field& field : fields) numbers.push_back(numbers_of(field));
     if (scene_checksum(record, numbers) != record.checksum)
       report("its data do not have the stored checksum");
   }
 
-  void check_collapse(const Record& record) {
-    if (record.extent != collapse_extent(checked_.bridge.layout, record.moving))
+  void check_collapse(const RecordedState& state) {
+    if (state.extent != collapse_extent(checked_.bridge.layout, state.moving))
       report("its kind of collapse is not that of the blocks that move");
   }
 
-  void check_field(const Record& record, const Field& field) {
+  void check_field(std::size_t place, const RecordedState& state, const Field& field) {
     check_.field_checked = true;
     check_presence(field);
-    check_control_points(record, field);
-    if (record.outcome == Outcome::standing) check_equilibrium(field);
-    if (checked_.bridge.symmetry) check_mirror_image(record, field);
+    check_control_points(state, field);
+    if (state.outcome == Outcome::standing) check_equilibrium(field);
+    if (checked_.bridge.symmetry) check_mirror_image(place, state, field);
   }
 
   /// Numbers at the nodes of all blocks but the removed ones.
   void check_presence(const Field& field) {
-    const auto removed = removal_mask(scene_, checked_.bridge.layout.size());
+    const auto removed = removal_mask(key_.scene, checked_.bridge.layout.size());
     for (std::size_t block = 0; block < removed.size(); ++block) {
       const IndexRange nodes = checked_.bridge.mesh.block_nodes[block];
       const auto numbers = field.middleCols(nodes.begin, nodes.size()).array();
@@ -86,32 +87,33 @@ class Examination {
     }
   }
 
-  void check_control_points(const Record& record, const Field& field) {
+  void check_control_points(const RecordedState& state, const Field& field) {
     const Eigen::VectorXd expected = vertical_displacements(field, checked_.bridge.control_points);
     const auto same = [](double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); };
-    if (!std::equal(expected.begin(), expected.end(), record.vertical.begin(), record.vertical.end(), same))
+    if (!std::equal(expected.begin(), expected.end(), state.vertical.begin(), state.vertical.end(), same))
       report("its control displacements are not those of its field");
   }
 
   void check_equilibrium(const Field& field) {
-    const StageEquations equations(checked_.system, checked_.coefficients, {.scene = scene_});
-    check_.unbalance = unbalanced_force(equations, field);
-    if (!(check_.unbalance <= checked_.most_unbalance))
+    const StageEquations equations(checked_.system, checked_.coefficients, {.scene = key_.scene});
+    const double unbalance = unbalanced_force(equations, field);
+    check_.unbalance = std::max(check_.unbalance, unbalance);
+    if (!(unbalance <= checked_.most_unbalance))
       report(fmt::format("stands, but its field is out of equilibrium by {:.1e} of the largest nodal weight",
-                         check_.unbalance));
+                         unbalance));
   }
 
   /// Each pair of images is compared once, by the earlier of the two.
-  void check_mirror_image(const Record& record, const Field& field) {
-    const Scene image = mirrored(scene_, *checked_.bridge.symmetry);
-    const auto image_row = checked_.database.find(image);
+  void check_mirror_image(std::size_t place, const RecordedState& state, const Field& field) {
+    const Scene image = mirrored(key_.scene, *checked_.bridge.symmetry);
+    const auto image_row = checked_.database.find(key_.variant, image);
     if (!image_row || *image_row <= row_) return;
     check_.mirror_compared = true;
-    const Solution other = checked_.database.solution(*image_row);
+    const Solution other = checked_.database.solution(*image_row, place);
     const std::string name = to_string(image, checked_.bridge.layout);
-    if (other.outcome != record.outcome) report(fmt::format("its mirror image {} has another outcome", name));
-    if (record.outcome != Outcome::standing && !checked_.mirror_images_used) return;
-    if (other.moving != mirrored(record.moving, *checked_.bridge.symmetry))
+    if (other.outcome != state.outcome) report(fmt::format("its mirror image {} has another outcome", name));
+    if (state.outcome != Outcome::standing && !checked_.mirror_images_used) return;
+    if (other.moving != mirrored(state.moving, *checked_.bridge.symmetry))
       report(fmt::format("its mirror image {} has other moving blocks", name));
     const Field expected = mirrored(field, *checked_.bridge.symmetry);
     const double difference = (other.displacement - expected)
@@ -124,9 +126,9 @@ class Examination {
       report(fmt::format("differs from its mirror image {} by {:.1e} m", name, difference));
   }
 
-  const CheckedDatabase& checked_;
+  const CheckedVariant& checked_;
   std::size_t row_;
-  Scene scene_;
+  RecordKey key_;
   SceneCheck check_;
 };
 
@@ -148,7 +150,7 @@ double most_stored_unbalance(const EquilibriumSystem& system, const Coefficients
          0.5 * kStorageStep * row_sums.maxCoeff() / equations.largest_load;
 }
 
-SceneCheck check_scene(const CheckedDatabase& checked, std::size_t row) {
+SceneCheck check_scene(const CheckedVariant& checked, std::size_t row) {
   return Examination(checked, row).run();
 }
 

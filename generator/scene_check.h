@@ -8,10 +8,10 @@
 
 namespace voussoir {
 
-/// What the checks of a scene need to know of its database.
-struct CheckedDatabase {
+/// What the checks of a scene need to know of its database and its variant.
+struct CheckedVariant {
   const Database& database;
-  const Model& bridge;               ///< bridge_of(database)
+  const Model& bridge;               ///< bridge_of(database), the variant
   const EquilibriumSystem& system;   ///< of that bridge
   const Coefficients& coefficients;  ///< of that bridge
   double most_unbalance = 0.0;       ///< most_stored_unbalance(system)
@@ -22,7 +22,7 @@ struct SceneCheck {
   std::vector<std::string> problems;
   bool field_checked = false;
   bool mirror_compared = false;
-  double unbalance = 0.0;  ///< of a standing scene's stored field
+  double unbalance = 0.0;  ///< of a standing scene's stored fields, the largest
 };
 
 /// How far from equilibrium the stored field of a standing scene can be [largest unbalanced nodal force over
@@ -33,6 +33,6 @@ double most_stored_unbalance(const EquilibriumSystem& system, const Coefficients
                              std::string_view settings);
 
 /// Never throws for what is wrong with the scene's data.
-SceneCheck check_scene(const CheckedDatabase& checked, std::size_t row);
+SceneCheck check_scene(const CheckedVariant& checked, std::size_t row);
 
 }  // namespace voussoir

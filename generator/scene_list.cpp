@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "core/error.h"
+#include "database/records/record_key.h"
 
 namespace voussoir {
 namespace {
@@ -135,7 +136,7 @@ std::vector<Scene> parse_scene_list(std::string_view text, const BlockLayout& la
 
 std::vector<Scene> in_order(std::vector<Scene> scenes) {
   std::sort(scenes.begin(), scenes.end(), [](const Scene& first, const Scene& second) {
-    return first.missing() != second.missing() ? first.missing() < second.missing() : first < second;
+    return row_order(kNominalVariant, first.removed, kNominalVariant, second.removed) < 0;
   });
   scenes.erase(std::unique(scenes.begin(), scenes.end()), scenes.end());
   return scenes;

@@ -3,6 +3,7 @@
 #include "core/error.h"
 #include "core/structure/bridge_file.h"
 #include "database/records/schema.h"
+#include "generator/variants.h"
 
 namespace voussoir {
 namespace {
@@ -36,11 +37,20 @@ Model bridge_of(const Database& database) {
   Structure structure;
   structure.layout = database.layout();
   structure.mesh = database.mesh();
-  structure.joints = find_joints(structure.mesh, description.joint_tolerance);
+  structure.joints = database.joints();
   structure.supports = box_supports(structure.mesh, description.supports, description.wall.length);
   structure.control_points = stored_points(database);
   structure.symmetry = find_mirror_symmetry(structure.layout, structure.mesh, 0.5 * description.wall.length);
   return with_nominal_parameters(std::move(structure), description);
+}
+
+Model bridge_of(const Database& database, const Model& nominal, std::int32_t variant) {
+  if (variant == kNominalVariant) return nominal;
+  try {
+    return variant_of(nominal, database.variants().at(static_cast<std::size_t>(variant)));
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}: variant {}: {}", database.path().string(), variant, error.what()));
+  }
 }
 
 }  // namespace voussoir

@@ -9,9 +9,12 @@ namespace voussoir {
 /// What the database's bridge text says. Throws InputError if it is no bridge file.
 BridgeDescription description_of(const Database& database);
 
-/// The bridge with the blocks, mesh and control points that stand in the database and the material that its
-/// bridge text states; joints, supports and symmetry are found anew. Throws InputError if the text is no
-/// bridge file.
+/// The nominal bridge, with the blocks, mesh, joints and control points that stand in the database and the
+/// material that its bridge text states; its supports and symmetry are found anew. Throws InputError if the
+/// text is no bridge file.
 Model bridge_of(const Database& database);
+
+/// A variant of it. Throws InputError for parameters that variant_of does not take.
+Model bridge_of(const Database& database, const Model& nominal, std::int32_t variant);
 
 }  // namespace voussoir

@@ -13,6 +13,7 @@
 #include "generator/recompute.h"
 #include "generator/scene_check.h"
 #include "generator/stored_bridge.h"
+#include "generator/variants.h"
 
 namespace voussoir {
 namespace {
@@ -26,8 +27,8 @@ void check_digest(const Database& database, const std::vector<DatasetValue>& exp
     report.problems.push_back("content digest: the content does not have the digest that the file states");
 }
 
-/// Geometry and control points are compared with what the bridge text gives, but only if the same program
-/// made them: another version may mesh blocks in another way.
+/// Geometry, control points and the nominal variant are compared with what the bridge text gives, but only if
+/// the same program made them: another version may mesh blocks in another way.
 void check_geometry(const Database& database, const Model& stored, VerifyReport& report) {
   const Provenance provenance = database.provenance();
   const BridgeDescription description = description_of(database);
@@ -35,17 +36,22 @@ void check_geometry(const Database& database, const Model& stored, VerifyReport&
                                          provenance.solver_settings, provenance.results_key);
   const bool same_program = differences(own, provenance).empty();
   const Model bridge = same_program ? make_model(description) : stored;
-  const auto expected = shared_datasets(provenance, bridge.layout, bridge.mesh, bridge.control_points);
+  std::vector<VariantParameters> variants = database.variants();
+  variants.front() = parameters_of(bridge);  // of the others nothing else says what they should be
+  const auto expected = shared_datasets(provenance, bridge, variants, {kBuiltState});
   for (const DatasetValue& value : expected)
     if (!std::ranges::equal(value.bytes, database.dataset_bytes(value.path.c_str())))
       report.problems.push_back(fmt::format("dataset '{}': is not what the bridge text gives", value.path));
+  if (to_hexadecimal(sha256(provenance.bridge_text)) != database.bridge_sha256())
+    report.problems.push_back(
+        fmt::format("dataset '{}': does not have the SHA-256 that the file states", dataset::kBridgeText));
   check_digest(database, expected, report);
 }
 
-void check_scenes(const CheckedDatabase& checked, int threads, VerifyReport& report) {
-  std::vector<SceneCheck> checks(checked.database.table().rows);
-  Crew(threads).for_each_index(checks.size(),
-                               [&](std::size_t row) { checks[row] = check_scene(checked, row); });
+void check_scenes(const CheckedVariant& checked, const SceneTable& table, int threads, VerifyReport& report) {
+  std::vector<SceneCheck> checks(table.rows);
+  Crew(threads).for_each_index(
+      checks.size(), [&](std::size_t i) { checks[i] = check_scene(checked, table.first_record + i); });
   for (const SceneCheck& check : checks) {
     report.fields += check.field_checked ? 1 : 0;
     report.mirror_pairs += check.mirror_compared ? 1 : 0;
@@ -70,11 +76,11 @@ struct Recomputed {
 
 Recomputed recompute_row(const Database& database, const Model& bridge, std::size_t row,
                          const SceneSolver& solver) {
-  const Scene scene = database.table().scene(row);
+  const RecordKey key = database.key(row);
   const PlanRules rules = rules_in(database.provenance().solver_settings);
-  const Solution solution = recompute(scene, database, bridge, rules, solver);
-  const auto stored = static_cast<Outcome>(database.table().outcome[row]);
-  const std::string name = to_string(scene, bridge.layout);
+  const Solution solution = recompute(key, database, bridge, rules, solver);
+  const Outcome stored = database.record(row).states.front().outcome;
+  const std::string name = to_string(key, bridge.layout);
   if (solution.outcome != stored)
     return {0.0, fmt::format("scene {}: solved anew it is {}, not {}", name, to_string(solution.outcome),
                              to_string(stored))};
@@ -84,36 +90,55 @@ Recomputed recompute_row(const Database& database, const Model& bridge, std::siz
   return {difference, {}};
 }
 
-void check_recomputed(const VerifyRequest& request, const Database& database, const Model& bridge,
-                      VerifyReport& report) {
-  const SolverChoice solver = solver_with(parse_settings(database.provenance().solver_settings));
-  const auto rows = choose_rows(database.table().rows, request.recompute, request.seed);
+/// Solves those of the rows anew that are of the variant whose bridge this is.
+void check_recomputed(const VerifyRequest& request, const CheckedVariant& checked,
+                      std::span<const std::size_t> rows, VerifyReport& report) {
+  const SolverChoice solver = solver_with(parse_settings(checked.database.provenance().solver_settings));
   std::vector<Recomputed> results(rows.size());
-  oneapi::tbb::enumerable_thread_specific<SceneSolver> solvers([&] { return solver.make_solver(bridge); });
+  oneapi::tbb::enumerable_thread_specific<SceneSolver> solvers(
+      [&] { return solver.make_solver(checked.bridge); });
   Crew(request.threads).for_each_index(rows.size(), [&](std::size_t i) {
-    results[i] = recompute_row(database, bridge, rows[i], solvers.local());
+    results[i] = recompute_row(checked.database, checked.bridge, rows[i], solvers.local());
   });
-  report.recomputed = rows.size();
+  report.recomputed += rows.size();
   for (const Recomputed& result : results) {
     report.largest_recomputed_difference = std::max(report.largest_recomputed_difference, result.difference);
     if (!result.problem.empty()) report.problems.push_back(result.problem);
   }
 }
 
+/// Those of the rows that a table holds; rows are in ascending order.
+std::span<const std::size_t> rows_in(const SceneTable& table, std::span<const std::size_t> rows) {
+  const auto begin = std::ranges::lower_bound(rows, table.first_record);
+  const auto end = std::ranges::lower_bound(rows, table.first_record + table.rows);
+  return {begin, end};
+}
+
+void check_variant(const VerifyRequest& request, const Database& database, const Model& bridge,
+                   const SceneTable& table, std::span<const std::size_t> recomputed, VerifyReport& report) {
+  const std::string settings = database.provenance().solver_settings;
+  const EquilibriumSystem system(bridge);
+  const Coefficients coefficients(system, bridge.parameters);
+  const double most_unbalance = most_stored_unbalance(system, coefficients, settings);
+  const CheckedVariant checked{database,     bridge,         system,
+                               coefficients, most_unbalance, rules_in(settings).mirror_images};
+  report.most_unbalance = std::max(report.most_unbalance, most_unbalance);
+  check_scenes(checked, table, request.threads, report);
+  const auto rows = rows_in(table, recomputed);
+  if (!rows.empty()) check_recomputed(request, checked, rows, report);
+}
+
 void check_content(const VerifyRequest& request, VerifyReport& report) {
   const Database database = Database::open(request.database);
   report.digest = database.digest();
   report.outcomes = count_outcomes(database);
-  const Model bridge = bridge_of(database);
-  check_geometry(database, bridge, report);
+  const Model nominal = bridge_of(database);
+  check_geometry(database, nominal, report);
   check_search(database, report);
-  const EquilibriumSystem system(bridge);
-  const Coefficients coefficients(system, bridge.parameters);
-  const bool mirrors = rules_in(database.provenance().solver_settings).mirror_images;
-  report.most_unbalance = most_stored_unbalance(system, coefficients, database.provenance().solver_settings);
-  check_scenes({database, bridge, system, coefficients, report.most_unbalance, mirrors}, request.threads,
-               report);
-  if (request.recompute > 0) check_recomputed(request, database, bridge, report);
+  const auto recomputed = choose_rows(database.rows(), request.recompute, request.seed);
+  for (std::int32_t variant = 0; static_cast<std::size_t>(variant) < database.variant_count(); ++variant)
+    check_variant(request, database, bridge_of(database, nominal, variant), database.table(variant, 0),
+                  recomputed, report);
 }
 
 }  // namespace

@@ -11,6 +11,24 @@ namespace voussoir {
 /// Little-endian in the file; text is UTF-8 of fixed width, padded with zeros.
 enum class ElementType { float64, int32, int16, int8, uint8, uint32, text };
 
+/// Bytes of an element; of text: of one character.
+constexpr std::size_t width_of(ElementType type) {
+  switch (type) {
+    case ElementType::float64:
+      return 8;
+    case ElementType::int32:
+    case ElementType::uint32:
+      return 4;
+    case ElementType::int16:
+      return 2;
+    case ElementType::int8:
+    case ElementType::uint8:
+    case ElementType::text:
+      break;
+  }
+  return 1;
+}
+
 /// A whole dataset as it stands in the file.
 struct DatasetValue {
   std::string path;

@@ -32,9 +32,10 @@ std::optional<std::uint64_t> size_within(const std::vector<std::uint64_t>& shape
   return size <= most ? std::optional(size) : std::nullopt;
 }
 
-/// True if the only filters are shuffle and then deflate and a chunk is one row.
-bool is_row_chunked(const hdf5_format::ObjectHeader& header, std::uint64_t nodes) {
-  return header.chunked && header.chunked->chunk == hdf5_format::Shape{1, nodes, 2, sizeof(double)} &&
+/// True if the only filters are shuffle and then deflate and a chunk is one row of one state.
+bool is_row_chunked(const hdf5_format::ObjectHeader& header, const hdf5_format::Shape& shape) {
+  return shape.size() == 4 && header.chunked &&
+         header.chunked->chunk == hdf5_format::Shape{1, 1, shape[2], shape[3], sizeof(double)} &&
          header.filters == std::vector{hdf5_format::kShuffle, hdf5_format::kDeflate} && !header.external;
 }
 
@@ -132,13 +133,17 @@ DatasetView Hdf5File::view(const char* dataset_path) const {
           mapped_.bytes().subspan(offset, *size)};
 }
 
-void Hdf5File::check_numbers(const DatasetView& found, ElementType type, std::uint64_t columns) const {
-  const bool fits =
-      columns == kFlat ? found.shape.size() == 1 : found.shape.size() == 2 && found.shape[1] == columns;
-  require(found.type == type && fits,
-          fmt::format("dataset '{}' has not the expected type and shape", found.path));
+void Hdf5File::check_numbers(const DatasetView& found, bool expected) const {
+  require(expected, fmt::format("dataset '{}' has not the expected type and shape", found.path));
   const auto address = reinterpret_cast<std::uintptr_t>(found.bytes.data());
   require(address % alignof(double) == 0, fmt::format("dataset '{}' is not aligned to 8 bytes", found.path));
+}
+
+ByteView Hdf5File::array(const char* dataset_path, ElementType type,
+                         const std::vector<std::uint64_t>& shape) const {
+  const DatasetView found = view(dataset_path);
+  check_numbers(found, found.type == type && found.shape == shape);
+  return found.bytes;
 }
 
 std::string Hdf5File::text(const char* dataset_path) const {
@@ -148,27 +153,21 @@ std::string Hdf5File::text(const char* dataset_path) const {
   return without_padding(reinterpret_cast<const char*>(found.bytes.data()), found.bytes.size());
 }
 
-ChunkedDataset Hdf5File::open_chunked(const char* dataset_path, std::uint64_t rows,
-                                      std::uint64_t nodes) const {
+ChunkedDataset Hdf5File::open_chunked(const char* dataset_path,
+                                      const std::vector<std::uint64_t>& shape) const {
   const hdf5_format::ObjectHeader header = dataset_header(dataset_path);
-  const bool expected = header.type && header.type->type == ElementType::float64 &&
-                        header.shape == hdf5_format::Shape{rows, nodes, 2} && is_row_chunked(header, nodes);
+  const bool expected = header.type && header.type->type == ElementType::float64 && header.shape == shape &&
+                        is_row_chunked(header, shape);
   require(expected, fmt::format("dataset '{}' has not the expected type, shape and chunks", dataset_path));
   ChunkedDataset dataset;
   try {
-    for (const auto& [offset, size] : hdf5_format::read_chunk_places(mapped_.bytes(), *header.chunked, rows))
+    const std::uint64_t count = shape[0] * shape[1];
+    for (const auto& [offset, size] : hdf5_format::read_chunk_places(mapped_.bytes(), *header.chunked, count))
       dataset.chunks.push_back(mapped_.bytes().subspan(offset, size));
   } catch (const InputError& error) {
     refuse(fmt::format("dataset '{}' cannot be opened: {}", dataset_path, error.what()));
   }
   return dataset;
-}
-
-Bytes Hdf5File::chunk(const ChunkedDataset& dataset, std::uint64_t row, std::size_t most_bytes) const {
-  const ByteView stored = dataset.chunks.at(row);
-  require(!stored.empty() && stored.size() <= most_bytes,
-          fmt::format("the field of row {} is missing or too large", row));
-  return {stored.begin(), stored.end()};
 }
 
 }  // namespace voussoir

@@ -21,9 +21,9 @@ struct DatasetView {
   ByteView bytes;
 };
 
-/// One chunk a row, shuffled and deflated: fields/displacement.
+/// One chunk for each row of each state, shuffled and deflated: fields/displacement.
 struct ChunkedDataset {
-  std::vector<ByteView> chunks;  ///< as they are stored, in place in the mapped file
+  std::vector<ByteView> chunks;  ///< state after state, as they are stored, in place in the mapped file
 };
 
 /// All throwing members throw InputError naming the file, what is wrong and what was expected.
@@ -45,16 +45,20 @@ class Hdf5File {
   template <class T>
   std::span<const T> numbers(const char* dataset_path, ElementType type, std::uint64_t columns) const {
     const DatasetView found = view(dataset_path);
-    check_numbers(found, type, columns);
+    const bool fits =
+        columns == kFlat ? found.shape.size() == 1 : found.shape.size() == 2 && found.shape[1] == columns;
+    check_numbers(found, found.type == type && fits);
     return {reinterpret_cast<const T*>(found.bytes.data()), found.bytes.size() / sizeof(T)};
   }
+
+  /// The bytes of a dataset of numbers of just this type and shape, at a multiple of 8 bytes.
+  ByteView array(const char* dataset_path, ElementType type, const std::vector<std::uint64_t>& shape) const;
 
   /// A scalar text without its padding.
   std::string text(const char* dataset_path) const;
 
-  ChunkedDataset open_chunked(const char* dataset_path, std::uint64_t rows, std::uint64_t nodes) const;
-  /// The stored bytes of a row's chunk, at most `most_bytes`.
-  Bytes chunk(const ChunkedDataset& dataset, std::uint64_t row, std::size_t most_bytes) const;
+  /// A dataset of states x rows x nodes x 2 displacements.
+  ChunkedDataset open_chunked(const char* dataset_path, const std::vector<std::uint64_t>& shape) const;
 
   [[noreturn]] void refuse(const std::string& why) const;
   void require(bool condition, const std::string& why) const {
@@ -62,7 +66,7 @@ class Hdf5File {
   }
 
  private:
-  void check_numbers(const DatasetView& found, ElementType type, std::uint64_t columns) const;
+  void check_numbers(const DatasetView& found, bool expected) const;
   std::uint64_t root() const;
   const hdf5_format::StoredAttribute& attribute(const char* name) const;
   /// Address of a dataset's object header, or nothing.

@@ -74,8 +74,8 @@ std::uint64_t root_address(ByteView file);
 
 ObjectHeader read_object_header(ByteView file, std::uint64_t address);
 
-/// Places of the `count` chunks of a dataset with filters, whose chunks follow each other along the first
-/// extent.
+/// Places of the `count` chunks of a dataset with filters, in the order of their numbers: the last extent
+/// changes fastest.
 std::vector<ChunkPlace> read_chunk_places(ByteView file, const Chunked& dataset, std::uint64_t count);
 
 /// The checksum of HDF5's own structures: Bob Jenkins' lookup3 (hashlittle), initial value 0.

@@ -25,7 +25,7 @@ constexpr std::uint8_t kShared = 0x02;  ///< flag: the message's content is else
 
 /// Nothing for kinds and ranks that no database has.
 std::optional<Shape> dataspace(ByteView content) {
-  constexpr int kHighestRank = 3;
+  constexpr int kHighestRank = 4;
   Taker taker(content);
   const auto version = taker.take<std::uint8_t>();
   const auto rank = taker.take<std::uint8_t>();
@@ -108,7 +108,7 @@ Chunked chunked_layout(Taker& taker) {
   constexpr int kSingleChunk = 1;
   constexpr int kFixedArray = 3;
   constexpr std::uint8_t kSingleWithFilter = 0x02;
-  constexpr std::size_t kMostExtents = 4;
+  constexpr std::size_t kMostExtents = 5;  // of the highest rank, and the width of an element
   Chunked chunked;
   const auto flags = taker.take<std::uint8_t>();
   const auto extents = taker.take<std::uint8_t>();

@@ -124,24 +124,26 @@ void Hdf5Output::add_dataset(const DatasetValue& value) {
   describe(made, value.units, value.meaning);
 }
 
-Hdf5Handle Hdf5Output::add_field_dataset(const char* path, std::uint64_t rows, std::uint64_t nodes) {
-  ensure_group(path);
-  const Hdf5Handle space = make_space({rows, nodes, 2});
+Hdf5Handle Hdf5Output::add_field_dataset(const DatasetValue& value) {
+  ensure_group(value.path);
+  const Hdf5Handle type = make_type(value);
+  const Hdf5Handle space = make_space(value.shape);
   const Hdf5Handle creation = plain_object(H5P_DATASET_CREATE);
-  const std::array<hsize_t, 3> chunk = {1, nodes, 2};
-  H5Pset_chunk(creation.get(), 3, chunk.data());
+  const std::array<hsize_t, 4> chunk = {1, 1, value.shape.at(2), value.shape.at(3)};
+  H5Pset_chunk(creation.get(), chunk.size(), chunk.data());
   H5Pset_shuffle(creation.get());
   H5Pset_deflate(creation.get(), 1);
-  Hdf5Handle made(
-      H5Dcreate2(file_.get(), path, H5T_IEEE_F64LE, space.get(), H5P_DEFAULT, creation.get(), H5P_DEFAULT),
-      H5Dclose);
+  Hdf5Handle made(H5Dcreate2(file_.get(), value.path.c_str(), type.get(), space.get(), H5P_DEFAULT,
+                             creation.get(), H5P_DEFAULT),
+                  H5Dclose);
   check(static_cast<bool>(made), "cannot be written");
-  describe(made, "m", "displacement ux, uy of each node in each scene, NaN in removed blocks");
+  describe(made, value.units, value.meaning);
   return made;
 }
 
-void Hdf5Output::add_chunk(const Hdf5Handle& field_dataset, std::uint64_t row, ByteView packed) {
-  const std::array<hsize_t, 3> offset = {row, 0, 0};
+void Hdf5Output::add_chunk(const Hdf5Handle& field_dataset, std::uint64_t state, std::uint64_t row,
+                           ByteView packed) {
+  const std::array<hsize_t, 4> offset = {state, row, 0, 0};
   constexpr std::uint32_t kAllFilters = 0;
   check(H5Dwrite_chunk(field_dataset.get(), H5P_DEFAULT, kAllFilters, offset.data(), packed.size(),
                        packed.data()) >= 0,
@@ -149,11 +151,12 @@ void Hdf5Output::add_chunk(const Hdf5Handle& field_dataset, std::uint64_t row, B
 }
 
 void Hdf5Output::add_field_view(const std::string& name, const std::string& database, const char* path,
-                                std::uint64_t rows, std::uint64_t nodes, std::uint64_t row) {
-  const Hdf5Handle source = make_space({rows, nodes, 2});
+                                const std::vector<std::uint64_t>& shape, std::uint64_t row) {
+  const std::uint64_t nodes = shape.at(2);
+  const Hdf5Handle source = make_space(shape);
   const Hdf5Handle view = make_space({nodes, 3});
-  const std::array<hsize_t, 3> source_start = {row, 0, 0};
-  const std::array<hsize_t, 3> source_count = {1, nodes, 2};
+  const std::array<hsize_t, 4> source_start = {0, row, 0, 0};
+  const std::array<hsize_t, 4> source_count = {1, 1, nodes, 2};
   const std::array<hsize_t, 2> view_start = {0, 0};
   const std::array<hsize_t, 2> view_count = {nodes, 2};
   H5Sselect_hyperslab(source.get(), H5S_SELECT_SET, source_start.data(), nullptr, source_count.data(),

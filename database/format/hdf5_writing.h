@@ -18,13 +18,14 @@ class Hdf5Output {
   void add_int_attribute(const char* name, int number);
   /// A contiguous dataset at a multiple of 8 bytes, with `units` and `meaning` as attributes.
   void add_dataset(const DatasetValue& value);
-  /// Displacements, rows x nodes x 2, one compressed chunk a row, to be filled by add_chunk.
-  Hdf5Handle add_field_dataset(const char* path, std::uint64_t rows, std::uint64_t nodes);
-  void add_chunk(const Hdf5Handle& field_dataset, std::uint64_t row, ByteView packed);
-  /// A virtual dataset, nodes x 3: row `row` of the displacements at `path` in `database` (a file in the same
-  /// folder), z zero.
+  /// `value` without bytes, states x rows x nodes x 2 displacements: one compressed chunk for each row of
+  /// each state, to be filled by add_chunk.
+  Hdf5Handle add_field_dataset(const DatasetValue& value);
+  void add_chunk(const Hdf5Handle& field_dataset, std::uint64_t state, std::uint64_t row, ByteView packed);
+  /// A virtual dataset, nodes x 3: row `row`, in the first state, of the displacements of this shape at
+  /// `path` in `database` (a file in the same folder), z zero.
   void add_field_view(const std::string& name, const std::string& database, const char* path,
-                      std::uint64_t rows, std::uint64_t nodes, std::uint64_t row);
+                      const std::vector<std::uint64_t>& shape, std::uint64_t row);
   /// Hands everything to the operating system.
   void close();
 

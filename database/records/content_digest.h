@@ -12,10 +12,11 @@ struct DigestPart {
   ByteView bytes;
 };
 
-/// SHA-256 over "voussoir database 2\n" and then, for each part, its path, a zero byte, its size in bytes as
-/// uint64 and its bytes. The parts are the shared datasets in their order and scenes/checksum, which stands
-/// for all that is kept of the scenes. How and when the file was written does not enter: chunk storage,
-/// compression, program version and compiler may differ between files of equal digest.
+/// SHA-256 over kFormatName, a blank, kSchemaVersion and a line end and then, for each part, its path, a zero
+/// byte, its size in bytes as uint64 and its bytes. The parts are the shared datasets in their order and
+/// scenes/checksum, which stands for all that is kept of the scenes. How and when the file was written does
+/// not enter: chunk storage, compression, program version and compiler may differ between files of equal
+/// digest.
 Sha256 content_digest(const std::vector<DigestPart>& parts);
 
 }  // namespace voussoir

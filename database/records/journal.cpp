@@ -9,11 +9,12 @@
 #include "core/error.h"
 #include "database/format/field_codec.h"
 #include "database/format/mapped_file.h"
+#include "database/records/columns.h"
 
 namespace voussoir {
 namespace {
 
-constexpr std::string_view kMagic = "VOUSSOIR JOURNAL 2\n";
+constexpr std::string_view kMagic = "VOUSSOIR JOURNAL 3\n";
 constexpr std::size_t kFrameHead = 2 * sizeof(std::uint32_t);
 
 /// A whole frame's content at the front of the reader, or nothing.
@@ -110,7 +111,7 @@ void Journal::load(const Provenance& provenance, const std::string& key) {
   while (const auto content = next_frame(reader)) {
     const auto record = parse_record(*content);
     if (!record) break;
-    places_[record->scene] = {end_ + kFrameHead, static_cast<std::uint32_t>(content->size())};
+    places_[record->key] = {end_ + kFrameHead, static_cast<std::uint32_t>(content->size())};
     end_ = mapped.bytes().size() - reader.left();
   }
   if (::ftruncate(file_.get(), static_cast<off_t>(end_)) != 0) fail("cannot be shortened");
@@ -146,15 +147,15 @@ void Journal::append(const Record& record) {
   const std::scoped_lock lock(mutex_);
   const Place place{end_ + kFrameHead, static_cast<std::uint32_t>(content.size())};
   write_frame(content);
-  places_[record.scene] = place;
+  places_[record.key] = place;
 }
 
-Record Journal::read(const Scene& scene) const {
-  const Place place = places_.at(scene);
+Record Journal::read(const RecordKey& key) const {
+  const Place place = places_.at(key);
   Bytes content(place.size);
   const ssize_t size = ::pread(file_.get(), content.data(), content.size(), static_cast<off_t>(place.offset));
   auto record = size == static_cast<ssize_t>(content.size()) ? parse_record(content) : std::nullopt;
-  if (!record || record->scene != scene) fail("cannot be read back");
+  if (!record || record->key != key) fail("cannot be read back");
   return std::move(*record);
 }
 
@@ -171,53 +172,28 @@ void Journal::fail(const std::string& what) const {
 
 Bytes serialise(const Record& record) {
   ByteWriter out;
-  out.put(static_cast<std::uint32_t>(record.scene.removed.size()));
-  out.put_bytes(view_bytes(record.scene.removed));
-  out.put(record.outcome);
-  out.put(record.residual);
-  out.put(record.iterations);
-  out.put(record.extent);
-  out.put(static_cast<std::uint32_t>(record.moving.size()));
-  out.put_bytes(view_bytes(record.moving));
-  out.put(static_cast<std::uint32_t>(record.vertical.size()));
-  out.put_bytes(view_bytes(record.vertical));
-  out.put(static_cast<std::uint32_t>(record.packed_field.size()));
-  out.put_bytes(record.packed_field);
-  out.put_bytes(view_bytes(record.checksum));
+  out.put(static_cast<std::uint32_t>(record.states.size()));
+  for_each_column(record.states.size(), [&](const Column& column, std::size_t state) {
+    const ByteView values = column.values(record, state);
+    out.put(static_cast<std::uint32_t>(values.size() / column.value_width));
+    out.put_bytes(values);
+  });
   return out.bytes();
 }
 
-namespace {
-
-/// A count and that many values.
-template <class T>
-bool take_counted(ByteReader& reader, std::vector<T>& values) {
-  const auto count = reader.get<std::uint32_t>();
-  auto taken = count ? reader.get_many<T>(*count) : std::nullopt;
-  if (taken) values = std::move(*taken);
-  return taken.has_value();
-}
-
-template <class T>
-bool take(ByteReader& reader, T& value) {
-  const auto taken = reader.get<T>();
-  if (taken) value = *taken;
-  return taken.has_value();
-}
-
-}  // namespace
-
 std::optional<Record> parse_record(ByteView bytes) {
   ByteReader reader(bytes);
+  const auto states = reader.get<std::uint32_t>();
+  if (!states || *states > reader.left()) return std::nullopt;
   Record record;
-  const bool whole = take_counted(reader, record.scene.removed) && take(reader, record.outcome) &&
-                     take(reader, record.residual) && take(reader, record.iterations) &&
-                     take(reader, record.extent) && take_counted(reader, record.moving) &&
-                     take_counted(reader, record.vertical) && take_counted(reader, record.packed_field);
-  const auto checksum = reader.get_many<std::uint8_t>(record.checksum.size());
-  if (!whole || !checksum || reader.left() > 0) return std::nullopt;
-  std::copy(checksum->begin(), checksum->end(), record.checksum.begin());
-  return record;
+  record.states.resize(*states);
+  bool whole = true;
+  for_each_column(record.states.size(), [&](const Column& column, std::size_t state) {
+    const auto count = whole ? reader.get<std::uint32_t>() : std::nullopt;
+    const auto values = count ? reader.get_bytes(*count * column.value_width) : std::nullopt;
+    whole = values && column.set_values(record, state, *values);
+  });
+  return whole && reader.left() == 0 ? std::optional(std::move(record)) : std::nullopt;
 }
 
 }  // namespace voussoir

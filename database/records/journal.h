@@ -1,11 +1,11 @@
 #pragma once
 /// @file The records of an unfinished build, safe as soon as each is computed.
 ///
-/// A plain file next to the database that will be. It begins with the bytes "VOUSSOIR JOURNAL 2\n" and a
-/// frame that holds the build's provenance; a frame with one record follows for every scene done. A frame is
-/// the size of its content (uint32), the content's CRC-32 (uint32) and the content. The file only ever grows,
-/// so whatever moment the program or the machine stops at, all frames but the last are whole; the torn rest
-/// is cut off on opening.
+/// A plain file next to the database that will be. It begins with the bytes "VOUSSOIR JOURNAL 3\n" and a
+/// frame that holds the build's provenance; a frame with one record follows for every scene of a variant that
+/// is done. A frame is the size of its content (uint32), the content's CRC-32 (uint32) and the content. The
+/// file only ever grows, so whatever moment the program or the machine stops at, all frames but the last are
+/// whole; the torn rest is cut off on opening.
 
 #include <filesystem>
 #include <map>
@@ -14,11 +14,11 @@
 
 #include "database/format/file_descriptor.h"
 #include "database/records/provenance.h"
-#include "database/records/record.h"
+#include "database/records/record_source.h"
 
 namespace voussoir {
 
-class Journal {
+class Journal : public RecordSource {
  public:
   /// Opens the journal for building `target`, or begins one, and locks it against other builders. Records of
   /// an interrupted build are kept if it was a build of the same `key`; otherwise they are thrown away and
@@ -29,7 +29,7 @@ class Journal {
 
   Journal(Journal&& other) noexcept;
   Journal& operator=(Journal&&) = delete;
-  ~Journal() = default;
+  ~Journal() override = default;
 
   static std::filesystem::path path_for(const std::filesystem::path& target);
   const std::filesystem::path& path() const { return path_; }
@@ -41,10 +41,10 @@ class Journal {
   void append(const Record& record);
 
   std::size_t size() const { return places_.size(); }
-  bool contains(const Scene& scene) const { return places_.contains(scene); }
+  bool contains(const RecordKey& key) const override { return places_.contains(key); }
 
-  /// Precondition: contains(scene). Throws Failure if the file cannot be read back.
-  Record read(const Scene& scene) const;
+  /// Throws Failure if the file cannot be read back.
+  Record read(const RecordKey& key) const override;
 
   /// Deletes the file: its records have found their place in a database.
   void remove();
@@ -64,7 +64,7 @@ class Journal {
   std::filesystem::path path_;
   FileDescriptor file_;
   std::uint64_t end_ = 0;  ///< of the last whole frame
-  std::map<Scene, Place> places_;
+  std::map<RecordKey, Place> places_;
   std::optional<Provenance> discarded_;
   std::mutex mutex_;
 };

@@ -1,52 +1,70 @@
 #include "database/records/record.h"
 
 #include "database/format/field_codec.h"
+#include "database/records/columns.h"
 
 namespace voussoir {
+namespace {
 
-Record make_record(const Scene& scene, const Solution& solution, const std::vector<ControlPoint>& points,
-                   KeepField keep, KeepField in_checksum) {
-  Record record;
-  record.scene = scene;
-  record.outcome = solution.outcome;
-  record.residual = solution.residual;
-  record.iterations = solution.iterations;
-  record.extent = solution.extent;
-  record.moving = solution.moving;
+RecordedState make_state(const Solution& solution, const std::vector<ControlPoint>& points, KeepField keep) {
+  RecordedState state;
+  state.outcome = solution.outcome;
+  state.residual = solution.residual;
+  state.iterations = solution.iterations;
+  state.extent = solution.extent;
+  state.moving = solution.moving;
   const Eigen::VectorXd vertical = vertical_displacements(solution.displacement, points);
-  record.vertical.assign(vertical.begin(), vertical.end());
-  const std::span field(solution.displacement.data(), static_cast<std::size_t>(solution.displacement.size()));
-  if (keep == KeepField::yes) record.packed_field = pack_field(solution.displacement);
-  record.checksum = scene_checksum(record, in_checksum == KeepField::yes ? field : std::span<const double>{});
+  state.vertical.assign(vertical.begin(), vertical.end());
+  if (keep == KeepField::yes) {
+    state.packed_field = pack_field(solution.displacement);
+    state.field_crc = crc32_of(state.packed_field);
+  }
+  return state;
+}
+
+void add_counted(ByteView values, std::size_t width, Sha256Stream& hash) {
+  const auto count = static_cast<std::uint32_t>(values.size() / width);
+  hash.add(std::as_bytes(std::span(&count, 1)));
+  hash.add(values);
+}
+
+}  // namespace
+
+Record make_record(const RecordKey& key, std::span<const Solution> states,
+                   const std::vector<ControlPoint>& points, KeepField keep, KeepField in_checksum) {
+  Record record;
+  record.key = key;
+  std::vector<std::span<const double>> fields;
+  for (const Solution& solution : states) {
+    record.states.push_back(make_state(solution, points, keep));
+    if (in_checksum == KeepField::yes) fields.push_back(numbers_of(solution.displacement));
+  }
+  record.checksum = scene_checksum(record, fields);
   return record;
 }
 
-Solution solution_of(const Record& record, Field displacement) {
+Solution solution_of(const RecordedState& state, Field displacement) {
   Solution solution;
   solution.displacement = std::move(displacement);
-  solution.outcome = record.outcome;
-  solution.residual = record.residual;
-  solution.iterations = record.iterations;
-  solution.extent = record.extent;
-  solution.moving = record.moving;
+  solution.outcome = state.outcome;
+  solution.residual = state.residual;
+  solution.iterations = state.iterations;
+  solution.extent = state.extent;
+  solution.moving = state.moving;
   return solution;
 }
 
-Sha256 scene_checksum(const Record& record, std::span<const double> field) {
-  ByteWriter head;
-  head.put(kOnlyVariant);
-  head.put(static_cast<std::int32_t>(record.scene.removed.size()));
-  head.put_bytes(view_bytes(record.scene.removed));
-  head.put(record.outcome);
-  head.put(record.residual);
-  head.put(record.iterations);
-  head.put(record.extent);
-  head.put(static_cast<std::int32_t>(record.moving.size()));
-  head.put_bytes(view_bytes(record.moving));
-  head.put_bytes(view_bytes(record.vertical));
+Sha256 scene_checksum(const Record& record, std::span<const std::span<const double>> fields) {
   Sha256Stream hash;
-  hash.add(head.bytes());
-  hash.add(std::as_bytes(field));
+  const auto states = static_cast<std::uint32_t>(record.states.size());
+  hash.add(std::as_bytes(std::span(&states, 1)));
+  for_each_column(record.states.size(), [&](const Column& column, std::size_t state) {
+    if (!column.in_checksum) return;
+    if (column.form != Form::packed)
+      add_counted(column.values(record, state), column.value_width, hash);
+    else
+      add_counted(fields.empty() ? ByteView{} : std::as_bytes(fields[state]), sizeof(double), hash);
+  });
   return hash.finish();
 }
 

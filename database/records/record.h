@@ -1,46 +1,56 @@
 #pragma once
-/// @file What the database keeps of one scene.
+/// @file What the database keeps of one scene in one variant of the bridge.
 
 #include <vector>
 
 #include "core/statics/solution.h"
 #include "core/structure/control_point.h"
-#include "core/structure/scene.h"
 #include "database/format/sha256.h"
+#include "database/records/record_key.h"
 
 namespace voussoir {
 
-/// The number of the bridge's variant that a record belongs to. There is one so far; files have room for
-/// more.
-inline constexpr std::int32_t kOnlyVariant = 0;
-
-struct Record {
-  Scene scene;
+/// What a solver found at the end of one stage of the scene's history.
+struct RecordedState {
   Outcome outcome = Outcome::unresolved;
   double residual = 0.0;                         ///< as in Solution [-]
   std::int32_t iterations = 0;                   ///< as in Solution
   CollapseExtent extent = CollapseExtent::none;  ///< as in Solution
   std::vector<BlockId> moving;                   ///< as in Solution
   std::vector<double> vertical;                  ///< [m] at the control points, NaN where the block is gone
-  Bytes packed_field;  ///< pack_field of the displacements; empty if fields are not kept
-  Sha256 checksum{};   ///< scene_checksum of all of the above
+  Bytes packed_field;           ///< pack_field of the displacements; empty if fields are not kept
+  std::uint32_t field_crc = 0;  ///< CRC-32 of packed_field
 };
+
+struct Record {
+  RecordKey key;
+  std::vector<RecordedState> states;  ///< one for each state of the database
+  Sha256 checksum{};                  ///< scene_checksum of all of the above
+};
+
+/// The one state that is solved for: gravity on the bridge that was built without the blocks.
+inline constexpr char kBuiltState[] = "built";
 
 enum class KeepField { no, yes };
 
-/// The record of a solved scene. Precondition: the solution's field has been rounded by to_storage_precision.
-/// With `in_checksum` no, the field is packed but not part of the checksum (it serves as a start for other
-/// scenes and will not be in the database).
-Record make_record(const Scene& scene, const Solution& solution, const std::vector<ControlPoint>& points,
-                   KeepField keep, KeepField in_checksum);
+/// The record of a solved scene, a solution for each state. Precondition: the fields have been rounded by
+/// to_storage_precision. With `in_checksum` no, fields are packed but not part of the checksum (they serve as
+/// starts for other scenes and will not be in the database).
+Record make_record(const RecordKey& key, std::span<const Solution> states,
+                   const std::vector<ControlPoint>& points, KeepField keep, KeepField in_checksum);
 
-/// The solution that a record was made of, given its field.
-Solution solution_of(const Record& record, Field displacement);
+/// The solution that a state was made of, given its field.
+Solution solution_of(const RecordedState& state, Field displacement);
 
-/// SHA-256 over, little-endian and without gaps: int32 variant, int32 number of removed blocks, int32 each
-/// removed block, uint8 outcome, float64 residual, int32 iterations, uint8 extent of the collapse, int32
-/// number of moving blocks, int32 each moving block, float64 vertical displacement of each
-/// control point and, if the field is kept, float64 displacements (ux, uy) node after node.
-Sha256 scene_checksum(const Record& record, std::span<const double> field);
+/// The numbers of a field, node after node.
+inline std::span<const double> numbers_of(const Field& field) {
+  return {field.data(), static_cast<std::size_t>(field.size())};
+}
+
+/// SHA-256 over, little-endian and without gaps: the number of states (uint32); for each column of the record
+/// and then, state after state, for each column of a state, as far as they are in the checksum and in their
+/// order (database/records/columns.h): the number of values (uint32) and the values. `fields` are those of
+/// the states, or empty if the database keeps none: they count as columns without values.
+Sha256 scene_checksum(const Record& record, std::span<const std::span<const double>> fields);
 
 }  // namespace voussoir

@@ -1,6 +1,9 @@
 #include "database/records/schema.h"
 
 #include <algorithm>
+#include <iterator>
+
+#include "core/error.h"
 
 namespace voussoir {
 namespace {
@@ -39,13 +42,33 @@ DatasetValue range_dataset(const char* path, const std::vector<IndexRange>& rang
   return int_dataset(path, values, 2, meaning);
 }
 
+/// Names of fixed width.
+DatasetValue name_dataset(const char* path, const std::vector<std::string>& names, std::size_t width,
+                          const char* meaning) {
+  DatasetValue dataset{path, ElementType::text, {names.size()}, width, "text", meaning, {}};
+  for (std::string name : names) {
+    if (name.size() > width)
+      throw Failure(fmt::format("'{}' is too long a name for {} ({} bytes)", name, path, width));
+    name.resize(width);
+    const ByteView bytes = view_bytes(name);
+    dataset.bytes.insert(dataset.bytes.end(), bytes.begin(), bytes.end());
+  }
+  return dataset;
+}
+
 void append_blocks(const BlockLayout& layout, std::vector<DatasetValue>& datasets) {
+  std::vector<std::string> labels;
+  std::vector<std::uint8_t> role;
+  std::vector<std::int32_t> ring;
   std::vector<std::int32_t> index;
   std::vector<std::uint8_t> kind;
   std::vector<std::uint8_t> top;
   std::vector<Point> corners;
   std::vector<IndexRange> ranges;
   for (const Block& block : layout.blocks) {
+    labels.push_back(block.label);
+    role.push_back(static_cast<std::uint8_t>(block.role));
+    ring.push_back(block.ring);
     index.insert(index.end(), {block.index.course, block.index.position});
     kind.push_back(static_cast<std::uint8_t>(block.kind));
     top.push_back(block.top_course ? 1 : 0);
@@ -54,14 +77,18 @@ void append_blocks(const BlockLayout& layout, std::vector<DatasetValue>& dataset
     ranges.push_back({begin, static_cast<int>(corners.size())});
   }
   datasets.push_back(
-      int_dataset(dataset::kBlockIndex, index, 2, "course (0 is the arch) and position of each block"));
+      name_dataset(dataset::kBlockLabel, labels, kBlockLabelWidth, "what each block is called"));
+  datasets.push_back(flag_dataset(dataset::kBlockRole, role, "0 wall, 1 arch ring"));
+  datasets.push_back(int_dataset(dataset::kBlockRing, ring, kFlat, "ring that each block belongs to, or -1"));
+  datasets.push_back(int_dataset(dataset::kBlockIndex, index, 2,
+                                 "course (0: arch, -1: not laid in courses) and position of each block"));
   datasets.push_back(
       flag_dataset(dataset::kBlockKind, kind, "0 leg, 1 voussoir, 2 plain, 3 cut by the arch"));
-  datasets.push_back(flag_dataset(dataset::kBlockTopCourse, top, "1 for blocks of the highest course"));
+  datasets.push_back(flag_dataset(dataset::kBlockTopCourse, top, "1: belongs to the highest course"));
+  datasets.push_back(point_dataset(dataset::kCorners, corners,
+                                   "x, y of the blocks' corners, counter-clockwise, block after block"));
   datasets.push_back(
-      point_dataset(dataset::kCorners, corners, "x, y of the blocks' corners, counter-clockwise"));
-  datasets.push_back(
-      range_dataset(dataset::kBlockCorners, ranges, "first and one past last corner of each block"));
+      range_dataset(dataset::kBlockCorners, ranges, "first and one past the last corner of each block"));
 }
 
 void append_mesh(const Mesh& mesh, std::vector<DatasetValue>& datasets) {
@@ -72,57 +99,82 @@ void append_mesh(const Mesh& mesh, std::vector<DatasetValue>& datasets) {
     for (const NodeId node : triangle.nodes) triangles.push_back(value(node));
   std::vector<std::int32_t> edges;
   for (const BoundaryEdge& edge : mesh.edges) edges.insert(edges.end(), {value(edge.from), value(edge.to)});
-  datasets.push_back(point_dataset(dataset::kNodes, nodes, "x, y of the nodes before loading"));
   datasets.push_back(
-      range_dataset(dataset::kBlockNodes, mesh.block_nodes, "first and one past last node of each block"));
+      point_dataset(dataset::kNodes, nodes, "x, y of the nodes before loading, block after block"));
+  datasets.push_back(range_dataset(dataset::kBlockNodes, mesh.block_nodes,
+                                   "first and one past the last node of each block"));
   datasets.push_back(
-      int_dataset(dataset::kTriangles, triangles, 3, "nodes of the triangles, counter-clockwise"));
+      int_dataset(dataset::kTriangles, triangles, 3, "nodes of each triangle, counter-clockwise"));
   datasets.push_back(range_dataset(dataset::kBlockTriangles, mesh.block_triangles,
-                                   "first and one past last triangle of each block"));
+                                   "first and one past the last triangle of each block"));
+  datasets.push_back(int_dataset(dataset::kEdges, edges, 2,
+                                 "from-node and to-node of each boundary edge, the block on its left"));
+  datasets.push_back(range_dataset(dataset::kBlockEdges, mesh.block_edges,
+                                   "first and one past the last edge of each block"));
+}
+
+void append_joints(const std::vector<Joint>& joints, std::vector<DatasetValue>& datasets) {
+  if (joints.empty()) return;
+  std::vector<std::int32_t> blocks;
+  std::vector<std::int32_t> nodes;
+  std::vector<double> ends;
+  std::vector<double> lengths;
+  for (const Joint& joint : joints) {
+    blocks.insert(blocks.end(), {value(joint.first), value(joint.second)});
+    for (const BoundaryEdge& edge : {joint.first_edge, joint.second_edge})
+      nodes.insert(nodes.end(), {value(edge.from), value(edge.to)});
+    for (const auto& at : {joint.first_at, joint.second_at}) ends.insert(ends.end(), at.begin(), at.end());
+    lengths.push_back(joint.length);
+  }
+  datasets.push_back(int_dataset(dataset::kJointBlocks, blocks, 2,
+                                 "first and second block of each joint, its normal pointing to the second"));
   datasets.push_back(
-      int_dataset(dataset::kEdges, edges, 2, "nodes of the boundary edges, the block on the left"));
+      int_dataset(dataset::kJointNodes, nodes, 4,
+                  "from- and to-node of the joint's edge of the first block, then of the second"));
   datasets.push_back(
-      range_dataset(dataset::kBlockEdges, mesh.block_edges, "first and one past last edge of each block"));
+      dataset_of(dataset::kJointEnds, ElementType::float64, ends, 4, "1",
+                 "ends of the joint on the edge of the first block, then the same two on that of "
+                 "the second: 0 at the from-node, 1 at the to-node"));
+  datasets.push_back(
+      dataset_of(dataset::kJointLength, ElementType::float64, lengths, kFlat, "m", "length of each joint"));
 }
 
 void append_points(const std::vector<ControlPoint>& points, std::vector<DatasetValue>& datasets) {
-  DatasetValue names{dataset::kPointName,
-                     ElementType::text,
-                     {points.size()},
-                     kPointNameWidth,
-                     "text",
-                     "T: on top, A: on the intrados, from left to right",
-                     {}};
+  std::vector<std::string> names;
   std::vector<Point> positions;
   std::vector<std::int32_t> blocks;
   std::vector<std::int32_t> nodes;
   for (const ControlPoint& point : points) {
-    std::string name = point.name;
-    name.resize(kPointNameWidth);
-    const ByteView bytes = view_bytes(name);
-    names.bytes.insert(names.bytes.end(), bytes.begin(), bytes.end());
+    names.push_back(point.name);
     positions.push_back(point.position);
     blocks.push_back(value(point.block));
     nodes.push_back(value(point.node));
   }
-  datasets.push_back(std::move(names));
+  datasets.push_back(name_dataset(dataset::kPointName, names, kPointNameWidth,
+                                  "T1.. on top, A1.. on the intrados, from left to right"));
   datasets.push_back(
       point_dataset(dataset::kPointPosition, positions, "x, y of the control points before loading"));
-  datasets.push_back(
-      int_dataset(dataset::kPointBlock, blocks, kFlat, "block that each control point belongs to"));
+  datasets.push_back(int_dataset(dataset::kPointBlock, blocks, kFlat, "block of each control point"));
   datasets.push_back(int_dataset(dataset::kPointNode, nodes, kFlat, "node at each control point"));
 }
 
 }  // namespace
 
-std::vector<DatasetValue> shared_datasets(const Provenance& provenance, const BlockLayout& layout,
-                                          const Mesh& mesh, const std::vector<ControlPoint>& points) {
+std::vector<DatasetValue> shared_datasets(const Provenance& provenance, const Model& bridge,
+                                          const std::vector<VariantParameters>& variants,
+                                          const std::vector<std::string>& states) {
   std::vector<DatasetValue> datasets;
-  datasets.push_back(text_dataset(dataset::kBridgeText, provenance.bridge_text, "the bridge file (TOML)"));
-  datasets.push_back(text_dataset(dataset::kSolverSettings, provenance.solver_settings, "key = value lines"));
-  append_blocks(layout, datasets);
-  append_mesh(mesh, datasets);
-  append_points(points, datasets);
+  datasets.push_back(
+      text_dataset(dataset::kBridgeText, provenance.bridge_text, "the bridge file (TOML) as it was given"));
+  datasets.push_back(text_dataset(dataset::kSolverSettings, provenance.solver_settings,
+                                  "`key = value` lines: all settings that results depend on"));
+  append_blocks(bridge.layout, datasets);
+  append_mesh(bridge.mesh, datasets);
+  append_joints(bridge.joints, datasets);
+  append_points(bridge.control_points, datasets);
+  datasets.push_back(
+      name_dataset(dataset::kStates, states, kStateNameWidth, "the states of every record, in their order"));
+  std::ranges::move(parameter_datasets(variants), std::back_inserter(datasets));
   return datasets;
 }
 

@@ -1,27 +1,31 @@
 #pragma once
-/// @file The schema in one place: names, version, and the datasets that all scenes share. database/README.md
+/// @file The schema in one place: names, version, and the datasets that all records share. database/README.md
 /// explains it to readers.
 
 #include <string>
 #include <vector>
 
-#include "core/structure/block_layout.h"
-#include "core/structure/control_point.h"
-#include "core/structure/mesh.h"
+#include "core/structure/model.h"
 #include "database/format/dataset_value.h"
 #include "database/records/provenance.h"
+#include "database/records/variant_parameters.h"
 
 namespace voussoir {
 
 inline constexpr char kFormatName[] = "voussoir database";
-inline constexpr int kSchemaVersion = 3;
-inline constexpr std::size_t kPointNameWidth = 8;  ///< bytes, padded with zeros
+inline constexpr int kSchemaVersion = 4;
+inline constexpr std::size_t kBlockLabelWidth = 32;  ///< bytes, padded with zeros
+inline constexpr std::size_t kPointNameWidth = 8;    ///< bytes, padded with zeros
+inline constexpr std::size_t kStateNameWidth = 16;   ///< bytes, padded with zeros
 
 /// Paths of datasets.
 namespace dataset {
 inline constexpr char kBridgeText[] = "bridge/text";
 inline constexpr char kSolverSettings[] = "solver/settings";
 inline constexpr char kBlockIndex[] = "geometry/block_index";
+inline constexpr char kBlockLabel[] = "geometry/block_label";
+inline constexpr char kBlockRole[] = "geometry/block_role";
+inline constexpr char kBlockRing[] = "geometry/block_ring";
 inline constexpr char kBlockKind[] = "geometry/block_kind";
 inline constexpr char kBlockTopCourse[] = "geometry/block_top_course";
 inline constexpr char kCorners[] = "geometry/corners";
@@ -32,10 +36,21 @@ inline constexpr char kTriangles[] = "geometry/triangles";
 inline constexpr char kBlockTriangles[] = "geometry/block_triangles";
 inline constexpr char kEdges[] = "geometry/edges";
 inline constexpr char kBlockEdges[] = "geometry/block_edges";
+inline constexpr char kJointBlocks[] = "geometry/joint_blocks";
+inline constexpr char kJointNodes[] = "geometry/joint_nodes";
+inline constexpr char kJointEnds[] = "geometry/joint_ends";
+inline constexpr char kJointLength[] = "geometry/joint_length";
 inline constexpr char kPointName[] = "control/point_name";
 inline constexpr char kPointPosition[] = "control/point_position";
 inline constexpr char kPointBlock[] = "control/point_block";
 inline constexpr char kPointNode[] = "control/point_node";
+inline constexpr char kStates[] = "history/states";
+inline constexpr char kYoungModulus[] = "variants/young_modulus";
+inline constexpr char kPoissonRatio[] = "variants/poisson_ratio";
+inline constexpr char kDensity[] = "variants/density";
+inline constexpr char kNormalStiffness[] = "variants/normal_stiffness";
+inline constexpr char kTangentialStiffness[] = "variants/tangential_stiffness";
+inline constexpr char kFriction[] = "variants/friction_coefficient";
 inline constexpr char kVertical[] = "control/vertical_displacement";
 inline constexpr char kVariant[] = "scenes/variant";
 inline constexpr char kRemoved[] = "scenes/removed";
@@ -63,9 +78,11 @@ inline constexpr char kSolverRevision[] = "solver_revision";
 inline constexpr char kResultsKey[] = "results_key";
 }  // namespace attribute
 
-/// The datasets that all scenes share (bridge text, settings, geometry, control points) in the order in which
-/// the content digest takes them.
-std::vector<DatasetValue> shared_datasets(const Provenance& provenance, const BlockLayout& layout,
-                                          const Mesh& mesh, const std::vector<ControlPoint>& points);
+/// The datasets that all records share (bridge text, settings, geometry, control points, states, variants) in
+/// the order in which the content digest takes them. Those of joints are missing if the bridge has none: an
+/// empty dataset has no place that could be mapped. Throws Failure for a name that is too long to be stored.
+std::vector<DatasetValue> shared_datasets(const Provenance& provenance, const Model& bridge,
+                                          const std::vector<VariantParameters>& variants,
+                                          const std::vector<std::string>& states);
 
 }  // namespace voussoir

@@ -1,7 +1,8 @@
 #include "database/records/stored_geometry.h"
-#include "database/records/schema.h"
 
 #include <algorithm>
+
+#include "database/records/schema.h"
 
 namespace voussoir {
 namespace {
@@ -60,11 +61,29 @@ std::span<const std::uint8_t> read_flags(const Hdf5File& file, const char* path,
   return flags;
 }
 
+/// Names of fixed width without their padding.
+std::vector<std::string> read_names(const Hdf5File& file, const char* path, std::size_t width) {
+  const DatasetView found = file.view(path);
+  file.require(found.type == ElementType::text && found.shape.size() == 1 && found.text_width == width,
+               fmt::format("dataset '{}' has not the expected type and shape", path));
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < found.shape[0]; ++i) {
+    const auto* name = reinterpret_cast<const char*>(found.bytes.data()) + i * width;
+    names.emplace_back(name, std::find(name, name + width, '\0'));
+  }
+  return names;
+}
+
 }  // namespace
 
 BlockLayout read_layout(const Hdf5File& file) {
   const auto index = read_ints(file, dataset::kBlockIndex, 2);
   const std::size_t blocks = index.size() / 2;
+  const auto labels = read_names(file, dataset::kBlockLabel, kBlockLabelWidth);
+  const auto role = read_flags(file, dataset::kBlockRole, blocks, static_cast<std::uint8_t>(BlockRole::ring));
+  const auto ring = read_ints(file, dataset::kBlockRing, kFlat);
+  require_size(file, dataset::kBlockLabel, labels.size(), blocks);
+  require_size(file, dataset::kBlockRing, ring.size(), blocks);
   const auto kind = read_flags(file, dataset::kBlockKind, blocks, static_cast<std::uint8_t>(BlockKind::cut));
   const auto top = read_flags(file, dataset::kBlockTopCourse, blocks, 1);
   const auto corners = read_points(file, dataset::kCorners);
@@ -75,8 +94,9 @@ BlockLayout read_layout(const Hdf5File& file) {
     block.index = {index[2 * i], index[2 * i + 1]};
     block.kind = static_cast<BlockKind>(kind[i]);
     block.top_course = top[i] != 0;
-    block.label = to_string(block.index);
-    block.role = block.index.course == 0 ? BlockRole::ring : BlockRole::wall;
+    block.label = labels[i];
+    block.role = static_cast<BlockRole>(role[i]);
+    block.ring = ring[i];
     for (auto corner = static_cast<std::size_t>(ranges[i].begin);
          corner < static_cast<std::size_t>(ranges[i].end); ++corner)
       block.polygon.emplace_back(corners[2 * corner], corners[2 * corner + 1]);
@@ -102,22 +122,43 @@ Mesh read_mesh(const Hdf5File& file, std::size_t blocks) {
   return mesh;
 }
 
+std::vector<Joint> read_joints(const Hdf5File& file, std::size_t blocks, std::size_t nodes) {
+  std::vector<Joint> joints;
+  if (!file.has(dataset::kJointBlocks)) return joints;
+  const auto joint_blocks = read_indices(file, dataset::kJointBlocks, 2, blocks);
+  const auto joint_nodes = read_indices(file, dataset::kJointNodes, 4, nodes);
+  const auto ends = file.numbers<double>(dataset::kJointEnds, ElementType::float64, 4);
+  const auto lengths = file.numbers<double>(dataset::kJointLength, ElementType::float64, kFlat);
+  require_size(file, dataset::kJointNodes, joint_nodes.size() / 4, joint_blocks.size() / 2);
+  require_size(file, dataset::kJointEnds, ends.size() / 4, joint_blocks.size() / 2);
+  require_size(file, dataset::kJointLength, lengths.size(), joint_blocks.size() / 2);
+  for (std::size_t i = 0; i < lengths.size(); ++i) {
+    const auto node = joint_nodes.subspan(4 * i, 4);
+    const auto at = ends.subspan(4 * i, 4);
+    joints.push_back({BlockId{joint_blocks[2 * i]},
+                      BlockId{joint_blocks[2 * i + 1]},
+                      {NodeId{node[0]}, NodeId{node[1]}},
+                      {NodeId{node[2]}, NodeId{node[3]}},
+                      {at[0], at[1]},
+                      {at[2], at[3]},
+                      lengths[i]});
+  }
+  return joints;
+}
+
+std::vector<std::string> read_states(const Hdf5File& file) {
+  return read_names(file, dataset::kStates, kStateNameWidth);
+}
+
 std::vector<StoredPoint> read_control_points(const Hdf5File& file) {
-  const DatasetView names = file.view(dataset::kPointName);
-  file.require(
-      names.type == ElementType::text && names.shape.size() == 1 && names.text_width == kPointNameWidth,
-      "dataset 'control/point_name' has not the expected type and shape");
+  const auto names = read_names(file, dataset::kPointName, kPointNameWidth);
   const auto positions = read_points(file, dataset::kPointPosition);
   const auto blocks = read_ints(file, dataset::kPointBlock, kFlat);
-  require_size(file, dataset::kPointPosition, positions.size() / 2, names.shape[0]);
-  require_size(file, dataset::kPointBlock, blocks.size(), names.shape[0]);
+  require_size(file, dataset::kPointPosition, positions.size() / 2, names.size());
+  require_size(file, dataset::kPointBlock, blocks.size(), names.size());
   std::vector<StoredPoint> points;
-  for (std::size_t i = 0; i < blocks.size(); ++i) {
-    const auto* name = reinterpret_cast<const char*>(names.bytes.data()) + i * kPointNameWidth;
-    points.push_back({std::string(name, std::find(name, name + kPointNameWidth, '\0')),
-                      {positions[2 * i], positions[2 * i + 1]},
-                      BlockId{blocks[i]}});
-  }
+  for (std::size_t i = 0; i < blocks.size(); ++i)
+    points.push_back({names[i], {positions[2 * i], positions[2 * i + 1]}, BlockId{blocks[i]}});
   return points;
 }
 

@@ -1,14 +1,16 @@
 #pragma once
-/// @file Blocks and mesh as a database file holds them.
+/// @file Blocks, mesh, joints and control points as a database file holds them.
 
 #include "database/format/hdf5_file.h"
 #include "database/records/database.h"
 
 namespace voussoir {
 
-/// All three throw InputError if indices, ranges or counts do not fit together.
+/// All of them throw InputError if indices, ranges or counts do not fit together.
 BlockLayout read_layout(const Hdf5File& file);
 Mesh read_mesh(const Hdf5File& file, std::size_t blocks);
+std::vector<Joint> read_joints(const Hdf5File& file, std::size_t blocks, std::size_t nodes);
 std::vector<StoredPoint> read_control_points(const Hdf5File& file);
+std::vector<std::string> read_states(const Hdf5File& file);
 
 }  // namespace voussoir

@@ -1,10 +1,11 @@
 #include "database/records/writer.h"
 
 #include <algorithm>
+#include <stdexcept>
 
 #include "database/format/durable_file.h"
-#include "database/format/field_codec.h"
 #include "database/format/hdf5_writing.h"
+#include "database/records/columns.h"
 #include "database/records/content_digest.h"
 #include "database/records/schema.h"
 #include "database/search/stored_index.h"
@@ -12,70 +13,77 @@
 namespace voussoir {
 namespace {
 
-/// The datasets with one row for each scene, fields excepted.
-struct SceneColumns {
-  std::vector<double> vertical;
-  std::vector<std::int32_t> removed;
-  std::vector<std::uint8_t> outcome;
-  std::vector<double> residual;
-  std::vector<std::int32_t> iterations;
-  std::vector<std::uint8_t> collapse;
-  std::vector<std::uint8_t> moving;  ///< rows x blocks
-  std::vector<std::uint8_t> checksum;
-  std::vector<std::uint32_t> chunk_crc;
+Sizes sizes_of(const DatabaseContent& content) {
+  std::size_t most_missing = 1;  // a dataset without columns could not be mapped
+  for (const RecordKey& key : content.keys) most_missing = std::max(most_missing, key.scene.removed.size());
+  return {content.states.size(),
+          content.keys.size(),
+          most_missing,
+          content.bridge.control_points.size(),
+          content.bridge.layout.size(),
+          static_cast<std::uint64_t>(content.bridge.mesh.node_count())};
+}
+
+/// A column's dataset without its bytes.
+DatasetValue described(const Column& column, const Sizes& sizes) {
+  return {column.path, column.type, shape_of(column, sizes), 0, column.units, column.meaning, {}};
+}
+
+/// The datasets of all columns, being filled row by row. Fields, which are large, go straight to the file.
+class Columns {
+ public:
+  Columns(const DatabaseContent& content, Hdf5Output& output)
+      : sizes_(sizes_of(content)), fields_(content.fields), output_(output) {
+    for (const Column& column : record_columns()) {
+      datasets_.push_back(described(column, sizes_));
+      if (!is_kept(column)) continue;
+      if (column.form == Form::packed)
+        field_dataset_ = output_.add_field_dataset(datasets_.back());
+      else
+        datasets_.back().bytes.resize(row_size(column, sizes_) * sizes_.records *
+                                      (column.of_state() ? sizes_.states : 1));
+    }
+  }
+
+  void put(std::size_t row, const Record& record) {
+    if (record.states.size() != sizes_.states)
+      throw std::logic_error(fmt::format("a record of {} states", record.states.size()));
+    for_each_column(sizes_.states, [&](const Column& column, std::size_t state) {
+      if (!is_kept(column)) return;
+      const ByteView values = column.values(record, state);
+      if (column.form == Form::packed) return output_.add_chunk(field_dataset_, state, row, values);
+      const std::size_t size = row_size(column, sizes_);
+      const std::size_t place = column.of_state() ? state * sizes_.records + row : row;
+      write_row(column, values, std::span(dataset(column).bytes).subspan(place * size, size));
+    });
+  }
+
+  void write() {
+    for (const Column& column : record_columns())
+      if (is_kept(column) && column.form != Form::packed) output_.add_dataset(dataset(column));
+  }
+
+  ByteView bytes(const char* path) { return dataset(column_at(path)).bytes; }
+
+ private:
+  bool is_kept(const Column& column) const { return !column.of_fields() || fields_ == KeepField::yes; }
+  DatasetValue& dataset(const Column& column) {
+    return datasets_[static_cast<std::size_t>(&column - record_columns().data())];
+  }
+
+  Sizes sizes_;
+  KeepField fields_;
+  Hdf5Output& output_;
+  std::vector<DatasetValue> datasets_;  ///< as record_columns()
+  Hdf5Handle field_dataset_;
 };
 
-std::size_t most_missing(const std::vector<Scene>& scenes) {
-  std::size_t most = 1;  // a dataset without columns could not be mapped
-  for (const Scene& scene : scenes) most = std::max(most, scene.removed.size());
-  return most;
-}
-
-void append(const Record& record, std::size_t removed_columns, std::size_t blocks, SceneColumns& columns) {
-  columns.vertical.insert(columns.vertical.end(), record.vertical.begin(), record.vertical.end());
-  for (std::size_t i = 0; i < removed_columns; ++i)
-    columns.removed.push_back(i < record.scene.removed.size() ? value(record.scene.removed[i]) : -1);
-  columns.outcome.push_back(static_cast<std::uint8_t>(record.outcome));
-  columns.residual.push_back(record.residual);
-  columns.iterations.push_back(record.iterations);
-  columns.collapse.push_back(static_cast<std::uint8_t>(record.extent));
-  columns.moving.resize(columns.moving.size() + blocks, 0);
-  for (const BlockId block : record.moving)
-    columns.moving[columns.moving.size() - blocks + static_cast<std::size_t>(value(block))] = 1;
-  columns.checksum.insert(columns.checksum.end(), record.checksum.begin(), record.checksum.end());
-  columns.chunk_crc.push_back(crc32_of(record.packed_field));
-}
-
-void write_columns(const SceneColumns& columns, KeepField fields, Hdf5Output& output) {
-  const std::size_t rows = columns.outcome.size();
-  const auto per_scene = [&](const auto& values) { return values.size() / rows; };
-  output.add_dataset(
-      dataset_of(dataset::kVertical, ElementType::float64, columns.vertical, per_scene(columns.vertical), "m",
-                 "vertical displacement of the control points, up is positive, NaN where the block "
-                 "is gone"));
-  output.add_dataset(dataset_of(dataset::kVariant, ElementType::int32,
-                                std::vector<std::int32_t>(rows, kOnlyVariant), kFlat, "1",
-                                "variant of the bridge"));
-  output.add_dataset(dataset_of(dataset::kRemoved, ElementType::int32, columns.removed,
-                                per_scene(columns.removed), "1",
-                                "removed blocks (rows of geometry/block_index) in ascending order, then -1"));
-  output.add_dataset(dataset_of(dataset::kOutcome, ElementType::uint8, columns.outcome, kFlat, "1",
-                                "0 standing, 1 collapsed, 2 unresolved"));
-  output.add_dataset(dataset_of(dataset::kResidual, ElementType::float64, columns.residual, kFlat, "1",
-                                "standing: largest unbalanced nodal force over the largest nodal weight; "
-                                "collapsed: unbalanced force over the bridge's weight"));
-  output.add_dataset(dataset_of(dataset::kIterations, ElementType::int32, columns.iterations, kFlat, "1",
-                                "linear systems solved, or time steps of a collapse"));
-  output.add_dataset(dataset_of(dataset::kCollapse, ElementType::uint8, columns.collapse, kFlat, "1",
-                                "what moves away: 0 nothing, 1 wall blocks only, 2 blocks of the arch"));
-  output.add_dataset(dataset_of(dataset::kMoving, ElementType::uint8, columns.moving,
-                                per_scene(columns.moving), "1",
-                                "1 for each block that had moved away when the collapse was decided"));
-  output.add_dataset(dataset_of(dataset::kChecksum, ElementType::uint8, columns.checksum,
-                                per_scene(columns.checksum), "1", "SHA-256 of everything kept of the scene"));
-  if (fields == KeepField::yes)
-    output.add_dataset(dataset_of(dataset::kChunkCrc, ElementType::uint32, columns.chunk_crc, kFlat, "1",
-                                  "CRC-32 of the scene's chunk of fields/displacement as it is stored"));
+/// The control displacements that searches look at: of the nominal variant, whose rows come first, in the
+/// first state, which comes first.
+std::span<const double> searched_rows(const DatabaseContent& content, ByteView vertical) {
+  const auto rows = std::ranges::count(content.keys, kNominalVariant, &RecordKey::variant);
+  return {reinterpret_cast<const double*>(vertical.data()),
+          static_cast<std::size_t>(rows) * content.bridge.control_points.size()};
 }
 
 void write_attributes(const Provenance& provenance, const std::string& digest, Hdf5Output& output) {
@@ -91,27 +99,10 @@ void write_attributes(const Provenance& provenance, const std::string& digest, H
   output.add_text_attribute(attribute::kResultsKey, provenance.results_key);
 }
 
-/// Takes the records row by row; fields go straight to the file, everything else is small and collected.
-SceneColumns write_fields(const DatabaseContent& content, const RecordOfRow& record_of_row,
-                          Hdf5Output& output) {
-  Hdf5Handle fields;
-  if (content.fields == KeepField::yes)
-    fields = output.add_field_dataset(dataset::kField, content.scenes.size(),
-                                      static_cast<std::uint64_t>(content.bridge.mesh.node_count()));
-  SceneColumns columns;
-  const std::size_t removed_columns = most_missing(content.scenes);
-  for (std::size_t row = 0; row < content.scenes.size(); ++row) {
-    const Record record = record_of_row(row);
-    append(record, removed_columns, static_cast<std::size_t>(content.bridge.block_count()), columns);
-    if (fields) output.add_chunk(fields, row, record.packed_field);
-  }
-  return columns;
-}
-
-std::string digest_of(const std::vector<DatasetValue>& shared, const SceneColumns& columns) {
+std::string digest_of(const std::vector<DatasetValue>& shared, ByteView checksums) {
   std::vector<DigestPart> parts;
   for (const DatasetValue& dataset : shared) parts.push_back({dataset.path, dataset.bytes});
-  parts.push_back({dataset::kChecksum, view_bytes(columns.checksum)});
+  parts.push_back({dataset::kChecksum, checksums});
   return to_hexadecimal(content_digest(parts));
 }
 
@@ -119,14 +110,15 @@ std::string write_content(const std::filesystem::path& path, const DatabaseConte
                           const RecordOfRow& record_of_row) {
   const auto lock = lock_hdf5();
   Hdf5Output output(path);
-  const auto shared = shared_datasets(content.provenance, content.bridge.layout, content.bridge.mesh,
-                                      content.bridge.control_points);
+  const auto shared = shared_datasets(content.provenance, content.bridge, content.variants, content.states);
   for (const DatasetValue& dataset : shared) output.add_dataset(dataset);
-  const SceneColumns columns = write_fields(content, record_of_row, output);
-  write_columns(columns, content.fields, output);
-  for (const DatasetValue& dataset : search_datasets(columns.vertical, content.bridge.control_points.size()))
+  Columns columns(content, output);
+  for (std::size_t row = 0; row < content.keys.size(); ++row) columns.put(row, record_of_row(row));
+  columns.write();
+  const auto searched = searched_rows(content, columns.bytes(dataset::kVertical));
+  for (const DatasetValue& dataset : search_datasets(searched, content.bridge.control_points.size()))
     output.add_dataset(dataset);
-  std::string digest = digest_of(shared, columns);
+  std::string digest = digest_of(shared, columns.bytes(dataset::kChecksum));
   write_attributes(content.provenance, digest, output);
   output.close();
   return digest;

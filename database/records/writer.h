@@ -7,14 +7,17 @@
 #include "core/structure/model.h"
 #include "database/records/provenance.h"
 #include "database/records/record.h"
+#include "database/records/variant_parameters.h"
 
 namespace voussoir {
 
-/// What a database holds beside the records of its scenes.
+/// What a database holds beside the values of its records.
 struct DatabaseContent {
   Provenance provenance;
-  const Model& bridge;
-  std::vector<Scene> scenes;  ///< in the order of all_scenes, no scene twice
+  const Model& bridge;                      ///< the nominal variant
+  std::vector<VariantParameters> variants;  ///< at least the nominal one
+  std::vector<RecordKey> keys;              ///< ascending, none twice; the nominal variant has some
+  std::vector<std::string> states = {kBuiltState};
   KeepField fields = KeepField::yes;
 };
 
@@ -23,7 +26,7 @@ struct WrittenDatabase {
   std::uintmax_t bytes = 0;
 };
 
-/// The record of the scene in this row of DatabaseContent::scenes; called once for each row, in order.
+/// The record of this row of DatabaseContent::keys; called once for each row, in order.
 using RecordOfRow = std::function<Record(std::size_t row)>;
 
 /// Writes `target` by way of a file of another name beside it, which takes the place of `target` when it is

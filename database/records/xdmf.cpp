@@ -79,9 +79,9 @@ void write_views(const Database& database, const std::vector<IndexedScene>& scen
   const auto lock = lock_hdf5();
   Hdf5Output output(index_paths(database.path()).views);
   const auto nodes = static_cast<std::uint64_t>(database.mesh().node_count());
+  const std::vector<std::uint64_t> shape = {database.states().size(), database.rows(), nodes, 2};
   for (const IndexedScene& scene : scenes)
-    output.add_field_view(scene.name, database.path().filename().string(), dataset::kField,
-                          database.table().rows, nodes, scene.row);
+    output.add_field_view(scene.name, database.path().filename().string(), dataset::kField, shape, scene.row);
   output.close();
 }
 

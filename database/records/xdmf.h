@@ -18,7 +18,8 @@ struct IndexPaths {
 /// bridge.h5 -> bridge.xdmf and bridge.views.h5
 IndexPaths index_paths(const std::filesystem::path& database);
 
-/// Writes the index: a collection of one grid for each of the scenes, in their order, named like them
+/// Writes the index of scenes of the nominal variant in the first state: a collection of one grid for each,
+/// in their order, named like them
 /// ("10,4+6,4") and with the scene's row in the database as time. Each has the vector `displacement` [m] of
 /// the nodes (z is zero), NaN in removed blocks. All numbers stay in the database, which is referred to by
 /// its name: keep the files in one folder. Throws InputError for a scene that the database does not hold,

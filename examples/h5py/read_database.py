@@ -4,7 +4,7 @@
     build-database -o bridge.h5
     examples/h5py/read_database.py bridge.h5
 
-Prints what the file is, checks every scene's checksum and the content digest by itself, and lists the single missing
+Prints what the file is, checks every record's checksum and the content digest by itself, and lists the single missing
 blocks of standing scenes by the largest change at a control point. database/README.md documents the file.
 """
 
@@ -18,13 +18,27 @@ import numpy
 STANDING = 0     # scenes/outcome
 LOCAL, ARCH = 1, 2  # scenes/collapse
 
-# What the content digest covers, in its order (scenes/checksum stands for all that is kept of the scenes).
+# What a record's checksum covers, in its order: columns of the record and then, for each state, columns of the state.
+RECORD_COLUMNS = ["scenes/variant", "scenes/removed"]
+STATE_COLUMNS = [
+    "scenes/outcome", "scenes/residual", "scenes/iterations", "scenes/collapse", "scenes/moving",
+    "control/vertical_displacement", "fields/displacement",
+]
+PADDED = ["scenes/removed"]  # a list, then -1
+MARKS = ["scenes/moving"]    # a list: 1 in the place of each of its numbers
+
+# What the content digest covers, in its order (scenes/checksum stands for all that is kept of the records).
 DIGEST_ORDER = [
     "bridge/text", "solver/settings",
-    "geometry/block_index", "geometry/block_kind", "geometry/block_top_course", "geometry/corners",
+    "geometry/block_label", "geometry/block_role", "geometry/block_ring", "geometry/block_index",
+    "geometry/block_kind", "geometry/block_top_course", "geometry/corners",
     "geometry/block_corners", "geometry/nodes", "geometry/block_nodes", "geometry/triangles",
     "geometry/block_triangles", "geometry/edges", "geometry/block_edges",
+    "geometry/joint_blocks", "geometry/joint_nodes", "geometry/joint_ends", "geometry/joint_length",
     "control/point_name", "control/point_position", "control/point_block", "control/point_node",
+    "history/states",
+    "variants/young_modulus", "variants/poisson_ratio", "variants/density",
+    "variants/normal_stiffness", "variants/tangential_stiffness", "variants/friction_coefficient",
     "scenes/checksum",
 ]
 
@@ -39,23 +53,33 @@ def raw_bytes(dataset):
 def content_digest(file):
     digest = hashlib.sha256(f"{file.attrs['format'].decode()} {file.attrs['schema_version']}\n".encode())
     for path in DIGEST_ORDER:
+        if path not in file:  # those of joints, if the bridge has none
+            continue
         content = raw_bytes(file[path])
         digest.update(path.encode() + b"\0" + struct.pack("<Q", len(content)) + content)
     return digest.hexdigest()
 
 
-def scene_checksum(file, row):
-    removed = file["scenes/removed"][row]
-    removed = removed[removed >= 0]
-    digest = hashlib.sha256()
-    digest.update(struct.pack("<ii", file["scenes/variant"][row], len(removed)) + removed.astype("<i4").tobytes())
-    digest.update(struct.pack("<Bdi", file["scenes/outcome"][row], file["scenes/residual"][row],
-                              file["scenes/iterations"][row]))
-    moving = numpy.flatnonzero(file["scenes/moving"][row])
-    digest.update(struct.pack("<Bi", file["scenes/collapse"][row], len(moving)) + moving.astype("<i4").tobytes())
-    digest.update(file["control/vertical_displacement"][row].tobytes())
-    if "fields" in file:
-        digest.update(file["fields/displacement"][row].tobytes())
+def values(file, path, place):
+    """What a record has in a column, as bytes behind their number."""
+    if path not in file:  # a database without fields
+        return struct.pack("<I", 0)
+    found = numpy.atleast_1d(file[path][place])
+    if path in PADDED:
+        found = found[found >= 0]
+    if path in MARKS:
+        found = numpy.flatnonzero(found).astype("<i4")
+    return struct.pack("<I", found.size) + found.tobytes()
+
+
+def record_checksum(file, row):
+    states = len(file["history/states"])
+    digest = hashlib.sha256(struct.pack("<I", states))
+    for path in RECORD_COLUMNS:
+        digest.update(values(file, path, row))
+    for state in range(states):
+        for path in STATE_COLUMNS:
+            digest.update(values(file, path, (state, row)))
     return numpy.frombuffer(digest.digest(), dtype=numpy.uint8)
 
 
@@ -65,29 +89,33 @@ def scene_name(file, row):
     return "+".join(blocks) if blocks else "intact"
 
 
-def largest_changes(file, count):
-    """(change in m, scene, control point) of the standing singles, largest first."""
-    removed = file["scenes/removed"][...]
-    singles = (numpy.sum(removed >= 0, axis=1) == 1) & (file["scenes/outcome"][...] == STANDING)
-    vertical = file["control/vertical_displacement"][...]
-    intact = vertical[0]
+def largest_changes(file, count, variant=0, state=0):
+    """(change in m, scene, control point) of a variant's standing singles in a state, largest first."""
+    first, last = numpy.searchsorted(file["scenes/variant"][...], [variant, variant + 1])  # its records
+    removed = file["scenes/removed"][first:last]
+    outcome = file["scenes/outcome"][state, first:last]
+    vertical = file["control/vertical_displacement"][state, first:last]
+    singles = (numpy.sum(removed >= 0, axis=1) == 1) & (outcome == STANDING)
     found = []
     for row in numpy.flatnonzero(singles):
-        change = numpy.nan_to_num(numpy.abs(vertical[row] - intact))
+        change = numpy.nan_to_num(numpy.abs(vertical[row] - vertical[0]))  # the intact bridge comes first
         point = int(numpy.argmax(change))
-        found.append((change[point], scene_name(file, row), file["control/point_name"][point].decode()))
+        name = scene_name(file, first + row)
+        found.append((change[point], name, file["control/point_name"][point].decode()))
     return sorted(found, reverse=True)[:count]
 
 
 def main(path):
     with h5py.File(path, "r") as file:
-        rows = len(file["scenes/outcome"])
-        print(f"{path}: bridge '{file.attrs['bridge_name'].decode()}', {rows} scenes, "
+        rows = len(file["scenes/variant"])
+        states = ", ".join(name.decode() for name in file["history/states"])
+        print(f"{path}: bridge '{file.attrs['bridge_name'].decode()}', {rows} records, "
               f"made by version {file.attrs['program_version'].decode()}")
-        wrong = [row for row in range(rows) if (scene_checksum(file, row) != file["scenes/checksum"][row]).any()]
+        print(f"variants: {len(file['variants/density'])}; states: {states}")
+        wrong = [row for row in range(rows) if (record_checksum(file, row) != file["scenes/checksum"][row]).any()]
         digest_right = content_digest(file) == file.attrs["content_digest"].decode()
         print(f"checksums: {rows - len(wrong)} of {rows} right; content digest {'right' if digest_right else 'WRONG'}")
-        extent = file["scenes/collapse"][...]
+        extent = file["scenes/collapse"][0]
         print(f"collapses: {numpy.sum(extent == ARCH)} of the arch, {numpy.sum(extent == LOCAL)} of wall blocks only")
         print("largest change of a vertical displacement when one block is missing:")
         for change, scene, point in largest_changes(file, 5):

@@ -47,13 +47,58 @@ inline Provenance made_up_provenance(const BridgeFile& file) {
   return make_provenance(file, "solver = made up\ntolerance = 1e-10\n", "made up");
 }
 
+/// The parameters of the bridge file, and in other variants different ones for every block and joint.
+inline VariantParameters made_up_parameters(const Model& bridge, std::size_t variant) {
+  const auto numbers = [&](std::size_t count, double nominal) {
+    std::vector<double> values;
+    for (std::size_t i = 0; i < count; ++i)
+      values.push_back(nominal * (1.0 + 1e-3 * static_cast<double>(variant * (i + 1))));
+    return values;
+  };
+  const Material& material = bridge.parameters.blocks.front();
+  const JointMaterial& joint = bridge.parameters.contact;
+  const std::size_t blocks = bridge.layout.size();
+  const std::size_t joints = bridge.joints.size();
+  return {numbers(blocks, material.young_modulus),     numbers(blocks, material.poisson_ratio),
+          numbers(blocks, material.density),           numbers(joints, joint.normal_stiffness),
+          numbers(joints, joint.tangential_stiffness), numbers(joints, joint.friction_coefficient())};
+}
+
+inline Record made_up_record(const Model& bridge, const RecordKey& key, std::size_t states,
+                             KeepField fields) {
+  std::vector<Solution> solutions;
+  for (std::size_t state = 0; state < states; ++state) {
+    solutions.push_back(made_up_solution(bridge, key.scene));
+    const double scale = 1.0 + key.variant + 10.0 * static_cast<double>(state);
+    solutions.back().displacement = to_storage_precision(scale * solutions.back().displacement);
+    solutions.back().residual *= scale;
+  }
+  return make_record(key, solutions, bridge.control_points, fields, fields);
+}
+
+/// Scenes, in their order, of some variants, with made-up numbers in some states.
+inline DatabaseContent made_up_content(const BridgeFile& file, const Model& bridge,
+                                       const std::vector<Scene>& scenes, KeepField fields = KeepField::yes,
+                                       std::size_t variants = 1, std::size_t states = 1) {
+  DatabaseContent content{made_up_provenance(file), bridge, {}, {}, {}, fields};
+  for (std::size_t variant = 0; variant < variants; ++variant) {
+    content.variants.push_back(made_up_parameters(bridge, variant));
+    for (const RecordKey& key : keys_of(static_cast<std::int32_t>(variant), scenes))
+      content.keys.push_back(key);
+  }
+  for (std::size_t state = 0; state < states; ++state)
+    content.states.push_back(state == 0 ? kBuiltState : "state " + std::to_string(state));
+  return content;
+}
+
 inline WrittenDatabase write_made_up_database(const std::filesystem::path& path, const BridgeFile& file,
                                               const std::vector<Scene>& scenes,
-                                              KeepField fields = KeepField::yes) {
+                                              KeepField fields = KeepField::yes, std::size_t variants = 1,
+                                              std::size_t states = 1) {
   const Model bridge = make_model(file.description);
-  return write_database(path, {made_up_provenance(file), bridge, scenes, fields}, [&](std::size_t row) {
-    return make_record(scenes[row], made_up_solution(bridge, scenes[row]), bridge.control_points, fields,
-                       fields);
+  const DatabaseContent content = made_up_content(file, bridge, scenes, fields, variants, states);
+  return write_database(path, content, [&](std::size_t row) {
+    return made_up_record(bridge, content.keys[row], states, fields);
   });
 }
 

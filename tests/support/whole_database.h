@@ -31,13 +31,16 @@ inline void read_all(const std::filesystem::path& path) {
   const std::vector<double> readings(table.points, -1e-3);
   static_cast<void>(
       NearestTrees(database.nearest_trees(), table.vertical, table.points, {}).nearest(readings, 3, 64));
-  for (std::size_t row = 0; row < table.rows; ++row) {
+  static_cast<void>(database.joints());
+  static_cast<void>(database.variants());
+  for (std::size_t row = 0; row < database.rows(); ++row) {
     static_cast<void>(database.record(row));
-    static_cast<void>(database.find(table.scene(row)));
-    static_cast<void>(database.variant(row));
-    if (!database.has_fields()) continue;
-    static_cast<void>(database.chunk_crc(row));
-    static_cast<void>(database.field(row));
+    const auto [variant, scene] = database.key(row);
+    static_cast<void>(database.find(variant, scene));
+    for (std::size_t state = 0; state < database.states().size(); ++state) {
+      static_cast<void>(database.table(variant, state));
+      if (database.has_fields()) static_cast<void>(database.field(row, state));
+    }
   }
 }
 

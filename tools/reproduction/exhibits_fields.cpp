@@ -129,11 +129,11 @@ Exhibit field_exhibit(const Subject& subject, const FieldCase& field) {
 }
 
 std::string outcome_in_words(const Subject& subject, const std::string& scene) {
-  const Record record = subject.database.record(subject.row(scene));
-  if (record.outcome == Outcome::standing) return "stands";
-  if (record.outcome == Outcome::unresolved) return "has no solution in the database";
+  const RecordedState state = subject.database.record(subject.row(scene)).states.front();
+  if (state.outcome == Outcome::standing) return "stands";
+  if (state.outcome == Outcome::unresolved) return "has no solution in the database";
   return fmt::format("collapses ({}, {} blocks move away; its field is a moment of the fall)",
-                     record.extent == CollapseExtent::arch ? "the arch" : "locally", record.moving.size());
+                     state.extent == CollapseExtent::arch ? "the arch" : "locally", state.moving.size());
 }
 
 }  // namespace voussoir

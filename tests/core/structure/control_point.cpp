@@ -68,8 +68,9 @@ TEST_CASE("The reference bridge's 78 points have the names, blocks and places of
 
 TEST_CASE("Points of a bridge of two spans are mirror images of each other, last to first (symmetry)",
           "[control-points]") {
-  const Model bridge = make_model(read_bridge_file(test::example_bridge("two-span")).description);
-  const double length = bridge.description.wall.length;
+  const BridgeDescription description = read_bridge_file(test::example_bridge("two-span")).description;
+  const Model bridge = make_model(description);
+  const double length = description.wall.length;
   const auto family = [&](char letter) {
     std::vector<Point> places;
     for (const ControlPoint& point : bridge.control_points)

@@ -20,10 +20,10 @@ struct Pair {
   Hdf5Handle theirs;
   std::optional<Hdf5File> ours;
 
-  Pair(std::size_t scenes, KeepField fields) {
+  Pair(std::size_t scenes, KeepField fields, std::size_t variants = 1, std::size_t states = 1) {
     auto wanted = all_scenes(38, 3);
     wanted.resize(scenes);
-    test::write_made_up_database(path, test::small_bridge_file(), wanted, fields);
+    test::write_made_up_database(path, test::small_bridge_file(), wanted, fields, variants, states);
     const auto lock = lock_hdf5();
     theirs = Hdf5Handle(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
     REQUIRE(theirs);
@@ -46,7 +46,7 @@ std::vector<std::string> all_datasets(hid_t file) {
 
 std::vector<std::uint64_t> shape_of(hid_t dataset) {
   const Hdf5Handle space(H5Dget_space(dataset), H5Sclose);
-  std::array<hsize_t, 3> extent{};
+  std::array<hsize_t, 4> extent{};
   const int rank = H5Sget_simple_extent_dims(space.get(), extent.data(), nullptr);
   return {extent.begin(), extent.begin() + rank};
 }
@@ -54,7 +54,7 @@ std::vector<std::uint64_t> shape_of(hid_t dataset) {
 }  // namespace
 
 TEST_CASE("Every contiguous dataset has the type, the shape and the bytes that HDF5 finds") {
-  const Pair pair(45, KeepField::yes);
+  const Pair pair(45, KeepField::yes, 2, 3);
   const auto lock = lock_hdf5();
   int compared = 0;
   for (const std::string& path : all_datasets(pair.theirs.get())) {
@@ -78,21 +78,26 @@ TEST_CASE("Every contiguous dataset has the type, the shape and the bytes that H
 
 TEST_CASE(
     "Every chunk has the bytes that HDF5 finds, for one scene, for some and for an index of several pages") {
-  for (const std::size_t scenes : {1U, 45U, 1024U, 1025U, 2500U}) {
-    const Pair pair(scenes, KeepField::yes);
+  struct Counts {
+    std::size_t scenes, variants, states;
+  };
+  for (const auto& [scenes, variants, states] : {Counts{1, 1, 1}, Counts{45, 1, 1}, Counts{1024, 1, 1},
+                                                 Counts{1025, 1, 1}, Counts{1, 1, 2}, Counts{500, 2, 3}}) {
+    const Pair pair(scenes, KeepField::yes, variants, states);
     const auto lock = lock_hdf5();
     const Hdf5Handle theirs(H5Dopen2(pair.theirs.get(), dataset::kField, H5P_DEFAULT), H5Dclose);
     const auto shape = shape_of(theirs.get());
-    const ChunkedDataset ours = pair.ours->open_chunked(dataset::kField, scenes, shape[1]);
-    REQUIRE(ours.chunks.size() == scenes);
-    for (std::size_t row = 0; row < scenes; ++row) {
-      const std::array<hsize_t, 3> offset = {row, 0, 0};
+    const ChunkedDataset ours = pair.ours->open_chunked(dataset::kField, shape);
+    const std::size_t rows = scenes * variants;
+    REQUIRE(ours.chunks.size() == states * rows);
+    for (std::size_t i = 0; i < ours.chunks.size(); ++i) {
+      const std::array<hsize_t, 4> offset = {i / rows, i % rows, 0, 0};
       hsize_t size = 0;
       REQUIRE(H5Dget_chunk_storage_size(theirs.get(), offset.data(), &size) >= 0);
       Bytes content(size);
       std::uint32_t filters = 0;
       REQUIRE(H5Dread_chunk(theirs.get(), H5P_DEFAULT, offset.data(), &filters, content.data()) >= 0);
-      REQUIRE(std::equal(content.begin(), content.end(), ours.chunks[row].begin(), ours.chunks[row].end()));
+      REQUIRE(std::equal(content.begin(), content.end(), ours.chunks[i].begin(), ours.chunks[i].end()));
     }
   }
 }
@@ -129,6 +134,25 @@ TEST_CASE("A file that another program added an attribute and a dataset to is st
     REQUIRE(more);
   }
   CHECK_NOTHROW(test::read_all(pair.path));
+}
+
+TEST_CASE("A file that the program that wrote it has not closed is refused, as by HDF5") {
+  Pair pair(3, KeepField::yes);
+  pair.ours.reset();
+  const auto lock = lock_hdf5();
+  pair.theirs.close();
+  const auto copy = pair.folder / "open.h5";
+  {
+    const Hdf5Handle file(H5Fopen(pair.path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT), H5Fclose);
+    REQUIRE(H5Fflush(file.get(), H5F_SCOPE_GLOBAL) >= 0);
+    std::filesystem::copy_file(pair.path, copy);
+  }
+  CHECK_NOTHROW(test::read_all(pair.path));
+  const Hdf5Handle theirs(H5Fopen(copy.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
+  REQUIRE_FALSE(theirs);
+  CHECK_THROWS_AS(Hdf5File(copy), InputError);
+  CHECK_THROWS_WITH(Hdf5File(copy), Catch::Contains("open.h5: damaged or incomplete HDF5 file: it was not "
+                                                    "closed by the program that wrote it"));
 }
 
 TEST_CASE("The checksum of the author's own example is right") {

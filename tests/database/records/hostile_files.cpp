@@ -75,9 +75,10 @@ TEST_CASE("Datasets of another type, rank or size are refused and named") {
     forged.replace(path, type, shape);
     return forged.refusal();
   };
-  for (const char* path :
-       {dataset::kVertical, dataset::kRemoved, dataset::kOutcome, dataset::kResidual, dataset::kNodes,
-        dataset::kBlockIndex, dataset::kTriangles, dataset::kPointName, dataset::kChecksum}) {
+  for (const char* path : {dataset::kVertical, dataset::kRemoved, dataset::kOutcome, dataset::kResidual,
+                           dataset::kNodes, dataset::kBlockIndex, dataset::kTriangles, dataset::kPointName,
+                           dataset::kChecksum, dataset::kVariant, dataset::kStates, dataset::kJointBlocks,
+                           dataset::kJointEnds, dataset::kYoungModulus, dataset::kFriction}) {
     INFO(path);
     CHECK_THAT(refusal(path, H5T_IEEE_F32LE, {45, 30}), Catch::Contains(path));
     CHECK_THAT(refusal(path, H5T_IEEE_F64BE, {45, 30}), Catch::Contains(path));
@@ -180,16 +181,19 @@ TEST_CASE("Attributes of another kind are refused and named") {
   }
 }
 
-TEST_CASE("Another schema version is refused with both versions") {
+TEST_CASE("Another schema version is refused with both versions and with what to do") {
   const std::string good = small_file();
   const auto lock = lock_hdf5();
   Forgery forged(good);
   {
     const Hdf5Handle version(H5Aopen(forged.file(), attribute::kSchemaVersion, H5P_DEFAULT), H5Aclose);
-    const std::int32_t later = 7;
-    H5Awrite(version.get(), H5T_STD_I32LE, &later);
+    const std::int32_t earlier = 3;
+    H5Awrite(version.get(), H5T_STD_I32LE, &earlier);
   }
-  CHECK_THAT(forged.refusal(), Catch::Contains("schema version 7 where 3 was expected"));
+  CHECK_THAT(forged.refusal(),
+             Catch::Contains("schema version 3 where 4 was expected: build the database again with this "
+                             "program's build-database [BRIDGE.toml] -o ") &&
+                 Catch::Contains("forged.h5"));
 }
 
 TEST_CASE("Indices that point outside of their tables are refused") {
@@ -211,6 +215,11 @@ TEST_CASE("Indices that point outside of their tables are refused") {
     CHECK_THAT(refusal(dataset::kBlockCorners, 2 * bridge.layout.size(), number),
                Catch::Contains(dataset::kBlockCorners));
     CHECK_THAT(refusal(dataset::kRemoved, 2 * 45, number), Catch::Contains(dataset::kRemoved));
+    CHECK_THAT(refusal(dataset::kVariant, 45, number), Catch::Contains(dataset::kVariant));
+    CHECK_THAT(refusal(dataset::kJointBlocks, 2 * bridge.joints.size(), number),
+               Catch::Contains(dataset::kJointBlocks));
+    CHECK_THAT(refusal(dataset::kJointNodes, 4 * bridge.joints.size(), number),
+               Catch::Contains(dataset::kJointNodes));
     CHECK_THAT(refusal(dataset::kPointBlock, bridge.control_points.size(), number),
                Catch::Contains("does not exist"));
   }
@@ -223,7 +232,7 @@ TEST_CASE("A field that would swell to far more than a field when decompressed i
   {
     const Hdf5Handle fields(H5Dopen2(forged.file(), dataset::kField, H5P_DEFAULT), H5Dclose);
     const Bytes bomb = pack_field(Field::Zero(2, 1'000'000));
-    const std::array<hsize_t, 3> offset = {3, 0, 0};
+    const std::array<hsize_t, 4> offset = {0, 3, 0, 0};
     REQUIRE(H5Dwrite_chunk(fields.get(), H5P_DEFAULT, 0, offset.data(), bomb.size(), bomb.data()) >= 0);
   }
   CHECK_THAT(forged.refusal(), Catch::Contains("field"));

@@ -15,13 +15,10 @@ struct Fixture {
   std::filesystem::path target = folder / "small.h5";
   BridgeFile file = test::small_bridge_file();
   Model bridge = make_model(file.description);
-  std::vector<Scene> scenes = all_scenes(bridge.layout.size(), 1);
+  std::vector<RecordKey> keys = keys_of(1, all_scenes(bridge.layout.size(), 1));
   Provenance provenance = test::made_up_provenance(file);
 
-  Record record(std::size_t i) const {
-    return make_record(scenes[i], test::made_up_solution(bridge, scenes[i]), bridge.control_points,
-                       KeepField::yes, KeepField::yes);
-  }
+  Record record(std::size_t i) const { return test::made_up_record(bridge, keys[i], 2, KeepField::yes); }
   void append_first(std::size_t count) const {
     Journal journal = Journal::open(target, provenance, "key");
     for (std::size_t i = 0; i < count; ++i) journal.append(record(i));
@@ -35,8 +32,9 @@ TEST_CASE("Records appended to a journal are there after it is opened again") {
   f.append_first(20);
   const Journal journal = Journal::open(f.target, f.provenance, "key");
   REQUIRE(journal.size() == 20);
-  for (std::size_t i = 0; i < 20; ++i) CHECK(serialise(journal.read(f.scenes[i])) == serialise(f.record(i)));
-  CHECK_FALSE(journal.contains(f.scenes[20]));
+  for (std::size_t i = 0; i < 20; ++i) CHECK(serialise(journal.read(f.keys[i])) == serialise(f.record(i)));
+  CHECK_FALSE(journal.contains(f.keys[20]));
+  CHECK_FALSE(journal.contains({0, f.keys[0].scene}));  // of another variant
 }
 
 TEST_CASE("A journal cut off anywhere keeps every record before the cut and can be continued") {
@@ -52,7 +50,7 @@ TEST_CASE("A journal cut off anywhere keeps every record before the cut and can 
     REQUIRE(journal.size() < 10);
     while (journal.size() < 10) journal.append(f.record(journal.size()));
     REQUIRE(std::filesystem::file_size(path) == whole);
-    REQUIRE(serialise(journal.read(f.scenes[9])) == serialise(f.record(9)));
+    REQUIRE(serialise(journal.read(f.keys[9])) == serialise(f.record(9)));
   }
 }
 
@@ -72,7 +70,7 @@ TEST_CASE("A bit flipped in a journal costs the records from there on and mixes 
     const Journal journal = Journal::open(f.target, f.provenance, "key");
     REQUIRE(journal.size() < 5);
     for (std::size_t i = 0; i < journal.size(); ++i)
-      REQUIRE(serialise(journal.read(f.scenes[i])) == serialise(f.record(i)));
+      REQUIRE(serialise(journal.read(f.keys[i])) == serialise(f.record(i)));
     std::filesystem::remove(path);
   }
 }

@@ -4,6 +4,7 @@
 #include "core/error.h"
 #include "database/format/mapped_file.h"
 #include "database/records/database.h"
+#include "database/records/schema.h"
 #include "tests/support/made_up_database.h"
 #include "tests/support/temporary_folder.h"
 
@@ -14,6 +15,21 @@ bool same_bits(const Field& first, const Field& second) {
   return first.cols() == second.cols() &&
          std::memcmp(first.data(), second.data(), static_cast<std::size_t>(first.size()) * sizeof(double)) ==
              0;
+}
+
+bool same_bytes(ByteView first, ByteView second) {
+  return std::equal(first.begin(), first.end(), second.begin(), second.end());
+}
+
+void check_same(const RecordedState& stored, const RecordedState& expected) {
+  REQUIRE(stored.outcome == expected.outcome);
+  REQUIRE(stored.residual == expected.residual);
+  REQUIRE(stored.iterations == expected.iterations);
+  REQUIRE(stored.extent == expected.extent);
+  REQUIRE(stored.moving == expected.moving);
+  REQUIRE(same_bytes(view_bytes(stored.vertical), view_bytes(expected.vertical)));
+  REQUIRE(stored.packed_field == expected.packed_field);
+  REQUIRE(stored.field_crc == expected.field_crc);
 }
 
 struct SmallDatabase {
@@ -30,22 +46,102 @@ struct SmallDatabase {
 
 }  // namespace
 
-TEST_CASE("What is written for each scene is read back bit by bit") {
-  const SmallDatabase small;
-  const Database database = Database::open(small.path);
-  REQUIRE(database.table().rows == small.scenes.size());
+TEST_CASE("What is written of each record is read back bit by bit, for every variant and state") {
+  const test::TemporaryFolder folder;
+  const BridgeFile file = test::small_bridge_file();
+  const Model bridge = make_model(file.description);
+  const auto content = test::made_up_content(file, bridge, all_scenes(38, 1), KeepField::yes, 3, 2);
+  test::write_made_up_database(folder / "three.h5", file, all_scenes(38, 1), KeepField::yes, 3, 2);
+  const Database database = Database::open(folder / "three.h5");
+  REQUIRE(database.rows() == content.keys.size());
+  REQUIRE(database.states() == content.states);
   REQUIRE(database.has_fields());
-  for (std::size_t row = 0; row < small.scenes.size(); ++row) {
-    const Solution expected = test::made_up_solution(small.bridge, small.scenes[row]);
-    const Solution stored = database.solution(row);
-    REQUIRE(database.table().scene(row) == small.scenes[row]);
-    REQUIRE(stored.outcome == expected.outcome);
-    REQUIRE(stored.residual == expected.residual);
-    REQUIRE(stored.iterations == expected.iterations);
-    REQUIRE(same_bits(stored.displacement, expected.displacement));
-    REQUIRE(database.find(small.scenes[row]) == row);
-    REQUIRE(database.variant(row) == kOnlyVariant);
+  int moving = 0;
+  for (std::size_t row = 0; row < database.rows(); ++row) {
+    const RecordKey& key = content.keys[row];
+    const Record stored = database.record(row);
+    const Record expected = test::made_up_record(bridge, key, 2, KeepField::yes);
+    REQUIRE(database.key(row) == key);
+    REQUIRE(database.find(key.variant, key.scene) == row);
+    REQUIRE(stored.key == key);
+    REQUIRE(stored.checksum == expected.checksum);
+    REQUIRE(stored.states.size() == 2);
+    for (std::size_t state = 0; state < 2; ++state) {
+      check_same(stored.states[state], expected.states[state]);
+      const auto field = unpack_field(expected.states[state].packed_field, bridge.mesh.node_count());
+      REQUIRE(same_bits(database.field(row, state), *field));
+      moving += expected.states[state].moving.empty() ? 0 : 1;
+    }
   }
+  CHECK(moving > 0);
+  CHECK_FALSE(database.find(3, Scene{}).has_value());
+}
+
+TEST_CASE("The table of a variant in a state lies in the file in one piece and is that of its records") {
+  const test::TemporaryFolder folder;
+  const auto scenes = all_scenes(38, 1);
+  test::write_made_up_database(folder / "many.h5", test::small_bridge_file(), scenes, KeepField::no, 3, 2);
+  const Database database = Database::open(folder / "many.h5");
+  const ByteView whole = database.dataset_bytes(dataset::kVertical);
+  for (std::int32_t variant = 0; variant < 3; ++variant)
+    for (std::size_t state = 0; state < 2; ++state) {
+      const SceneTable table = database.table(variant, state);
+      REQUIRE(table.rows == scenes.size());
+      const std::size_t before =
+          (3 * state + static_cast<std::size_t>(variant)) * table.vertical.size_bytes();
+      CHECK(reinterpret_cast<const std::byte*>(table.vertical.data()) == whole.data() + before);
+      for (std::size_t row = 0; row < table.rows; ++row) {
+        const Record record = database.record(table.first_record + row);
+        REQUIRE(record.key == RecordKey{variant, table.scene(row)});
+        REQUIRE(same_bytes(view_bytes(record.states[state].vertical), std::as_bytes(table.row(row))));
+        REQUIRE(static_cast<std::uint8_t>(record.states[state].outcome) == table.outcome[row]);
+        REQUIRE(static_cast<std::uint8_t>(record.states[state].extent) == table.collapse[row]);
+      }
+    }
+  CHECK(database.table().vertical.data() == database.table(0, 0).vertical.data());
+  CHECK(database.table().rows == scenes.size());
+  CHECK_THROWS_WITH(database.table(3, 0), Catch::Contains("no variant 3 (0 to 2 exist)"));
+  CHECK_THROWS_WITH(database.table(-1, 0), Catch::Contains("no variant -1"));
+  CHECK_THROWS_WITH(database.table(0, 2), Catch::Contains("no state 2 (0 to 1 exist)"));
+}
+
+TEST_CASE("The variants' parameters and the joints that they belong to are read back as they were written") {
+  const test::TemporaryFolder folder;
+  const BridgeFile file = test::small_bridge_file();
+  const Model bridge = make_model(file.description);
+  test::write_made_up_database(folder / "four.h5", file, {Scene{}}, KeepField::no, 4);
+  const Database database = Database::open(folder / "four.h5");
+  REQUIRE(database.variant_count() == 4);
+  REQUIRE(database.variants().size() == 4);
+  for (std::size_t variant = 0; variant < 4; ++variant)
+    CHECK(database.variants()[variant] == test::made_up_parameters(bridge, variant));
+  REQUIRE(database.joints().size() == bridge.joints.size());
+  for (std::size_t i = 0; i < bridge.joints.size(); ++i) {
+    const Joint& stored = database.joints()[i];
+    const Joint& expected = bridge.joints[i];
+    CHECK(stored.first == expected.first);
+    CHECK(stored.second == expected.second);
+    CHECK(stored.first_edge.from == expected.first_edge.from);
+    CHECK(stored.first_edge.to == expected.first_edge.to);
+    CHECK(stored.second_edge.from == expected.second_edge.from);
+    CHECK(stored.second_edge.to == expected.second_edge.to);
+    CHECK(stored.first_at == expected.first_at);
+    CHECK(stored.second_at == expected.second_at);
+    CHECK(stored.length == expected.length);
+  }
+}
+
+TEST_CASE("A bridge of a single block, which has no joints, is written and read") {
+  const test::TemporaryFolder folder;
+  const BridgeFile file = parse_bridge_file(
+      "spans = []\n[wall]\ncourses = 1\nlength_m = 1.0\nbond = \"stack\"\n[control_points]\narch = false\n",
+      "one block");
+  REQUIRE(make_model(file.description).joints.empty());
+  test::write_made_up_database(folder / "one.h5", file, {Scene{}}, KeepField::yes, 2);
+  const Database database = Database::open(folder / "one.h5");
+  CHECK(database.joints().empty());
+  CHECK(database.variants().at(1).normal_stiffness.empty());
+  CHECK(database.variants().at(1).density.size() == 1);
 }
 
 TEST_CASE("The control table holds the vertical displacements of the stored fields at the control points") {

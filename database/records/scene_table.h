@@ -1,0 +1,28 @@
+#pragma once
+/// @file What searches look at: one row of numbers for each scene.
+
+#include <cstdint>
+#include <span>
+
+#include "core/structure/scene.h"
+
+namespace voussoir {
+
+/// The scenes of one variant in one state, few removed blocks first, then lexicographic: what a search over
+/// the whole database needs, as views into the database's memory. Views live as long as the Database they
+/// come from.
+struct SceneTable {
+  std::size_t rows = 0;                   ///< scenes
+  std::size_t points = 0;                 ///< control points
+  std::size_t most_missing = 0;           ///< columns of `removed`
+  std::span<const double> vertical;       ///< rows x points [m], up is positive, NaN where the block is gone
+  std::span<const std::int32_t> removed;  ///< rows x most_missing, block ids in ascending order, then -1
+  std::span<const std::uint8_t> outcome;  ///< values of Outcome
+  std::span<const std::uint8_t> collapse{};  ///< values of CollapseExtent
+  std::size_t first_record = 0;              ///< the database's row of row 0: 0 for the nominal variant
+
+  std::span<const double> row(std::size_t scene) const { return vertical.subspan(scene * points, points); }
+  Scene scene(std::size_t row) const;
+};
+
+}  // namespace voussoir

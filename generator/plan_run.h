@@ -1,0 +1,28 @@
+#pragma once
+/// @file Carrying out a plan: solving its tasks on several threads and keeping their records.
+
+#include "generator/build_plan.h"
+#include "generator/known_records.h"
+#include "generator/progress.h"
+#include "generator/scene_solving.h"
+
+namespace voussoir {
+
+/// The most scenes that one thread solves before it keeps their records: what a killed build can lose a
+/// thread.
+inline constexpr std::size_t kLargestBatch = 32;
+
+/// What a plan is carried out with.
+struct PlanRun {
+  std::span<const Model> bridges;  ///< the variants
+  const SolverChoice& solver;
+  PlanRules rules;
+  KeepField fields;
+  int threads = 0;  ///< 0: one for each core
+  Progress& progress;
+};
+
+/// Appends the records of all tasks to the journal of what is known.
+void run_plan(const BuildPlan& plan, const PlanRun& run, KnownRecords& known);
+
+}  // namespace voussoir

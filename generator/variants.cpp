@@ -1,0 +1,125 @@
+#include "generator/variants.h"
+
+#include <algorithm>
+#include <map>
+
+#include "core/error.h"
+
+namespace voussoir {
+namespace {
+
+void check_count(const std::vector<double>& values, std::size_t count, const char* what) {
+  if (values.size() != count)
+    throw InputError(fmt::format("a variant has {} values of {}, the bridge {}", values.size(), what, count));
+}
+
+/// The angle whose tangent is just this number: one of the neighbours of what atan gives.
+double friction_angle(double coefficient) {
+  const double angle = std::atan(coefficient);
+  for (const double near : {std::nextafter(angle, 0.0), std::nextafter(angle, 2.0)})
+    if (std::tan(angle) != coefficient && std::tan(near) == coefficient) return near;
+  return angle;
+}
+
+/// Where blocks meet that did not touch at rest: the median joint.
+JointMaterial typical_joint(std::vector<JointMaterial> joints, const JointMaterial& if_none) {
+  if (joints.empty()) return if_none;
+  const auto median = [&](double JointMaterial::*value) {
+    const auto middle = joints.begin() + static_cast<std::ptrdiff_t>(joints.size() / 2);
+    std::nth_element(joints.begin(), middle, joints.end(),
+                     [&](const JointMaterial& a, const JointMaterial& b) { return a.*value < b.*value; });
+    return (*middle).*value;
+  };
+  return {.normal_stiffness = median(&JointMaterial::normal_stiffness),
+          .tangential_stiffness = median(&JointMaterial::tangential_stiffness),
+          .friction_angle = median(&JointMaterial::friction_angle)};
+}
+
+using JointNodes = std::array<int, 4>;  // in ascending order
+
+JointNodes nodes_of(const Joint& joint, const std::vector<NodeId>* image) {
+  JointNodes nodes = {value(joint.first_edge.from), value(joint.first_edge.to), value(joint.second_edge.from),
+                      value(joint.second_edge.to)};
+  if (image)
+    for (int& node : nodes) node = value((*image)[static_cast<std::size_t>(node)]);
+  std::sort(nodes.begin(), nodes.end());
+  return nodes;
+}
+
+/// The image of each joint; the number of joints where there is none.
+std::vector<std::size_t> joint_images(const std::vector<Joint>& joints, const MirrorSymmetry& symmetry) {
+  std::map<JointNodes, std::size_t> places;
+  for (std::size_t i = 0; i < joints.size(); ++i) places[nodes_of(joints[i], nullptr)] = i;
+  std::vector<std::size_t> images;
+  for (const Joint& joint : joints) {
+    const auto image = places.find(nodes_of(joint, &symmetry.node_image));
+    images.push_back(image == places.end() ? joints.size() : image->second);
+  }
+  return images;
+}
+
+bool same_in_images(const std::vector<double>& values, const std::vector<std::size_t>& images) {
+  for (std::size_t i = 0; i < values.size(); ++i)
+    if (images[i] >= values.size() || values[i] != values[images[i]]) return false;
+  return true;
+}
+
+}  // namespace
+
+VariantParameters parameters_of(const Model& bridge) {
+  VariantParameters result;
+  for (const Material& block : bridge.parameters.blocks) {
+    result.young_modulus.push_back(block.young_modulus);
+    result.poisson_ratio.push_back(block.poisson_ratio);
+    result.density.push_back(block.density);
+  }
+  for (const JointMaterial& joint : bridge.parameters.joints) {
+    result.normal_stiffness.push_back(joint.normal_stiffness);
+    result.tangential_stiffness.push_back(joint.tangential_stiffness);
+    result.friction_coefficient.push_back(joint.friction_coefficient());
+  }
+  return result;
+}
+
+Model variant_of(const Model& bridge, const VariantParameters& parameters) {
+  const std::size_t blocks = bridge.layout.size();
+  const std::size_t joints = bridge.joints.size();
+  check_count(parameters.young_modulus, blocks, "Young's modulus");
+  check_count(parameters.poisson_ratio, blocks, "Poisson's ratio");
+  check_count(parameters.density, blocks, "density");
+  check_count(parameters.normal_stiffness, joints, "normal stiffness");
+  check_count(parameters.tangential_stiffness, joints, "tangential stiffness");
+  check_count(parameters.friction_coefficient, joints, "friction");
+  Model variant = bridge;
+  for (std::size_t b = 0; b < blocks; ++b) {
+    Material& block = variant.parameters.blocks[b];
+    block.young_modulus = parameters.young_modulus[b];
+    block.poisson_ratio = parameters.poisson_ratio[b];
+    block.density = parameters.density[b];
+  }
+  for (std::size_t j = 0; j < joints; ++j) {
+    JointMaterial& joint = variant.parameters.joints[j];
+    joint.normal_stiffness = parameters.normal_stiffness[j];
+    joint.tangential_stiffness = parameters.tangential_stiffness[j];
+    if (parameters.friction_coefficient[j] != joint.friction_coefficient())
+      joint.friction_angle = friction_angle(parameters.friction_coefficient[j]);
+  }
+  variant.parameters.contact = typical_joint(variant.parameters.joints, bridge.parameters.contact);
+  if (variant.symmetry && !are_symmetric(parameters, bridge.joints, *variant.symmetry))
+    variant.symmetry.reset();
+  return variant;
+}
+
+bool are_symmetric(const VariantParameters& parameters, const std::vector<Joint>& joints,
+                   const MirrorSymmetry& symmetry) {
+  std::vector<std::size_t> blocks;
+  for (const BlockId image : symmetry.block_image) blocks.push_back(static_cast<std::size_t>(value(image)));
+  const std::vector<std::size_t> images = joint_images(joints, symmetry);
+  return same_in_images(parameters.young_modulus, blocks) &&
+         same_in_images(parameters.poisson_ratio, blocks) && same_in_images(parameters.density, blocks) &&
+         same_in_images(parameters.normal_stiffness, images) &&
+         same_in_images(parameters.tangential_stiffness, images) &&
+         same_in_images(parameters.friction_coefficient, images);
+}
+
+}  // namespace voussoir

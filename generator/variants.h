@@ -1,0 +1,20 @@
+#pragma once
+/// @file Variants of a bridge: the same structure with other parameters.
+
+#include "core/structure/model.h"
+#include "database/records/variant_parameters.h"
+
+namespace voussoir {
+
+/// The parameters that a bridge has, of every block and every joint.
+VariantParameters parameters_of(const Model& bridge);
+
+/// The bridge with other parameters. It keeps its mirror symmetry if the parameters have it, too. Throws
+/// InputError if the numbers of blocks or joints are others.
+Model variant_of(const Model& bridge, const VariantParameters& parameters);
+
+/// True if images of blocks and of joints have the same parameters.
+bool are_symmetric(const VariantParameters& parameters, const std::vector<Joint>& joints,
+                   const MirrorSymmetry& symmetry);
+
+}  // namespace voussoir

@@ -1,0 +1,111 @@
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "core/error.h"
+#include "core/structure/mirror_symmetry.h"
+#include "generator/variants.h"
+#include "tests/support/bridges.h"
+
+namespace voussoir {
+namespace {
+
+void scale(std::vector<double>& values, double factor) {
+  for (double& value : values) value *= factor;
+}
+
+/// The joint whose two blocks are the images of this one's.
+std::size_t image_of(std::size_t joint, const Model& bridge) {
+  const auto blocks_of = [](const Joint& at) { return std::minmax(at.first, at.second); };
+  const auto image = [&](BlockId block) {
+    return bridge.symmetry->block_image[static_cast<std::size_t>(value(block))];
+  };
+  const BlockId first = image(bridge.joints[joint].first), second = image(bridge.joints[joint].second);
+  for (std::size_t i = 0; i < bridge.joints.size(); ++i)
+    if (blocks_of(bridge.joints[i]) == std::minmax(first, second)) return i;
+  return bridge.joints.size();
+}
+
+/// A joint between two blocks that meet in this one only and are not their own image.
+std::size_t lone_joint(const Model& bridge) {
+  for (std::size_t i = 0; i < bridge.joints.size(); ++i) {
+    const auto same = [&](const Joint& joint) {
+      return std::minmax(joint.first, joint.second) ==
+             std::minmax(bridge.joints[i].first, bridge.joints[i].second);
+    };
+    if (std::ranges::count_if(bridge.joints, same) == 1 && image_of(i, bridge) != i) return i;
+  }
+  return bridge.joints.size();
+}
+
+}  // namespace
+
+TEST_CASE("A variant with the parameters of its bridge is that bridge, to the last bit") {
+  const Model bridge = test::small_bridge();
+  const Model same = variant_of(bridge, parameters_of(bridge));
+  CHECK(same.parameters.joints[0].friction_angle == bridge.parameters.joints[0].friction_angle);
+  CHECK(same.parameters.contact.normal_stiffness == bridge.parameters.contact.normal_stiffness);
+  CHECK(parameters_of(same) == parameters_of(bridge));
+  CHECK(same.symmetry.has_value());
+}
+
+TEST_CASE("A variant has the parameters that it is given") {
+  const Model bridge = test::small_bridge();
+  VariantParameters parameters = parameters_of(bridge);
+  scale(parameters.young_modulus, 1.1);
+  scale(parameters.poisson_ratio, 0.9);
+  scale(parameters.density, 1.05);
+  scale(parameters.normal_stiffness, 1.2);
+  scale(parameters.tangential_stiffness, 0.7);
+  const Model variant = variant_of(bridge, parameters);
+  CHECK(parameters_of(variant) == parameters);
+  CHECK(variant.parameters.joints[3].normal_stiffness == 1.2 * bridge.parameters.joints[3].normal_stiffness);
+  CHECK(variant.parameters.contact.normal_stiffness == 1.2 * bridge.parameters.contact.normal_stiffness);
+  CHECK(variant.parameters.blocks[5].density == 1.05 * bridge.parameters.blocks[5].density);
+  CHECK(variant.mesh.nodes == bridge.mesh.nodes);
+}
+
+TEST_CASE("The friction of a thousand angles comes back to the last bit") {
+  Model bridge = test::small_bridge();
+  for (int i = 1; i < 1000; ++i) {
+    Model other = bridge;
+    for (JointMaterial& joint : other.parameters.joints) joint.friction_angle = 1.5e-3 * i;
+    const VariantParameters parameters = parameters_of(other);
+    REQUIRE(parameters_of(variant_of(bridge, parameters)) == parameters);
+  }
+}
+
+TEST_CASE("Parameters of another bridge are refused; every joint can have its own") {
+  const Model bridge = test::small_bridge();
+  VariantParameters parameters = parameters_of(bridge);
+  parameters.density.pop_back();
+  CHECK_THROWS_WITH(variant_of(bridge, parameters), Catch::Contains("values of density"));
+  parameters = parameters_of(bridge);
+  parameters.normal_stiffness.back() *= 2.0;
+  const Model variant = variant_of(bridge, parameters);
+  CHECK(parameters_of(variant) == parameters);
+  CHECK_FALSE(variant.symmetry.has_value());
+}
+
+TEST_CASE("Parameters are symmetric if and only if those of images are the same") {
+  const Model bridge = test::small_bridge();
+  REQUIRE(bridge.symmetry.has_value());
+  const VariantParameters plain = parameters_of(bridge);
+  const auto symmetric = [&](const VariantParameters& parameters) {
+    return are_symmetric(parameters, bridge.joints, *bridge.symmetry);
+  };
+  CHECK(symmetric(plain));
+  const std::size_t joint = lone_joint(bridge);
+  REQUIRE(joint < bridge.joints.size());
+  VariantParameters changed = plain;
+  changed.tangential_stiffness[joint] *= 2.0;
+  CHECK_FALSE(symmetric(changed));
+  changed.tangential_stiffness[image_of(joint, bridge)] *= 2.0;
+  CHECK(symmetric(changed));
+  changed.density[1] *= 1.1;
+  REQUIRE(bridge.symmetry->block_image[1] != BlockId{1});
+  CHECK_FALSE(symmetric(changed));
+  changed.density[static_cast<std::size_t>(value(bridge.symmetry->block_image[1]))] *= 1.1;
+  CHECK(symmetric(changed));
+}
+
+}  // namespace voussoir
