@@ -12,8 +12,6 @@
 namespace voussoir {
 namespace {
 
-using validation::relative_difference;
-
 const Bridge& reference() {
   static const Bridge bridge = make_bridge(reference_bridge_file().description);
   return bridge;
@@ -29,8 +27,20 @@ Eigen::VectorXd readings(const Bridge& bridge, const Field& field) {
   return vertical_displacements(field, bridge.control_points);
 }
 
+/// The places without a value, those of removed blocks, have to be the same in both.
+template <class Values>
+bool same_places(const Values& a, const Values& b) {
+  return (a.array().isNaN() == b.array().isNaN()).all();
+}
+
 double largest_difference(const Field& a, const Field& b) {
+  REQUIRE(same_places(a, b));
   return (a - b).array().isNaN().select(0.0, a - b).cwiseAbs().maxCoeff();
+}
+
+double relative_difference(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
+  REQUIRE(same_places(a, b));
+  return validation::relative_difference(a, b);
 }
 
 double largest(const Field& a) {
@@ -136,16 +146,32 @@ TEST_CASE("Where gravity acts at once, the half blocks slide down and the arch f
   }
 }
 
-TEST_CASE("The field of a collapse is the mirror image of its mirrored scene's within 1 % (symmetry)") {
+TEST_CASE("Collapses of mirrored scenes have mirrored fields to round-off at the stated moment (symmetry)") {
+  // Round-off of 1e-16 grows on the way through a thousand steps. Of 1,983 mirrored pairs of collapses of the
+  // reference bridge half agree to 2e-12 of their largest displacement, 99 of 100 to 4e-10; the worst, the
+  // last one here, to 1.4e-8.
   const Bridge& bridge = reference();
   REQUIRE(bridge.symmetry);
-  const std::vector<Scene> scenes = {parse_scene("0,5", bridge.layout), parse_scene("0,15", bridge.layout)};
+  const std::vector<std::pair<const char*, double>> cases = {
+      {"0,5", 1e-9}, {"0,11", 1e-9}, {"0,4+10,12", 1e-9}, {"10,17+10,18", 1e-9}, {"0,3+2,6", 1e-7}};
+  std::vector<Scene> scenes;
+  for (const auto& [name, tolerance] : cases) {
+    scenes.push_back(parse_scene(name, bridge.layout));
+    scenes.push_back(mirrored(scenes.back(), *bridge.symmetry));
+    REQUIRE(scenes.back() != scenes[scenes.size() - 2]);
+  }
   const std::vector<DynamicSolution> solutions = DynamicSolver(bridge).solve(scenes);
-  REQUIRE(solutions[0].solution.outcome == Outcome::collapsed);
-  CHECK(solutions[0].time == solutions[1].time);
-  const Field image = mirrored(solutions[0].solution.displacement, *bridge.symmetry);
-  CHECK(relative_difference(readings(bridge, solutions[1].solution.displacement), readings(bridge, image)) <
-        0.01);
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    INFO(cases[i].first);
+    const DynamicSolution& solution = solutions[2 * i];
+    const DynamicSolution& other = solutions[2 * i + 1];
+    REQUIRE(solution.solution.outcome == Outcome::collapsed);
+    REQUIRE(other.solution.outcome == Outcome::collapsed);
+    CHECK(solution.time == other.time);
+    const Field image = mirrored(solution.solution.displacement, *bridge.symmetry);
+    CHECK(largest(image) > 1e-3);
+    CHECK(largest_difference(other.solution.displacement, image) < cases[i].second * largest(image));
+  }
 }
 
 TEST_CASE("One scene at a time and four side by side give the same bits, in any order (the scalar solver)") {
