@@ -98,10 +98,12 @@ TEST_CASE("Which of a scene and its image is solved does not depend on which one
 TEST_CASE("Known scenes are not solved again") {
   const auto scenes = all_scenes(small_bridge().layout.size(), 2);
   const auto is_known = [](const Scene& scene) { return scene.missing() < 2 || value(scene.removed[0]) > 0; };
+  std::multiset<Scene> unknown(scenes.begin(), scenes.end());
+  std::erase_if(unknown, is_known);
+  REQUIRE(unknown.size() == 37);  // pairs with block 0
   for (const bool mirror : {false, true})
-    for (const Scene& scene :
-         recorded(plan_build(scenes, small_bridge(), PlanRules{.mirror_images = mirror}, is_known)))
-      CHECK_FALSE(is_known(scene));
+    CHECK(recorded(plan_build(scenes, small_bridge(), PlanRules{.mirror_images = mirror}, is_known)) ==
+          unknown);
 }
 
 }  // namespace voussoir

@@ -1,6 +1,7 @@
 #include "core/structure/bridge_file.h"
 
 #include <catch2/catch.hpp>
+#include <numbers>
 
 #include "core/error.h"
 #include "tests/support/bridges.h"
@@ -8,21 +9,97 @@
 using namespace voussoir;
 using Catch::Matchers::Contains;
 
-TEST_CASE("The reference bridge file says what the defaults say", "[bridge-file]") {
-  const BridgeDescription file = reference_bridge_file().description;
-  const BridgeDescription defaults;
-  CHECK(file.name == defaults.name);
-  CHECK(file.wall.length == defaults.wall.length);
-  CHECK(file.wall.courses == defaults.wall.courses);
-  CHECK(file.spans.at(0).centre_y == defaults.spans.at(0).centre_y);
-  CHECK(file.joints.friction_angle == defaults.joints.friction_angle);
-  CHECK(file.material.young_modulus == defaults.material.young_modulus);
-  CHECK(file.mesh.split_at_corners == defaults.mesh.split_at_corners);
-  CHECK(lay_blocks(file).size() == lay_blocks(defaults).size());
+namespace {
+
+/// All numbers of a description, in the order in which the header names them.
+std::vector<double> numbers_of(const BridgeDescription& d) {
+  std::vector<double> numbers = {d.wall.length,
+                                 double(d.wall.courses),
+                                 d.wall.course_height,
+                                 d.wall.block_length,
+                                 double(d.wall.bond),
+                                 d.wall.smallest_piece,
+                                 d.material.young_modulus,
+                                 d.material.poisson_ratio,
+                                 d.material.density,
+                                 d.material.thickness,
+                                 double(d.material.plane),
+                                 d.joints.normal_stiffness,
+                                 d.joints.tangential_stiffness,
+                                 d.joints.friction_angle,
+                                 double(d.supports.base),
+                                 double(d.supports.sides),
+                                 double(d.control_points.top),
+                                 double(d.control_points.arch),
+                                 double(d.mesh.refinement),
+                                 double(d.mesh.split_at_corners),
+                                 d.gravity,
+                                 d.joint_tolerance};
+  for (const SpanDescription& span : d.spans)
+    numbers.insert(numbers.end(), {span.centre_x, span.centre_y, span.intrados_radius, span.ring_thickness,
+                                   double(span.voussoirs)});
+  return numbers;
 }
 
-TEST_CASE("An empty bridge file is the reference bridge", "[bridge-file]") {
-  CHECK(lay_blocks(parse_bridge_file("", "empty.toml").description).size() == 212);
+}  // namespace
+
+TEST_CASE("The reference bridge file says what the defaults say, and so does an empty file",
+          "[bridge-file]") {
+  const std::vector<double> defaults = numbers_of({});
+  for (const BridgeDescription& file :
+       {reference_bridge_file().description, parse_bridge_file("", "empty.toml").description}) {
+    CHECK(file.name == BridgeDescription{}.name);
+    CHECK(numbers_of(file) == defaults);
+  }
+}
+
+TEST_CASE("Every key of a bridge file sets its own value, in the unit of its name (written out)",
+          "[bridge-file]") {
+  struct Key {
+    const char* text;
+    std::size_t place;  ///< in numbers_of
+    double expected;
+  };
+  const std::vector<Key> keys = {{"[wall]\nlength_m = 30.0", 0, 30.0},
+                                 {"[wall]\ncourses = 14", 1, 14.0},
+                                 {"[wall]\ncourse_height_m = 0.6", 2, 0.6},
+                                 {"[wall]\nblock_length_m = 0.8", 3, 0.8},
+                                 {"[wall]\nbond = \"stack\"", 4, double(Bond::stack)},
+                                 {"[wall]\nsmallest_piece_m2 = 1e-4", 5, 1e-4},
+                                 {"[material]\nyoung_modulus_Pa = 1e10", 6, 1e10},
+                                 {"[material]\npoisson_ratio = 0.3", 7, 0.3},
+                                 {"[material]\ndensity_kg_m3 = 2000", 8, 2000.0},
+                                 {"[material]\nthickness_m = 2.5", 9, 2.5},
+                                 {"[material]\nplane = \"strain\"", 10, double(PlaneState::strain)},
+                                 {"[joints]\nnormal_stiffness_Pa_per_m = 2e9", 11, 2e9},
+                                 {"[joints]\ntangential_stiffness_Pa_per_m = 2e8", 12, 2e8},
+                                 {"[joints]\nfriction_angle_deg = 30", 13, std::numbers::pi / 6.0},
+                                 {"[supports]\nbase = \"roller\"", 14, double(Support::roller)},
+                                 {"[supports]\nsides = \"free\"", 15, double(Support::free)},
+                                 {"[control_points]\ntop = false", 16, 0.0},
+                                 {"[control_points]\narch = false", 17, 0.0},
+                                 {"[mesh]\nrefinement = 2", 18, 2.0},
+                                 {"[mesh]\nsplit_at_corners = false", 19, 0.0},
+                                 {"gravity_m_s2 = 1.62", 20, 1.62},
+                                 {"[joints]\ntolerance_m = 1e-4", 21, 1e-4},
+                                 {"[[spans]]\ncentre_x_m = 9.0", 22, 9.0},
+                                 {"[[spans]]\ncentre_y_m = 1.5", 23, 1.5},
+                                 {"[[spans]]\nintrados_radius_m = 3.0", 24, 3.0},
+                                 {"[[spans]]\nring_thickness_m = 0.4", 25, 0.4},
+                                 {"[[spans]]\nvoussoirs = 21", 26, 21.0}};
+  std::vector<double> defaults = numbers_of({});
+  REQUIRE(keys.size() == defaults.size());
+  for (const Key& key : keys) {
+    const std::vector<double> found = numbers_of(parse_bridge_file(key.text, "one-key.toml").description);
+    std::vector<double> expected = defaults;
+    REQUIRE(expected[key.place] != key.expected);
+    expected[key.place] = key.expected;
+    INFO(key.text);
+    REQUIRE(found.size() == expected.size());
+    for (std::size_t i = 0; i < expected.size(); ++i)
+      CHECK(found[i] == Approx(expected[i]).epsilon(1e-15).margin(0.0));
+  }
+  CHECK(parse_bridge_file("name = \"mine\"", "name.toml").description.name == "mine");
 }
 
 TEST_CASE("Every example bridge makes a symmetric bridge with control points", "[bridge-file]") {
