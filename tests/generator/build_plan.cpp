@@ -128,10 +128,11 @@ TEST_CASE("Known scenes are not solved again") {
   const auto is_known = [](const RecordKey& key) {
     return key.scene.missing() < 2 || value(key.scene.removed[0]) > 0;
   };
+  std::multiset<Scene> unknown(scenes.begin(), scenes.end());
+  std::erase_if(unknown, [&](const Scene& scene) { return is_known({kNominalVariant, scene}); });
+  REQUIRE(unknown.size() == 37);  // pairs with block 0
   for (const bool mirror : {false, true})
-    for (const Scene& scene :
-         recorded(plan_of(scenes, small_bridge(), PlanRules{.mirror_images = mirror}, is_known)))
-      CHECK_FALSE(is_known({kNominalVariant, scene}));
+    CHECK(recorded(plan_of(scenes, small_bridge(), PlanRules{.mirror_images = mirror}, is_known)) == unknown);
 }
 
 }  // namespace voussoir

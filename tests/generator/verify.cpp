@@ -52,6 +52,10 @@ struct Stretch {
   std::size_t size;
 };
 
+std::string named(const char* path) {
+  return fmt::format("dataset '{}'", path);
+}
+
 std::size_t place_of(const std::string& bytes, ByteView part) {
   const auto* begin = reinterpret_cast<const char*>(part.data());
   return static_cast<std::size_t>(std::search(bytes.begin(), bytes.end(), begin, begin + part.size()) -
@@ -66,7 +70,8 @@ std::size_t place_of(const std::string& bytes, const Database& database, const c
          static_cast<std::size_t>(database.dataset_bytes(path).data() - anchor.data());
 }
 
-/// Rows of the scenes' datasets and stored chunks, one stretch a scene each.
+/// Rows of the scenes' datasets and stored chunks, one stretch a scene each. A report names the scene, or the
+/// dataset if it cannot be read at all. A scene whose removed blocks are changed has another name.
 std::vector<Stretch> scene_stretches(const Database& database, const std::string& bytes) {
   std::vector<Stretch> stretches;
   const auto scene = [&](std::size_t row) {
@@ -157,7 +162,7 @@ TEST_CASE("1,000 single bits flipped in scene data are all found, and the scene 
   flip_bits_and_verify(1000);
 }
 
-TEST_CASE("A flipped bit in the geometry is found and its dataset named") {
+TEST_CASE("A flipped bit in the geometry is found and its dataset named, in the bridge's text the digest") {
   const FewScenes few;
   for (const char* path :
        {dataset::kCorners, dataset::kNodes, dataset::kPointPosition, dataset::kBridgeText,

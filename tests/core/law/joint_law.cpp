@@ -78,8 +78,9 @@ TEST_CASE("The joint tangent is the derivative of the joint force", "[joint]") {
                            integrate_joint(joint_stiffness(material, 0.7), {}, state - dx).force) /
                           (2 * h);
     }
+    // Differences over 1e-9 of gaps of 1e-4 are off by 1e-5 of the part of the joint where the state changes.
     CHECK((difference - integrate_joint(joint_stiffness(material, 0.7), {}, state).tangent).norm() <
-          1e-4 * 0.7e9);
+          1e-6 * 0.7e9);
     ++checked;
   }
   CHECK(checked == 200);
