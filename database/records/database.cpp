@@ -247,11 +247,6 @@ const SearchIndex& Database::search_index() const {
   return *implementation_->search_index;
 }
 
-ByteView Database::nearest_trees() const {
-  return std::as_bytes(
-      implementation_->file.numbers<std::uint8_t>(dataset::kTrees, ElementType::uint8, kFlat));
-}
-
 const BlockLayout& Database::layout() const {
   const std::scoped_lock lock(implementation_->mutex);
   if (!implementation_->layout) implementation_->layout = read_layout(implementation_->file);

@@ -60,7 +60,6 @@ class Database {
   const std::vector<StoredPoint>& control_points() const;
 
   const SearchIndex& search_index() const;  ///< of the table's rows; read on first use
-  ByteView nearest_trees() const;           ///< for NearestTrees, over the table's rows
 
   const BlockLayout& layout() const;  ///< read on first use
   const Mesh& mesh() const;           ///< read on first use
