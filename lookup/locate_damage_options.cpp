@@ -17,7 +17,7 @@ void add_search_options(CLI::App& app, LocateDamageOptions& options) {
   add_choice<Search>(
       app, "--search", settings.search,
       {{"exhaustive", Search::exhaustive}, {"genetic", Search::genetic}, {"nearest", Search::nearest}},
-      "exhaustive (default), genetic or nearest");
+      "exhaustive (default), genetic or nearest (FLANN's linear search)");
   add_choice<Objective>(
       app, "--objective", settings.objective,
       {{"posterior", Objective::posterior}, {"paper", Objective::paper}},
@@ -33,7 +33,6 @@ void add_search_options(CLI::App& app, LocateDamageOptions& options) {
   app.add_option("--top", settings.top, "how many candidates to list, default 10")
       ->check(CLI::Range(std::size_t{1}, kMostCandidates))
       ->option_text("N");
-  app.add_flag("--approximate", options.approximate, "nearest search by k-d trees, which may miss a scene");
 }
 
 void add_noise_options(CLI::App& app, LocateDamageOptions& options) {
@@ -135,7 +134,6 @@ LookupSettings finish(const LocateDamageOptions& options) {
   settings.nuisance = {parse_noise_level(options.unknown_scale),
                        kMetresPerMillimetre * options.unknown_datum_mm,
                        kMetresPerMillimetre * options.unknown_tilt_mm_per_m};
-  if (options.approximate) settings.nearest.mode = NearestMode::approximate;
   return settings;
 }
 

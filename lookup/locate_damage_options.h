@@ -26,7 +26,6 @@ struct LocateDamageOptions {
   std::string unknown_scale = "0";
   double unknown_datum_mm = 0.0;
   double unknown_tilt_mm_per_m = 0.0;
-  bool approximate = false;
 };
 
 /// Adds the options to the program.

@@ -8,6 +8,7 @@
 #include "lookup/evidence/row_statistics.h"
 #include "lookup/search/indexed_search.h"
 #include "lookup/search/misfit.h"
+#include "lookup/search/nearest_search.h"
 
 namespace voussoir {
 namespace {
@@ -64,8 +65,8 @@ std::vector<ScoredRow> scored_by_misfit(const Library& library, const Measuremen
     case Search::genetic:
       return run_genetic(library, measurements, settings, answer);
     case Search::nearest:
-      return nearest_search(measurements.displacement, library.table, eligible.rows, library.nearest_trees,
-                            settings.nearest, settings.top);
+      return LinearIndex(library.table, eligible.rows, measurements.displacement)
+          .search(measurements.displacement, settings.top);
     default:
       return IndexedSearch(library.table, library.index, library.points, eligible)
           .search(measurements.displacement, settings.top)
@@ -146,8 +147,7 @@ void judge_best(const Library& library, const Measurements& measurements, std::s
 }  // namespace
 
 Library library_of(const Database& database) {
-  return {database.table(), database.control_points(), database.layout(), database.search_index(),
-          database.nearest_trees()};
+  return {database.table(), database.control_points(), database.layout(), database.search_index()};
 }
 
 Answer locate_damage(const Library& library, const Measurements& measurements,

@@ -13,7 +13,6 @@
 #include "lookup/readings/measurements.h"
 #include "lookup/readings/noise_model.h"
 #include "lookup/search/genetic_search.h"
-#include "lookup/search/nearest_search.h"
 
 namespace voussoir {
 
@@ -31,7 +30,6 @@ struct LookupSettings {
   Nuisance nuisance;
   std::size_t top = 10;  ///< candidates wanted
   GeneticSettings genetic;
-  NearestSettings nearest;
 };
 
 /// What a lookup needs of a database; references into it.
@@ -40,7 +38,6 @@ struct Library {
   const std::vector<StoredPoint>& points;
   const BlockLayout& layout;
   SearchIndex index;
-  ByteView nearest_trees;  ///< see NearestTrees
 };
 Library library_of(const Database& database);
 

@@ -4,11 +4,11 @@
 #include <chrono>
 #include <cmath>
 
-#include "database/search/nearest_trees.h"
 #include "lookup/evidence/posterior_screen.h"
 #include "lookup/readings/simulate.h"
 #include "lookup/search/exhaustive_search.h"
 #include "lookup/search/indexed_search.h"
+#include "lookup/search/nearest_search.h"
 
 namespace voussoir {
 namespace {
@@ -81,14 +81,6 @@ void time_searches(const Library& library, const std::vector<Query>& queries, co
   };
   timings.searches.push_back(timed("FLANN linear, L1", queries.size(), cover, [&](std::size_t i) {
     if (linear->search(queries[i].measured.displacement, kTop) != scan[i]) ++timings.disagreements;
-  }));
-  const NearestTrees trees(library.nearest_trees, table.vertical, table.points, eligible.rows);
-  timings.searches.push_back(timed("FLANN trees, approximate", queries.size(), [&](std::size_t i) {
-    const auto found = trees.nearest(queries[i].measured.displacement, kTop, NearestSettings{}.checks);
-    for (const ScoredRow& row : scan[i])
-      timings.found_by_trees +=
-          std::any_of(found.begin(), found.end(), [&](const Neighbour& one) { return one.row == row.row; });
-    timings.wanted_of_trees += scan[i].size();
   }));
 }
 

@@ -15,8 +15,7 @@ struct LookupTimings {
   std::vector<Timing> genetic;
   std::size_t disagreements =
       0;  ///< queries in which a fast search's rows, order or values differ from the scan's
-  std::size_t found_by_trees = 0, wanted_of_trees = 0;  ///< rows of the ten best, in all queries
-  double largest_difference = 0.0;                      ///< of a screened probability from the exact one
+  double largest_difference = 0.0;  ///< of a screened probability from the exact one
 };
 
 /// The same queries for every method: random scenes (0, 1 or 2 missing blocks equally often) with uniform

@@ -44,8 +44,8 @@ VOUSSOIR_AVX2 inline ShortLanes paired_products(UnsignedByteLanes a, ByteLanes b
 }
 /// The same for half as many, with zeros behind them.
 VOUSSOIR_AVX2 inline ShortLanes paired_products(UnsignedHalfByteLanes a, HalfByteLanes b) {
-  return reinterpret_cast<ShortLanes>(_mm256_zextsi128_si256(
-      _mm_maddubs_epi16(reinterpret_cast<__m128i>(a), reinterpret_cast<__m128i>(b))));
+  return reinterpret_cast<ShortLanes>(
+      _mm256_zextsi128_si256(_mm_maddubs_epi16(reinterpret_cast<__m128i>(a), reinterpret_cast<__m128i>(b))));
 }
 
 /// Two neighbours added: those of a, then those of b, in each half of the register.

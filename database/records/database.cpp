@@ -146,11 +146,6 @@ const SearchIndex& Database::search_index() const {
       [&] { return read_search_index(implementation_->file, table().rows, table().points); });
 }
 
-ByteView Database::nearest_trees() const {
-  return std::as_bytes(
-      implementation_->file.numbers<std::uint8_t>(dataset::kTrees, ElementType::uint8, kFlat));
-}
-
 const BlockLayout& Database::layout() const {
   return implementation_->layout.get([&] { return read_layout(implementation_->file); });
 }

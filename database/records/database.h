@@ -51,7 +51,6 @@ class Database {
   /// Throws InputError for a variant or state that does not exist.
   SceneTable table(std::int32_t variant, std::size_t state) const;
   const SearchIndex& search_index() const;  ///< of table(); read on first use
-  ByteView nearest_trees() const;           ///< for NearestTrees, over the rows of table()
 
   const BlockLayout& layout() const;         ///< read on first use
   const Mesh& mesh() const;                  ///< read on first use

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "database/search/index_building.h"
-#include "database/search/nearest_trees.h"
 
 namespace voussoir {
 namespace {
@@ -78,8 +77,6 @@ std::vector<DatasetValue> search_datasets(std::span<const double> rows, std::siz
           "lost less step times the sum of the sketch"),
       dataset_of(dataset::kIndexSketch, ElementType::int8, index.sketch, places, "1",
                  "of each slot: the steps from the centre"),
-      dataset_of(dataset::kTrees, ElementType::uint8, build_nearest_trees(rows, points), kFlat, "1",
-                 "FLANN's k-means trees over the control displacements, behind their CRC-32"),
   };
 }
 

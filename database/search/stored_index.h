@@ -1,5 +1,5 @@
 #pragma once
-/// @file The search index and the nearest-neighbour trees as datasets of search/.
+/// @file The search index as datasets of search/.
 
 #include "database/format/hdf5_file.h"
 #include "database/search/search_index.h"
@@ -17,7 +17,6 @@ inline constexpr char kIndexMost[] = "search/most";
 inline constexpr char kIndexRow[] = "search/row";
 inline constexpr char kIndexBounds[] = "search/bounds";
 inline constexpr char kIndexSketch[] = "search/sketch";
-inline constexpr char kTrees[] = "search/trees";
 }  // namespace dataset
 
 /// What is stored for rows of `points` displacements [m] (not empty): the same rows always give the same

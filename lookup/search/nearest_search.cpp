@@ -4,14 +4,12 @@
 #include <cmath>
 #include <flann/flann.hpp>
 
-#include "database/search/nearest_trees.h"
 #include "lookup/search/misfit.h"
 
 namespace voussoir {
 namespace {
 
 constexpr double kRounding = 1e-12;  // relative: FLANN adds differences in another order than misfit() does
-constexpr std::size_t kOversampling = 5;  // neighbours fetched for each one wanted: trees order them roughly
 
 using Index = flann::Index<flann::L1<double>>;
 
@@ -86,18 +84,6 @@ std::vector<ScoredRow> LinearIndex::search(std::span<const double> readings, std
   std::vector<ScoredRow> scored;
   for (const std::size_t row : implementation_->candidates(readings, count))
     scored.push_back({row, sum_of_differences(readings, implementation_->table.row(row))});
-  return best_rows(std::move(scored), count);
-}
-
-std::vector<ScoredRow> nearest_search(std::span<const double> readings, const SceneTable& table,
-                                      std::span<const std::size_t> rows, ByteView trees,
-                                      const NearestSettings& settings, std::size_t count) {
-  if (settings.mode == NearestMode::exact) return LinearIndex(table, rows, readings).search(readings, count);
-  const std::size_t wanted = std::min(rows.size(), kOversampling * count);
-  std::vector<ScoredRow> scored;
-  for (const Neighbour& neighbour :
-       NearestTrees(trees, table.vertical, table.points, rows).nearest(readings, wanted, settings.checks))
-    scored.push_back({neighbour.row, sum_of_differences(readings, table.row(neighbour.row))});
   return best_rows(std::move(scored), count);
 }
 

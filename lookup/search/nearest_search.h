@@ -1,6 +1,7 @@
 #pragma once
 /// @file Nearest neighbours of the readings among the scenes, by FLANN; candidates are rescored with the one
-/// misfit.
+/// misfit. FLANN's index is made of the database's displacements when it is needed and never read from a
+/// file: FLANN does not check the bytes of its own files.
 
 #include <memory>
 #include <span>
@@ -11,23 +12,8 @@
 
 namespace voussoir {
 
-enum class NearestMode {
-  exact,       ///< linear search: the same answer as the exhaustive search
-  approximate  ///< the database's trees: may miss a scene
-};
-
-struct NearestSettings {
-  NearestMode mode = NearestMode::exact;
-  int checks = 4096;  ///< of approximate mode: rows looked at
-};
-
-/// The `count` rows (of those given, in ascending order) with the smallest misfit among the neighbours that
-/// FLANN finds, best first. Throws InputError if the trees (see NearestTrees) are damaged.
-std::vector<ScoredRow> nearest_search(std::span<const double> readings, const SceneTable& table,
-                                      std::span<const std::size_t> rows, ByteView trees,
-                                      const NearestSettings& settings, std::size_t count);
-
-/// FLANN's linear search over the displacements of some rows at the points that have readings.
+/// FLANN's linear search, with the exhaustive search's answer, over the displacements of some rows at the
+/// points that have readings.
 class LinearIndex {
  public:
   /// Rows that lack a prediction for a reading are impossible and stay out of the index.

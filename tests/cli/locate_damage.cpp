@@ -1,11 +1,14 @@
 /// locate-damage and query-field as a user runs them, on the small bridge's database.
 
 #include <fmt/format.h>
+#include <hdf5.h>
+
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "database/format/hdf5_handle.h"
 #include "database/records/database.h"
 #include "tests/support/answer.h"
 #include "tests/support/bridges.h"
@@ -112,6 +115,29 @@ TEST_CASE("Every search and format of locate-damage answers") {
     }
   const ProgramResult text = desk().locate(readings, {"--noise", "5%", "--top", "3"});
   CHECK_THAT(text.out, Contains("course 4, 2nd from the left") && Contains("rank"));
+}
+
+TEST_CASE("A nearest-neighbour index that somebody put into the file is not read") {
+  const std::string readings = desk().file(desk().readings_of("4,2"));
+  const std::string forged = (desk().folder / "forged.h5").string();
+  std::filesystem::copy_file(desk().database, forged);
+  {
+    const Hdf5Handle file(H5Fopen(forged.c_str(), H5F_ACC_RDWR, H5P_DEFAULT), H5Fclose);
+    REQUIRE(H5Lexists(file.get(), "search/trees", H5P_DEFAULT) == 0);  // what version 0.1 handed to FLANN
+    const std::string bytes = "FLANN_INDEX" + std::string(5000, '\x7f');
+    const hsize_t size = bytes.size();
+    const Hdf5Handle space(H5Screate_simple(1, &size, nullptr), H5Sclose);
+    const Hdf5Handle trees(H5Dcreate2(file.get(), "search/trees", H5T_STD_U8LE, space.get(), H5P_DEFAULT,
+                                      H5P_DEFAULT, H5P_DEFAULT),
+                           H5Dclose);
+    REQUIRE(H5Dwrite(trees.get(), H5T_STD_U8LE, H5S_ALL, H5S_ALL, H5P_DEFAULT, bytes.data()) >= 0);
+  }
+  const auto answer = [&](const std::string& database) {
+    return test::run("locate-damage", {readings, "-d", database, "--search", "nearest", "--format", "csv"});
+  };
+  CHECK(answer(forged).exit_code == 0);
+  CHECK(answer(forged).out == answer(desk().database).out);
+  CHECK(test::run("locate-damage", {readings, "-d", forged, "--approximate"}).exit_code == 2);
 }
 
 TEST_CASE("A bad measurements file gives one line that names file, line and what was expected") {

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "database/search/index_building.h"
-#include "database/search/nearest_trees.h"
 #include "lookup/lookup.h"
 #include "lookup/readings/simulate.h"
 
@@ -23,7 +22,6 @@ struct SyntheticLibrary {
   BlockLayout layout;
   SceneTable table;
   SearchIndexData index;
-  Bytes nearest_trees;
 
   SyntheticLibrary(const SyntheticLibrary&) = delete;  // the table looks into the vectors
   SyntheticLibrary& operator=(const SyntheticLibrary&) = delete;
@@ -43,12 +41,9 @@ struct SyntheticLibrary {
   }
 
   /// After a change of `vertical`.
-  void make_index() {
-    index = build_search_index(vertical, points.size());
-    nearest_trees = build_nearest_trees(vertical, points.size());
-  }
+  void make_index() { index = build_search_index(vertical, points.size()); }
 
-  Library library() const { return {table, points, layout, index.view(), nearest_trees}; }
+  Library library() const { return {table, points, layout, index.view()}; }
   std::span<const double> intact() const { return table.row(0); }
   std::size_t row_of(const Scene& scene) const {
     for (std::size_t row = 0; row < table.rows; ++row)

@@ -5,7 +5,6 @@
 #include <iterator>
 
 #include "database/records/database.h"
-#include "database/search/nearest_trees.h"
 #include "tests/support/made_up_database.h"
 #include "tests/support/temporary_folder.h"
 
@@ -28,9 +27,6 @@ inline void read_all(const std::filesystem::path& path) {
   static_cast<void>(database.mesh());
   static_cast<void>(database.provenance());
   static_cast<void>(database.search_index());
-  const std::vector<double> readings(table.points, -1e-3);
-  static_cast<void>(
-      NearestTrees(database.nearest_trees(), table.vertical, table.points, {}).nearest(readings, 3, 64));
   static_cast<void>(database.joints());
   static_cast<void>(database.variants());
   for (std::size_t row = 0; row < database.rows(); ++row) {

@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "database/search/index_building.h"
-#include "database/search/nearest_trees.h"
 #include "tools/benchmark_localisation.h"
 
 namespace voussoir {
@@ -30,8 +29,7 @@ Subject::Subject(const Database& of, PaperCases shown, const ReproductionSetting
       cases(std::move(shown)),
       settings(with),
       few(rows_with_at_most_one(of.table())),
-      few_index(build_search_index(few.vertical, few.points)),
-      few_trees(build_nearest_trees(few.vertical, few.points)) {}
+      few_index(build_search_index(few.vertical, few.points)) {}
 
 std::size_t Subject::row(const std::string& scene) const {
   return row_of(all(), scene);

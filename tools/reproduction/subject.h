@@ -25,15 +25,12 @@ struct Subject {
   ReproductionSettings settings;
   SceneTable few;  ///< the first rows of the table: intact and one missing block
   SearchIndexData few_index;
-  Bytes few_trees;
 
   Subject(const Database& of, PaperCases shown, const ReproductionSettings& with);
 
   /// All scenes, or only those with at most one missing block, which is quicker.
   Library all() const { return library_of(database); }
-  Library one_block() const {
-    return {few, database.control_points(), database.layout(), few_index.view(), few_trees};
-  }
+  Library one_block() const { return {few, database.control_points(), database.layout(), few_index.view()}; }
 
   /// Rows and displacements [mm] of a scene.
   std::size_t row(const std::string& scene) const;

@@ -109,7 +109,6 @@ TEST_CASE("A search index that names a scene twice or has numbers out of range i
   CHECK_THAT(refusal(dataset::kIndexLeast, 32000), Catch::Contains("search/ hold numbers out of range"));
   CHECK_THAT(refusal(dataset::kIndexBounds, 0x7FFFFFFF),
              Catch::Contains("search/ hold numbers out of range"));
-  CHECK_THAT(refusal(dataset::kTrees, 1), Catch::Contains("trees are damaged"));
 }
 
 TEST_CASE("Absurd dimensions are refused without allocating memory for them") {
