@@ -59,6 +59,44 @@ void add_motion_options(CLI::App& app, DynamicSettings& motion) {
       ->capture_default_str();
 }
 
+/// What is given as a word.
+struct Words {
+  std::string solver = "quasi-static";
+  std::string fields = "all";
+  std::string format = "text";
+  std::vector<std::string> without;
+};
+
+void add_options(CLI::App& app, BuildOptions& options, Words& words) {
+  app.add_flag("--version", options.version,
+               "print versions, compiler, flags, settings and bridge as the database would state them");
+  app.add_option("bridge", options.bridge, "bridge file (TOML); default: the reference bridge");
+  app.add_option("-o,--output", options.request.output, "database to write")->capture_default_str();
+  app.add_option("--scenes", options.request.scenes, "which scenes, see below")->capture_default_str();
+  app.add_option("--threads", options.request.threads, "threads, 0: one for each core")
+      ->check(CLI::Range(0, kMostThreads))
+      ->capture_default_str();
+  app.add_option("--solver", words.solver,
+                 "quasi-static: Newton for scenes that stand, motion for the others; dynamic: motion for all")
+      ->check(CLI::IsMember({"quasi-static", "dynamic"}))
+      ->capture_default_str();
+  add_motion_options(app, options.motion);
+  app.add_option("--fields", words.fields, "displacements of all nodes are kept of all scenes or of none")
+      ->check(CLI::IsMember({"all", "none"}))
+      ->capture_default_str();
+  app.add_option("--format", words.format, "of the summary")
+      ->check(CLI::IsMember({"text", "json"}))
+      ->capture_default_str();
+  app.add_option("--xdmf", options.request.xdmf_scenes,
+                 "also write an index (.xdmf, .views.h5) with which ParaView opens these scenes");
+  app.add_option("--without", words.without,
+                 "what is normally skipped or shared is done for every scene, see below")
+      ->delimiter(',')
+      ->check(CLI::IsMember(switch_names()));
+  app.add_flag("--force", options.request.force, "build anew even if the file is up to date");
+  app.add_flag("--quiet", options.quiet, "no progress and no messages");
+}
+
 }  // namespace
 
 BuildOptions parse_build_options(int argc, char** argv) {
@@ -66,47 +104,18 @@ BuildOptions parse_build_options(int argc, char** argv) {
   CLI::App app("Computes the database of a bridge: the displacements of every scene with missing blocks.",
                "build-database");
   app.footer(kFooter);
-  app.add_flag("--version", options.version,
-               "print versions, compiler, flags, settings and bridge as the database would state them");
-  std::string solver = "quasi-static";
-  std::string fields = "all";
-  std::string format = "text";
-  std::vector<std::string> without;
-  app.add_option("bridge", options.bridge, "bridge file (TOML); default: the reference bridge");
-  app.add_option("-o,--output", options.request.output, "database to write")->capture_default_str();
-  app.add_option("--scenes", options.request.scenes, "which scenes, see below")->capture_default_str();
-  app.add_option("--threads", options.request.threads, "threads, 0: one for each core")
-      ->check(CLI::Range(0, kMostThreads))
-      ->capture_default_str();
-  app.add_option("--solver", solver,
-                 "quasi-static: Newton for scenes that stand, motion for the others; dynamic: motion for all")
-      ->check(CLI::IsMember({"quasi-static", "dynamic"}))
-      ->capture_default_str();
-  add_motion_options(app, options.motion);
-  app.add_option("--fields", fields, "displacements of all nodes are kept of all scenes or of none")
-      ->check(CLI::IsMember({"all", "none"}))
-      ->capture_default_str();
-  app.add_option("--format", format, "of the summary")
-      ->check(CLI::IsMember({"text", "json"}))
-      ->capture_default_str();
-  app.add_option("--xdmf", options.request.xdmf_scenes,
-                 "also write an index (.xdmf, .views.h5) with which ParaView opens these scenes");
-  app.add_option("--without", without,
-                 "what is normally skipped or shared is done for every scene, see below")
-      ->delimiter(',')
-      ->check(CLI::IsMember(switch_names()));
-  app.add_flag("--force", options.request.force, "build anew even if the file is up to date");
-  app.add_flag("--quiet", options.quiet, "no progress and no messages");
+  Words words;
+  add_options(app, options, words);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     options.exit_code = app.exit(error) == 0 ? 0 : kBadUsage;
   }
-  options.json = format == "json";
-  options.request.fields = fields == "all" ? KeepField::yes : KeepField::no;
-  for (const std::string& name : without)
+  options.json = words.format == "json";
+  options.request.fields = words.fields == "all" ? KeepField::yes : KeepField::no;
+  for (const std::string& name : words.without)
     build_switch(name).switch_off(options.request.rules, options.motion.skips);
-  options.solver = solver == "dynamic" ? dynamic(options.motion) : quasi_static(options.motion);
+  options.solver = words.solver == "dynamic" ? dynamic(options.motion) : quasi_static(options.motion);
   return options;
 }
 

@@ -64,6 +64,9 @@ void add_noise_options(CLI::App& app, LocateDamageOptions& options) {
                  "of student noise, default 4")
       ->check(CLI::Range(2.1, 1000.0))
       ->option_text("NU");
+}
+
+void add_nuisance_options(CLI::App& app, LocateDamageOptions& options) {
   app.add_option("--unknown-scale", options.unknown_scale,
                  "how far all displacements may be too large or small by one factor, such as 20%; gaussian "
                  "noise only")
@@ -117,6 +120,7 @@ void add_options(CLI::App& app, LocateDamageOptions& options) {
       ->option_text("FILE");
   add_search_options(app, options);
   add_noise_options(app, options);
+  add_nuisance_options(app, options);
   add_genetic_options(app, options.settings.genetic);
 }
 

@@ -155,7 +155,9 @@ void LaneFactorisation::Kernel::substitute(const Kernel& kernel, DoubleLanes* x)
 LaneFactorisation::LaneFactorisation(const Eigen::SparseMatrix<double>& pattern)
     : n_(static_cast<int>(pattern.rows())) {
   order(pattern);
-  form_supernodes(find_fill(pattern));
+  const std::vector<std::vector<int>> lower = find_fill(pattern);
+  form_supernodes(lower);
+  form_upper_parts(lower);
   const auto n = static_cast<std::size_t>(n_);
   pivot_.resize(n);
   diagonal_.resize(n);
@@ -219,7 +221,9 @@ void LaneFactorisation::form_supernodes(const std::vector<std::vector<int>>& low
     k = end;
   }
   l_.resize(static_cast<std::size_t>(l_size));
+}
 
+void LaneFactorisation::form_upper_parts(const std::vector<std::vector<int>>& lower) {
   // Column k of U: every supernode that reaches row k, from its first column that does; columns ascend.
   std::vector<std::vector<UpperPart>> parts(static_cast<std::size_t>(n_));
   int u_size = 0;

@@ -50,6 +50,7 @@ class LaneFactorisation {
   void order(const Eigen::SparseMatrix<double>& pattern);
   std::vector<std::vector<int>> find_fill(const Eigen::SparseMatrix<double>& pattern);
   void form_supernodes(const std::vector<std::vector<int>>& lower);
+  void form_upper_parts(const std::vector<std::vector<int>>& lower);
 
   int n_;
   long long multiplications_ = 0;

@@ -18,10 +18,6 @@ NodeId node_at(const Mesh& mesh, BlockId block, const Point& place) {
   return NodeId{nearest};
 }
 
-ControlPoint at_corner(const std::string& name, const Mesh& mesh, BlockId block, const Point& corner) {
-  return {.name = name, .node = node_at(mesh, block, corner), .block = block, .position = corner};
-}
-
 /// The two ends of the block's upper edge, left to right.
 std::pair<Point, Point> upper_corners(const Polygon& polygon) {
   const double top = std::max_element(polygon.begin(), polygon.end(), [](const Point& a, const Point& b) {
@@ -46,12 +42,16 @@ std::pair<Point, Point> intrados_corners(const Block& block, const std::vector<S
 
 }  // namespace
 
+ControlPoint point_at(const std::string& name, const Mesh& mesh, BlockId block, const Point& place) {
+  return {.name = name, .node = node_at(mesh, block, place), .block = block, .position = place};
+}
+
 std::vector<ControlPoint> find_control_points(const BlockLayout& layout, const Mesh& mesh,
                                               const BridgeDescription& description) {
   std::vector<ControlPoint> points;
   const auto add_pair = [&](char family, int& count, BlockId id, const std::pair<Point, Point>& corners) {
-    points.push_back(at_corner(fmt::format("{}{}", family, ++count), mesh, id, corners.first));
-    points.push_back(at_corner(fmt::format("{}{}", family, ++count), mesh, id, corners.second));
+    points.push_back(point_at(fmt::format("{}{}", family, ++count), mesh, id, corners.first));
+    points.push_back(point_at(fmt::format("{}{}", family, ++count), mesh, id, corners.second));
   };
   int top_count = 0;
   int arch_count = 0;

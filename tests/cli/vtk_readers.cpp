@@ -76,6 +76,32 @@ TEST_CASE(
   CHECK(lines.peek() == std::istringstream::traits_type::eof());
 }
 
+namespace {
+
+/// What VTK found against our CSV: the number of cells, then point by point.
+void compare_points(const std::string& theirs_text, const std::string& ours_text, std::size_t triangles) {
+  std::istringstream found(theirs_text);
+  std::istringstream expected(ours_text);
+  std::size_t cells = 0;
+  std::size_t points = 0;
+  found >> cells >> points >> std::ws;
+  CHECK(cells == triangles);
+  std::string line;
+  std::getline(expected, line);  // names of the columns
+  std::size_t compared = 0;
+  for (std::string row; std::getline(expected, row); ++compared) {
+    REQUIRE(std::getline(found, line));
+    const auto theirs = numbers_of(line);
+    const auto ours = numbers_of(row);  // course, position, x, y, ux, uy
+    REQUIRE(theirs.size() == 5);
+    if (!std::equal(ours.begin() + 2, ours.end(), theirs.begin())) FAIL(row << " was read as " << line);
+  }
+  CHECK(compared == points);
+  CHECK(points > 200);
+}
+
+}  // namespace
+
 TEST_CASE("VTK finds in query-field's VTU file the points, triangles and displacements of its CSV file") {
   if (test::run("/usr/bin/python3", {"-c", "import vtk"}).exit_code != 0) {
     WARN("skipped: python3-vtk9 is not installed");
@@ -99,24 +125,7 @@ TEST_CASE("VTK finds in query-field's VTU file the points, triangles and displac
     for (const BlockId block : parse_scene(scene, database.layout()).removed)
       triangles -= static_cast<std::size_t>(
           database.mesh().block_triangles[static_cast<std::size_t>(value(block))].size());
-    std::istringstream found(read.out);
-    std::istringstream expected(csv.out);
-    std::size_t cells = 0;
-    std::size_t points = 0;
-    found >> cells >> points >> std::ws;
-    CHECK(cells == triangles);
-    std::string line;
-    std::getline(expected, line);  // names of the columns
-    std::size_t compared = 0;
-    for (std::string row; std::getline(expected, row); ++compared) {
-      REQUIRE(std::getline(found, line));
-      const auto theirs = numbers_of(line);
-      const auto ours = numbers_of(row);  // course, position, x, y, ux, uy
-      REQUIRE(theirs.size() == 5);
-      if (!std::equal(ours.begin() + 2, ours.end(), theirs.begin())) FAIL(row << " was read as " << line);
-    }
-    CHECK(compared == points);
-    CHECK(points > 200);
+    compare_points(read.out, csv.out, triangles);
   }
 }
 

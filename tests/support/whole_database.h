@@ -22,7 +22,6 @@ inline std::string made_up_bytes(const BridgeFile& file, const std::vector<Scene
 /// Reads everything; throws what the reader throws.
 inline void read_all(const std::filesystem::path& path) {
   const Database database = Database::open(path);
-  const SceneTable& table = database.table();
   static_cast<void>(database.layout());
   static_cast<void>(database.mesh());
   static_cast<void>(database.provenance());

@@ -94,40 +94,45 @@ Response push(double friction, double vertical) {
   return response;
 }
 
+/// Two walls under one stress.
+struct Tested {
+  double stress;                 ///< [Pa]
+  std::vector<double> greatest;  ///< [kN]
+};
+
+void push_walls(const Tested& tested, Findings& findings) {
+  const double vertical = tested.stress * kWallWidth * kThickness;
+  const double measured = 0.5 * (tested.greatest[0] + tested.greatest[1]);
+  Plot plot{.title = fmt::format("Dry-stone wall under {:.2f} MPa", tested.stress * 1e-6),
+            .x_label = "displacement of the top [mm]",
+            .y_label = "horizontal force [kN]"};
+  double furthest = 0.0;
+  for (const double friction : {0.55, 0.60, 0.65, 0.70}) {
+    Response response = push(friction, vertical);
+    response.curve.label = fmt::format("tan phi = {:.2f}", friction);
+    furthest = std::max(furthest, response.curve.points.back().first);
+    plot.series.push_back(response.curve);
+    findings.cases.push_back(comparison(
+        {.name =
+             fmt::format("Dry-stone wall under {:.2f} MPa, tan phi = {:.2f}", tested.stress * 1e-6, friction),
+         .quantity = "greatest horizontal force [kN]",
+         .expected = measured,
+         .source = fmt::format("Lourenco et al. 2005, two walls: {} and {}", tested.greatest[0],
+                               tested.greatest[1]),
+         .computed = 1e-3 * response.greatest},
+        "joint data of the walls are uncertain (here p_n = 5e9, p_t = 2e9 Pa/m); the beam is "
+        "free to turn"));
+  }
+  for (const double peak : tested.greatest)
+    plot.series.push_back(
+        {.label = fmt::format("measured peak {} kN", peak), .points = {{0.0, peak}, {furthest, peak}}});
+  findings.plots.push_back(plot);
+}
+
 Findings shear_walls() {
   Findings findings;
-  struct Tested {
-    double stress;                 ///< [Pa]
-    std::vector<double> greatest;  ///< [kN]
-  };
-  for (const Tested& tested : {Tested{0.15e6, {21.9, 22.9}}, Tested{0.50e6, {41.5, 48.2}}}) {
-    const double vertical = tested.stress * kWallWidth * kThickness;
-    const double measured = 0.5 * (tested.greatest[0] + tested.greatest[1]);
-    Plot plot{.title = fmt::format("Dry-stone wall under {:.2f} MPa", tested.stress * 1e-6),
-              .x_label = "displacement of the top [mm]",
-              .y_label = "horizontal force [kN]"};
-    double furthest = 0.0;
-    for (const double friction : {0.55, 0.60, 0.65, 0.70}) {
-      Response response = push(friction, vertical);
-      response.curve.label = fmt::format("tan phi = {:.2f}", friction);
-      furthest = std::max(furthest, response.curve.points.back().first);
-      plot.series.push_back(response.curve);
-      findings.cases.push_back(
-          comparison({.name = fmt::format("Dry-stone wall under {:.2f} MPa, tan phi = {:.2f}",
-                                          tested.stress * 1e-6, friction),
-                      .quantity = "greatest horizontal force [kN]",
-                      .expected = measured,
-                      .source = fmt::format("Lourenco et al. 2005, two walls: {} and {}", tested.greatest[0],
-                                            tested.greatest[1]),
-                      .computed = 1e-3 * response.greatest},
-                     "joint data of the walls are uncertain (here p_n = 5e9, p_t = 2e9 Pa/m); the beam is "
-                     "free to turn"));
-    }
-    for (const double peak : tested.greatest)
-      plot.series.push_back(
-          {.label = fmt::format("measured peak {} kN", peak), .points = {{0.0, peak}, {furthest, peak}}});
-    findings.plots.push_back(plot);
-  }
+  for (const Tested& tested : {Tested{0.15e6, {21.9, 22.9}}, Tested{0.50e6, {41.5, 48.2}}})
+    push_walls(tested, findings);
   findings.notes = {
       "The beam on the walls is free to turn. Rocking about the toe then bounds the force by V b / 2h and "
       "the weight's share, "

@@ -53,43 +53,49 @@ TEST_CASE("The reference bridge file says what the defaults say, and so does an 
   }
 }
 
+namespace {
+
+struct Key {
+  const char* text;
+  std::size_t place;  ///< in numbers_of
+  double expected;
+};
+
+const std::vector<Key> kKeys = {{"[wall]\nlength_m = 30.0", 0, 30.0},
+                                {"[wall]\ncourses = 14", 1, 14.0},
+                                {"[wall]\ncourse_height_m = 0.6", 2, 0.6},
+                                {"[wall]\nblock_length_m = 0.8", 3, 0.8},
+                                {"[wall]\nbond = \"stack\"", 4, double(Bond::stack)},
+                                {"[wall]\nsmallest_piece_m2 = 1e-4", 5, 1e-4},
+                                {"[material]\nyoung_modulus_Pa = 1e10", 6, 1e10},
+                                {"[material]\npoisson_ratio = 0.3", 7, 0.3},
+                                {"[material]\ndensity_kg_m3 = 2000", 8, 2000.0},
+                                {"[material]\nthickness_m = 2.5", 9, 2.5},
+                                {"[material]\nplane = \"strain\"", 10, double(PlaneState::strain)},
+                                {"[joints]\nnormal_stiffness_Pa_per_m = 2e9", 11, 2e9},
+                                {"[joints]\ntangential_stiffness_Pa_per_m = 2e8", 12, 2e8},
+                                {"[joints]\nfriction_angle_deg = 30", 13, std::numbers::pi / 6.0},
+                                {"[supports]\nbase = \"roller\"", 14, double(SupportKind::roller)},
+                                {"[supports]\nsides = \"free\"", 15, double(SupportKind::free)},
+                                {"[control_points]\ntop = false", 16, 0.0},
+                                {"[control_points]\narch = false", 17, 0.0},
+                                {"[mesh]\nrefinement = 2", 18, 2.0},
+                                {"[mesh]\nsplit_at_corners = false", 19, 0.0},
+                                {"gravity_m_s2 = 1.62", 20, 1.62},
+                                {"[joints]\ntolerance_m = 1e-4", 21, 1e-4},
+                                {"[[spans]]\ncentre_x_m = 9.0", 22, 9.0},
+                                {"[[spans]]\ncentre_y_m = 1.5", 23, 1.5},
+                                {"[[spans]]\nintrados_radius_m = 3.0", 24, 3.0},
+                                {"[[spans]]\nring_thickness_m = 0.4", 25, 0.4},
+                                {"[[spans]]\nvoussoirs = 21", 26, 21.0}};
+
+}  // namespace
+
 TEST_CASE("Every key of a bridge file sets its own value, in the unit of its name (written out)",
           "[bridge-file]") {
-  struct Key {
-    const char* text;
-    std::size_t place;  ///< in numbers_of
-    double expected;
-  };
-  const std::vector<Key> keys = {{"[wall]\nlength_m = 30.0", 0, 30.0},
-                                 {"[wall]\ncourses = 14", 1, 14.0},
-                                 {"[wall]\ncourse_height_m = 0.6", 2, 0.6},
-                                 {"[wall]\nblock_length_m = 0.8", 3, 0.8},
-                                 {"[wall]\nbond = \"stack\"", 4, double(Bond::stack)},
-                                 {"[wall]\nsmallest_piece_m2 = 1e-4", 5, 1e-4},
-                                 {"[material]\nyoung_modulus_Pa = 1e10", 6, 1e10},
-                                 {"[material]\npoisson_ratio = 0.3", 7, 0.3},
-                                 {"[material]\ndensity_kg_m3 = 2000", 8, 2000.0},
-                                 {"[material]\nthickness_m = 2.5", 9, 2.5},
-                                 {"[material]\nplane = \"strain\"", 10, double(PlaneState::strain)},
-                                 {"[joints]\nnormal_stiffness_Pa_per_m = 2e9", 11, 2e9},
-                                 {"[joints]\ntangential_stiffness_Pa_per_m = 2e8", 12, 2e8},
-                                 {"[joints]\nfriction_angle_deg = 30", 13, std::numbers::pi / 6.0},
-                                 {"[supports]\nbase = \"roller\"", 14, double(SupportKind::roller)},
-                                 {"[supports]\nsides = \"free\"", 15, double(SupportKind::free)},
-                                 {"[control_points]\ntop = false", 16, 0.0},
-                                 {"[control_points]\narch = false", 17, 0.0},
-                                 {"[mesh]\nrefinement = 2", 18, 2.0},
-                                 {"[mesh]\nsplit_at_corners = false", 19, 0.0},
-                                 {"gravity_m_s2 = 1.62", 20, 1.62},
-                                 {"[joints]\ntolerance_m = 1e-4", 21, 1e-4},
-                                 {"[[spans]]\ncentre_x_m = 9.0", 22, 9.0},
-                                 {"[[spans]]\ncentre_y_m = 1.5", 23, 1.5},
-                                 {"[[spans]]\nintrados_radius_m = 3.0", 24, 3.0},
-                                 {"[[spans]]\nring_thickness_m = 0.4", 25, 0.4},
-                                 {"[[spans]]\nvoussoirs = 21", 26, 21.0}};
   std::vector<double> defaults = numbers_of({});
-  REQUIRE(keys.size() == defaults.size());
-  for (const Key& key : keys) {
+  REQUIRE(kKeys.size() == defaults.size());
+  for (const Key& key : kKeys) {
     const std::vector<double> found = numbers_of(parse_bridge_file(key.text, "one-key.toml").description);
     std::vector<double> expected = defaults;
     REQUIRE(expected[key.place] != key.expected);

@@ -87,7 +87,7 @@ TEST_CASE("A sensor's own sigma is read in millimetres") {
         "m.csv:2: 'inf' is no sigma, expected a positive number of millimetres or nothing");
 }
 
-TEST_CASE("Bad files are refused with the file, the line, the value and what was expected") {
+TEST_CASE("Bad headers are refused with the file, the line, the value and what was expected") {
   const std::string columns =
       "expected point or x_m,y_m; one of uy_mm, uy_m, settlement_mm; optionally sigma_mm";
   CHECK(error_of("") ==
@@ -110,6 +110,9 @@ TEST_CASE("Bad files are refused with the file, the line, the value and what was
         "m.csv: no usable row, expected at least one control point with a displacement");
   CHECK(error_of("point,uy_mm\nT1,\n") ==
         "m.csv: no usable row, expected at least one control point with a displacement");
+}
+
+TEST_CASE("Bad rows are refused with the file, the line, the value and what was expected") {
   CHECK(error_of("# x\npoint,uy_mm\nT1,1\nT99,1\n") == "m.csv:4: unknown point 'T99', expected T1 to A1");
   CHECK(error_of("point,uy_mm\nT1,1\nT2,1\nT1,2\n") ==
         "m.csv:4: point T1 is given again, expected each point once (first in line 2)");
