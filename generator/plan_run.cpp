@@ -37,8 +37,8 @@ void keep_records(const PlanRun& run, const SolvingTask& task, const Solution& s
   const Bridge& bridge = run.bridges[static_cast<std::size_t>(task.variant)];
   const auto keep = [&](const Scene& scene, const Solution& answer) {
     const KeepField field = starts_others(scene) ? KeepField::yes : run.fields;
-    known.journal().append(make_record({task.variant, scene}, std::span(&answer, 1), bridge.control_points,
-                                       field, run.fields));
+    known.journal().append(
+        make_record({task.variant, scene}, std::span(&answer, 1), bridge.control_points, field, run.fields));
     run.progress.advance(1);
   };
   if (task.records_solved) keep(task.solved, solution);

@@ -61,9 +61,9 @@ VariantParameters parameters_of(const Bridge& bridge) {
   const std::size_t blocks = bridge.layout.size();
   const std::size_t joints = bridge.joints.size();
   const auto all = [](std::size_t count, double value) { return std::vector<double>(count, value); };
-  return {all(blocks, material.young_modulus),       all(blocks, material.poisson_ratio),
-          all(blocks, material.density),             all(joints, joint.normal_stiffness),
-          all(joints, joint.tangential_stiffness),   all(joints, joint.friction_coefficient())};
+  return {all(blocks, material.young_modulus),     all(blocks, material.poisson_ratio),
+          all(blocks, material.density),           all(joints, joint.normal_stiffness),
+          all(joints, joint.tangential_stiffness), all(joints, joint.friction_coefficient())};
 }
 
 Bridge variant_of(const Bridge& bridge, const VariantParameters& parameters) {

@@ -97,11 +97,19 @@ Column column(const char* path, std::vector<Extent> shape, Place place, Form for
           }};
 }
 
-constexpr auto kVariantOf = [](auto& record, std::size_t) -> auto& { return record.key.variant; };
-constexpr auto kRemovedOf = [](auto& record, std::size_t) -> auto& { return record.key.scene.removed; };
-constexpr auto kChecksumOf = [](auto& record, std::size_t) -> auto& { return record.checksum; };
+constexpr auto kVariantOf = [](auto& record, std::size_t) -> auto& {
+  return record.key.variant;
+};
+constexpr auto kRemovedOf = [](auto& record, std::size_t) -> auto& {
+  return record.key.scene.removed;
+};
+constexpr auto kChecksumOf = [](auto& record, std::size_t) -> auto& {
+  return record.checksum;
+};
 template <auto Member>
-constexpr auto kOfState = [](auto& record, std::size_t state) -> auto& { return record.states[state].*Member; };
+constexpr auto kOfState = [](auto& record, std::size_t state) -> auto& {
+  return record.states[state].*Member;
+};
 
 std::vector<Column> columns_of_record() {
   return {column(dataset::kVariant, {records}, kVariantOf, Form::plain, kInChecksum, "1",
@@ -114,27 +122,27 @@ std::vector<Column> columns_of_record() {
 
 std::vector<Column> columns_of_state() {
   using State = RecordedState;
-  return {column(dataset::kOutcome, {states, records}, kOfState<&State::outcome>, Form::plain, kInChecksum,
-                 "1", "0 standing, 1 collapsed, 2 unresolved"),
-          column(dataset::kResidual, {states, records}, kOfState<&State::residual>, Form::plain, kInChecksum,
-                 "1",
-                 "as the solver left it: standing: largest unbalanced nodal force over the largest nodal "
-                 "weight; collapsed: sum of the blocks' resultant forces over the bridge's weight"),
-          column(dataset::kIterations, {states, records}, kOfState<&State::iterations>, Form::plain,
-                 kInChecksum, "1", "linear systems solved, or time steps of a collapse"),
-          column(dataset::kCollapse, {states, records}, kOfState<&State::extent>, Form::plain, kInChecksum,
-                 "1", "what moves away: 0 nothing, 1 wall blocks only, 2 blocks of the arch"),
-          column(dataset::kMoving, {states, records, blocks}, kOfState<&State::moving>, Form::marks,
-                 kInChecksum, "1",
-                 "1 for each block that had moved away when the collapse was decided (further than two sags "
-                 "of the bridge with bonded joints), 0 for all others"),
-          column(dataset::kVertical, {states, records, points}, kOfState<&State::vertical>, Form::plain,
-                 kInChecksum, "m",
-                 "vertical displacement of the control points, up is positive; NaN where the block is gone"),
-          column(dataset::kField, {states, records, nodes, components}, kOfState<&State::packed_field>,
-                 Form::packed, kInChecksum, "m", "ux, uy of each node; NaN in removed blocks"),
-          column(dataset::kChunkCrc, {states, records}, kOfState<&State::field_crc>, Form::plain, !kInChecksum,
-                 "1", "CRC-32 (zlib's) of the field's compressed chunk as it stands in the file")};
+  return {
+      column(dataset::kOutcome, {states, records}, kOfState<&State::outcome>, Form::plain, kInChecksum, "1",
+             "0 standing, 1 collapsed, 2 unresolved"),
+      column(dataset::kResidual, {states, records}, kOfState<&State::residual>, Form::plain, kInChecksum, "1",
+             "as the solver left it: standing: largest unbalanced nodal force over the largest nodal "
+             "weight; collapsed: sum of the blocks' resultant forces over the bridge's weight"),
+      column(dataset::kIterations, {states, records}, kOfState<&State::iterations>, Form::plain, kInChecksum,
+             "1", "linear systems solved, or time steps of a collapse"),
+      column(dataset::kCollapse, {states, records}, kOfState<&State::extent>, Form::plain, kInChecksum, "1",
+             "what moves away: 0 nothing, 1 wall blocks only, 2 blocks of the arch"),
+      column(dataset::kMoving, {states, records, blocks}, kOfState<&State::moving>, Form::marks, kInChecksum,
+             "1",
+             "1 for each block that had moved away when the collapse was decided (further than two sags "
+             "of the bridge with bonded joints), 0 for all others"),
+      column(dataset::kVertical, {states, records, points}, kOfState<&State::vertical>, Form::plain,
+             kInChecksum, "m",
+             "vertical displacement of the control points, up is positive; NaN where the block is gone"),
+      column(dataset::kField, {states, records, nodes, components}, kOfState<&State::packed_field>,
+             Form::packed, kInChecksum, "m", "ux, uy of each node; NaN in removed blocks"),
+      column(dataset::kChunkCrc, {states, records}, kOfState<&State::field_crc>, Form::plain, !kInChecksum,
+             "1", "CRC-32 (zlib's) of the field's compressed chunk as it stands in the file")};
 }
 
 std::uint64_t size_of(Extent extent, const Sizes& sizes) {
@@ -207,9 +215,8 @@ const std::vector<Column>& record_columns() {
 }
 
 const Column& column_at(const char* path) {
-  return *std::ranges::find_if(record_columns(), [path](const Column& column) {
-    return std::string_view(column.path) == path;
-  });
+  return *std::ranges::find_if(
+      record_columns(), [path](const Column& column) { return std::string_view(column.path) == path; });
 }
 
 std::vector<std::uint64_t> shape_of(const Column& column, const Sizes& sizes) {

@@ -19,7 +19,7 @@ struct SceneTable {
   std::span<const std::int32_t> removed;  ///< rows x most_missing, block ids in ascending order, then -1
   std::span<const std::uint8_t> outcome;  ///< values of Outcome
   std::span<const std::uint8_t> collapse{};  ///< values of CollapseExtent
-  std::size_t first_record = 0;  ///< the database's row of row 0: 0 for the nominal variant
+  std::size_t first_record = 0;              ///< the database's row of row 0: 0 for the nominal variant
 
   std::span<const double> row(std::size_t scene) const { return vertical.subspan(scene * points, points); }
   Scene scene(std::size_t row) const;

@@ -20,8 +20,8 @@ struct VariantParameters {
   friend bool operator==(const VariantParameters&, const VariantParameters&) = default;
 };
 
-/// One dataset for each parameter, variants x blocks or variants x joints; a bridge without joints has none of
-/// joints. Precondition: at least one variant, and all of the same bridge.
+/// One dataset for each parameter, variants x blocks or variants x joints; a bridge without joints has none
+/// of joints. Precondition: at least one variant, and all of the same bridge.
 std::vector<DatasetValue> parameter_datasets(const std::vector<VariantParameters>& variants);
 
 /// How many variants the file has. Throws InputError if it does not say.

@@ -129,10 +129,10 @@ TEST_CASE("A scene of a variant whose field is not that variant's is found by so
   std::vector<RecordKey> keys;
   for (std::size_t row = 0; row < right.rows(); ++row) keys.push_back(right.key(row));
   const auto wrong = site.folder / "wrong.h5";
-  write_database(wrong,
-                 {right.provenance(), bridge, {right.variants()[0], stiffer(0.9)}, keys, right.states(),
-                  KeepField::yes},
-                 [&](std::size_t row) { return right.record(row); });
+  write_database(
+      wrong,
+      {right.provenance(), bridge, {right.variants()[0], stiffer(0.9)}, keys, right.states(), KeepField::yes},
+      [&](std::size_t row) { return right.record(row); });
   const VerifyReport report = verify_database({wrong, keys.size()});
   CHECK(report.recomputed == keys.size());
   REQUIRE(report.problems.size() >= 4);
