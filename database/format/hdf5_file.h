@@ -1,6 +1,6 @@
 #pragma once
 /// @file Reading HDF5 files that may hold anything: every type, rank, size and place is checked before it is
-/// used, and the HDF5 library takes no part (database/hdf5_format.h).
+/// used, and the HDF5 library takes no part (database/format/hdf5_format.h).
 
 #include <filesystem>
 #include <optional>

@@ -68,7 +68,8 @@ class Database {
   /// Displacement of all nodes [m]; throws Failure without fields.
   Field field(std::size_t row, std::size_t state = 0) const;
   Solution solution(std::size_t row, std::size_t state = 0) const;
-  ByteView dataset_bytes(const char* path) const;  ///< a contiguous dataset (database/schema.h) as it stands
+  ByteView dataset_bytes(
+      const char* path) const;  ///< a contiguous dataset (database/records/schema.h) as it stands
 
  private:
   struct Implementation;

@@ -17,19 +17,21 @@ std::span<const T> read_numbers(const Hdf5File& file, const char* path, const Si
   return numbers_in<T>(read_column(file, column_at(path), sizes));
 }
 
-/// Block ids in ascending order and then only -1; `blocks` is the number of blocks.
-bool is_scene(std::span<const std::int32_t> ids, std::size_t blocks) {
+using Ids = std::span<const std::int32_t>;
+
+Ids without_padding(Ids ids) {
+  return ids.first(static_cast<std::size_t>(std::find(ids.begin(), ids.end(), -1) - ids.begin()));
+}
+
+/// The ids before the padding; nothing unless they ascend, name one of so many blocks each, and only -1
+/// follow.
+std::optional<Ids> scene_in(Ids row, std::size_t blocks) {
+  std::size_t size = 0;
   std::int32_t last = -1;
-  bool ended = false;
-  for (const std::int32_t id : ids) {
-    if (id == -1) {
-      ended = true;
-      continue;
-    }
-    if (ended || id <= last || static_cast<std::size_t>(id) >= blocks) return false;
-    last = id;
-  }
-  return true;
+  while (size < row.size() && row[size] > last) last = row[size++];
+  for (std::size_t i = size; i < row.size(); ++i)
+    if (row[i] != -1) return std::nullopt;
+  return last < static_cast<std::int64_t>(blocks) ? std::optional(row.first(size)) : std::nullopt;
 }
 
 }  // namespace
@@ -72,19 +74,17 @@ void StoredTable::read_views(const Hdf5File& file) {
 }
 
 void StoredTable::check_rows(const Hdf5File& file) const {
+  Ids previous;
   for (std::size_t row = 0; row < sizes_.records; ++row) {
+    const auto ids =
+        scene_in(removed_.subspan(row * sizes_.most_missing, sizes_.most_missing), sizes_.blocks);
     // Messages are made only when they are needed: there are many rows.
-    if (!is_scene(removed_.subspan(row * sizes_.most_missing, sizes_.most_missing), sizes_.blocks))
-      file.refuse(fmt::format("dataset '{}' holds no scene in row {}", dataset::kRemoved, row));
-    if (row > 0) check_order(file, row);
+    if (!ids) file.refuse(fmt::format("dataset '{}' holds no scene in row {}", dataset::kRemoved, row));
+    if (row > 0 && row_order(variant_[row - 1], previous, variant_[row], *ids) >= 0)
+      file.refuse(fmt::format("dataset '{}' or '{}' is out of order in row {}", dataset::kRemoved,
+                              dataset::kVariant, row));
+    previous = *ids;
   }
-}
-
-void StoredTable::check_order(const Hdf5File& file, std::size_t row) const {
-  const auto order = row_order(variant_[row - 1], removed(row - 1), variant_[row], removed(row));
-  if (order >= 0)
-    file.refuse(fmt::format("dataset '{}' or '{}' is out of order in row {}", dataset::kRemoved,
-                            dataset::kVariant, row));
 }
 
 void StoredTable::check_values(const Hdf5File& file) const {
@@ -113,8 +113,7 @@ SceneTable StoredTable::part(std::size_t variant, std::size_t state) const {
 }
 
 std::span<const std::int32_t> StoredTable::removed(std::size_t row) const {
-  const auto ids = removed_.subspan(row * sizes_.most_missing, sizes_.most_missing);
-  return ids.first(static_cast<std::size_t>(std::find(ids.begin(), ids.end(), -1) - ids.begin()));
+  return without_padding(removed_.subspan(row * sizes_.most_missing, sizes_.most_missing));
 }
 
 RecordKey StoredTable::key(std::size_t row) const {

@@ -31,7 +31,6 @@ class StoredTable {
   std::span<const std::int32_t> removed(std::size_t row) const;  ///< without the padding
   void read_views(const Hdf5File& file);
   void check_rows(const Hdf5File& file) const;
-  void check_order(const Hdf5File& file, std::size_t row) const;
   void check_values(const Hdf5File& file) const;
 
   Sizes sizes_;
