@@ -52,10 +52,6 @@ struct Stretch {
   std::size_t size;
 };
 
-std::string named(const char* path) {
-  return fmt::format("dataset '{}'", path);
-}
-
 std::size_t place_of(const std::string& bytes, ByteView part) {
   const auto* begin = reinterpret_cast<const char*>(part.data());
   return static_cast<std::size_t>(std::search(bytes.begin(), bytes.end(), begin, begin + part.size()) -
