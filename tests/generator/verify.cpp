@@ -84,7 +84,7 @@ std::vector<Stretch> scene_stretches(const Database& database, const std::string
                          place_of(bytes, chunk), chunk.size()});
   }
   for (const char* path : {dataset::kIndexCentre, dataset::kIndexLeast, dataset::kIndexMost,
-                           dataset::kIndexRow, dataset::kIndexBounds, dataset::kIndexSketch, dataset::kTrees})
+                           dataset::kIndexRow, dataset::kIndexBounds, dataset::kIndexSketch})
     stretches.push_back({fmt::format("dataset '{}'", path), place_of(bytes, database, path),
                          database.dataset_bytes(path).size()});
   return stretches;
