@@ -1,39 +1,25 @@
 #include "core/structure/scene.h"
 
 #include <algorithm>
-#include <charconv>
 
 #include "core/error.h"
+#include "core/text.h"
 
 namespace voussoir {
 namespace {
 
-std::string_view trimmed(std::string_view text) {
-  const auto first = text.find_first_not_of(" \t\r\n");
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(" \t\r\n") - first + 1);
-}
-
-/// A whole number that fills the text, or -1.
-int parse_count(std::string_view text) {
-  int number = -1;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  return error == std::errc{} && end == text.data() + text.size() ? number : -1;
-}
-
 BlockId parse_block(std::string_view text, const BlockLayout& layout) {
-  const auto comma = text.find(',');
-  const int course = comma == std::string_view::npos ? -1 : parse_count(trimmed(text.substr(0, comma)));
-  const int position = comma == std::string_view::npos ? -1 : parse_count(trimmed(text.substr(comma + 1)));
-  if (course < 0 || position < 0)
+  const auto numbers = split(text, ',');
+  const auto course = parse_whole_number(numbers.front()), position = parse_whole_number(numbers.back());
+  if (numbers.size() != 2 || !course || !position)
     throw InputError(fmt::format("'{}' names no block: expected COURSE,POSITION such as 10,4", text));
-  const auto id = layout.find({course, position});
-  if (!id && layout.count_in_course(course) == 0)
+  const auto id = layout.find({*course, *position});
+  if (!id && layout.count_in_course(*course) == 0)
     throw InputError(
-        fmt::format("there is no block {},{}: this bridge has no course {}", course, position, course));
+        fmt::format("there is no block {},{}: this bridge has no course {}", *course, *position, *course));
   if (!id)
-    throw InputError(fmt::format("there is no block {},{}: course {} has positions 1 to {}", course, position,
-                                 course, layout.count_in_course(course)));
+    throw InputError(fmt::format("there is no block {},{}: course {} has positions 1 to {}", *course,
+                                 *position, *course, layout.count_in_course(*course)));
   return *id;
 }
 
@@ -60,11 +46,7 @@ bool Scene::lacks(BlockId block) const {
 Scene parse_scene(std::string_view text, const BlockLayout& layout) {
   Scene scene;
   if (trimmed(text) == "intact") return scene;
-  for (std::size_t start = 0; start <= text.size();) {
-    const std::size_t end = std::min(text.find('+', start), text.size());
-    scene.removed.push_back(parse_block(trimmed(text.substr(start, end - start)), layout));
-    start = end + 1;
-  }
+  for (const std::string_view block : split(text, '+')) scene.removed.push_back(parse_block(block, layout));
   std::sort(scene.removed.begin(), scene.removed.end());
   const auto repeated = std::adjacent_find(scene.removed.begin(), scene.removed.end());
   if (repeated != scene.removed.end())
