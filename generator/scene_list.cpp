@@ -1,10 +1,10 @@
 #include "generator/scene_list.h"
 
 #include <algorithm>
-#include <charconv>
 #include <limits>
 
 #include "core/error.h"
+#include "core/text.h"
 #include "database/records/record_key.h"
 
 namespace voussoir {
@@ -19,22 +19,6 @@ struct NumberRange {
   bool holds(int number) const { return number >= first && number <= last; }
 };
 
-std::string_view trimmed(std::string_view text) {
-  const auto first = text.find_first_not_of(" \t\r\n");
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(" \t\r\n") - first + 1);
-}
-
-std::vector<std::string_view> split(std::string_view text, char separator) {
-  std::vector<std::string_view> parts;
-  for (std::size_t start = 0; start <= text.size();) {
-    const std::size_t end = std::min(text.find(separator, start), text.size());
-    parts.push_back(trimmed(text.substr(start, end - start)));
-    start = end + 1;
-  }
-  return parts;
-}
-
 [[noreturn]] void refuse(std::string_view item) {
   throw InputError(
       fmt::format("--scenes: cannot read '{}': expected all, singles, pairs, intact, a scene such as 10,4 or "
@@ -42,20 +26,18 @@ std::vector<std::string_view> split(std::string_view text, char separator) {
                   item));
 }
 
-int parse_number(std::string_view text, std::string_view item) {
-  int number = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (error != std::errc{} || end != text.data() + text.size() || number < 0) refuse(item);
-  return number;
+int number_in(std::string_view text, std::string_view item) {
+  const std::optional<int> number = parse_whole_number(text);
+  if (!number) refuse(item);
+  return *number;
 }
 
 /// "4", "4..9" or "*"
 NumberRange parse_range(std::string_view text, std::string_view item) {
   if (text == "*") return {0, std::numeric_limits<int>::max()};
   const auto dots = text.find("..");
-  if (dots == std::string_view::npos) return {parse_number(text, item), parse_number(text, item)};
-  return {parse_number(trimmed(text.substr(0, dots)), item),
-          parse_number(trimmed(text.substr(dots + 2)), item)};
+  if (dots == std::string_view::npos) return {number_in(text, item), number_in(text, item)};
+  return {number_in(trimmed(text.substr(0, dots)), item), number_in(trimmed(text.substr(dots + 2)), item)};
 }
 
 /// The blocks that "10,1..20" stands for.

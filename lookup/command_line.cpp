@@ -12,6 +12,7 @@
 #include <cstdlib>
 
 #include "core/error.h"
+#include "core/text.h"
 
 namespace voussoir {
 namespace {
@@ -70,6 +71,17 @@ std::filesystem::path find_database(const std::optional<std::string>& given) {
   throw Failure(
       "no database: there is no ./bridge.h5, and neither -d nor $VOUSSOIR_DATABASE names one; "
       "build one with: build-database -o bridge.h5");
+}
+
+CLI::Validator number_in_range(double least, double most, const std::string& name) {
+  return checked_by(
+      [=](std::string_view text) {
+        const std::optional<double> number = parse_number(text);
+        if (!number || *number < least || *number > most)
+          throw InputError(
+              fmt::format("{} given, expected a number from {:g} to {:g}", quoted(text), least, most));
+      },
+      name);
 }
 
 int run_program(CLI::App& app, int argc, char** argv, const std::function<std::string()>& program) {

@@ -46,4 +46,7 @@ CLI::Validator checked_by(Parse parse, const std::string& name) {
           name};
 }
 
+/// An option's check: a number of at least `least` and at most `most`. Other than CLI11's own it refuses NaN.
+CLI::Validator number_in_range(double least, double most, const std::string& name);
+
 }  // namespace voussoir

@@ -11,6 +11,8 @@ namespace {
 constexpr double kMetresPerMillimetre = 1e-3;
 constexpr std::size_t kMostCandidates = 100000;
 constexpr int kMostMissing = 2;
+constexpr double kLargestWeight = 1e12;
+constexpr double kLargestError = 1e6;  // [mm], and [mm per m]: beyond it nothing is known at all
 
 void add_search_options(CLI::App& app, LocateDamageOptions& options) {
   LookupSettings& settings = options.settings;
@@ -28,7 +30,7 @@ void add_search_options(CLI::App& app, LocateDamageOptions& options) {
       ->option_text("LIST");
   app.add_option("--prior", settings.prior.weight, "weights of these numbers, default equal")
       ->delimiter(',')
-      ->check(CLI::NonNegativeNumber)
+      ->check(number_in_range(0.0, kLargestWeight, "LIST"))
       ->option_text("LIST");
   app.add_option("--top", settings.top, "how many candidates to list, default 10")
       ->check(CLI::Range(std::size_t{1}, kMostCandidates))
@@ -48,7 +50,7 @@ void add_noise_options(CLI::App& app, LocateDamageOptions& options) {
       ->check(checked_by(parse_noise_shape, "NAME"))
       ->option_text("NAME");
   app.add_option("--floor", options.floor_mm, "absolute part of the errors [mm], default 0")
-      ->check(CLI::NonNegativeNumber)
+      ->check(number_in_range(0.0, kLargestError, "MM"))
       ->option_text("MM");
   app.add_option("--model-error", options.model_error,
                  "the model's own error as a share of the change that a missing block makes, default 0")
@@ -62,7 +64,7 @@ void add_noise_options(CLI::App& app, LocateDamageOptions& options) {
       ->option_text("LEVEL");
   app.add_option("--degrees-of-freedom", options.settings.noise.degrees_of_freedom,
                  "of student noise, default 4")
-      ->check(CLI::Range(2.1, 1000.0))
+      ->check(number_in_range(2.1, 1000.0, "NU"))
       ->option_text("NU");
 }
 
@@ -74,11 +76,11 @@ void add_nuisance_options(CLI::App& app, LocateDamageOptions& options) {
       ->option_text("LEVEL");
   app.add_option("--unknown-datum", options.unknown_datum_mm,
                  "how far all readings may be shifted [mm]; gaussian only")
-      ->check(CLI::NonNegativeNumber)
+      ->check(number_in_range(0.0, kLargestError, "MM"))
       ->option_text("MM");
   app.add_option("--unknown-tilt", options.unknown_tilt_mm_per_m,
                  "how far the levelling may be tilted [mm per m]; gaussian only")
-      ->check(CLI::NonNegativeNumber)
+      ->check(number_in_range(0.0, kLargestError, "MM/M"))
       ->option_text("MM/M");
 }
 
@@ -91,10 +93,10 @@ void add_genetic_options(CLI::App& app, GeneticSettings& genetic) {
       ->check(CLI::Range(2, 100000))
       ->option_text("N");
   app.add_option("--crossover", genetic.crossover, "probability, default 0.8")
-      ->check(CLI::Range(0.0, 1.0))
+      ->check(number_in_range(0.0, 1.0, "P"))
       ->option_text("P");
   app.add_option("--mutation", genetic.mutation, "probability, default 0.7")
-      ->check(CLI::Range(0.0, 1.0))
+      ->check(number_in_range(0.0, 1.0, "P"))
       ->option_text("P");
 }
 

@@ -134,8 +134,11 @@ void judge_best(const Library& library, const Measurements& measurements, std::s
   const std::vector<double> errors = standard_errors(observation, best);
   answer.residuals = sensor_residuals(measurements, best, observation);
   const bool excluded = answer.posterior->probability[found.front().row] == 0.0;
-  answer.fit = excluded ? Fit{false, 0.0, "every scene is excluded by at least one reading"}
-                        : check_fit(errors, *answer.noise, settings.noise.degrees_of_freedom);
+  answer.fit =
+      excluded ? Fit{false, 0.0,
+                     answer.posterior->credible.empty() ? "every scene is excluded by at least one reading"
+                                                        : "this scene is excluded by at least one reading"}
+               : check_fit(errors, *answer.noise, settings.noise.degrees_of_freedom);
   const std::vector<std::size_t> others = rows_to_compare(found, *answer.posterior);
   for (Candidate& candidate : answer.candidates)
     for (const std::size_t other : others)

@@ -66,7 +66,8 @@ int main(int argc, char** argv) {
       ->check(voussoir::checked_by(voussoir::parse_noise_level, "LEVEL"));
   app.add_option("--noise-model", options.noise_model, "uniform (default), gaussian, laplace or student")
       ->check(voussoir::checked_by(voussoir::parse_noise_shape, "NAME"));
-  app.add_option("--floor", options.floor_mm, "absolute part [mm], default 0")->check(CLI::NonNegativeNumber);
+  app.add_option("--floor", options.floor_mm, "absolute part [mm], default 0")
+      ->check(voussoir::number_in_range(0.0, 1e6, "MM"));
   app.add_option("--silent-sensors", options.silence, "chance that a sensor gives no reading, default 0%")
       ->check(voussoir::checked_by(voussoir::parse_noise_level, "LEVEL"));
   app.add_option("--seed", options.seed, "of the random numbers, default 1");

@@ -1,25 +1,12 @@
 #include "core/structure/scene.h"
 
 #include <algorithm>
-#include <charconv>
 
 #include "core/error.h"
+#include "core/text.h"
 
 namespace voussoir {
 namespace {
-
-std::string_view trimmed(std::string_view text) {
-  const auto first = text.find_first_not_of(" \t\r\n");
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(" \t\r\n") - first + 1);
-}
-
-/// A whole number that fills the text, or -1.
-int parse_count(std::string_view text) {
-  int number = -1;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  return error == std::errc{} && end == text.data() + text.size() ? number : -1;
-}
 
 [[noreturn]] void refuse_index(BlockIndex index, const BlockLayout& layout) {
   const int count = layout.count_in_course(index.course);
@@ -33,17 +20,15 @@ int parse_count(std::string_view text) {
 /// A block by its label, or by course and position with any spaces.
 BlockId parse_block(std::string_view text, const BlockLayout& layout) {
   if (const auto id = layout.find_label(text)) return *id;
-  const auto comma = text.find(',');
-  const bool split = comma != std::string_view::npos;
-  const BlockIndex index{split ? parse_count(trimmed(text.substr(0, comma))) : -1,
-                         split ? parse_count(trimmed(text.substr(comma + 1))) : -1};
-  if (index.course < 0 || index.position < 0)
+  const auto numbers = split(text, ',');
+  const auto course = parse_whole_number(numbers.front()), position = parse_whole_number(numbers.back());
+  if (numbers.size() != 2 || !course || !position)
     throw InputError(fmt::format("'{}' names no block: expected COURSE,POSITION such as 10,4{}", text,
                                  layout.size() > 0 && layout.blocks.front().index.course < 0
                                      ? fmt::format(" or a label such as {}", layout.blocks.front().label)
                                      : ""));
-  const auto id = layout.find(index);
-  if (!id) refuse_index(index, layout);
+  const auto id = layout.find({*course, *position});
+  if (!id) refuse_index({*course, *position}, layout);
   return *id;
 }
 
@@ -70,11 +55,7 @@ bool Scene::lacks(BlockId block) const {
 Scene parse_scene(std::string_view text, const BlockLayout& layout) {
   Scene scene;
   if (trimmed(text) == "intact") return scene;
-  for (std::size_t start = 0; start <= text.size();) {
-    const std::size_t end = std::min(text.find('+', start), text.size());
-    scene.removed.push_back(parse_block(trimmed(text.substr(start, end - start)), layout));
-    start = end + 1;
-  }
+  for (const std::string_view block : split(text, '+')) scene.removed.push_back(parse_block(block, layout));
   std::sort(scene.removed.begin(), scene.removed.end());
   const auto repeated = std::adjacent_find(scene.removed.begin(), scene.removed.end());
   if (repeated != scene.removed.end())

@@ -53,6 +53,11 @@ std::vector<double> log_prior_by_missing(const SceneTable& table, const Eligible
     if (missing < result.size() && eligible.scenes[missing] > 0)
       result[missing] = std::log(weight / static_cast<double>(eligible.scenes[missing]));
   }
+  if (std::all_of(result.begin(), result.end(), [](double log) { return !std::isfinite(log); }))
+    throw InputError(fmt::format(
+        "prior weights {} for {} missing blocks leave no scene of the database possible, expected a "
+        "positive weight for one of these numbers",
+        fmt::join(prior.weight, ", "), fmt::join(prior.missing, ", ")));
   return result;
 }
 

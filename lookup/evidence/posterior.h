@@ -26,13 +26,13 @@ struct Posterior {
 inline constexpr double kCredibleShare = 0.95;
 
 /// log prior of one scene with 0, 1, 2... missing blocks: its number's weight over how many eligible scenes
-/// have it. Throws InputError if the prior has not as many weights as numbers.
+/// have it. Throws InputError if the prior has not as many weights as numbers, and if its weights leave no
+/// eligible scene possible.
 std::vector<double> log_prior_by_missing(const SceneTable& table, const Eligible& eligible,
                                          const Prior& prior);
 
 /// prior x evidence, normalised. `log_evidence` has a value for each row of the table (-infinity:
-/// impossible); rows that are not eligible get no probability. Throws InputError if no weight is positive, or
-/// if the prior has not as many weights as numbers.
+/// impossible); rows that are not eligible get no probability. Throws as log_prior_by_missing.
 Posterior posterior(const SceneTable& table, const Eligible& eligible,
                     const std::vector<double>& log_evidence, const Prior& prior, std::size_t block_count);
 

@@ -1,9 +1,7 @@
 #pragma once
-/// @file The few rules of a measurements file's CSV: lines, comments, fields, numbers. No quoting beyond a
+/// @file The few rules of a measurements file's CSV: lines, comments, fields. No quoting beyond a
 /// pair of quotation marks round a whole field.
 
-#include <optional>
-#include <string>
 #include <string_view>
 #include <vector>
 
@@ -19,12 +17,5 @@ struct CsvLine {
 /// empty lines, and cuts the rest at commas; blanks and one pair of quotation marks round a field are
 /// removed.
 std::vector<CsvLine> cut_csv(std::string_view text);
-
-/// The number that fills the whole text, NaN and infinities included, whatever the locale; nothing if it does
-/// not. A number too large for a double is an infinity.
-std::optional<double> parse_number(std::string_view text);
-
-/// The text between apostrophes, shortened and without unprintable bytes, fit for an error message.
-std::string quoted(std::string_view text);
 
 }  // namespace voussoir

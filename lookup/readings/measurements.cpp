@@ -10,6 +10,7 @@
 #include <memory>
 
 #include "core/error.h"
+#include "core/text.h"
 #include "lookup/readings/csv_text.h"
 
 namespace voussoir {
@@ -30,6 +31,11 @@ constexpr std::array<ValueColumn, 3> kValueColumns = {
     {{"uy_mm", kMetresPerMillimetre}, {"uy_m", 1.0}, {"settlement_mm", -kMetresPerMillimetre}}};
 
 constexpr std::size_t kAbsent = std::numeric_limits<std::size_t>::max();
+
+/// Nothing, or what programs write where they have no number.
+bool says_nothing(std::string_view text) {
+  return text.empty() || text == "NaN" || text == "nan" || text == "NAN" || text == "-nan";
+}
 
 /// Which field of a row holds what.
 struct Columns {
@@ -155,7 +161,7 @@ class Reader {
 
   double coordinate(const CsvLine& line, std::size_t column) const {
     const std::optional<double> number = parse_number(line.fields[column]);
-    if (!number || !std::isfinite(*number))
+    if (!number)
       fail(line.number,
            fmt::format("{} is no coordinate, expected a number in metres", quoted(line.fields[column])));
     return *number;
@@ -163,13 +169,11 @@ class Reader {
 
   double displacement(const CsvLine& line) const {
     const std::string_view text = line.fields[columns_.value];
-    if (text.empty()) return kNan;
+    if (says_nothing(text)) return kNan;
     const std::optional<double> number = parse_number(text);
     if (!number)
-      fail(line.number, fmt::format("{} is no number, expected a displacement or nothing", quoted(text)));
-    if (std::isinf(*number))
       fail(line.number,
-           fmt::format("{} is infinite, expected a finite displacement or nothing", quoted(text)));
+           fmt::format("{} is no finite number, expected a displacement or nothing", quoted(text)));
     const double metres = columns_.factor * *number;
     if (std::abs(metres) > kLargestDisplacement)
       fail(line.number,
@@ -180,10 +184,9 @@ class Reader {
 
   double sigma(const CsvLine& line) const {
     const std::string_view text = line.fields[columns_.sigma];
-    if (text.empty()) return kNan;
+    if (says_nothing(text)) return kNan;
     const std::optional<double> number = parse_number(text);
-    if (number && std::isnan(*number)) return kNan;
-    if (!number || !(*number > 0.0) || std::isinf(*number))
+    if (!number || *number <= 0.0)
       fail(line.number,
            fmt::format("{} is no sigma, expected a positive number of millimetres or nothing", quoted(text)));
     return kMetresPerMillimetre * *number;

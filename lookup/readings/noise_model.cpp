@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "core/error.h"
-#include "lookup/readings/csv_text.h"
+#include "core/text.h"
 
 namespace voussoir {
 namespace {

@@ -6,22 +6,12 @@
 #include <optional>
 
 #include "core/error.h"
-#include "lookup/readings/csv_text.h"
+#include "core/text.h"
 
 namespace voussoir {
 namespace {
 
 constexpr double kInside = 1e-9;  // barycentric coordinates may be negative by this much: rounding
-
-std::vector<std::string_view> cut_at_commas(std::string_view text) {
-  std::vector<std::string_view> parts;
-  for (std::size_t start = 0; start <= text.size();) {
-    const std::size_t end = std::min(text.find(',', start), text.size());
-    parts.push_back(text.substr(start, end - start));
-    start = end + 1;
-  }
-  return parts;
-}
 
 /// The node of a control point: the one at its place that belongs to its block.
 NodeId node_of(const StoredPoint& point, const Mesh& mesh) {
@@ -96,7 +86,7 @@ std::optional<Point> parse_place(const std::vector<std::string_view>& parts) {
   if (parts.size() != 2) return std::nullopt;
   const std::optional<double> x = parse_number(parts[0]);
   const std::optional<double> y = parse_number(parts[1]);
-  if (!x || !y || !std::isfinite(*x) || !std::isfinite(*y)) return std::nullopt;
+  if (!x || !y) return std::nullopt;
   return Point(*x, *y);
 }
 
@@ -113,7 +103,7 @@ std::size_t find_row(const Database& database, std::string_view text) {
 
 std::vector<PlaceDisplacement> displacements_at(const Database& database, std::size_t row,
                                                 std::string_view at) {
-  const std::vector<std::string_view> parts = cut_at_commas(at);
+  const std::vector<std::string_view> parts = split(at, ',');
   if (const std::optional<Point> place = parse_place(parts))
     return {{fmt::format("{},{}", place->x(), place->y()), displacement_at(database, row, *place)}};
   std::vector<std::size_t> points;

@@ -1,6 +1,7 @@
 #include <nlohmann/json.hpp>
 
 #include "lookup/report/report.h"
+#include "lookup/report/report_words.h"
 #include "lookup/report/words.h"
 
 namespace voussoir {
@@ -84,6 +85,7 @@ std::string json_report(const Answer& answer, const LookupSettings& settings, co
   for (const Candidate& candidate : answer.candidates)
     candidates.push_back(candidate_json(candidate, library.layout));
   ordered_json result = {{"candidates", std::move(candidates)},
+                         {"first_candidate", nullptr},
                          {"settings", settings_json(settings)},
                          {"measurements", {{"file", source.measurements}, {"readings", answer.readings}}},
                          {"database",
@@ -92,6 +94,7 @@ std::string json_report(const Answer& answer, const LookupSettings& settings, co
                            {"digest", source.digest},
                            {"scenes_searched", answer.searched},
                            {"scenes_unresolved", answer.unresolved}}}};
+  if (!answer.candidates.empty()) result["first_candidate"] = standing(answer);
   if (answer.posterior) result["posterior"] = posterior_json(answer, library);
   if (answer.noise)
     result["noise"] = {{"model", to_string(answer.noise->shape)},

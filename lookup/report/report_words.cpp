@@ -3,23 +3,49 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 
 #include "lookup/report/words.h"
 
 namespace voussoir {
 
+namespace {
+
+/// The likeliest scene's row if it is none of the candidates, which a search by misfit may miss.
+std::optional<std::size_t> missed_row(const Answer& answer) {
+  if (!answer.posterior || answer.posterior->credible.empty()) return std::nullopt;
+  const std::size_t likeliest = answer.posterior->credible.front();
+  const bool missed = *answer.candidates.front().posterior < answer.posterior->probability[likeliest];
+  return missed ? std::optional(likeliest) : std::nullopt;
+}
+
+std::string in_words(const Scene& scene, const Library& library) {
+  return fmt::format("{} ({})", to_string(scene, library.layout), place_in_words(scene, library.layout));
+}
+
+}  // namespace
+
+std::string_view standing(const Answer& answer) {
+  if (!answer.posterior) return "best match";
+  if (missed_row(answer)) return "nearest by misfit";
+  return answer.fit && !answer.fit->explained ? "closest" : "most likely";
+}
+
 std::vector<std::string> verdict(const Answer& answer, const Library& library) {
   const Candidate& best = answer.candidates.front();
-  const bool unexplained = answer.fit && !answer.fit->explained;
+  const std::optional<std::size_t> missed = missed_row(answer);
   std::vector<std::string> sentences;
-  if (unexplained)
+  if (!missed && answer.fit && !answer.fit->explained)
     sentences.push_back(
         fmt::format("No scene in this database explains these measurements: {}.", answer.fit->reason));
-  const std::string_view opening = unexplained ? "Closest" : "Most likely";
-  sentences.push_back(fmt::format("{}: {} ({})", answer.posterior ? opening : "Best match",
-                                  to_string(best.scene, library.layout),
-                                  place_in_words(best.scene, library.layout)));
+  std::string opening(standing(answer));
+  opening.front() = static_cast<char>(std::toupper(opening.front()));
+  sentences.push_back(fmt::format("{}: {}", opening, in_words(best.scene, library)));
   if (best.posterior) sentences.push_back(fmt::format("Probability:  {}", percent(*best.posterior)));
+  if (missed)
+    sentences.push_back(fmt::format("More likely, {}, but not found by this search: {}",
+                                    percent(answer.posterior->probability[*missed]),
+                                    in_words(library.table.scene(*missed), library)));
   if (best.outcome == Outcome::collapsed)
     sentences.push_back("This scene collapses: its displacements are a snapshot, not an equilibrium.");
   return sentences;

@@ -2,6 +2,7 @@
 /// @file What the text and the page say in the same words.
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "lookup/lookup.h"
@@ -10,6 +11,10 @@ namespace voussoir {
 
 /// The answer in a sentence or a few, the most important first. Precondition: there is a candidate.
 std::vector<std::string> verdict(const Answer& answer, const Library& library);
+
+/// What the first candidate is: "most likely", or only "closest" if nothing explains the readings, "nearest
+/// by misfit" if the search did not find the likeliest scene, "best match" without probabilities.
+std::string_view standing(const Answer& answer);
 
 /// "at most 9.7 % of the displacement (uniform noise, estimated)"
 std::string noise_in_words(const NoiseEstimate& noise);

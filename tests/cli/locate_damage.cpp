@@ -159,6 +159,22 @@ TEST_CASE("A bad measurements file gives one line that names file, line and what
   CHECK_THAT(message("point\nT1\n"), Contains(":1:"));
 }
 
+TEST_CASE("Numbers on the command line that make no sense are refused with what was given and expected") {
+  const auto message = [](const std::vector<std::string>& options) {
+    const ProgramResult result = desk().locate(desk().readings_of("4,2"), options);
+    CHECK(result.exit_code == 2);
+    CHECK(result.out.empty());
+    CHECK(test::is_one_line(result.err));
+    return result.err;
+  };
+  CHECK_THAT(message({"--prior", "0,0,0"}), Contains("prior weights 0, 0, 0 for 0, 1, 2 missing blocks") &&
+                                                Contains("expected a positive weight"));
+  CHECK_THAT(message({"--prior", "1,1"}), Contains("2 prior weights, expected 3"));
+  for (const char* option : {"--prior", "--floor", "--unknown-datum", "--unknown-tilt", "--mutation"})
+    for (const char* number : {"nan", "-1", "1e400"})
+      CHECK_THAT(message({option, number}), Contains(option) && Contains("expected a number from 0 to"));
+}
+
 TEST_CASE("A missing, foreign or truncated database gives one line that says so") {
   const std::string readings = desk().file(desk().readings_of("4,2"));
   const auto message = [&](const std::string& database) {

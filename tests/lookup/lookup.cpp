@@ -58,6 +58,34 @@ TEST_CASE("Every search and objective names a clearly visible block and agrees o
     }
 }
 
+TEST_CASE("A scene is called most likely only if no other is likelier, whatever the search") {
+  const SyntheticLibrary library(4, 9);
+  Random random(12);
+  int others = 0, likeliest = 0;
+  for (int trial = 0; trial < 40; ++trial)
+    for (LookupSettings settings : each_search()) {
+      const Measurements measured =
+          library.measure(library.row_of({{BlockId{29}}}), 0.02, NoiseShape::uniform, random);
+      settings.top = 1;  // the misfit prefers pairs, of which many fit the noise
+      const Answer answer = locate_damage(library.library(), measured, settings);
+      const auto& probability = answer.posterior->probability;
+      const bool is_best =
+          *answer.candidates.front().posterior == *std::max_element(probability.begin(), probability.end());
+      (is_best ? likeliest : others) += 1;
+      const std::string text = text_report(answer, library.library(), kSource);
+      const std::string page = page_report(answer, settings, library.library(), measured, kSource);
+      const auto json = nlohmann::json::parse(json_report(answer, settings, library.library(), kSource));
+      for (const std::string& words : {text, page}) {
+        CHECK((words.find("Most likely: ") != std::string::npos) == is_best);
+        CHECK((words.find("Nearest by misfit: ") != std::string::npos) == !is_best);
+        CHECK((words.find("not found by this search: ") != std::string::npos) == !is_best);
+      }
+      CHECK(json["first_candidate"] == (is_best ? "most likely" : "nearest by misfit"));
+    }
+  CHECK(likeliest >= 40);
+  CHECK(others >= 10);
+}
+
 TEST_CASE("A single is not beaten by the many pairs that fit its noise as well") {
   const SyntheticLibrary library(4, 9);
   Random random(2);

@@ -305,6 +305,11 @@ TEST_CASE("A prior needs a weight for each number of missing blocks") {
   CHECK_THROWS_AS(
       posterior(library.table, eligible, std::vector<double>(library.table.rows, 0.0), {{0, 1}, {1.0}}, 6),
       InputError);
+  for (const Prior& nothing_possible : {Prior{{0, 1}, {0.0, 0.0}}, Prior{{0, 2}, {0.0, 1.0}}})
+    CHECK_THROWS_WITH(log_prior_by_missing(library.table, eligible, nothing_possible),
+                      Catch::Contains("leave no scene of the database possible, expected a positive weight"));
+  CHECK(log_prior_by_missing(library.table, eligible, {{0, 1}, {0.0, 1.0}})[1] ==
+        Approx(std::log(1.0 / 6.0)));
 }
 
 TEST_CASE(

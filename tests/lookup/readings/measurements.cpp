@@ -117,15 +117,15 @@ TEST_CASE("Bad rows are refused with the file, the line, the value and what was 
   CHECK(error_of("point,uy_mm\nT1,1\nT2,1\nT1,2\n") ==
         "m.csv:4: point T1 is given again, expected each point once (first in line 2)");
   CHECK(error_of("point,uy_mm\nT1,soft\n") ==
-        "m.csv:2: 'soft' is no number, expected a displacement or nothing");
+        "m.csv:2: 'soft' is no finite number, expected a displacement or nothing");
   CHECK(error_of("point,uy_mm\nT1,1.5mm\n") ==
-        "m.csv:2: '1.5mm' is no number, expected a displacement or nothing");
+        "m.csv:2: '1.5mm' is no finite number, expected a displacement or nothing");
   CHECK(error_of("point,uy_mm\nT1,0x10\n") ==
-        "m.csv:2: '0x10' is no number, expected a displacement or nothing");
+        "m.csv:2: '0x10' is no finite number, expected a displacement or nothing");
   CHECK(error_of("point,uy_mm\nT1,-inf\n") ==
-        "m.csv:2: '-inf' is infinite, expected a finite displacement or nothing");
+        "m.csv:2: '-inf' is no finite number, expected a displacement or nothing");
   CHECK(error_of("point,uy_mm\nT1,1e999\n") ==
-        "m.csv:2: '1e999' is infinite, expected a finite displacement or nothing");
+        "m.csv:2: '1e999' is no finite number, expected a displacement or nothing");
   CHECK(error_of("point,uy_m\nT1,-350\n") ==
         "m.csv:2: '-350' is a displacement of 350 m, expected at most 100 m (check the units)");
   CHECK(error_of("point,uy_mm\nT1,-3,5\n") == "m.csv:2: 3 values, expected 2 as in the header");
@@ -145,9 +145,20 @@ TEST_CASE("Long and unprintable texts are shortened and cleaned in messages") {
   CHECK(error_of("point,uy_mm\n\x1b[2J,1\n") == "m.csv:2: unknown point '?[2J', expected T1 to A1");
 }
 
-TEST_CASE("A tiny number is read as zero and a huge exponent as infinite") {
-  CHECK(parse("point,uy_mm\nT1,1e-999\n").displacement[0] == 0.0);
-  CHECK(error_of("point,uy_mm\nT1,-1e+999\n").find("is infinite") != std::string::npos);
+TEST_CASE("A number too large for a double is refused in every spelling, and one too small is zero") {
+  const std::string zeros(400, '0');
+  for (const std::string& huge :
+       {std::string("1e400"), std::string("-1e+999"), "1" + zeros, "1" + zeros + ".5", std::string(400, '9'),
+        "0." + zeros + "1e900", "1" + zeros + "e-20", std::string("1e99999999999999999999")}) {
+    const std::string error = error_of("point,uy_m\nT1," + huge + "\n");
+    INFO(huge);
+    CHECK(error.find("is no finite number, expected a displacement or nothing") != std::string::npos);
+    CHECK(error_of("point,uy_mm,sigma_mm\nT1,1," + huge + "\n").find("is no sigma") != std::string::npos);
+    CHECK(error_of("x_m,y_m,uy_mm\n" + huge + ",1,1\n").find("is no coordinate") != std::string::npos);
+  }
+  for (const std::string& tiny : {std::string("1e-999"), "0." + zeros + "1", "-1" + zeros + "e-900",
+                                  std::string("1e-99999999999999999999")})
+    CHECK(parse("point,uy_mm\nT1," + tiny + "\n").displacement[0] == 0.0);
 }
 
 TEST_CASE("A file that cannot be read is named with the reason, and so is a file that is too large") {

@@ -1,0 +1,27 @@
+#pragma once
+/// @file The few rules by which files and command lines are cut into words and numbers.
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace voussoir {
+
+/// Without blanks, tabs and line ends before and behind.
+std::string_view trimmed(std::string_view text);
+
+/// The parts between separators, trimmed; one more than there are separators.
+std::vector<std::string_view> split(std::string_view text, char separator);
+
+/// The whole number, zero or more, that fills the text; nothing if it does not.
+std::optional<int> parse_whole_number(std::string_view text);
+
+/// The finite number that fills the text, whatever the locale; nothing if it does not, for NaN, for infinities
+/// and for a number too large for a double. A number too small for a double is zero.
+std::optional<double> parse_number(std::string_view text);
+
+/// The text between apostrophes, shortened and without unprintable bytes, fit for an error message.
+std::string quoted(std::string_view text);
+
+}  // namespace voussoir

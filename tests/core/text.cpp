@@ -1,0 +1,30 @@
+#include "core/text.h"
+
+#include <catch2/catch.hpp>
+
+using namespace voussoir;
+using Parts = std::vector<std::string_view>;
+
+TEST_CASE("Texts are cut at every separator and lose the blanks at their ends") {
+  CHECK(trimmed(" \t a b\r\n") == "a b");
+  CHECK(trimmed(" \t ").empty());
+  CHECK(split("10, 4", ',') == Parts{"10", "4"});
+  CHECK(split("", ',') == Parts{""});
+  CHECK(split("+a++", '+') == Parts{"", "a", "", ""});
+}
+
+TEST_CASE("Whole numbers are digits and nothing else") {
+  CHECK(parse_whole_number("10") == 10);
+  CHECK(parse_whole_number("0") == 0);
+  for (const char* text : {"", "-1", "+1", "1.0", "1e3", " 1", "1 ", "four", "99999999999"})
+    CHECK_FALSE(parse_whole_number(text));
+}
+
+TEST_CASE("Numbers fill the text and are finite") {
+  CHECK(parse_number("-1.5e2") == -150.0);
+  CHECK(parse_number("+.5") == 0.5);
+  CHECK(parse_number("1.7976931348623157e308") == 1.7976931348623157e308);
+  CHECK(parse_number("4.9e-324") == 4.9e-324);
+  for (const char* text : {"", "+-1", "1 ", "1,5", "0x10", "nan", "-nan", "inf", "-Infinity", "1.8e308", "e5"})
+    CHECK_FALSE(parse_number(text));
+}
