@@ -54,16 +54,4 @@ JointResponse integrate_joint(const JointStiffness& joint, const JointMemory& me
   return {tangent * elastic, tangent};
 }
 
-std::string_view to_string(JointRule rule) {
-  switch (rule) {
-    case JointRule::lobatto_3:
-      return "lobatto-3";
-    case JointRule::gauss_16:
-      return "gauss-16";
-    case JointRule::exact:
-      break;
-  }
-  return "exact";
-}
-
 }  // namespace voussoir

@@ -1,6 +1,7 @@
 #pragma once
 /// @file The joint law at points of a stretch, to be compared with its exact integral.
 
+#include <array>
 #include <string_view>
 
 #include "core/law/joint_law.h"
@@ -15,8 +16,11 @@ enum class JointRule {
   gauss_16    ///< at 16 Gauss points
 };
 
-/// "exact", "lobatto-3", "gauss-16"
-std::string_view to_string(JointRule rule);
+/// In the order of the rules.
+inline constexpr std::array<std::string_view, 3> kJointRuleNames = {"exact", "lobatto-3", "gauss-16"};
+constexpr std::string_view to_string(JointRule rule) {
+  return kJointRuleNames.at(static_cast<std::size_t>(rule));
+}
 
 /// integrate_joint by a rule: every point is open, sticking or slipping.
 JointResponse integrate_joint(const JointStiffness& joint, const JointMemory& memory, const JointState& state,

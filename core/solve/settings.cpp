@@ -27,7 +27,7 @@ struct Names<RotationalInertia> {
 };
 template <>
 struct Names<JointRule> {
-  static constexpr std::array<std::string_view, 3> all = {"exact", "lobatto-3", "gauss-16"};
+  static constexpr auto all = kJointRuleNames;
 };
 template <>
 struct Names<bool> {
