@@ -115,8 +115,8 @@ void run(const Build& build, std::optional<Database> old, BuildSummary& summary)
   summary.computed = plan.records();
   build.progress.start(summary.resumed + summary.reused + summary.computed, summary.resumed + summary.reused);
   run_plan(plan,
-           {build.bridges, build.solver, build.request.rules, build.request.fields, build.request.threads,
-            build.progress},
+           {build.bridges, build.solver, build.provenance.solver_settings, build.request.rules,
+            build.request.fields, build.request.threads, build.progress},
            known);
   build.progress.finish();
   try {

@@ -24,7 +24,7 @@ struct VariantSolver {
   const SceneSolver& of(std::int32_t wanted, const PlanRun& run) {
     if (variant != wanted) {
       solver = nullptr;  // the old one's memory goes before the new one's comes
-      solver = run.solver.make_solver(run.bridges[static_cast<std::size_t>(wanted)]);
+      solver = run.solver.make_solver(run.bridges[static_cast<std::size_t>(wanted)], run.settings);
     }
     variant = wanted;
     return solver;

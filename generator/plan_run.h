@@ -16,6 +16,7 @@ inline constexpr std::size_t kLargestBatch = 32;
 struct PlanRun {
   std::span<const Model> bridges;  ///< the variants
   const SolverChoice& solver;
+  const std::string& settings;  ///< that the database states
   PlanRules rules;
   KeepField fields;
   int threads = 0;  ///< 0: one for each core

@@ -18,11 +18,16 @@ using SceneSolver = std::function<std::vector<Solution>(std::span<const StageTas
 struct SolverChoice {
   /// "key = value" lines: everything that the solver's answers for this model depend on.
   std::function<std::string(const Model&)> settings;
-  std::function<SceneSolver(const Model&)> make_solver;  ///< called once for each thread
+  /// A solver of a variant with these settings, which `settings` gave for the nominal bridge; called for each
+  /// thread.
+  std::function<SceneSolver(const Model&, const std::string& settings)> make_solver;
 };
 
 /// The program's own solvers (core/solve).
 SolverChoice solver_with(const SolverSettings& settings);
+
+/// The solver that acts as a database states it. Throws Failure if another version wrote the settings.
+SceneSolver stated_solver(const Model& model, const std::string& settings);
 SolverChoice quasi_static(const DynamicSettings& motion = {});
 SolverChoice dynamic(const DynamicSettings& motion = {});
 

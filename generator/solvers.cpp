@@ -24,13 +24,14 @@ SceneSolver dynamic_solver(const SolverSettings& settings, const Model& model) {
 
 }  // namespace
 
+SceneSolver stated_solver(const Model& model, const std::string& settings) {
+  const SolverSettings acting = parse_settings(settings);
+  return acting.kind == SolverKind::dynamic ? dynamic_solver(acting, model) : combined_solver(acting, model);
+}
+
 SolverChoice solver_with(const SolverSettings& settings) {
   return {[settings](const Model& model) { return to_text(acting_settings(settings, model)); },
-          [settings](const Model& model) {
-            const SolverSettings acting = acting_settings(settings, model);
-            return acting.kind == SolverKind::dynamic ? dynamic_solver(acting, model)
-                                                      : combined_solver(acting, model);
-          }};
+          stated_solver};
 }
 
 SolverChoice quasi_static(const DynamicSettings& motion) {

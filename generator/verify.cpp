@@ -93,10 +93,10 @@ Recomputed recompute_row(const Database& database, const Model& bridge, std::siz
 /// Solves those of the rows anew that are of the variant whose bridge this is.
 void check_recomputed(const VerifyRequest& request, const CheckedVariant& checked,
                       std::span<const std::size_t> rows, VerifyReport& report) {
-  const SolverChoice solver = solver_with(parse_settings(checked.database.provenance().solver_settings));
+  const std::string settings = checked.database.provenance().solver_settings;
   std::vector<Recomputed> results(rows.size());
   oneapi::tbb::enumerable_thread_specific<SceneSolver> solvers(
-      [&] { return solver.make_solver(checked.bridge); });
+      [&] { return stated_solver(checked.bridge, settings); });
   Crew(request.threads).for_each_index(rows.size(), [&](std::size_t i) {
     results[i] = recompute_row(checked.database, checked.bridge, rows[i], solvers.local());
   });

@@ -13,7 +13,8 @@ namespace voussoir::test {
 /// wrong bridge and a wrong start show.
 inline Solution answer_from(const Model& bridge, const Scene& scene, const std::optional<Field>& start) {
   Solution solution = made_up_solution(bridge, scene);
-  solution.displacement *= JointMaterial{}.normal_stiffness / bridge.parameters.joints.front().normal_stiffness;
+  solution.displacement *=
+      JointMaterial{}.normal_stiffness / bridge.parameters.joints.front().normal_stiffness;
   if (start) solution.displacement += 0.1 * *start;
   return solution;
 }
@@ -34,7 +35,7 @@ inline std::string made_up_settings(const Model&) {
 }
 
 inline SolverChoice made_up_solver() {
-  return {made_up_settings, [](const Model& bridge) {
+  return {made_up_settings, [](const Model& bridge, const std::string&) {
             return one_by_one([&bridge](const Scene& scene, const std::optional<Field>& start) {
               return answer_from(bridge, scene, start);
             });
@@ -44,7 +45,7 @@ inline SolverChoice made_up_solver() {
 /// The same, but throws Failure at its `scenes`-th answer and from then on, like a build that is interrupted.
 inline SolverChoice failing_solver(int scenes) {
   const auto left = std::make_shared<std::atomic<int>>(scenes);
-  return {made_up_settings, [left](const Model& bridge) {
+  return {made_up_settings, [left](const Model& bridge, const std::string&) {
             return one_by_one([&bridge, left](const Scene& scene, const std::optional<Field>& start) {
               if (--*left <= 0) throw Failure("interrupted");
               return answer_from(bridge, scene, start);
