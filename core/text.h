@@ -17,8 +17,8 @@ std::vector<std::string_view> split(std::string_view text, char separator);
 /// The whole number, zero or more, that fills the text; nothing if it does not.
 std::optional<int> parse_whole_number(std::string_view text);
 
-/// The finite number that fills the text, whatever the locale; nothing if it does not, for NaN, for infinities
-/// and for a number too large for a double. A number too small for a double is zero.
+/// The finite number that fills the text, whatever the locale; nothing if it does not, for NaN, for
+/// infinities and for a number too large for a double. A number too small for a double is zero.
 std::optional<double> parse_number(std::string_view text);
 
 /// The text between apostrophes, shortened and without unprintable bytes, fit for an error message.

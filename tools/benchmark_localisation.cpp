@@ -85,8 +85,8 @@ std::size_t row_of(const Library& library, const std::string& text) {
 
 Posterior posterior_of(const Library& library, const Measurements& measured, const Eligible& eligible,
                        const NoiseModel& noise, const Prior& prior) {
-  return posterior(library.table, eligible,
-                   log_evidence_of_rows(measured, library.table, eligible.rows, library.table.row(0), noise),
+  const Observation observation = observe(measured, library.table.row(0), noise);
+  return posterior(library.table, eligible, log_evidence_of_rows(observation, library.table, eligible.rows),
                    prior, library.layout.size());
 }
 

@@ -4,7 +4,7 @@
 #include <chrono>
 #include <cmath>
 
-#include "lookup/evidence/posterior_screen.h"
+#include "lookup/evidence/evidence_screen.h"
 #include "lookup/readings/simulate.h"
 #include "lookup/search/exhaustive_search.h"
 #include "lookup/search/indexed_search.h"
@@ -88,22 +88,21 @@ void time_posteriors(const Library& library, const std::vector<Query>& queries, 
                      LookupTimings& timings) {
   const SceneTable& table = library.table;
   const Prior prior;
-  const PosteriorScreen screen(table, library.index, eligible, prior, library.layout.size());
+  const EvidenceScreen screen(table, library.index, eligible, prior);
   for (const bool stated : {true, false}) {
-    const auto noise_of = [&](std::size_t i) {
-      return stated ? NoiseModel{NoiseShape::uniform, queries[i].level} : NoiseModel{};
+    const auto observed = [&](std::size_t i) {
+      return observe(queries[i].measured, table.row(0),
+                     stated ? NoiseModel{NoiseShape::uniform, queries[i].level} : NoiseModel{});
     };
     const std::string noise = stated ? "uniform noise, stated" : "noise unknown (default)";
     std::vector<Posterior> exact(queries.size());
     timings.posteriors.push_back(timed("every row, " + noise, queries.size(), [&](std::size_t i) {
-      exact[i] = posterior(
-          table, eligible,
-          log_evidence_of_rows(queries[i].measured, table, eligible.rows, table.row(0), noise_of(i)), prior,
-          library.layout.size());
+      exact[i] = posterior(table, eligible, log_evidence_of_rows(observed(i), table, eligible.rows), prior,
+                           library.layout.size());
     }));
     std::vector<Posterior> screened(queries.size());
     timings.posteriors.push_back(timed("screened, " + noise, queries.size(), [&](std::size_t i) {
-      screened[i] = screen(queries[i].measured, table.row(0), noise_of(i));
+      screened[i] = posterior(table, eligible, screen(observed(i)), prior, library.layout.size());
     }));
     for (std::size_t i = 0; i < queries.size(); ++i)
       for (std::size_t row = 0; row < table.rows; ++row)

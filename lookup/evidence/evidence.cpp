@@ -5,9 +5,8 @@
 #include <cmath>
 #include <limits>
 
-#include "core/error.h"
-#include "lookup/evidence/likelihood.h"
 #include "lookup/evidence/row_statistics.h"
+#include "lookup/evidence/scene_evidence.h"
 #include "lookup/evidence/table_evidence.h"
 
 namespace voussoir {
@@ -19,16 +18,10 @@ constexpr std::array<NoiseShape, 3> kAutomaticShapes = {NoiseShape::uniform, Noi
 constexpr std::size_t kBlockRows = 1024;
 constexpr int kLevelsPerOctave = 8;  // of the grid, where the marginal over levels has no closed form
 
+/// The shapes that are possible, equally likely beforehand.
 std::span<const NoiseShape> shapes_of(const NoiseModel& noise) {
   if (noise.shape == NoiseShape::automatic) return kAutomaticShapes;
   return {&noise.shape, 1};
-}
-
-/// True if an unknown level multiplies all scales, so that the statistics for one level serve all.
-bool is_proportional(const NoiseModel& noise, const Measurements& measurements) {
-  const bool own = std::any_of(measurements.sigma.begin(), measurements.sigma.end(),
-                               [](double sigma) { return !std::isnan(sigma); });
-  return noise.floor == 0.0 && noise.model_error == 0.0 && !own && noise.shape != NoiseShape::student;
 }
 
 /// Some rows of a table.
@@ -40,21 +33,20 @@ SceneTable part_of(const SceneTable& table, std::size_t first, std::size_t count
 }
 
 /// Student's t has no short statistics: one pass over the row.
-double log_student_likelihood(const Observation& observation, std::span<const double> prediction, double nu,
-                              double sum_log_scale) {
+double log_student_likelihood(const Observation& observation, const ErrorScales& scales,
+                              std::span<const double> prediction, double sum_log_scale) {
   double sum = -sum_log_scale;
-  for (const double z : standard_errors(observation, prediction))
-    if (!std::isnan(z)) sum += log_density(NoiseShape::student, z, nu);
+  for (const double z : standard_errors(observation, scales, prediction))
+    if (!std::isnan(z)) sum += log_density(NoiseShape::student, z, observation.noise.degrees_of_freedom);
   return sum;
 }
 
 /// What stays the same for all noise levels.
 struct Problem {
-  const Measurements& measurements;
+  const Observation& observation;
   const SceneTable& table;
   std::span<const std::size_t> rows;  // those that count, in ascending order; all others get -infinity
-  std::span<const double> intact;
-  const NoiseModel& noise;
+  std::span<const NoiseShape> shapes;
   std::vector<double> log_silence;  // of each row: that the silent sensors are silent
 };
 
@@ -78,38 +70,39 @@ std::vector<double> block_by_block(const Problem& problem, Function function) {
   return result;
 }
 
-std::vector<double> student_likelihoods(const Problem& problem, const SceneTable& part,
-                                        std::span<const std::size_t> rows, const Observation& observation,
+std::vector<double> student_likelihoods(const Observation& observation, const ErrorScales& scales,
+                                        const SceneTable& part, std::span<const std::size_t> rows,
                                         const TableStatistics& statistics) {
   std::vector<double> result(part.rows, kImpossible);
   for (const std::size_t row : rows)
     if (!std::isnan(statistics.sum_absolute[row]))
-      result[row] = log_student_likelihood(observation, part.row(row), problem.noise.degrees_of_freedom,
-                                           statistics.sum_log_scale[row]);
+      result[row] = log_student_likelihood(observation, scales, part.row(row), statistics.sum_log_scale[row]);
   return result;
 }
 
 std::vector<double> at_level(const Problem& problem, double level) {
-  const Observation observation = observe(problem.measurements, problem.intact, problem.noise, level);
+  const Observation& observation = problem.observation;
+  const ErrorScales scales = scales_at(observation, level);
   return block_by_block(problem, [&](const SceneTable& part, std::span<const std::size_t> rows) {
-    const TableStatistics statistics = table_statistics(observation, part);
+    const TableStatistics statistics = table_statistics(observation, scales, part);
     std::vector<std::vector<double>> logs;
-    for (const NoiseShape shape : shapes_of(problem.noise))
+    for (const NoiseShape shape : problem.shapes)
       logs.push_back(shape == NoiseShape::student
-                         ? student_likelihoods(problem, part, rows, observation, statistics)
+                         ? student_likelihoods(observation, scales, part, rows, statistics)
                          : log_likelihoods(shape, statistics, observation.count));
     return log_mean(std::move(logs));
   });
 }
 
 std::vector<double> over_levels_in_closed_form(const Problem& problem) {
-  const Observation observation = observe(problem.measurements, problem.intact, problem.noise, 1.0);
+  const Observation& observation = problem.observation;
+  const ErrorScales scales = scales_at(observation, 1.0);
   std::vector<LevelIntegral> integrals;
-  for (const NoiseShape shape : shapes_of(problem.noise))
-    integrals.push_back(level_integral(shape, observation.count));
+  for (const NoiseShape shape : problem.shapes) integrals.push_back(level_integral(shape, observation.count));
   double best = kImpossible;
   return block_by_block(problem, [&](const SceneTable& part, std::span<const std::size_t> rows) {
-    return log_mean_evidences(integrals, table_statistics(observation, part), rows, observation.count, best);
+    return log_mean_evidences(integrals, table_statistics(observation, scales, part), rows, observation.count,
+                              best);
   });
 }
 
@@ -134,10 +127,16 @@ std::vector<double> over_level_grid(const Problem& problem) {
   return result;
 }
 
+/// True if an unknown level multiplies all scales, so that the statistics for one level serve all.
+bool is_proportional(const Observation& observation) {
+  return !observation.has_absolute_errors() && observation.noise.shape != NoiseShape::student;
+}
+
 std::vector<double> log_evidence(const Problem& problem) {
-  if (problem.noise.relative) return at_level(problem, std::max(*problem.noise.relative, kSmallestLevel));
-  if (is_proportional(problem.noise, problem.measurements)) return over_levels_in_closed_form(problem);
-  return over_level_grid(problem);
+  const std::optional<double> level = problem.observation.noise.relative;
+  if (level) return at_level(problem, std::max(*level, kSmallestLevel));
+  return is_proportional(problem.observation) ? over_levels_in_closed_form(problem)
+                                              : over_level_grid(problem);
 }
 
 SceneTable table_of_one_row(std::span<const double> prediction) {
@@ -148,19 +147,18 @@ SceneTable table_of_one_row(std::span<const double> prediction) {
   return table;
 }
 
-NoiseShape likeliest_shape(const Problem& problem) {
-  NoiseShape best = shapes_of(problem.noise).front();
+/// The shape under which the readings are likeliest if the scene of a table with one row is the truth.
+std::span<const NoiseShape> likeliest_shape(const Problem& problem) {
+  std::size_t best = 0;
   double best_log = kImpossible;
-  for (const NoiseShape shape : shapes_of(problem.noise)) {
-    NoiseModel single = problem.noise;
-    single.shape = shape;
-    const Problem one_shape{problem.measurements, problem.table, problem.rows,
-                            problem.intact,       single,        problem.log_silence};
-    const double value = log_evidence(one_shape).front();
-    if (value > best_log) best = shape;
+  for (std::size_t i = 0; i < problem.shapes.size(); ++i) {
+    Problem single = problem;
+    single.shapes = problem.shapes.subspan(i, 1);
+    const double value = log_evidence(single).front();
+    if (value > best_log) best = i;
     best_log = std::max(best_log, value);
   }
-  return best;
+  return problem.shapes.subspan(best, 1);
 }
 
 double likeliest_grid_level(const Problem& problem) {
@@ -176,39 +174,35 @@ double likeliest_grid_level(const Problem& problem) {
 
 }  // namespace
 
-std::vector<double> log_chance_of_silence(const Measurements& measurements, const SceneTable& table,
-                                          std::span<const std::size_t> rows, double silence) {
+std::vector<double> log_chance_of_silence(const Observation& observation, const SceneTable& table,
+                                          std::span<const std::size_t> rows) {
   std::vector<double> result(table.rows, 0.0);
   for (std::size_t point = 0; point < table.points; ++point) {
-    if (!measurements.silent[point]) continue;
+    if (!observation.silent[point]) continue;
     for (const std::size_t row : rows)
-      if (!std::isnan(table.row(row)[point])) result[row] += std::log(silence);
+      if (!std::isnan(table.row(row)[point])) result[row] += std::log(observation.noise.silence);
   }
   return result;
 }
 
-std::vector<double> log_evidence_of_rows(const Measurements& measurements, const SceneTable& table,
-                                         std::span<const std::size_t> rows, std::span<const double> intact,
-                                         const NoiseModel& noise) {
-  if (observe(measurements, intact, noise, 1.0).count == 0)
-    throw InputError("no reading at a control point that can move, expected at least one");
-  return log_evidence({measurements, table, rows, intact, noise,
-                       log_chance_of_silence(measurements, table, rows, noise.silence)});
+std::vector<double> log_evidence_of_rows(const Observation& observation, const SceneTable& table,
+                                         std::span<const std::size_t> rows) {
+  require_readings(observation);
+  return log_evidence({observation, table, rows, shapes_of(observation.noise),
+                       log_chance_of_silence(observation, table, rows)});
 }
 
-NoiseEstimate estimate_noise(const Measurements& measurements, std::span<const double> prediction,
-                             std::span<const double> intact, const NoiseModel& noise) {
+NoiseEstimate estimate_noise(const Observation& observation, std::span<const double> prediction) {
   const SceneTable table = table_of_one_row(prediction);
   const std::array<std::size_t, 1> rows = {0};
-  NoiseModel single = noise;
   const std::vector<double> no_matter = {0.0};  // silence says nothing of the noise
-  single.shape = likeliest_shape({measurements, table, rows, intact, noise, no_matter});
-  if (noise.relative) return {single.shape, *noise.relative, false};
-  if (!is_proportional(single, measurements))
-    return {single.shape, likeliest_grid_level({measurements, table, rows, intact, single, no_matter}), true};
-  const Observation observation = observe(measurements, intact, single, 1.0);
-  const RowStatistics statistics = table_statistics(observation, table).row(0);
-  return {single.shape, likeliest_level(single.shape, statistics, observation.count), true};
+  Problem problem{observation, table, rows, shapes_of(observation.noise), no_matter};
+  problem.shapes = likeliest_shape(problem);
+  const NoiseShape shape = problem.shapes.front();
+  if (observation.noise.relative) return {shape, *observation.noise.relative, false};
+  if (!is_proportional(observation)) return {shape, likeliest_grid_level(problem), true};
+  const RowStatistics statistics = table_statistics(observation, scales_at(observation, 1.0), table).row(0);
+  return {shape, likeliest_level(shape, statistics, observation.count), true};
 }
 
 }  // namespace voussoir

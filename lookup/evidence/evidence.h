@@ -5,8 +5,7 @@
 #include <vector>
 
 #include "database/records/database.h"
-#include "lookup/readings/measurements.h"
-#include "lookup/readings/noise_model.h"
+#include "lookup/readings/observation.h"
 
 namespace voussoir {
 
@@ -14,16 +13,15 @@ namespace voussoir {
 /// automatic noise shape marginalised. -infinity for impossible scenes (a reading on a block that the scene
 /// lacks, or an error beyond a uniform noise's bound) and for all other rows; with an unknown level perhaps
 /// for scenes less likely than the likeliest by exp(50). A silent sensor on a block that the scene has counts
-/// with the chance of its failing. `intact` are the displacements of the intact bridge. The result has a
-/// value for each row of the table. Throws InputError if no reading is at a point that can move.
-std::vector<double> log_evidence_of_rows(const Measurements& measurements, const SceneTable& table,
-                                         std::span<const std::size_t> rows, std::span<const double> intact,
-                                         const NoiseModel& noise);
+/// with the chance of its failing. The result has a value for each row of the table. Throws InputError if no
+/// reading is at a point that can move.
+std::vector<double> log_evidence_of_rows(const Observation& observation, const SceneTable& table,
+                                         std::span<const std::size_t> rows);
 
 /// log of the chance, in each of the given rows, that the silent sensors are silent: certain on missing
-/// blocks, `silence` on the others. Zero for all other rows.
-std::vector<double> log_chance_of_silence(const Measurements& measurements, const SceneTable& table,
-                                          std::span<const std::size_t> rows, double silence);
+/// blocks, the noise model's `silence` on the others. Zero for all other rows.
+std::vector<double> log_chance_of_silence(const Observation& observation, const SceneTable& table,
+                                          std::span<const std::size_t> rows);
 
 /// What the readings say of the noise if one scene is the truth.
 struct NoiseEstimate {
@@ -31,7 +29,6 @@ struct NoiseEstimate {
   double level = 0.0;                      ///< [-] as stated, or the likeliest
   bool estimated = false;                  ///< the level was unknown
 };
-NoiseEstimate estimate_noise(const Measurements& measurements, std::span<const double> prediction,
-                             std::span<const double> intact, const NoiseModel& noise);
+NoiseEstimate estimate_noise(const Observation& observation, std::span<const double> prediction);
 
 }  // namespace voussoir

@@ -17,11 +17,22 @@ constexpr std::size_t kFewestForPattern = 10;
 constexpr double kDisagreement = 8.0;  // times the median error: rare even among Laplace's wide tails
 constexpr std::size_t kFewestForDisagreement = 5;
 
-std::vector<double> without_gaps(const std::vector<double>& errors) {
+/// The errors of the sensors that can move.
+std::vector<double> errors_of(const std::vector<SensorResidual>& residuals) {
   std::vector<double> result;
-  std::copy_if(errors.begin(), errors.end(), std::back_inserter(result),
-               [](double z) { return !std::isnan(z); });
+  for (const SensorResidual& residual : residuals)
+    if (!std::isnan(residual.error)) result.push_back(residual.error);
   return result;
+}
+
+/// How large an error must be to disagree with the others.
+double limit_of_agreement(const std::vector<SensorResidual>& residuals) {
+  std::vector<double> sizes = errors_of(residuals);
+  for (double& size : sizes) size = std::abs(size);
+  if (sizes.size() < kFewestForDisagreement) return std::numeric_limits<double>::infinity();
+  const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
+  std::nth_element(sizes.begin(), middle, sizes.end());
+  return kDisagreement * *middle;
 }
 
 double lower_tail(double standard_normal) {
@@ -76,40 +87,36 @@ double chance_of_pattern(const std::vector<double>& errors) {
 
 }  // namespace
 
-Fit check_fit(const std::vector<double>& errors, const NoiseEstimate& noise, double degrees_of_freedom) {
-  const std::vector<double> present = without_gaps(errors);
+std::vector<SensorResidual> sensor_residuals(const Observation& observation, const ErrorScales& scales,
+                                             std::span<const double> prediction) {
+  const std::vector<double> sigma = error_scales(observation, scales, prediction);
+  std::vector<SensorResidual> result;
+  for (std::size_t point = 0; point < prediction.size(); ++point) {
+    const double reading = observation.displacement[point];
+    if (!std::isnan(reading))
+      result.push_back({point, reading, prediction[point], sigma[point],
+                        (reading - prediction[point]) / sigma[point], false});
+  }
+  const double limit = limit_of_agreement(result);
+  for (SensorResidual& residual : result)
+    residual.disagrees = limit > 0.0 && std::abs(residual.error) > limit;
+  return result;
+}
+
+Fit check_fit(const std::vector<SensorResidual>& residuals, const NoiseEstimate& noise,
+              double degrees_of_freedom) {
+  const std::vector<double> errors = errors_of(residuals);
   if (!noise.estimated) {
-    const double chance = chance_at_stated_level(present, noise.shape, degrees_of_freedom);
+    const double chance = chance_at_stated_level(errors, noise.shape, degrees_of_freedom);
     return {chance >= kSmallestChance, chance,
             chance >= kSmallestChance ? "" : "the scatter exceeds the stated noise"};
   }
   if (noise.level * standard_deviation(noise.shape) > kSuspiciousLevel)
     return {false, 0.0, "the scatter is too large to be noise"};
-  if (noise.level < kPerfectLevel || present.size() < kFewestForPattern) return {};
-  const double chance = chance_of_pattern(present);
+  if (noise.level < kPerfectLevel || errors.size() < kFewestForPattern) return {};
+  const double chance = chance_of_pattern(errors);
   return {chance >= kSmallestChance, chance,
           chance >= kSmallestChance ? "" : "neighbouring sensors deviate together, as noise does not"};
-}
-
-std::vector<SensorResidual> sensor_residuals(const Measurements& measurements,
-                                             std::span<const double> prediction,
-                                             const Observation& observation) {
-  const std::vector<double> scales = error_scales(observation, prediction);
-  const std::vector<double> errors = standard_errors(observation, prediction);
-  std::vector<double> sizes = without_gaps(errors);
-  for (double& size : sizes) size = std::abs(size);
-  double limit = std::numeric_limits<double>::infinity();
-  if (sizes.size() >= kFewestForDisagreement) {
-    const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
-    std::nth_element(sizes.begin(), middle, sizes.end());
-    limit = kDisagreement * *middle;
-  }
-  std::vector<SensorResidual> result;
-  for (std::size_t point = 0; point < prediction.size(); ++point)
-    if (!std::isnan(measurements.displacement[point]))
-      result.push_back({point, measurements.displacement[point], prediction[point], scales[point],
-                        errors[point], std::abs(errors[point]) > limit && limit > 0.0});
-  return result;
 }
 
 }  // namespace voussoir

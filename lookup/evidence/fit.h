@@ -6,7 +6,6 @@
 
 #include "database/records/database.h"
 #include "lookup/evidence/evidence.h"
-#include "lookup/evidence/row_statistics.h"
 
 namespace voussoir {
 
@@ -19,12 +18,6 @@ struct Fit {
 /// A scene explains readings whose fit is at least this likely.
 inline constexpr double kSmallestChance = 1e-4;
 
-/// With a stated level: is the scatter about the scene as small as the noise model says (Gaussian: chi
-/// square; Laplace: sum of absolute errors; Student: sum of log terms; uniform: the bound)? With an unknown
-/// level: is it below the largest level, and free of a pattern along the bridge (von Neumann's ratio of
-/// successive differences)? `errors` are z_i in units of the level's sigma, NaN without reading.
-Fit check_fit(const std::vector<double>& errors, const NoiseEstimate& noise, double degrees_of_freedom);
-
 struct SensorResidual {
   std::size_t point = 0;
   double reading = 0.0;    ///< [m]
@@ -34,8 +27,15 @@ struct SensorResidual {
   bool disagrees = false;  ///< far outside what the other sensors show
 };
 
-std::vector<SensorResidual> sensor_residuals(const Measurements& measurements,
-                                             std::span<const double> prediction,
-                                             const Observation& observation);
+/// A value for each reading; `scales` are those of the noise's level.
+std::vector<SensorResidual> sensor_residuals(const Observation& observation, const ErrorScales& scales,
+                                             std::span<const double> prediction);
+
+/// With a stated level: is the scatter about the scene as small as the noise model says (Gaussian: chi
+/// square; Laplace: sum of absolute errors; Student: sum of log terms; uniform: the bound)? With an unknown
+/// level: is it below the largest level, and free of a pattern along the bridge (von Neumann's ratio of
+/// successive differences)?
+Fit check_fit(const std::vector<SensorResidual>& residuals, const NoiseEstimate& noise,
+              double degrees_of_freedom);
 
 }  // namespace voussoir

@@ -7,13 +7,14 @@
 #include <limits>
 
 #include "core/simd/lane_math.h"
+#include "lookup/readings/noise_scale.h"
 
 namespace voussoir {
 namespace {
 
 constexpr float kLog2 = 0.69314718F;
 
-/// The arrays of an Observation in single precision.
+/// The arrays of an Observation and its scales in single precision.
 struct FloatView {
   std::vector<float> reading, slope, offset;
 };
@@ -62,8 +63,8 @@ VOUSSOIR_INLINE void collect_row(const FloatView& view, float inverse_unit, cons
   FloatSums sums;
   for (std::size_t i = 0; i < view.reading.size(); i += kFloatLanes) {
     const auto reading = load<FloatLanes>(view.reading.data() + i), predicted = load<FloatLanes>(row + i);
-    const FloatLanes scale = load<FloatLanes>(view.slope.data() + i) * magnitude(predicted) +
-                             load<FloatLanes>(view.offset.data() + i);
+    const FloatLanes scale = noise_scale(load<FloatLanes>(view.slope.data() + i),
+                                         load<FloatLanes>(view.offset.data() + i), magnitude(predicted));
     add(reading, magnitude(reading - predicted), scale, scale, inverse_unit, sums);
   }
   store(sums, i_row, columns);
@@ -96,7 +97,8 @@ void collect_boxes(const FloatView& view, float inverse_unit, const std::int16_t
       const FloatLanes farthest = -low > high ? -low : high;
       FloatLanes nearest = low > -high ? low : -high;
       nearest = nearest > zero ? nearest : zero;
-      add(reading, error, slope * farthest + offset, slope * nearest + offset, inverse_unit, sums);
+      add(reading, error, noise_scale(slope, offset, farthest), noise_scale(slope, offset, nearest),
+          inverse_unit, sums);
     }
     store(sums, cluster, columns);
   }
@@ -118,9 +120,9 @@ std::vector<float> padded(const std::vector<double>& values, std::size_t stride,
   return result;
 }
 
-FloatView view_of(const Observation& observation, std::size_t stride) {
+FloatView view_of(const Observation& observation, const ErrorScales& scales, std::size_t stride) {
   return {padded(observation.reading, stride, std::numeric_limits<float>::quiet_NaN()),
-          padded(observation.slope, stride, 0.0F), padded(observation.offset, stride, 1.0F)};
+          padded(scales.slope, stride, 0.0F), padded(scales.offset, stride, 1.0F)};
 }
 
 /// Logarithms of products of any size, -infinity for those out of range.
@@ -138,46 +140,48 @@ std::vector<float> logs_of(const std::vector<double>& products, float shift) {
   return exponent;
 }
 
-/// What `run` collects for so many rows.
+/// What `run` collects for so many rows, from `count` readings.
 template <typename Run>
-FloatStatistics collected(const Observation& observation, std::size_t rows, Run run) {
+FloatStatistics collected(std::size_t count, double unit, std::size_t rows, Run run) {
   const std::vector<float> zeros(rows, 0.0F);
   FloatStatistics result{zeros, zeros, zeros, {}};
   std::vector<double> products(rows);
-  run(static_cast<float>(1.0 / observation.unit),
+  run(static_cast<float>(1.0 / unit),
       Columns{result.sum_absolute.data(), result.sum_square.data(), result.largest.data(), products.data()});
-  result.log_scale = logs_of(
-      products, static_cast<float>(static_cast<double>(observation.count) * std::log(observation.unit)));
+  result.log_scale = logs_of(products, static_cast<float>(static_cast<double>(count) * std::log(unit)));
   return result;
 }
 
 }  // namespace
 
-FloatStatistics float_statistics(const Observation& observation, const SceneTable& table,
-                                 std::span<const std::size_t> rows) {
+FloatStatistics float_statistics(const Observation& observation, const ErrorScales& scales,
+                                 const SceneTable& table, std::span<const std::size_t> rows) {
   const std::size_t stride = (table.points + kFloatLanes - 1) / kFloatLanes * kFloatLanes;
-  const FloatView view = view_of(observation, stride);
+  const FloatView view = view_of(observation, scales, stride);
   // Whole registers are read; where that would go beyond the table, from a copy that is long enough.
   std::size_t inside = rows.size();
   while (inside > 0 && rows[inside - 1] * table.points + stride > table.vertical.size()) --inside;
-  return collected(observation, rows.size(), [&](float inverse_unit, const Columns& columns) {
-    collect(view, inverse_unit, table.vertical.data(), rows.data(), inside, table.points, columns);
-    std::vector<double> copy(stride, 0.0);
-    for (std::size_t i = inside; i < rows.size(); ++i) {
-      std::copy_n(table.row(rows[i]).begin(), table.points, copy.begin());
-      collect_row(view, inverse_unit, copy.data(), i, columns);
-    }
-  });
+  return collected(
+      observation.count, scales.unit, rows.size(), [&](float inverse_unit, const Columns& columns) {
+        collect(view, inverse_unit, table.vertical.data(), rows.data(), inside, table.points, columns);
+        std::vector<double> copy(stride, 0.0);
+        for (std::size_t i = inside; i < rows.size(); ++i) {
+          std::copy_n(table.row(rows[i]).begin(), table.points, copy.begin());
+          collect_row(view, inverse_unit, copy.data(), i, columns);
+        }
+      });
 }
 
-FloatStatistics least_statistics(const Observation& observation, const SearchIndex& index) {
-  const FloatView view = view_of(observation, index.places);
+FloatStatistics least_statistics(const Observation& observation, const ErrorScales& scales,
+                                 const SearchIndex& index) {
+  const FloatView view = view_of(observation, scales, index.places);
   std::vector<float> units;
   for (const std::int32_t exponent : index.exponent) units.push_back(std::ldexp(1.0F, exponent));
-  return collected(observation, index.clusters(), [&](float inverse_unit, const Columns& columns) {
-    collect_boxes(view, inverse_unit, index.least.data(), index.most.data(), units.data(), index.clusters(),
-                  columns);
-  });
+  return collected(observation.count, scales.unit, index.clusters(),
+                   [&](float inverse_unit, const Columns& columns) {
+                     collect_boxes(view, inverse_unit, index.least.data(), index.most.data(), units.data(),
+                                   index.clusters(), columns);
+                   });
 }
 
 }  // namespace voussoir

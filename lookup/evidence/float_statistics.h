@@ -19,10 +19,11 @@ struct FloatStatistics {
 };
 
 /// Of these rows of a table, rounded as they are read. Precondition: no model error.
-FloatStatistics float_statistics(const Observation& observation, const SceneTable& table,
-                                 std::span<const std::size_t> rows);
+FloatStatistics float_statistics(const Observation& observation, const ErrorScales& scales,
+                                 const SceneTable& table, std::span<const std::size_t> rows);
 
 /// Of the clusters of a search index: no more than those of any of their rows. Precondition: no model error.
-FloatStatistics least_statistics(const Observation& observation, const SearchIndex& index);
+FloatStatistics least_statistics(const Observation& observation, const ErrorScales& scales,
+                                 const SearchIndex& index);
 
 }  // namespace voussoir

@@ -9,8 +9,8 @@
 
 #include "core/error.h"
 #include "lookup/evidence/evidence.h"
-#include "lookup/evidence/likelihood.h"
-#include "lookup/evidence/row_statistics.h"
+#include "lookup/evidence/scene_evidence.h"
+#include "lookup/readings/noise_scale.h"
 
 namespace voussoir {
 namespace {
@@ -56,9 +56,12 @@ double fitted_factor(const Observation& observation, std::span<const double> pre
 
 class NuisanceModel {
  public:
-  NuisanceModel(const Observation& observation, const std::vector<StoredPoint>& points,
+  NuisanceModel(const Observation& observation, double level, const std::vector<StoredPoint>& points,
                 const Nuisance& nuisance)
-      : observation_(observation), points_(points), nuisance_(nuisance) {
+      : observation_(observation),
+        scales_(scales_at(observation, level)),
+        points_(points),
+        nuisance_(nuisance) {
     for (std::size_t i = 0; i < points.size(); ++i)
       if (!std::isnan(observation.reading[i]))
         mean_x_ += points[i].position.x() / static_cast<double>(observation.count);
@@ -72,9 +75,9 @@ class NuisanceModel {
     Eigen::Vector3d right = Eigen::Vector3d::Zero();
     for (std::size_t i = 0; i < prediction.size(); ++i) {
       if (std::isnan(observation_.reading[i])) continue;
-      const double change = std::abs(prediction[i] - observation_.intact[i]);
-      const double scale = observation_.slope[i] * factor * std::abs(prediction[i]) + observation_.offset[i] +
-                           observation_.model_error * change;
+      const double scale =
+          noise_scale(scales_.slope[i] * factor, scales_.offset[i], std::abs(prediction[i]),
+                      observation_.noise.model_error, std::abs(prediction[i] - observation_.intact[i]));
       const double difference = (observation_.reading[i] - prediction[i]) / scale;
       const Eigen::Vector3d terms = Eigen::Vector3d(nuisance_.scale * prediction[i], nuisance_.datum,
                                                     nuisance_.tilt * (points_[i].position.x() - mean_x_)) /
@@ -94,6 +97,7 @@ class NuisanceModel {
 
  private:
   const Observation& observation_;
+  ErrorScales scales_;
   const std::vector<StoredPoint>& points_;
   const Nuisance& nuisance_;
   double mean_x_ = 0.0;  // [m] of the points with readings
@@ -119,25 +123,20 @@ double log_evidence(const Reduced& reduced) {
 
 }  // namespace
 
-std::vector<double> log_evidence_with_nuisance(const Measurements& measurements, const SceneTable& table,
+std::vector<double> log_evidence_with_nuisance(const Observation& observation, const SceneTable& table,
                                                std::span<const std::size_t> rows,
-                                               std::span<const double> intact,
                                                const std::vector<StoredPoint>& points,
-                                               const NoiseModel& noise, const Nuisance& nuisance) {
+                                               const Nuisance& nuisance) {
+  const NoiseModel& noise = observation.noise;
   if (noise.shape != NoiseShape::gaussian)
     throw InputError("an unknown scale, datum or tilt needs Gaussian noise, expected --noise-model gaussian");
-  const bool absolute = noise.floor > 0.0 || noise.model_error > 0.0 ||
-                        std::any_of(measurements.sigma.begin(), measurements.sigma.end(),
-                                    [](double sigma) { return !std::isnan(sigma); });
-  if (!noise.relative && absolute)
+  if (!noise.relative && observation.has_absolute_errors())
     throw InputError(
         "an unknown scale, datum or tilt beside absolute errors needs a noise level, expected --noise");
+  require_readings(observation);
   const double level = noise.relative ? std::max(*noise.relative, kSmallestLevel) : 1.0;
-  const Observation observation = observe(measurements, intact, noise, level);
-  if (observation.count == 0)
-    throw InputError("no reading at a control point that can move, expected at least one");
-  const NuisanceModel model(observation, points, nuisance);
-  const std::vector<double> log_silence = log_chance_of_silence(measurements, table, rows, noise.silence);
+  const NuisanceModel model(observation, level, points, nuisance);
+  const std::vector<double> log_silence = log_chance_of_silence(observation, table, rows);
   std::vector<double> result(table.rows, kImpossible);
   for (const std::size_t row : rows) {
     const Reduced reduced = model.reduce(table.row(row));

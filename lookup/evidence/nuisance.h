@@ -5,8 +5,7 @@
 #include <vector>
 
 #include "database/records/database.h"
-#include "lookup/readings/measurements.h"
-#include "lookup/readings/noise_model.h"
+#include "lookup/readings/observation.h"
 
 namespace voussoir {
 
@@ -25,10 +24,9 @@ struct Nuisance {
 /// linear and Gaussian) and an unknown noise level by quadrature. Rows not given, and impossible scenes, have
 /// -infinity. Throws InputError unless the noise is Gaussian, and if its level is unknown beside absolute
 /// errors.
-std::vector<double> log_evidence_with_nuisance(const Measurements& measurements, const SceneTable& table,
+std::vector<double> log_evidence_with_nuisance(const Observation& observation, const SceneTable& table,
                                                std::span<const std::size_t> rows,
-                                               std::span<const double> intact,
                                                const std::vector<StoredPoint>& points,
-                                               const NoiseModel& noise, const Nuisance& nuisance);
+                                               const Nuisance& nuisance);
 
 }  // namespace voussoir

@@ -6,12 +6,12 @@
 #include <numbers>
 
 #include "core/simd/lane_math.h"
+#include "lookup/readings/noise_scale.h"
 
 namespace voussoir {
 namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr double kClamped = 1e-12;         // [m] points that move less are held by a support
 constexpr std::size_t kSafeProducts = 16;  // factors within 1e+-19 of the unit cannot leave a double's range
 
 /// Running statistics, lane by lane, with the product of scales in place of the sum of their logarithms.
@@ -20,7 +20,7 @@ struct LaneStatistics {
   DoubleLanes product = DoubleLanes{} + 1.0;
 };
 
-/// The arrays of an Observation, as the loop below wants them.
+/// The arrays of an Observation and its scales, as the loop below wants them.
 struct View {
   const double* reading;
   const double* slope;
@@ -38,8 +38,10 @@ VOUSSOIR_INLINE void add_errors(const View& view, std::size_t i, std::size_t cou
   };
   const DoubleLanes reading = at(view.reading),
                     predicted = load_some<DoubleLanes>(prediction + i, count, kNan);
-  DoubleLanes scale = at(view.slope) * magnitude(predicted) + at(view.offset);
-  if (view.model_error > 0.0) scale += view.model_error * magnitude(at(view.intact) - predicted);
+  const DoubleLanes slope = at(view.slope), offset = at(view.offset), movement = magnitude(predicted);
+  const DoubleLanes scale = view.model_error > 0.0 ? noise_scale(slope, offset, movement, view.model_error,
+                                                                 magnitude(at(view.intact) - predicted))
+                                                   : noise_scale(slope, offset, movement);
   const DoubleMask has_reading = reading == reading;
   const DoubleLanes z = has_reading ? magnitude(reading - predicted) / scale : DoubleLanes{};
   statistics.sum_absolute += z;
@@ -99,64 +101,27 @@ void collect(const View& view, const double* table, std::size_t rows, const Colu
 
 }  // namespace
 
-Observation observe(const Measurements& measurements, std::span<const double> intact, const NoiseModel& noise,
-                    double level) {
-  const std::size_t points = measurements.displacement.size();
-  Observation result{std::vector<double>(points, kNan),
-                     std::vector<double>(points, 0.0),
-                     std::vector<double>(points, 1.0),
-                     {intact.begin(), intact.end()},
-                     noise.model_error,
-                     1.0,
-                     0};
-  double sum_log_scale = 0.0;
-  for (std::size_t i = 0; i < points; ++i) {
-    if (std::isnan(measurements.displacement[i]) || std::abs(intact[i]) <= kClamped) continue;
-    const bool own = !std::isnan(measurements.sigma[i]);
-    result.reading[i] = measurements.displacement[i];
-    result.slope[i] = own ? 0.0 : level;
-    result.offset[i] = own ? measurements.sigma[i] : noise.floor + level * kSmallestMovement;
-    sum_log_scale += std::log(result.slope[i] * std::abs(intact[i]) + result.offset[i]);
-    ++result.count;
-  }
-  if (result.count > 0) result.unit = std::exp(sum_log_scale / static_cast<double>(result.count));
-  return result;
-}
-
-TableStatistics table_statistics(const Observation& observation, const SceneTable& table) {
+TableStatistics table_statistics(const Observation& observation, const ErrorScales& scales,
+                                 const SceneTable& table) {
   const std::vector<double> zeros(table.rows, 0.0);
   TableStatistics result{zeros, zeros, zeros, zeros};
   std::vector<double> exponent = zeros;
-  const View view{observation.reading.data(),
-                  observation.slope.data(),
-                  observation.offset.data(),
-                  observation.intact.data(),
-                  observation.model_error,
-                  1.0 / observation.unit,
-                  table.points};
+  const View view{
+      observation.reading.data(),    scales.slope.data(), scales.offset.data(), observation.intact.data(),
+      observation.noise.model_error, 1.0 / scales.unit,   table.points};
   collect(view, table.vertical.data(), table.rows,
           {result.sum_absolute.data(), result.sum_square.data(), result.largest.data(),
            result.sum_log_scale.data(), exponent.data()});
   make_logarithms(result.sum_log_scale);
-  const double shift = static_cast<double>(observation.count) * std::log(observation.unit);
+  const double shift = static_cast<double>(observation.count) * std::log(scales.unit);
   for (std::size_t row = 0; row < table.rows; ++row)
     result.sum_log_scale[row] += exponent[row] * std::numbers::ln2 + shift;
   return result;
 }
 
-std::vector<double> error_scales(const Observation& observation, std::span<const double> prediction) {
-  std::vector<double> result(prediction.size(), kNan);
-  for (std::size_t i = 0; i < prediction.size(); ++i) {
-    if (std::isnan(observation.reading[i])) continue;
-    const double change = std::abs(prediction[i] - observation.intact[i]);
-    result[i] = observation.slope[i] * std::abs(prediction[i]) + observation.offset[i] +
-                (observation.model_error > 0.0 ? observation.model_error * change : 0.0);
-  }
-  return result;
-}
-
-std::vector<double> standard_errors(const Observation& observation, std::span<const double> prediction) {
-  std::vector<double> result = error_scales(observation, prediction);
+std::vector<double> standard_errors(const Observation& observation, const ErrorScales& scales,
+                                    std::span<const double> prediction) {
+  std::vector<double> result = error_scales(observation, scales, prediction);
   for (std::size_t i = 0; i < prediction.size(); ++i)
     result[i] = (observation.reading[i] - prediction[i]) / result[i];
   return result;

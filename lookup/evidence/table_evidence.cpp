@@ -8,7 +8,7 @@
 
 #include "core/simd/lane_math.h"
 #include "lookup/evidence/level_curve.h"
-#include "lookup/evidence/likelihood.h"
+#include "lookup/evidence/scene_evidence.h"
 
 namespace voussoir {
 namespace {

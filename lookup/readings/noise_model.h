@@ -4,7 +4,8 @@
 /// The scale of sensor i under a candidate scene with displacement d_i is
 ///     sigma_i = relative * |d_i| + floor,
 /// or the sensor's own sigma where the measurements state one, plus an allowance for the model's own error,
-/// model_error * |d_i - d_i(intact)|. The paper's noise d_i (1 + p U(-1, 1)) is `uniform` with relative = p.
+/// model_error * |d_i - d_i(intact)| (noise_scale.h). The paper's noise d_i (1 + p U(-1, 1)) is `uniform`
+/// with relative = p.
 ///
 /// A sensor on a missing block cannot read anything; one on a standing block may fail by itself. So a sensor
 /// that is there and silent speaks for the loss of its block, the more so the more reliable sensors are.

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "core/error.h"
+#include "lookup/readings/noise_scale.h"
 
 namespace voussoir {
 namespace {
@@ -46,7 +47,7 @@ Measurements simulate_readings(std::span<const double> displacements, const Nois
   std::vector<double> readings(displacements.begin(), displacements.end());
   for (double& value : readings) {
     if (std::isnan(value)) continue;
-    value += (*noise.relative * std::abs(value) + noise.floor) *
+    value += noise_scale(*noise.relative, noise.floor, std::abs(value)) *
              draw_error(noise.shape, noise.degrees_of_freedom, random);
     if (random.uniform() < noise.silence) value = std::numeric_limits<double>::quiet_NaN();
   }

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "lookup/readings/random.h"
+#include "lookup/search/eligible_rows.h"
 #include "lookup/search/misfit.h"
 
 namespace voussoir {
@@ -168,11 +169,10 @@ GeneSpace::GeneSpace(const BlockLayout& layout, const SceneTable& table)
   for (std::size_t row = 0; row < table.rows; ++row) {
     if (table.outcome[row] == static_cast<std::uint8_t>(Outcome::unresolved)) continue;
     std::array<std::size_t, 2> pair = {blocks_, blocks_};
-    const auto removed = table.removed.subspan(row * table.most_missing, table.most_missing);
-    const auto missing = static_cast<std::size_t>(
-        std::count_if(removed.begin(), removed.end(), [](std::int32_t id) { return id >= 0; }));
+    const auto missing = static_cast<std::size_t>(missing_blocks(table, row));
     if (missing > pair.size()) continue;
-    std::copy_n(removed.begin(), missing, pair.begin());
+    std::copy_n(table.removed.begin() + static_cast<std::ptrdiff_t>(row * table.most_missing), missing,
+                pair.begin());
     row_of_pair_[pair[0] * (blocks_ + 1) + pair[1]] = static_cast<std::uint32_t>(row);
   }
 }

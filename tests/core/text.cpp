@@ -25,6 +25,7 @@ TEST_CASE("Numbers fill the text and are finite") {
   CHECK(parse_number("+.5") == 0.5);
   CHECK(parse_number("1.7976931348623157e308") == 1.7976931348623157e308);
   CHECK(parse_number("4.9e-324") == 4.9e-324);
-  for (const char* text : {"", "+-1", "1 ", "1,5", "0x10", "nan", "-nan", "inf", "-Infinity", "1.8e308", "e5"})
+  for (const char* text :
+       {"", "+-1", "1 ", "1,5", "0x10", "nan", "-nan", "inf", "-Infinity", "1.8e308", "e5"})
     CHECK_FALSE(parse_number(text));
 }

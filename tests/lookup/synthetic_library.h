@@ -45,6 +45,9 @@ struct SyntheticLibrary {
 
   Library library() const { return {table, points, layout, index.view()}; }
   std::span<const double> intact() const { return table.row(0); }
+  Observation observe(const Measurements& measured, const NoiseModel& noise) const {
+    return voussoir::observe(measured, intact(), noise);
+  }
   std::size_t row_of(const Scene& scene) const {
     for (std::size_t row = 0; row < table.rows; ++row)
       if (table.scene(row) == scene) return row;

@@ -9,8 +9,8 @@
 
 #include "core/error.h"
 #include "lookup/evidence/evidence.h"
-#include "lookup/evidence/likelihood.h"
 #include "lookup/evidence/posterior.h"
+#include "lookup/evidence/scene_evidence.h"
 #include "lookup/readings/noise_model.h"
 #include "tests/lookup/synthetic_library.h"
 
@@ -125,7 +125,7 @@ TEST_CASE("The likelihood for a stated level is the product of the textbook dens
         noise.model_error = 0.1;
         with_sigma.sigma[1] = 3e-4;
       }
-      const auto logs = log_evidence_of_rows(with_sigma, library.table, rows, library.intact(), noise);
+      const auto logs = log_evidence_of_rows(library.observe(with_sigma, noise), library.table, rows);
       int possible = 0;
       for (const std::size_t row : rows) {
         const long double exact =
@@ -145,7 +145,7 @@ TEST_CASE("The evidence over all levels is the brute-force mean over a fine grid
   const auto rows = all_rows(library.table);
   for (const NoiseShape shape : {NoiseShape::uniform, NoiseShape::gaussian, NoiseShape::laplace}) {
     const NoiseModel noise{shape, std::nullopt};
-    const auto logs = log_evidence_of_rows(measured, library.table, rows, library.intact(), noise);
+    const auto logs = log_evidence_of_rows(library.observe(measured, noise), library.table, rows);
     for (const std::size_t row : {std::size_t{0}, std::size_t{2}, std::size_t{9}}) {
       const long double exact = over_levels(measured, library.table.row(row), library.intact(), noise, shape);
       INFO(to_string(shape) << " row " << row);
@@ -165,7 +165,7 @@ TEST_CASE(
   for (const NoiseShape shape : {NoiseShape::gaussian, NoiseShape::laplace, NoiseShape::student}) {
     const NoiseModel noise{shape, std::nullopt, 1e-5, 0.0, 5.0};
     const auto logs =
-        log_evidence_of_rows(measured, library.table, all_rows(library.table), library.intact(), noise);
+        log_evidence_of_rows(library.observe(measured, noise), library.table, all_rows(library.table));
     for (const std::size_t row : {std::size_t{2}, library.row_of({{BlockId{1}, BlockId{2}}})}) {
       const long double exact = over_levels(measured, library.table.row(row), library.intact(), noise, shape);
       CHECK(logs[row] == Approx(static_cast<double>(std::log(exact))).margin(0.02));
@@ -181,9 +181,9 @@ TEST_CASE("The automatic shape is the mean of uniform, Gaussian and Laplace") {
     long double sum = 0.0L;
     for (const NoiseShape shape : {NoiseShape::uniform, NoiseShape::gaussian, NoiseShape::laplace})
       sum += std::exp(static_cast<long double>(
-          log_evidence_of_rows(measured, library.table, rows, library.intact(), {shape, level})[2]));
-    const double automatic = log_evidence_of_rows(measured, library.table, rows, library.intact(),
-                                                  {NoiseShape::automatic, level})[2];
+          log_evidence_of_rows(library.observe(measured, {shape, level}), library.table, rows)[2]));
+    const double automatic = log_evidence_of_rows(library.observe(measured, {NoiseShape::automatic, level}),
+                                                  library.table, rows)[2];
     CHECK(automatic == Approx(static_cast<double>(std::log(sum / 3.0L))).epsilon(1e-12));
   }
 }
@@ -196,13 +196,13 @@ TEST_CASE("Points that no scene moves are left out, and readings only there are 
   const NoiseModel noise{NoiseShape::gaussian, 0.05};
   const auto rows = all_rows(library.table);
   measured.displacement[0] = 1e-4;
-  const auto with = log_evidence_of_rows(measured, library.table, rows, library.intact(), noise);
+  const auto with = log_evidence_of_rows(library.observe(measured, noise), library.table, rows);
   measured.displacement[0] = std::nan("");
-  CHECK(with == log_evidence_of_rows(measured, library.table, rows, library.intact(), noise));
+  CHECK(with == log_evidence_of_rows(library.observe(measured, noise), library.table, rows));
   Measurements only = measured;
   for (double& value : only.displacement) value = std::nan("");
   only.displacement[0] = 1e-4;
-  CHECK_THROWS_AS(log_evidence_of_rows(only, library.table, rows, library.intact(), noise), InputError);
+  CHECK_THROWS_AS(log_evidence_of_rows(library.observe(only, noise), library.table, rows), InputError);
 }
 
 TEST_CASE("The estimated level of a scene is that of the noise that made its readings") {
@@ -210,15 +210,15 @@ TEST_CASE("The estimated level of a scene is that of the noise that made its rea
   Random random(6);
   const Measurements uniform = library.measure(5, 0.08, NoiseShape::uniform, random);
   const NoiseEstimate bound =
-      estimate_noise(uniform, library.table.row(5), library.intact(), {NoiseShape::uniform, {}});
+      estimate_noise(library.observe(uniform, {NoiseShape::uniform, {}}), library.table.row(5));
   CHECK(bound.estimated);
   CHECK(bound.level == Approx(0.08).epsilon(0.15));
   const Measurements gaussian = library.measure(5, 0.08, NoiseShape::gaussian, random);
   const NoiseEstimate sigma =
-      estimate_noise(gaussian, library.table.row(5), library.intact(), {NoiseShape::gaussian, {}});
+      estimate_noise(library.observe(gaussian, {NoiseShape::gaussian, {}}), library.table.row(5));
   CHECK(sigma.level == Approx(0.08).epsilon(0.5));
-  CHECK_FALSE(estimate_noise(gaussian, library.table.row(5), library.intact(), {NoiseShape::gaussian, 0.1})
-                  .estimated);
+  CHECK_FALSE(
+      estimate_noise(library.observe(gaussian, {NoiseShape::gaussian, 0.1}), library.table.row(5)).estimated);
 }
 
 TEST_CASE("The posterior is prior times likelihood, normalised by brute force in extended precision") {
@@ -229,7 +229,7 @@ TEST_CASE("The posterior is prior times likelihood, normalised by brute force in
     const NoiseModel noise{shape, 0.06};
     const Measurements measured = readings_of(library, 7, 0.05, 7);
     const Prior prior{{0, 1, 2}, {1.0, 2.0, 1.0}};
-    const auto logs = log_evidence_of_rows(measured, library.table, eligible.rows, library.intact(), noise);
+    const auto logs = log_evidence_of_rows(library.observe(measured, noise), library.table, eligible.rows);
     const Posterior result = posterior(library.table, eligible, logs, prior, library.blocks);
     const std::vector<long double> in_class = {1.0L, 15.0L, 105.0L};
     std::vector<long double> weight(library.table.rows);
@@ -258,8 +258,8 @@ TEST_CASE("The credible set is the shortest list of likeliest rows that holds 95
   const SyntheticLibrary library(3, 5);
   const Eligible eligible = eligible_rows(library.table, {1});
   const Measurements measured = readings_of(library, 7, 0.2, 8);
-  const auto logs = log_evidence_of_rows(measured, library.table, eligible.rows, library.intact(),
-                                         {NoiseShape::gaussian, 0.3});
+  const auto logs = log_evidence_of_rows(library.observe(measured, {NoiseShape::gaussian, 0.3}),
+                                         library.table, eligible.rows);
   const Posterior result = posterior(library.table, eligible, logs, {{1}, {}}, library.blocks);
   REQUIRE(result.credible.size() > 2);
   double share = 0.0;
@@ -279,8 +279,8 @@ TEST_CASE(
   CHECK(eligible.unresolved == 1);
   CHECK(eligible.rows.size() == 14);
   const Measurements measured = readings_of(library, 4, 0.0, 9);
-  const auto logs = log_evidence_of_rows(measured, library.table, eligible.rows, library.intact(),
-                                         {NoiseShape::gaussian, 0.1});
+  const auto logs = log_evidence_of_rows(library.observe(measured, {NoiseShape::gaussian, 0.1}),
+                                         library.table, eligible.rows);
   const Posterior result = posterior(library.table, eligible, logs, {{1}, {}}, library.blocks);
   CHECK(result.probability[4] == 0.0);
   CHECK(result.probability[0] == 0.0);
@@ -292,8 +292,8 @@ TEST_CASE("If every scene is impossible there is no probability at all") {
   const Eligible eligible = eligible_rows(library.table, {0, 1, 2});
   Measurements measured = readings_of(library, 2, 0.0, 10);
   measured.displacement[3] *= 50.0;
-  const auto logs = log_evidence_of_rows(measured, library.table, eligible.rows, library.intact(),
-                                         {NoiseShape::uniform, 0.05});
+  const auto logs = log_evidence_of_rows(library.observe(measured, {NoiseShape::uniform, 0.05}),
+                                         library.table, eligible.rows);
   const Posterior result = posterior(library.table, eligible, logs, {}, library.blocks);
   CHECK(result.credible.empty());
   CHECK(*std::max_element(result.probability.begin(), result.probability.end()) == 0.0);
@@ -321,9 +321,9 @@ TEST_CASE(
   const NoiseModel noise{NoiseShape::gaussian, 0.05};
   for (const std::size_t point : {std::size_t{2}, std::size_t{3}})  // both sensors of the second top block
     measured.displacement[point] = std::nan("");
-  const auto unlisted = log_evidence_of_rows(measured, library.table, rows, library.intact(), noise);
+  const auto unlisted = log_evidence_of_rows(library.observe(measured, noise), library.table, rows);
   for (const std::size_t point : {std::size_t{2}, std::size_t{3}}) measured.silent[point] = true;
-  const auto silent = log_evidence_of_rows(measured, library.table, rows, library.intact(), noise);
+  const auto silent = log_evidence_of_rows(library.observe(measured, noise), library.table, rows);
   const BlockId block = library.points[2].block;
   for (const std::size_t row : rows) {
     const double expected = library.table.scene(row).lacks(block) ? 0.0 : 2.0 * std::log(noise.silence);

@@ -49,8 +49,8 @@ TEST_CASE("Marginalised scale, datum and tilt give the dense Gaussian's likeliho
   for (const Nuisance nuisance : {Nuisance{0.2, 0.0, 0.0}, Nuisance{0.0, 1e-3, 0.0}, Nuisance{0.0, 0.0, 1e-4},
                                   Nuisance{0.2, 1e-3, 1e-4}}) {
     const auto logs =
-        log_evidence_with_nuisance(measured, library.table, all_rows(library.table), library.intact(),
-                                   library.points, {NoiseShape::gaussian, 0.05}, nuisance);
+        log_evidence_with_nuisance(library.observe(measured, {NoiseShape::gaussian, 0.05}), library.table,
+                                   all_rows(library.table), library.points, nuisance);
     for (const std::size_t row : {std::size_t{0}, std::size_t{3}, std::size_t{20}})
       CHECK(logs[row] == Approx(dense_log_likelihood(library, measured, row, 0.05, nuisance)).epsilon(1e-9));
   }
@@ -64,9 +64,9 @@ TEST_CASE(
   const auto rows = all_rows(library.table);
   for (const std::optional<double> level : {std::optional<double>(0.05), std::optional<double>()}) {
     const NoiseModel noise{NoiseShape::gaussian, level};
-    const auto plain = log_evidence_of_rows(measured, library.table, rows, library.intact(), noise);
-    const auto with = log_evidence_with_nuisance(measured, library.table, rows, library.intact(),
-                                                 library.points, noise, {0.0, 1e-15, 1e-15});
+    const auto plain = log_evidence_of_rows(library.observe(measured, noise), library.table, rows);
+    const auto with = log_evidence_with_nuisance(library.observe(measured, noise), library.table, rows,
+                                                 library.points, {0.0, 1e-15, 1e-15});
     for (const std::size_t row : rows)
       if (plain[row] != -std::numeric_limits<double>::infinity())
         CHECK(with[row] == Approx(plain[row]).epsilon(1e-6));
@@ -82,9 +82,9 @@ TEST_CASE("A shifted, tilted and scaled levelling is seen through") {
     measured.displacement[i] = 1.1 * measured.displacement[i] + 5e-4 + 2e-5 * library.points[i].position.x();
   const auto rows = eligible_rows(library.table, {0, 1}).rows;
   const NoiseModel noise{NoiseShape::gaussian, 0.002};
-  const auto naive = log_evidence_of_rows(measured, library.table, rows, library.intact(), noise);
-  const auto with = log_evidence_with_nuisance(measured, library.table, rows, library.intact(),
-                                               library.points, noise, {0.2, 1e-3, 1e-4});
+  const auto naive = log_evidence_of_rows(library.observe(measured, noise), library.table, rows);
+  const auto with = log_evidence_with_nuisance(library.observe(measured, noise), library.table, rows,
+                                               library.points, {0.2, 1e-3, 1e-4});
   const auto best = [&](const std::vector<double>& logs) {
     return static_cast<std::size_t>(std::max_element(logs.begin(), logs.end()) - logs.begin());
   };
@@ -98,10 +98,11 @@ TEST_CASE(
   Random random(4);
   const Measurements measured = library.measure(0, 0.05, NoiseShape::gaussian, random);
   const auto rows = all_rows(library.table);
-  CHECK_THROWS_AS(log_evidence_with_nuisance(measured, library.table, rows, library.intact(), library.points,
-                                             {NoiseShape::laplace, 0.05}, {0.2}),
+  CHECK_THROWS_AS(log_evidence_with_nuisance(library.observe(measured, {NoiseShape::laplace, 0.05}),
+                                             library.table, rows, library.points, {0.2}),
                   InputError);
-  CHECK_THROWS_AS(log_evidence_with_nuisance(measured, library.table, rows, library.intact(), library.points,
-                                             {NoiseShape::gaussian, std::nullopt, 1e-5}, {0.2}),
-                  InputError);
+  CHECK_THROWS_AS(
+      log_evidence_with_nuisance(library.observe(measured, {NoiseShape::gaussian, std::nullopt, 1e-5}),
+                                 library.table, rows, library.points, {0.2}),
+      InputError);
 }

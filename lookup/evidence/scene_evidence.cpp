@@ -1,4 +1,4 @@
-#include "lookup/evidence/likelihood.h"
+#include "lookup/evidence/scene_evidence.h"
 
 #include <algorithm>
 #include <boost/math/quadrature/gauss.hpp>

@@ -1,4 +1,4 @@
-#include "lookup/evidence/posterior_screen.h"
+#include "lookup/evidence/evidence_screen.h"
 
 #include <algorithm>
 #include <array>
@@ -11,7 +11,7 @@
 #include "lookup/evidence/evidence.h"
 #include "lookup/evidence/float_statistics.h"
 #include "lookup/evidence/level_curve.h"
-#include "lookup/evidence/likelihood.h"
+#include "lookup/evidence/scene_evidence.h"
 #include "lookup/evidence/table_evidence.h"
 #include "lookup/search/index_bounds.h"
 
@@ -100,16 +100,15 @@ void raise_to(const ShapeBound& bound, const Loss& loss, const float* sums, std:
   }
 }
 
-bool bounds_apply(const Measurements& measurements, const NoiseModel& noise) {
-  const bool own = std::any_of(measurements.sigma.begin(), measurements.sigma.end(),
-                               [](double sigma) { return !std::isnan(sigma); });
-  return noise.shape != NoiseShape::student && noise.model_error == 0.0 && !own &&
+bool bounds_apply(const Observation& observation) {
+  const NoiseModel& noise = observation.noise;
+  return noise.shape != NoiseShape::student && noise.model_error == 0.0 && !observation.own_sigmas &&
          (noise.relative ? *noise.relative > 0.0 : noise.floor == 0.0);
 }
 
 /// Of each row, from above, the logarithm of the largest shape's evidence; -infinity for impossible scenes.
-std::vector<float> upper_bounds(const Observation& observation, const FloatStatistics& statistics,
-                                const NoiseModel& noise) {
+std::vector<float> upper_bounds(const Observation& observation, const FloatStatistics& statistics) {
+  const NoiseModel& noise = observation.noise;
   const auto count = static_cast<float>(observation.count);
   const float rounding = kRounding / static_cast<float>(noise.relative ? *noise.relative : 1.0);
   std::vector<float> bounds(statistics.largest.size(), -kInfinity);
@@ -147,21 +146,11 @@ double least_beside(std::vector<double> values, std::size_t count, std::size_t r
 
 }  // namespace
 
-/// What a question is about, from the arguments of operator().
-struct PosteriorScreen::Problem {
-  const Measurements& measurements;
-  std::span<const double> intact;
-  const NoiseModel& noise;
-  Observation observation;
-};
-
-PosteriorScreen::PosteriorScreen(const SceneTable& table, const SearchIndex& index, const Eligible& eligible,
-                                 const Prior& prior, std::size_t block_count)
+EvidenceScreen::EvidenceScreen(const SceneTable& table, const SearchIndex& index, const Eligible& eligible,
+                               const Prior& prior)
     : table_(table),
       index_(index),
       eligible_(eligible),
-      prior_(prior),
-      block_count_(block_count),
       log_prior_(table.rows, -kInfinity),
       cluster_log_prior_(index.clusters(), -kInfinity) {
   const std::vector<double> by_missing = log_prior_by_missing(table, eligible, prior);
@@ -174,7 +163,7 @@ PosteriorScreen::PosteriorScreen(const SceneTable& table, const SearchIndex& ind
 }
 
 /// The eligible rows of some clusters, in ascending order: as they stand in memory, one after the other.
-std::vector<std::size_t> PosteriorScreen::rows_of(std::span<const std::size_t> clusters) const {
+std::vector<std::size_t> EvidenceScreen::rows_of(std::span<const std::size_t> clusters) const {
   std::vector<std::uint8_t> is_wanted(table_.rows, 0);
   for (const std::size_t cluster : clusters)
     for (const std::int32_t row : index_.row.subspan(index_.slot(cluster), index_.rows(cluster)))
@@ -185,22 +174,21 @@ std::vector<std::size_t> PosteriorScreen::rows_of(std::span<const std::size_t> c
   return rows;
 }
 
-std::vector<float> PosteriorScreen::with_prior(std::vector<float> of_clusters) const {
+std::vector<float> EvidenceScreen::with_prior(std::vector<float> of_clusters) const {
   for (std::size_t i = 0; i < of_clusters.size(); ++i) of_clusters[i] += cluster_log_prior_[i];
   return of_clusters;
 }
 
-std::vector<float> PosteriorScreen::row_bounds(const Problem& problem,
-                                               std::span<const std::size_t> rows) const {
-  std::vector<float> bounds =
-      upper_bounds(problem.observation, float_statistics(problem.observation, table_, rows), problem.noise);
+std::vector<float> EvidenceScreen::row_bounds(const Observation& observation, const ErrorScales& scales,
+                                              std::span<const std::size_t> rows) const {
+  std::vector<float> bounds = upper_bounds(observation, float_statistics(observation, scales, table_, rows));
   for (std::size_t i = 0; i < bounds.size(); ++i) bounds[i] += log_prior_[rows[i]];
   return bounds;
 }
 
 /// A value for each of the rows.
-std::vector<double> PosteriorScreen::exact_evidence(const Problem& problem,
-                                                    std::span<const std::size_t> rows) const {
+std::vector<double> EvidenceScreen::exact_evidence(const Observation& observation,
+                                                   std::span<const std::size_t> rows) const {
   std::vector<double> vertical;
   vertical.reserve(rows.size() * table_.points);
   for (const std::size_t row : rows)
@@ -211,13 +199,13 @@ std::vector<double> PosteriorScreen::exact_evidence(const Problem& problem,
   gathered.vertical = vertical;
   std::vector<std::size_t> all(rows.size());
   std::iota(all.begin(), all.end(), std::size_t{0});
-  return log_evidence_of_rows(problem.measurements, gathered, all, problem.intact, problem.noise);
+  return log_evidence_of_rows(observation, gathered, all);
 }
 
 /// Works out the rows of the clusters nearest to the readings: what is below the `count` best of them, or far
 /// below the best, does not matter.
-double PosteriorScreen::least_that_matters(const Problem& problem, std::size_t count) const {
-  const std::vector<double> distance = distances_from(problem.observation.reading, index_);
+double EvidenceScreen::least_that_matters(const Observation& observation, std::size_t count) const {
+  const std::vector<double> distance = distances_from(observation.reading, index_);
   std::vector<std::size_t> clusters(distance.size());
   std::iota(clusters.begin(), clusters.end(), std::size_t{0});
   for (const std::size_t wanted : kClustersFirst) {
@@ -226,7 +214,7 @@ double PosteriorScreen::least_that_matters(const Problem& problem, std::size_t c
                       clusters.end(),
                       [&](std::size_t a, std::size_t b) { return distance[a] < distance[b]; });
     const std::vector<std::size_t> rows = rows_of(std::span(clusters).first(looked_at));
-    std::vector<double> values = exact_evidence(problem, rows);
+    std::vector<double> values = exact_evidence(observation, rows);
     for (std::size_t i = 0; i < values.size(); ++i) values[i] += static_cast<double>(log_prior_[rows[i]]);
     std::erase_if(values, [](double value) { return !std::isfinite(value); });
     if (values.size() >= count) return least_beside(std::move(values), count, eligible_.rows.size());
@@ -234,33 +222,30 @@ double PosteriorScreen::least_that_matters(const Problem& problem, std::size_t c
   return kAllThatIsPossible;
 }
 
-std::vector<std::size_t> PosteriorScreen::rows_that_matter(const Measurements& measurements,
-                                                           std::span<const double> intact,
-                                                           const NoiseModel& noise, std::size_t count) const {
-  const Problem problem{measurements, intact, noise,
-                        observe(measurements, intact, noise, noise.relative.value_or(1.0))};
-  if (problem.observation.count == 0 || !bounds_apply(measurements, noise)) return eligible_.rows;
-  const double threshold = least_that_matters(problem, count);
-  const std::vector<float> of_clusters = with_prior(
-      upper_bounds(problem.observation, least_statistics(problem.observation, index_), problem.noise));
+std::vector<std::size_t> EvidenceScreen::rows_that_matter(const Observation& observation,
+                                                          std::size_t count) const {
+  if (observation.count == 0 || !bounds_apply(observation)) return eligible_.rows;
+  const ErrorScales scales = scales_at(observation, observation.noise.relative.value_or(1.0));
+  const double threshold = least_that_matters(observation, count);
+  const std::vector<float> of_clusters =
+      with_prior(upper_bounds(observation, least_statistics(observation, scales, index_)));
   std::vector<std::size_t> clusters;
   for (std::size_t i = 0; i < of_clusters.size(); ++i)
     if (of_clusters[i] >= threshold) clusters.push_back(i);
   const std::vector<std::size_t> rows = rows_of(clusters);
-  const std::vector<float> of_rows = row_bounds(problem, rows);
+  const std::vector<float> of_rows = row_bounds(observation, scales, rows);
   std::vector<std::size_t> result;
   for (std::size_t i = 0; i < rows.size(); ++i)
     if (of_rows[i] >= threshold) result.push_back(rows[i]);
   return result;
 }
 
-Posterior PosteriorScreen::operator()(const Measurements& measurements, std::span<const double> intact,
-                                      const NoiseModel& noise, std::size_t count) const {
-  const std::vector<std::size_t> rows = rows_that_matter(measurements, intact, noise, count);
-  const std::vector<double> evidence = exact_evidence({measurements, intact, noise, {}}, rows);
+std::vector<double> EvidenceScreen::operator()(const Observation& observation, std::size_t count) const {
+  const std::vector<std::size_t> rows = rows_that_matter(observation, count);
+  const std::vector<double> evidence = exact_evidence(observation, rows);
   std::vector<double> of_all(table_.rows, -std::numeric_limits<double>::infinity());
   for (std::size_t i = 0; i < rows.size(); ++i) of_all[rows[i]] = evidence[i];
-  return posterior(table_, eligible_, of_all, prior_, block_count_);
+  return of_all;
 }
 
 }  // namespace voussoir

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "lookup/evidence/evidence.h"
+#include "lookup/evidence/evidence_screen.h"
 #include "lookup/evidence/float_statistics.h"
-#include "lookup/evidence/posterior_screen.h"
 #include "tests/lookup/synthetic_library.h"
 
 using namespace voussoir;
@@ -13,13 +13,14 @@ using voussoir::test::SyntheticLibrary;
 
 namespace {
 
-void check_same(const SyntheticLibrary& library, const PosteriorScreen& screen, const Eligible& eligible,
+void check_same(const SyntheticLibrary& library, const EvidenceScreen& screen, const Eligible& eligible,
                 const Prior& prior, const Measurements& measured, const NoiseModel& noise) {
   const Posterior exact =
       posterior(library.table, eligible,
-                log_evidence_of_rows(measured, library.table, eligible.rows, library.intact(), noise), prior,
+                log_evidence_of_rows(library.observe(measured, noise), library.table, eligible.rows), prior,
                 library.blocks);
-  const Posterior screened = screen(measured, library.intact(), noise);
+  const Posterior screened =
+      posterior(library.table, eligible, screen(library.observe(measured, noise)), prior, library.blocks);
   for (std::size_t row = 0; row < library.table.rows; ++row)
     REQUIRE(screened.probability[row] == Approx(exact.probability[row]).margin(2.0 * kScreenedAway));
   for (std::size_t id = 0; id < library.blocks; ++id)
@@ -34,7 +35,7 @@ TEST_CASE("The screened posterior is the exact one, for stated and unknown noise
   const SyntheticLibrary library(4, 9);
   const Eligible eligible = eligible_rows(library.table, {0, 1, 2});
   const Prior prior;
-  const PosteriorScreen screen(library.table, library.index.view(), eligible, prior, library.blocks);
+  const EvidenceScreen screen(library.table, library.index.view(), eligible, prior);
   Random random(1);
   std::size_t kept = 0, trials = 0;
   for (const double level : {0.0, 1e-5, 0.003, 0.02, 0.1, 0.3})
@@ -51,7 +52,7 @@ TEST_CASE("The screened posterior is the exact one, for stated and unknown noise
         if (stated) check_same(library, screen, eligible, prior, measured, noise);
         if (level > 0.02 || shape == NoiseShape::student) continue;  // much noise leaves many scenes possible
         noise.floor = 0.0;
-        kept += screen.rows_that_matter(measured, library.intact(), noise).size();
+        kept += screen.rows_that_matter(library.observe(measured, noise)).size();
         ++trials;
       }
   CHECK(kept < trials * library.table.rows / 2);  // the screen does screen
@@ -60,21 +61,22 @@ TEST_CASE("The screened posterior is the exact one, for stated and unknown noise
 TEST_CASE("The screened posterior has no row when every scene is impossible") {
   const SyntheticLibrary library(2, 5);
   const Eligible eligible = eligible_rows(library.table, {0, 1, 2});
-  const PosteriorScreen screen(library.table, library.index.view(), eligible, {}, library.blocks);
+  const EvidenceScreen screen(library.table, library.index.view(), eligible, {});
   Random random(2);
   Measurements measured = library.measure(0, 0.0, NoiseShape::uniform, random);
   measured.displacement[3] *= 50.0;
-  CHECK(screen(measured, library.intact(), {NoiseShape::uniform, 0.05}).credible.empty());
+  const std::vector<double> evidence = screen(library.observe(measured, {NoiseShape::uniform, 0.05}));
+  CHECK(posterior(library.table, eligible, evidence, {}, library.blocks).credible.empty());
 }
 
 TEST_CASE("Own sigmas and model errors switch the screen off but not the posterior") {
   const SyntheticLibrary library(2, 5);
   const Eligible eligible = eligible_rows(library.table, {0, 1, 2});
-  const PosteriorScreen screen(library.table, library.index.view(), eligible, {}, library.blocks);
+  const EvidenceScreen screen(library.table, library.index.view(), eligible, {});
   Random random(3);
   Measurements measured = library.measure(3, 0.02, NoiseShape::uniform, random);
   NoiseModel noise{NoiseShape::gaussian, 0.02, 0.0, 0.1};
-  CHECK(screen.rows_that_matter(measured, library.intact(), noise) == eligible.rows);
+  CHECK(screen.rows_that_matter(library.observe(measured, noise)) == eligible.rows);
   check_same(library, screen, eligible, {}, measured, noise);
   noise.model_error = 0.0;
   measured.sigma[1] = 1e-4;
