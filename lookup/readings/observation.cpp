@@ -53,8 +53,7 @@ ErrorScales scales_at(const Observation& observation, double level) {
       sum_log_scale +=
           std::log(noise_scale(result.slope[i], result.offset[i], std::abs(observation.intact[i])));
   }
-  if (observation.count > 0)
-    result.unit = std::exp(sum_log_scale / static_cast<double>(observation.count));
+  if (observation.count > 0) result.unit = std::exp(sum_log_scale / static_cast<double>(observation.count));
   return result;
 }
 
@@ -63,9 +62,8 @@ std::vector<double> error_scales(const Observation& observation, const ErrorScal
   std::vector<double> result(prediction.size(), kNan);
   for (std::size_t i = 0; i < prediction.size(); ++i)
     if (!std::isnan(observation.reading[i]))
-      result[i] =
-          noise_scale(scales.slope[i], scales.offset[i], std::abs(prediction[i]),
-                      observation.noise.model_error, std::abs(prediction[i] - observation.intact[i]));
+      result[i] = noise_scale(scales.slope[i], scales.offset[i], std::abs(prediction[i]),
+                              observation.noise.model_error, std::abs(prediction[i] - observation.intact[i]));
   return result;
 }
 

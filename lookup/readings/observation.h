@@ -1,6 +1,6 @@
 #pragma once
-/// @file What was observed: readings, how far each may be off, and the state that they are compared with. Made
-/// once for a question; evidence, fit and residuals take it.
+/// @file What was observed: readings, how far each may be off, and the state that they are compared with.
+/// Made once for a question; evidence, fit and residuals take it.
 
 #include <span>
 #include <vector>
@@ -14,8 +14,8 @@ namespace voussoir {
 struct Observation {
   std::vector<double> displacement;  ///< [m] as measured, NaN where there is no reading: what Eq. 1 takes
   std::vector<double> reading;       ///< [m] the same, but NaN where nothing can move: it says nothing there
-  std::vector<double> share;   ///< [-] of a movement, by which a reading is off at a noise level of one: 1, or 0
-                               ///< where the sensor states its own sigma
+  std::vector<double> share;  ///< [-] of a movement, by which a reading is off at a noise level of one: 1, or
+                              ///< 0 where the sensor states its own sigma
   std::vector<double> floor;   ///< [m] by which it is off besides: of the noise model, or the sensor's sigma
   std::vector<double> intact;  ///< [m] displacements of the intact bridge
   std::vector<bool> silent;    ///< there is a sensor, but it gave no reading
@@ -29,7 +29,8 @@ struct Observation {
 
 /// `intact` are the displacements of the intact bridge: points that do not move there are held by a support
 /// and move in no scene.
-Observation observe(const Measurements& measurements, std::span<const double> intact, const NoiseModel& noise);
+Observation observe(const Measurements& measurements, std::span<const double> intact,
+                    const NoiseModel& noise);
 
 /// Throws InputError unless some reading can tell scenes apart.
 void require_readings(const Observation& observation);

@@ -4,7 +4,6 @@
 #include <array>
 #include <limits>
 
-#include "lookup/readings/random.h"
 #include "lookup/search/eligible_rows.h"
 #include "lookup/search/misfit.h"
 
@@ -17,8 +16,22 @@ constexpr double kLocalMutation = 0.5;     // share of mutations that stay near;
 constexpr std::uint32_t kNoRow = std::numeric_limits<std::uint32_t>::max();
 constexpr double kNotScored = -1.0;
 
+/// Genes (course and position of a block) that left their range come back to its end.
+void repair(std::span<int, 2> block, const GeneSpace& space) {
+  block[0] = std::clamp(block[0], 0, space.courses() - 1);
+  block[1] = std::clamp(block[1], 1, std::max(1, space.positions(block[0])));
+}
+
+void move_anywhere(std::span<int, 2> block, const GeneSpace& space, Random& random) {
+  block[0] = static_cast<int>(random.below(static_cast<std::uint32_t>(space.courses())));
+  const int positions = std::max(1, space.positions(block[0]));
+  block[1] = 1 + static_cast<int>(random.below(static_cast<std::uint32_t>(positions)));
+}
+
 struct Member {
-  std::array<int, kMostGenes> genes{};  // (x1, x2), (x3, x4): course and position of each missing block
+  std::array<int, kMostGenes> genes{};  // (x1, x2), (x3, x4): of each missing block
+
+  std::span<int, 2> block(std::size_t i) { return std::span(genes).subspan(2 * i).first<2>(); }
   ScoredRow score{GeneSpace::none, std::numeric_limits<double>::infinity()};
 };
 
@@ -57,7 +70,7 @@ class Evolution {
   std::vector<Member> first_generation() {
     std::vector<Member> population(static_cast<std::size_t>(settings_.population));
     for (Member& member : population) {
-      for (std::size_t block = 0; block < missing_; ++block) move_anywhere(member, block);
+      for (std::size_t i = 0; i < missing_; ++i) move_anywhere(member.block(i), space_, random_);
       score(member);
     }
     return population;
@@ -88,7 +101,7 @@ class Evolution {
     Member child = a;
     if (missing_ == 1) {
       child.genes[1] = b.genes[1];
-      repair(child, 0);
+      repair(child.block(0), space_);
       return child;
     }
     for (std::size_t block = 0; block < missing_; ++block) {
@@ -100,32 +113,7 @@ class Evolution {
 
   void mutate(Member& member) {
     if (random_.uniform() >= settings_.mutation) return;
-    const std::size_t block = random_.below(static_cast<std::uint32_t>(missing_));
-    if (random_.uniform() < kLocalMutation)
-      step(member, 2 * block + random_.below(2));
-    else
-      move_anywhere(member, block);
-    repair(member, block);
-  }
-
-  void step(Member& member, std::size_t gene) {
-    const int distance = 1 + static_cast<int>(random_.below(kLargestStep));
-    member.genes[gene] += random_.below(2) == 0 ? distance : -distance;
-  }
-
-  void move_anywhere(Member& member, std::size_t block) {
-    const auto course = static_cast<int>(random_.below(static_cast<std::uint32_t>(space_.courses())));
-    const int positions = std::max(1, space_.positions(course));
-    member.genes[2 * block] = course;
-    member.genes[2 * block + 1] = 1 + static_cast<int>(random_.below(static_cast<std::uint32_t>(positions)));
-  }
-
-  /// Genes that left their range come back to its end.
-  void repair(Member& member, std::size_t block) const {
-    int& course = member.genes[2 * block];
-    int& position = member.genes[2 * block + 1];
-    course = std::clamp(course, 0, space_.courses() - 1);
-    position = std::clamp(position, 1, std::max(1, space_.positions(course)));
+    mutate_block(member.block(random_.below(static_cast<std::uint32_t>(missing_))), space_, random_);
   }
 
   void score(Member& member) {
@@ -188,6 +176,17 @@ std::size_t GeneSpace::row(std::span<const int> genes) const {
   if (pair[0] > pair[1]) std::swap(pair[0], pair[1]);
   const std::uint32_t row = row_of_pair_[pair[0] * (blocks_ + 1) + pair[1]];
   return row == kNoRow ? none : row;
+}
+
+void mutate_block(std::span<int, 2> block, const GeneSpace& space, Random& random) {
+  if (random.uniform() < kLocalMutation) {
+    int& gene = block[random.below(2)];
+    const int distance = 1 + static_cast<int>(random.below(kLargestStep));
+    gene += random.below(2) == 0 ? distance : -distance;
+  } else {
+    move_anywhere(block, space, random);
+  }
+  repair(block, space);
 }
 
 GeneticResult genetic_search(std::span<const double> readings, const SceneTable& table,

@@ -7,6 +7,7 @@
 
 #include "core/structure/block_layout.h"
 #include "database/records/database.h"
+#include "lookup/readings/random.h"
 #include "lookup/search/scored_row.h"
 
 namespace voussoir {
@@ -40,6 +41,10 @@ class GeneSpace {
   std::size_t blocks_ = 0;
   std::vector<std::uint32_t> row_of_pair_;  // (blocks + 1)^2; the last index means "no block"
 };
+
+/// Changes the genes (course, position) of a block: half of the time one of them by one or two, the other
+/// half both to anything.
+void mutate_block(std::span<int, 2> block, const GeneSpace& space, Random& random);
 
 struct GeneticResult {
   std::vector<ScoredRow> best;  ///< the best scenes seen, best first

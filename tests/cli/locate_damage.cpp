@@ -114,7 +114,7 @@ TEST_CASE("Every search and format of locate-damage answers") {
       CHECK(line(result.out, 2).starts_with("1,\"4,2\","));
     }
   const ProgramResult text = desk().locate(readings, {"--noise", "5%", "--top", "3"});
-  CHECK_THAT(text.out, Contains("course 4, 2nd from the left") && Contains("rank"));
+  CHECK_THAT(text.out, Contains("Most likely: 4,2 (course 4, 2nd from the left, x") && Contains("rank"));
 }
 
 TEST_CASE("A nearest-neighbour index that somebody put into the file is not read") {
@@ -261,7 +261,7 @@ TEST_CASE("locate-damage writes its answer as a page beside the usual answer") {
   const std::string page = (desk().folder / "report.html").string();
   const ProgramResult result = desk().locate(desk().readings_of("4,2"), {"--report", page, "--top", "3"});
   REQUIRE(result.exit_code == 0);
-  CHECK_THAT(result.out, Contains("Most likely: 4,2"));
+  CHECK_THAT(result.out, Contains("Most likely: 4,2 ("));
   std::ifstream stream(page);
   const std::string html{std::istreambuf_iterator<char>(stream), {}};
   const std::size_t first_row = html.find("<td class=\"number\">1</td>");
@@ -280,6 +280,7 @@ TEST_CASE("A report named .svg is the picture of the bridge alone") {
   const std::string svg{std::istreambuf_iterator<char>(stream), {}};
   CHECK(svg.starts_with("<svg "));
   CHECK_THAT(svg, Contains("(4,2)</text>") && !Contains("<html"));
+  CHECK(occurrences(svg, ")</text>") == 1);
 }
 
 TEST_CASE("A report that cannot be written is a failure, and then there is no answer either") {

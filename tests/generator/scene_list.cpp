@@ -52,7 +52,8 @@ TEST_CASE("A bad list is refused with the item and what was expected") {
   for (const char* bad : {"", ";", "intact;;10,4", "many", "10", "10,4,2", "10,x", "10,1..", "10,..3",
                           "10,1...3", "-1,2..3", "10,1..3+", "10,9999999999999..3", "*"})
     CHECK_THROWS_AS(parse_scene_list(bad, reference_layout()), InputError);
-  CHECK_THROWS_WITH(parse_scene_list("10,4;13,1..9", reference_layout()), Catch::Contains("13,1..9"));
+  CHECK_THROWS_WITH(parse_scene_list("10,4;13,1..9", reference_layout()),
+                    Catch::Contains("'13,1..9' names no block"));
   CHECK_THROWS_WITH(parse_scene_list("10,5..4", reference_layout()), Catch::Contains("names no block"));
   CHECK_THROWS_WITH(parse_scene_list("*,*+*,*+*,*+*,*", reference_layout()),
                     Catch::Contains("more than 1000000"));

@@ -176,7 +176,7 @@ TEST_CASE("Scenes that the sensors cannot tell apart are reported together") {
   REQUIRE(answer.candidates.front().row == a);
   CHECK(answer.candidates.front().same_readings == std::vector<Scene>{{{BlockId{6}}}});
   CHECK(*answer.candidates[0].posterior == Approx(*answer.candidates[1].posterior));
-  CHECK(text_report(answer, library.library(), kSource).find("cannot tell 1,6 from: 1,7") !=
+  CHECK(text_report(answer, library.library(), kSource).find("cannot tell 1,6 from: 1,7\n") !=
         std::string::npos);
 }
 

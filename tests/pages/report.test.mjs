@@ -38,7 +38,7 @@ test('The page loads without errors, fetches nothing and lists the candidates as
   const rows = await rowsOf(page, '#candidates');
   assert.equal(rows[0][1], '4,2');
   assert.deepEqual(rows.map(row => row[1]), single.answer.candidates.map(candidate => candidate.scene));
-  assert.match(await page.textContent('.verdict'), /Most likely: 4,2/);
+  assert.match(await page.textContent('.verdict'), /Most likely: 4,2 \(/);
   assert.match(await page.textContent('#assumed'), new RegExp(single.answer.database.digest));
   assert.deepEqual(page.faults, []);
 });

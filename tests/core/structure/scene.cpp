@@ -23,7 +23,8 @@ TEST_CASE("The number of scenes is the sum of binomial coefficients", "[scene]")
 TEST_CASE("A scene that names no block, an unknown one or one twice is refused with the reason", "[scene]") {
   const BlockLayout layout = lay_blocks({});
   CHECK_THROWS_WITH(parse_scene("ten", layout), Contains("'ten'") && Contains("expected COURSE,POSITION"));
-  CHECK_THROWS_WITH(parse_scene("10,40", layout), Contains("10,40") && Contains("positions 1 to 20"));
+  CHECK_THROWS_WITH(parse_scene("10,40", layout),
+                    Contains("no block 10,40: course 10 has positions 1 to 20"));
   CHECK_THROWS_WITH(parse_scene("13,1", layout), Contains("no course 13"));
   CHECK_THROWS_WITH(parse_scene("10,4+10,4", layout), Contains("twice"));
   for (const char* text : {"", "+", "10,4+", "10,4,1", "-1,2", "10;4", "1e1,4", "99999999999,1"})

@@ -1,8 +1,10 @@
 /// @file Every search against the exhaustive one, and the exhaustive one against a full sort.
 
 #include <algorithm>
+#include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <map>
 
 #include "lookup/readings/random.h"
 #include "lookup/search/exhaustive_search.h"
@@ -123,6 +125,46 @@ TEST_CASE("Genetic search repeats itself for a seed, counts generations, and rep
   for (const ScoredRow& row : first.best) {
     CHECK(missing_blocks(library.table, row.row) == 2);
     CHECK(row.sum == sum_of_differences(readings, library.table.row(row.row)));
+  }
+}
+
+TEST_CASE("A mutation leads half of the time to a neighbour and half of the time to any block, all alike") {
+  const SyntheticLibrary library(9, 9);
+  const GeneSpace space(library.layout, library.table);
+  Random random(29);
+  constexpr int kMutations = 100'000;
+  constexpr std::array<int, 2> kMiddle = {5, 5};  // two steps from the middle do not leave the wall
+  std::map<std::array<int, 2>, int> counts;
+  for (int i = 0; i < kMutations; ++i) {
+    std::array<int, 2> block = kMiddle;
+    mutate_block(block, space, random);
+    ++counts[block];
+  }
+  // Anywhere: a course of ten (course 0 has no block, and position 1 stands for it), then one of nine places.
+  // To neighbours: one of two genes by one of -2, -1, 1, 2.
+  const auto share = [&](int course, int position) {
+    const bool near = (course == kMiddle[0]) != (position == kMiddle[1]) &&
+                      std::abs(course - kMiddle[0]) + std::abs(position - kMiddle[1]) <= 2;
+    return 0.5 / 10.0 / 9.0 + (near ? 0.5 / 8.0 : 0.0);
+  };
+  for (int course = 1; course <= 9; ++course)
+    for (int position = 1; position <= 9; ++position) {
+      const double expected = kMutations * share(course, position);
+      INFO(course << "," << position);
+      CHECK(counts[{course, position}] == Approx(expected).margin(5.0 * std::sqrt(expected)));
+    }
+  CHECK(counts[{0, 1}] == Approx(kMutations * 0.05).margin(5.0 * std::sqrt(kMutations * 0.05)));
+  CHECK(counts.size() == 82);
+}
+
+TEST_CASE("Mutations of blocks at the end of their range stay within it") {
+  const SyntheticLibrary library(3, 5);
+  const GeneSpace space(library.layout, library.table);
+  Random random(31);
+  for (int i = 0; i < 1000; ++i) {
+    std::array<int, 2> block = i % 2 == 0 ? std::array{1, 1} : std::array{3, 5};
+    mutate_block(block, space, random);
+    REQUIRE((block[0] >= 0 && block[0] <= 3 && block[1] >= 1 && block[1] <= 5));
   }
 }
 
