@@ -88,19 +88,6 @@ double distance_to_corner(const Polygon& polygon, const Point& point) {
   return nearest;
 }
 
-bool contains(const Polygon& polygon, const Point& point, double tolerance) {
-  if (distance_to_boundary(polygon, point) <= tolerance) return true;
-  bool inside = false;
-  for (std::size_t i = 0, j = polygon.size() - 1; i < polygon.size(); j = i++) {
-    const Point& a = polygon[j];
-    const Point& b = polygon[i];
-    if ((a.y() > point.y()) != (b.y() > point.y()) &&
-        point.x() < a.x() + (point.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x()))
-      inside = !inside;
-  }
-  return inside;
-}
-
 std::vector<Polygon> subtract(const Polygon& subject, const Polygon& hole, double smallest_area) {
   std::vector<BoostPolygon> remains;
   bg::difference(to_boost(subject), to_boost(hole), remains);

@@ -29,9 +29,6 @@ double distance_to_segment(const Point& a, const Point& b, const Point& point);
 double distance_to_boundary(const Polygon& polygon, const Point& point);
 double distance_to_corner(const Polygon& polygon, const Point& point);
 
-/// True if the point is inside the polygon or on its boundary (tolerance in metres).
-bool contains(const Polygon& polygon, const Point& point, double tolerance = 0.0);
-
 /// The parts of `subject` outside `hole`, each counter-clockwise, from left to right; parts with an area of
 /// at most `smallest_area` [m2] are dropped, corners closer than a micrometre are merged and corners that lie
 /// on the straight line between their neighbours are removed.

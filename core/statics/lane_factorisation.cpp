@@ -229,8 +229,6 @@ void LaneFactorisation::form_upper_parts(const std::vector<std::vector<int>>& lo
   int u_size = 0;
   for (int j = 0; j < n_; ++j) {
     const int s = supernode_of_[static_cast<std::size_t>(j)];
-    multiplications_ += static_cast<long long>(lower[static_cast<std::size_t>(j)].size() *
-                                               lower[static_cast<std::size_t>(j)].size());
     for (const int k : lower[static_cast<std::size_t>(j)]) {
       auto& of_column = parts[static_cast<std::size_t>(k)];
       if (of_column.empty() || of_column.back().supernode != s) of_column.push_back({s, j, 0});

@@ -26,9 +26,6 @@ class LaneFactorisation {
   /// Replaces the right-hand sides by the solutions.
   void solve(LaneVector& right_hand_side);
 
-  /// Multiplications (each with a subtraction) of one lane's factorisation.
-  long long multiplications() const { return multiplications_; }
-
  private:
   /// Columns first .. first + width - 1 of L, equal in structure below the last of them.
   struct Supernode {
@@ -53,7 +50,6 @@ class LaneFactorisation {
   void form_upper_parts(const std::vector<std::vector<int>>& lower);
 
   int n_;
-  long long multiplications_ = 0;
   std::vector<int> permutation_;  ///< new position -> old
   std::vector<int> position_;     ///< old -> new position
   std::vector<int> a_begin_;      ///< per permuted column: its entries of the matrix ..

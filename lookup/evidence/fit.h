@@ -15,9 +15,6 @@ struct Fit {
   std::string reason;   ///< in words, when the scene does not explain the readings
 };
 
-/// A scene explains readings whose fit is at least this likely.
-inline constexpr double kSmallestChance = 1e-4;
-
 struct SensorResidual {
   std::size_t point = 0;
   double reading = 0.0;    ///< [m]

@@ -16,7 +16,7 @@ struct Observation {
   std::vector<double> reading;       ///< [m] the same, but NaN where nothing can move: it says nothing there
   std::vector<double> share;  ///< [-] of a movement, by which a reading is off at a noise level of one: 1, or
                               ///< 0 where the sensor states its own sigma
-  std::vector<double> floor;   ///< [m] by which it is off besides: of the noise model, or the sensor's sigma
+  std::vector<double> floor;  ///< [m] by which it is off besides: of the noise model, or the sensor's sigma
   std::vector<double> intact;  ///< [m] displacements of the intact bridge
   std::vector<bool> silent;    ///< there is a sensor, but it gave no reading
   NoiseModel noise;

@@ -27,8 +27,7 @@ double draw_student(double nu, Random& random) {
   }
 }
 
-}  // namespace
-
+/// An error in units of sigma. Precondition: shape is not automatic.
 double draw_error(NoiseShape shape, double degrees_of_freedom, Random& random) {
   switch (shape) {
     case NoiseShape::laplace:
@@ -41,6 +40,8 @@ double draw_error(NoiseShape shape, double degrees_of_freedom, Random& random) {
       return 2.0 * random.uniform() - 1.0;
   }
 }
+
+}  // namespace
 
 Measurements simulate_readings(std::span<const double> displacements, const NoiseModel& noise,
                                Random& random) {

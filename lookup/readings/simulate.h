@@ -9,9 +9,6 @@
 
 namespace voussoir {
 
-/// An error in units of sigma. Precondition: shape is not automatic.
-double draw_error(NoiseShape shape, double degrees_of_freedom, Random& random);
-
 /// d_i + sigma_i e_i with sigma_i = relative |d_i| + floor; for uniform noise without floor this is the
 /// paper's d_i (1 + p U(-1, 1)). Sensors on missing blocks (NaN) are silent, and others with the noise
 /// model's chance. Precondition: the noise has a level and a shape, and no model error.

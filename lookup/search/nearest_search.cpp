@@ -76,8 +76,6 @@ LinearIndex::LinearIndex(const SceneTable& table, std::span<const std::size_t> r
                          std::span<const double> readings)
     : implementation_(std::make_unique<Implementation>(table, rows, readings)) {}
 LinearIndex::~LinearIndex() = default;
-LinearIndex::LinearIndex(LinearIndex&&) noexcept = default;
-LinearIndex& LinearIndex::operator=(LinearIndex&&) noexcept = default;
 
 std::vector<ScoredRow> LinearIndex::search(std::span<const double> readings, std::size_t count) const {
   if (!implementation_->index || count == 0) return {};

@@ -19,8 +19,6 @@ class LinearIndex {
   /// Rows that lack a prediction for a reading are impossible and stay out of the index.
   LinearIndex(const SceneTable& table, std::span<const std::size_t> rows, std::span<const double> readings);
   ~LinearIndex();
-  LinearIndex(LinearIndex&&) noexcept;
-  LinearIndex& operator=(LinearIndex&&) noexcept;
 
   /// The `count` rows nearest in the L1 norm, best first. Readings at the same points as those of the
   /// constructor.

@@ -29,12 +29,7 @@ double share_of_level(int level) {
   return static_cast<double>(level) / (kColourLevels - 1);
 }
 
-}  // namespace
-
-std::string to_string(Colour colour) {
-  return fmt::format("#{:02x}{:02x}{:02x}", colour.red, colour.green, colour.blue);
-}
-
+/// The map at 0 (black) to 1 (pale). Values outside are clamped.
 Colour magma(double share) {
   const double place = std::clamp(share, 0.0, 1.0) * static_cast<double>(kMagma.size() - 1);
   const std::size_t low = std::min(static_cast<std::size_t>(place), kMagma.size() - 2);
@@ -42,6 +37,12 @@ Colour magma(double share) {
   const std::uint32_t a = kMagma.at(low);
   const std::uint32_t b = kMagma.at(low + 1);
   return {mixed(a, b, 16, part), mixed(a, b, 8, part), mixed(a, b, 0, part)};
+}
+
+}  // namespace
+
+std::string to_string(Colour colour) {
+  return fmt::format("#{:02x}{:02x}{:02x}", colour.red, colour.green, colour.blue);
 }
 
 int colour_level(double share) {

@@ -1,5 +1,6 @@
 #pragma once
-/// @file The colours of quantities: a perceptually uniform map, in a few levels.
+/// @file The colours of quantities: the map "magma" (van der Walt and Smith, matplotlib 1.5, 2015, public
+/// domain) in a few levels. Equal steps look equally large, and its lightness alone tells them apart.
 
 #include <array>
 #include <cstdint>
@@ -13,10 +14,6 @@ struct Colour {
 
 /// "#rrggbb"
 std::string to_string(Colour colour);
-
-/// The map "magma" at 0 (black) to 1 (pale): equal steps look equally large, and its lightness alone tells
-/// them apart (van der Walt and Smith, matplotlib 1.5, 2015, public domain). Values outside are clamped.
-Colour magma(double share);
 
 /// Quantities are drawn in this many levels. Elements of a level carry the class "m0", "m1".., which the
 /// style sheet gives a colour: the higher the level, the further from the page's background, so dark on a

@@ -163,8 +163,8 @@ class FieldPainter {
   SettlementRange range_;
 };
 
-}  // namespace
-
+/// How many times displacements are drawn larger than they are: 1, 2, 5, 10.. such that the largest is at
+/// most a fiftieth of the bridge's length; 1 if it is more.
 double exaggeration(const Mesh& mesh, const Field& field) {
   double largest = 0.0;
   for (Eigen::Index node = 0; node < field.cols(); ++node)
@@ -176,6 +176,8 @@ double exaggeration(const Mesh& mesh, const Field& field) {
   const double power = std::pow(10.0, std::floor(std::log10(most)));
   return power * (most >= 5.0 * power ? 5.0 : most >= 2.0 * power ? 2.0 : 1.0);
 }
+
+}  // namespace
 
 Drawing draw_field(const FieldPicture& picture) {
   return FieldPainter(picture, exaggeration(picture.mesh, picture.field)).draw();

@@ -19,10 +19,6 @@ struct FieldPicture {
   double width = 1040.0;  ///< units of the frame
 };
 
-/// How many times displacements are drawn larger than they are: 1, 2, 5, 10.. such that the largest is at
-/// most a fiftieth of the bridge's length; 1 if it is more.
-double exaggeration(const Mesh& mesh, const Field& field);
-
 /// Blocks where they have moved to, coloured by vertical displacement (linear within each triangle, as the
 /// model has it; colours in equal bands between the smallest and the largest), missing blocks as dashed
 /// outlines where they were, and a colour bar in millimetres. The heading states the exaggeration.

@@ -43,10 +43,3 @@ TEST_CASE("Subtracting keeps coordinates to round-off", "[geometry]") {
   REQUIRE(parts.size() == 1);
   CHECK(std::abs(area(parts[0]) - 0.3) < 1e-15);
 }
-
-TEST_CASE("A point is inside, on the boundary or outside", "[geometry]") {
-  CHECK(contains(kUnitSquare, {0.5, 0.5}));
-  CHECK(contains(kUnitSquare, {1.0, 0.5}, 1e-12));
-  CHECK_FALSE(contains(kUnitSquare, {1.1, 0.5}));
-  CHECK_FALSE(contains(kUnitSquare, {-0.1, 1.0}, 1e-12));
-}

@@ -19,7 +19,8 @@ Block square(const std::string& label, double x, double y) {
 }  // namespace
 
 TEST_CASE("Blocks given as polygons are found by their labels and meet where they touch", "[structure]") {
-  const Structure pile = assemble({square("foot", 0.0, 0.0), square("head", 0.0, 1.0)}, {.mirror_axis = 0.5});
+  const Structure pile =
+      assemble({square("foot", 0.0, 0.0), square("head", 0.0, 1.0)}, {.mesh = {}, .mirror_axis = 0.5});
   CHECK(pile.layout.find_label("head") == BlockId{1});
   CHECK_FALSE(pile.layout.find_label("hat"));
   CHECK(pile.layout.blocks[0].index.course < 0);
