@@ -37,8 +37,8 @@ struct NoiseModel {
 inline constexpr double kSmallestLevel = 1e-6;
 inline constexpr double kLargestLevel = 0.5;
 
-/// Displacements smaller than this [m] are treated like this one by relative noise, so that a point that
-/// hardly moves does not have a scale of zero.
+/// Relative noise counts every displacement as this much [m] larger than it is, so that a point that hardly
+/// moves does not have a scale of zero.
 inline constexpr double kSmallestMovement = 1e-6;
 
 /// log density of an error z in units of sigma (so the density of the error itself is this minus log sigma).

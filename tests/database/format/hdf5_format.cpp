@@ -8,6 +8,7 @@
 #include "database/format/hdf5_file.h"
 #include "database/format/hdf5_handle.h"
 #include "database/records/schema.h"
+#include "tests/support/hdf5_datasets.h"
 #include "tests/support/whole_database.h"
 
 namespace voussoir {
@@ -31,19 +32,6 @@ struct Pair {
   }
 };
 
-/// Paths "group/dataset" of all datasets as HDF5 visits them.
-std::vector<std::string> all_datasets(hid_t file) {
-  std::vector<std::string> paths;
-  H5Ovisit(
-      file, H5_INDEX_NAME, H5_ITER_INC,
-      [](hid_t, const char* name, const H5O_info_t* info, void* data) -> herr_t {
-        if (info->type == H5O_TYPE_DATASET) static_cast<std::vector<std::string>*>(data)->emplace_back(name);
-        return 0;
-      },
-      &paths);
-  return paths;
-}
-
 std::vector<std::uint64_t> shape_of(hid_t dataset) {
   const Hdf5Handle space(H5Dget_space(dataset), H5Sclose);
   std::array<hsize_t, 4> extent{};
@@ -57,7 +45,7 @@ TEST_CASE("Every contiguous dataset has the type, the shape and the bytes that H
   const Pair pair(45, KeepField::yes, 2, 3);
   const auto lock = lock_hdf5();
   int compared = 0;
-  for (const std::string& path : all_datasets(pair.theirs.get())) {
+  for (const std::string& path : test::dataset_paths(pair.theirs.get())) {
     if (path == dataset::kField) continue;
     INFO(path);
     const Hdf5Handle theirs(H5Dopen2(pair.theirs.get(), path.c_str(), H5P_DEFAULT), H5Dclose);

@@ -12,6 +12,7 @@
 #include "database/records/database.h"
 #include "database/records/schema.h"
 #include "tests/support/file_text.h"
+#include "tests/support/hdf5_datasets.h"
 #include "tests/support/made_up_database.h"
 #include "tests/support/temporary_folder.h"
 
@@ -118,18 +119,6 @@ Found look_at(hid_t file, const std::string& path) {
   return found;
 }
 
-std::vector<std::string> dataset_paths(hid_t file) {
-  std::vector<std::string> paths;
-  H5Ovisit(
-      file, H5_INDEX_NAME, H5_ITER_INC,
-      [](hid_t, const char* name, const H5O_info_t* info, void* data) -> herr_t {
-        if (info->type == H5O_TYPE_DATASET) static_cast<std::vector<std::string>*>(data)->emplace_back(name);
-        return 0;
-      },
-      &paths);
-  return paths;
-}
-
 /// The texts between quotation marks in the Python list of this name.
 std::vector<std::string> python_list(const std::string& name) {
   const std::string text = source_text("examples/h5py/read_database.py");
@@ -158,7 +147,7 @@ TEST_CASE("The table in database/README.md says of every dataset what a file say
   const auto rows = rows_of_readme();
   const auto lock = lock_hdf5();
   const Hdf5Handle file(H5Fopen(many.path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
-  const auto paths = dataset_paths(file.get());
+  const auto paths = test::dataset_paths(file.get());
   CHECK(paths.size() > 40);
   for (const std::string& path : paths) {
     INFO(path);
