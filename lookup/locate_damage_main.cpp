@@ -12,17 +12,17 @@ namespace {
 std::string locate(const voussoir::LocateDamageOptions& options) {
   const voussoir::LookupSettings settings = finish(options);
   const auto database = voussoir::Database::open(voussoir::find_database(options.database));
-  const auto measurements = voussoir::read_measurements(options.measurements, database.control_points());
-  const voussoir::Library library = voussoir::library_of(database);
-  const voussoir::Answer answer = voussoir::locate_damage(library, measurements, settings);
+  const voussoir::Comparison comparison = voussoir::absolute_readings(
+      voussoir::library_of(database),
+      voussoir::read_measurements(options.measurements, database.control_points()));
+  const voussoir::Answer answer = voussoir::locate_damage(comparison, settings);
   const voussoir::Source source{options.measurements, database.path().string(), database.bridge_name(),
                                 database.digest()};
   if (options.page)
-    voussoir::write_file(*options.page,
-                         options.page->extension() == ".svg"
-                             ? voussoir::picture_report(answer, library, measurements)
-                             : voussoir::page_report(answer, settings, library, measurements, source));
-  return voussoir::report(answer, settings, library, source, options.format);
+    voussoir::write_file(*options.page, options.page->extension() == ".svg"
+                                            ? voussoir::picture_report(answer, comparison)
+                                            : voussoir::page_report(answer, settings, comparison, source));
+  return voussoir::report(answer, settings, comparison.library, source, options.format);
 }
 
 }  // namespace

@@ -168,20 +168,16 @@ Candidate candidate_of(const Library& library, const ScoredRow& found,
 
 }  // namespace
 
-Library library_of(const Database& database) {
-  return {database.table(), database.control_points(), database.layout(), database.search_index()};
-}
-
-Answer locate_damage(const Library& library, const Measurements& measurements,
-                     const LookupSettings& settings) {
+Answer locate_damage(const Comparison& comparison, const LookupSettings& settings) {
+  const Library& library = comparison.library;
   const Eligible eligible = eligible_rows(library.table, settings.prior.missing);
   if (eligible.rows.empty())
     throw Failure(fmt::format("the database has no solved scene with {} missing blocks",
                               fmt::join(settings.prior.missing, ", ")));
   const Observation observation =
-      observe(measurements, library.table.row(intact_row(library.table)), settings.noise);
+      observe(comparison, library.table.row(intact_row(library.table)), settings.noise);
   Answer answer;
-  answer.readings = measurements.count();
+  answer.readings = comparison.measured.count();
   answer.searched = eligible.rows.size();
   answer.unresolved = eligible.unresolved;
   if (settings.objective == Objective::posterior) {

@@ -5,12 +5,11 @@
 #include <string>
 #include <vector>
 
-#include "database/records/database.h"
 #include "lookup/evidence/evidence.h"
 #include "lookup/evidence/fit.h"
 #include "lookup/evidence/nuisance.h"
 #include "lookup/evidence/posterior.h"
-#include "lookup/readings/measurements.h"
+#include "lookup/readings/comparison.h"
 #include "lookup/readings/noise_model.h"
 #include "lookup/search/genetic_search.h"
 
@@ -31,15 +30,6 @@ struct LookupSettings {
   std::size_t top = 10;  ///< candidates wanted
   GeneticSettings genetic;
 };
-
-/// What a lookup needs of a database; references into it.
-struct Library {
-  const SceneTable& table;
-  const std::vector<StoredPoint>& points;
-  const BlockLayout& layout;
-  SearchIndex index;
-};
-Library library_of(const Database& database);
 
 /// A scene that may explain the readings.
 struct Candidate {
@@ -66,7 +56,6 @@ struct Answer {
 /// Scores the scenes of the library and ranks the best.
 /// Throws Failure if the library has no scene with the wanted numbers of missing blocks, InputError if no
 /// reading can tell scenes apart.
-Answer locate_damage(const Library& library, const Measurements& measurements,
-                     const LookupSettings& settings);
+Answer locate_damage(const Comparison& comparison, const LookupSettings& settings);
 
 }  // namespace voussoir

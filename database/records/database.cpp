@@ -60,6 +60,7 @@ struct Database::Implementation {
   std::string bridge_name = file.text_attribute(attribute::kBridgeName);
   std::vector<StoredPoint> points = read_control_points(file);
   std::vector<std::string> states = read_states(file);
+  std::vector<ModelError> model_errors = read_model_errors(file, states.size(), points.size());
   StoredTable rows{file, count_blocks(file), points.size(), states.size(), read_variant_count(file)};
   SceneTable table = rows.part(kNominalVariant, 0);
 
@@ -116,6 +117,9 @@ const std::vector<StoredPoint>& Database::control_points() const {
 }
 const std::vector<std::string>& Database::states() const {
   return implementation_->states;
+}
+const std::vector<ModelError>& Database::model_errors() const {
+  return implementation_->model_errors;
 }
 std::size_t Database::variant_count() const {
   return implementation_->rows.variants();

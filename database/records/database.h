@@ -11,6 +11,7 @@
 #include "core/structure/block_layout.h"
 #include "core/structure/joint.h"
 #include "core/structure/mesh.h"
+#include "database/records/model_error.h"
 #include "database/records/provenance.h"
 #include "database/records/record.h"
 #include "database/records/scene_table.h"
@@ -44,6 +45,7 @@ class Database {
   const std::string& bridge_name() const;
   const std::vector<StoredPoint>& control_points() const;
   const std::vector<std::string>& states() const;          ///< names, at least one
+  const std::vector<ModelError>& model_errors() const;     ///< one for each state
   const std::vector<VariantParameters>& variants() const;  ///< read on first use
   std::size_t variant_count() const;                       ///< at least one
 

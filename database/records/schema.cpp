@@ -162,7 +162,8 @@ void append_points(const std::vector<ControlPoint>& points, std::vector<DatasetV
 
 std::vector<DatasetValue> shared_datasets(const Provenance& provenance, const Model& bridge,
                                           const std::vector<VariantParameters>& variants,
-                                          const std::vector<std::string>& states) {
+                                          const std::vector<std::string>& states,
+                                          const std::vector<ModelError>& model_errors) {
   std::vector<DatasetValue> datasets;
   datasets.push_back(
       text_dataset(dataset::kBridgeText, provenance.bridge_text, "the bridge file (TOML) as it was given"));
@@ -174,6 +175,8 @@ std::vector<DatasetValue> shared_datasets(const Provenance& provenance, const Mo
   append_points(bridge.control_points, datasets);
   datasets.push_back(
       name_dataset(dataset::kStates, states, kStateNameWidth, "the states of every record, in their order"));
+  std::ranges::move(model_error_datasets(model_errors, states.size(), bridge.control_points.size()),
+                    std::back_inserter(datasets));
   std::ranges::move(parameter_datasets(variants), std::back_inserter(datasets));
   return datasets;
 }

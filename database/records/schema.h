@@ -7,13 +7,14 @@
 
 #include "core/structure/model.h"
 #include "database/format/dataset_value.h"
+#include "database/records/model_error.h"
 #include "database/records/provenance.h"
 #include "database/records/variant_parameters.h"
 
 namespace voussoir {
 
 inline constexpr char kFormatName[] = "voussoir database";
-inline constexpr int kSchemaVersion = 4;
+inline constexpr int kSchemaVersion = 5;
 inline constexpr std::size_t kBlockLabelWidth = 32;  ///< bytes, padded with zeros
 inline constexpr std::size_t kPointNameWidth = 8;    ///< bytes, padded with zeros
 inline constexpr std::size_t kStateNameWidth = 16;   ///< bytes, padded with zeros
@@ -45,6 +46,9 @@ inline constexpr char kPointPosition[] = "control/point_position";
 inline constexpr char kPointBlock[] = "control/point_block";
 inline constexpr char kPointNode[] = "control/point_node";
 inline constexpr char kStates[] = "history/states";
+inline constexpr char kErrorShare[] = "model_error/share";
+inline constexpr char kErrorCommon[] = "model_error/common";
+inline constexpr char kErrorIntact[] = "model_error/intact";
 inline constexpr char kYoungModulus[] = "variants/young_modulus";
 inline constexpr char kPoissonRatio[] = "variants/poisson_ratio";
 inline constexpr char kDensity[] = "variants/density";
@@ -78,11 +82,13 @@ inline constexpr char kSolverRevision[] = "solver_revision";
 inline constexpr char kResultsKey[] = "results_key";
 }  // namespace attribute
 
-/// The datasets that all records share (bridge text, settings, geometry, control points, states, variants) in
-/// the order in which the content digest takes them. Those of joints are missing if the bridge has none: an
-/// empty dataset has no place that could be mapped. Throws Failure for a name that is too long to be stored.
+/// The datasets that all records share (bridge text, settings, geometry, control points, states, model error,
+/// variants) in the order in which the content digest takes them. Those of joints are missing if the bridge
+/// has none: an empty dataset has no place that could be mapped. Throws Failure for a name that is too long
+/// to be stored.
 std::vector<DatasetValue> shared_datasets(const Provenance& provenance, const Model& bridge,
                                           const std::vector<VariantParameters>& variants,
-                                          const std::vector<std::string>& states);
+                                          const std::vector<std::string>& states,
+                                          const std::vector<ModelError>& model_errors);
 
 }  // namespace voussoir

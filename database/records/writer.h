@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "core/structure/model.h"
+#include "database/records/model_error.h"
 #include "database/records/provenance.h"
 #include "database/records/record.h"
 #include "database/records/variant_parameters.h"
@@ -19,6 +20,7 @@ struct DatabaseContent {
   std::vector<RecordKey> keys;              ///< ascending, none twice; the nominal variant has some
   std::vector<std::string> states = {kBuiltState};
   KeepField fields = KeepField::yes;
+  std::vector<ModelError> model_errors{};  ///< of the states; zero for those that are left out
 };
 
 struct WrittenDatabase {

@@ -24,6 +24,8 @@ Observation observe(const Measurements& measurements, std::span<const double> in
                      .share = std::vector<double>(points, 0.0),
                      .floor = std::vector<double>(points, 1.0),
                      .intact = {intact.begin(), intact.end()},
+                     .origin = std::vector<double>(points, 0.0),
+                     .own_error = std::vector<double>(points, 0.0),
                      .silent = measurements.silent,
                      .noise = noise,
                      .own_sigmas = std::any_of(measurements.sigma.begin(), measurements.sigma.end(), stated)};
@@ -35,6 +37,17 @@ Observation observe(const Measurements& measurements, std::span<const double> in
     result.floor[i] = own ? measurements.sigma[i] : noise.floor;
     ++result.count;
   }
+  return result;
+}
+
+Observation observe(const Comparison& comparison, std::span<const double> intact, const NoiseModel& noise) {
+  Observation result = observe(comparison.measured, intact, noise);
+  result.error_share = comparison.model_error.share;
+  result.error_common = comparison.model_error.common;
+  if (is_change(comparison.kind))
+    result.origin = result.intact;
+  else if (!comparison.model_error.intact.empty())
+    result.own_error = comparison.model_error.intact;
   return result;
 }
 

@@ -5,12 +5,12 @@
 #include <span>
 #include <vector>
 
-#include "lookup/readings/measurements.h"
+#include "lookup/readings/comparison.h"
 #include "lookup/readings/noise_model.h"
 
 namespace voussoir {
 
-/// All in the order of the database's points.
+/// All in the order of the library's points.
 struct Observation {
   std::vector<double> displacement;  ///< [m] as measured, NaN where there is no reading: what Eq. 1 takes
   std::vector<double> reading;       ///< [m] the same, but NaN where nothing can move: it says nothing there
@@ -18,7 +18,13 @@ struct Observation {
                               ///< 0 where the sensor states its own sigma
   std::vector<double> floor;  ///< [m] by which it is off besides: of the noise model, or the sensor's sigma
   std::vector<double> intact;  ///< [m] displacements of the intact bridge
-  std::vector<bool> silent;    ///< there is a sensor, but it gave no reading
+  std::vector<double>
+      origin;  ///< [m] from which movements count: zero, or `intact` if the readings are changes
+  std::vector<double> own_error;  ///< [m] standard deviation of the model's error in `intact`, as far as it
+                                  ///< is in what is compared: none in changes
+  double error_share = 0.0;  ///< ModelError of the signals
+  double error_common = 0.0;
+  std::vector<bool> silent;  ///< there is a sensor, but it gave no reading
   NoiseModel noise;
   std::size_t count = 0;    ///< of `reading`
   bool own_sigmas = false;  ///< some sensor states its own sigma
@@ -29,6 +35,9 @@ struct Observation {
 
 /// `intact` are the displacements of the intact bridge: points that do not move there are held by a support
 /// and move in no scene.
+Observation observe(const Comparison& comparison, std::span<const double> intact, const NoiseModel& noise);
+
+/// Of absolute readings, with a model that has no error of its own.
 Observation observe(const Measurements& measurements, std::span<const double> intact,
                     const NoiseModel& noise);
 

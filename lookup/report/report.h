@@ -32,12 +32,12 @@ std::string csv_report(const Answer& answer, const Library& library);
 
 /// The page of `locate-damage --report`: the bridge with every block's probability, readings against the best
 /// fit, the candidates, residuals, and what was assumed. It is complete in itself.
-std::string page_report(const Answer& answer, const LookupSettings& settings, const Library& library,
-                        const Measurements& measurements, const Source& source);
+std::string page_report(const Answer& answer, const LookupSettings& settings, const Comparison& comparison,
+                        const Source& source);
 
 /// The page's picture of the bridge alone, as a file of its own (SVG). Throws Failure if there is no
 /// candidate to show.
-std::string picture_report(const Answer& answer, const Library& library, const Measurements& measurements);
+std::string picture_report(const Answer& answer, const Comparison& comparison);
 
 /// Names of settings as the command line has them.
 std::string_view to_string(Objective objective);

@@ -124,14 +124,15 @@ std::string assumptions_html(const Answer& answer, const LookupSettings& setting
 
 }  // namespace
 
-std::string picture_report(const Answer& answer, const Library& library, const Measurements& measurements) {
+std::string picture_report(const Answer& answer, const Comparison& comparison) {
   if (answer.candidates.empty())
     throw Failure("no scene explains the measurements: there is no picture to draw, only a page");
-  return svg_file(draw_bridge({answer, library, measurements}));
+  return svg_file(draw_bridge({answer, comparison.library, comparison.measured}));
 }
 
-std::string page_report(const Answer& answer, const LookupSettings& settings, const Library& library,
-                        const Measurements& measurements, const Source& source) {
+std::string page_report(const Answer& answer, const LookupSettings& settings, const Comparison& comparison,
+                        const Source& source) {
+  const Library& library = comparison.library;
   const std::string assumed =
       section_html("assumed", "What was assumed", assumptions_html(answer, settings, library, source));
   const std::string title = fmt::format("Missing blocks of bridge '{}'", source.bridge);
@@ -141,7 +142,7 @@ std::string page_report(const Answer& answer, const LookupSettings& settings, co
                                "block that has a reading.",
                                "lead") +
                          assumed);
-  const ReportPictures pictures{answer, library, measurements};
+  const ReportPictures pictures{answer, library, comparison.measured};
   return html_page(
       title,
       verdict_html(answer, library) + figures_html({bridge_figure(pictures)}) +

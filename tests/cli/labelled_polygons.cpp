@@ -80,13 +80,13 @@ TEST_CASE(
     if (database.table().outcome[row] != static_cast<std::uint8_t>(Outcome::standing)) continue;
     LookupSettings settings;
     settings.prior.missing = {0, 1};
-    const Answer answer =
-        locate_damage(library_of(database), as_measurements(database.table().row(row)), settings);
+    const Answer answer = locate_damage(
+        absolute_readings(library_of(database), as_measurements(database.table().row(row))), settings);
     CHECK(to_string(answer.candidates.front().scene, database.layout()) == name);
     settings.search = Search::genetic;
     settings.objective = Objective::paper;
-    const Answer bred =
-        locate_damage(library_of(database), as_measurements(database.table().row(row)), settings);
+    const Answer bred = locate_damage(
+        absolute_readings(library_of(database), as_measurements(database.table().row(row))), settings);
     CHECK(to_string(bred.candidates.front().scene, database.layout()) == name);
     CHECK_THAT(place_in_words(truth, database.layout()), Catch::Contains(fmt::format("block {}, x ", name)));
     ++located;

@@ -60,7 +60,8 @@ TEST_CASE("Noise-free readings of every standing scene are located exactly", "[l
       LookupSettings settings;
       settings.objective = objective;
       settings.top = 3;
-      const Answer answer = locate_damage(library, as_measurements(table.row(row)), settings);
+      const Answer answer =
+          locate_damage(absolute_readings(library, as_measurements(table.row(row))), settings);
       const std::size_t first = answer.candidates.at(0).row;
       INFO(to_string(table.scene(row), database.layout())
            << " located as " << to_string(table.scene(first), database.layout()));

@@ -35,7 +35,7 @@ TEST_CASE("Noise-free readings of every scene name that scene first, by both obj
     settings.top = 1;
     for (std::size_t row = 0; row < library.table.rows; ++row) {
       const Measurements measured = as_measurements(library.table.row(row));
-      const Answer answer = locate_damage(library.library(), measured, settings);
+      const Answer answer = locate_damage(absolute_readings(library.library(), measured), settings);
       REQUIRE(answer.candidates.front().row == row);
       REQUIRE(answer.candidates.front().misfit == Approx(std::log(1e-16)));
     }
@@ -51,7 +51,7 @@ TEST_CASE("Every search and objective names a clearly visible block and agrees o
     for (const Objective objective : {Objective::posterior, Objective::paper}) {
       settings.objective = objective;
       settings.prior.missing = {0, 1};
-      const Answer answer = locate_damage(library.library(), measured, settings);
+      const Answer answer = locate_damage(absolute_readings(library.library(), measured), settings);
       CHECK(answer.candidates.front().row == truth);
       CHECK(answer.candidates.front().misfit == misfit(measured.displacement, library.table.row(truth)));
       CHECK(answer.candidates.front().posterior.has_value() == (objective == Objective::posterior));
@@ -67,13 +67,14 @@ TEST_CASE("A scene is called most likely only if no other is likelier, whatever 
       const Measurements measured =
           library.measure(library.row_of({{BlockId{29}}}), 0.02, NoiseShape::uniform, random);
       settings.top = 1;  // the misfit prefers pairs, of which many fit the noise
-      const Answer answer = locate_damage(library.library(), measured, settings);
+      const Answer answer = locate_damage(absolute_readings(library.library(), measured), settings);
       const auto& probability = answer.posterior->probability;
       const bool is_best =
           *answer.candidates.front().posterior == *std::max_element(probability.begin(), probability.end());
       (is_best ? likeliest : others) += 1;
       const std::string text = text_report(answer, library.library(), kSource);
-      const std::string page = page_report(answer, settings, library.library(), measured, kSource);
+      const std::string page =
+          page_report(answer, settings, absolute_readings(library.library(), measured), kSource);
       const auto json = nlohmann::json::parse(json_report(answer, settings, library.library(), kSource));
       for (const std::string& words : {text, page}) {
         CHECK((words.find("Most likely: ") != std::string::npos) == is_best);
@@ -93,7 +94,11 @@ TEST_CASE("A single is not beaten by the many pairs that fit its noise as well")
   for (int trial = 0; trial < 20; ++trial) {
     const Measurements measured =
         library.measure(library.row_of({{BlockId{29}}}), 0.01, NoiseShape::uniform, random);
-    right += locate_damage(library.library(), measured, {}).candidates.front().scene.missing() == 1 ? 1 : 0;
+    right += locate_damage(absolute_readings(library.library(), measured), {})
+                         .candidates.front()
+                         .scene.missing() == 1
+                 ? 1
+                 : 0;
   }
   CHECK(right >= 18);
 }
@@ -104,7 +109,11 @@ TEST_CASE("Intact readings are hardly ever called damaged") {
   int wrong = 0;
   for (int trial = 0; trial < 40; ++trial) {
     const Measurements measured = library.measure(0, 0.05, NoiseShape::uniform, random);
-    wrong += locate_damage(library.library(), measured, {}).candidates.front().scene.removed.empty() ? 0 : 1;
+    wrong += locate_damage(absolute_readings(library.library(), measured), {})
+                     .candidates.front()
+                     .scene.removed.empty()
+                 ? 0
+                 : 1;
   }
   CHECK(wrong <= 2);
 }
@@ -115,7 +124,7 @@ TEST_CASE("A wild sensor is named and does not hide the damage") {
   const std::size_t truth = library.row_of({{BlockId{20}}});
   Measurements measured = library.measure(truth, 0.003, NoiseShape::uniform, random);
   measured.displacement[14] *= 1.5;
-  const Answer answer = locate_damage(library.library(), measured, {});
+  const Answer answer = locate_damage(absolute_readings(library.library(), measured), {});
   CHECK(answer.candidates.front().row == truth);
   std::vector<std::size_t> odd;
   for (const SensorResidual& sensor : answer.residuals)
@@ -136,12 +145,12 @@ TEST_CASE(
        {NoiseShape::uniform, NoiseShape::gaussian, NoiseShape::laplace, NoiseShape::student}) {
     LookupSettings settings;
     settings.noise = {shape, 0.005};
-    const Answer answer = locate_damage(library.library(), bent, settings);
+    const Answer answer = locate_damage(absolute_readings(library.library(), bent), settings);
     INFO(to_string(shape));
     REQUIRE_FALSE(answer.candidates.empty());
     CHECK_FALSE(answer.fit->explained);
   }
-  const Answer unknown_level = locate_damage(library.library(), bent, {});
+  const Answer unknown_level = locate_damage(absolute_readings(library.library(), bent), {});
   CHECK_FALSE(unknown_level.fit->explained);
   CHECK(text_report(unknown_level, library.library(), kSource)
             .find("No scene in this database explains these measurements") != std::string::npos);
@@ -154,13 +163,13 @@ TEST_CASE("Readings with the stated noise are called explained, for every shape"
     const Measurements uniform = library.measure(12, 0.05, NoiseShape::uniform, random);
     const Measurements gaussian = library.measure(12, 0.05, NoiseShape::gaussian, random);
     LookupSettings settings;
-    CHECK(locate_damage(library.library(), uniform, settings).fit->explained);
+    CHECK(locate_damage(absolute_readings(library.library(), uniform), settings).fit->explained);
     settings.noise = {NoiseShape::uniform, 0.05};
-    CHECK(locate_damage(library.library(), uniform, settings).fit->explained);
+    CHECK(locate_damage(absolute_readings(library.library(), uniform), settings).fit->explained);
     settings.noise.shape = NoiseShape::gaussian;
-    CHECK(locate_damage(library.library(), gaussian, settings).fit->explained);
+    CHECK(locate_damage(absolute_readings(library.library(), gaussian), settings).fit->explained);
     settings.noise.shape = NoiseShape::student;
-    CHECK(locate_damage(library.library(), gaussian, settings).fit->explained);
+    CHECK(locate_damage(absolute_readings(library.library(), gaussian), settings).fit->explained);
   }
 }
 
@@ -171,8 +180,8 @@ TEST_CASE("Scenes that the sensors cannot tell apart are reported together") {
               library.table.points,
               library.vertical.begin() + static_cast<std::ptrdiff_t>(b * library.table.points));
   Random random(7);
-  const Answer answer =
-      locate_damage(library.library(), library.measure(a, 0.01, NoiseShape::uniform, random), {});
+  const Answer answer = locate_damage(
+      absolute_readings(library.library(), library.measure(a, 0.01, NoiseShape::uniform, random)), {});
   REQUIRE(answer.candidates.front().row == a);
   CHECK(answer.candidates.front().same_readings == std::vector<Scene>{{{BlockId{6}}}});
   CHECK(*answer.candidates[0].posterior == Approx(*answer.candidates[1].posterior));
@@ -185,9 +194,10 @@ TEST_CASE("A library without the wanted numbers of missing blocks is a failure w
   LookupSettings settings;
   settings.prior.missing = {3};
   Random random(8);
-  CHECK_THROWS_WITH(
-      locate_damage(library.library(), library.measure(0, 0.1, NoiseShape::uniform, random), settings),
-      "the database has no solved scene with 3 missing blocks");
+  CHECK_THROWS_WITH(locate_damage(absolute_readings(library.library(),
+                                                    library.measure(0, 0.1, NoiseShape::uniform, random)),
+                                  settings),
+                    "the database has no solved scene with 3 missing blocks");
 }
 
 TEST_CASE("If every scene lacks a measured block there is no candidate, and the report says so") {
@@ -200,8 +210,8 @@ TEST_CASE("If every scene lacks a measured block there is no candidate, and the 
     for (std::size_t i = 0; i < all_gone.table.points; ++i)
       all_gone.vertical[row * all_gone.table.points + i] = std::nan("");
   Random random(9);
-  const Answer answer =
-      locate_damage(all_gone.library(), all_gone.measure(0, 0.1, NoiseShape::uniform, random), settings);
+  const Answer answer = locate_damage(
+      absolute_readings(all_gone.library(), all_gone.measure(0, 0.1, NoiseShape::uniform, random)), settings);
   CHECK(answer.candidates.empty());
   CHECK(text_report(answer, all_gone.library(), kSource).find("No scene in this database explains") !=
         std::string::npos);
@@ -212,8 +222,8 @@ TEST_CASE("The JSON report has the candidates in order, the settings used and th
   Random random(10);
   LookupSettings settings;
   settings.noise.relative = 0.02;
-  const Answer answer =
-      locate_damage(library.library(), library.measure(40, 0.01, NoiseShape::uniform, random), settings);
+  const Answer answer = locate_damage(
+      absolute_readings(library.library(), library.measure(40, 0.01, NoiseShape::uniform, random)), settings);
   const auto json = nlohmann::json::parse(json_report(answer, settings, library.library(), kSource));
   REQUIRE(json["candidates"].size() == answer.candidates.size());
   for (std::size_t i = 0; i < answer.candidates.size(); ++i) {
@@ -225,8 +235,8 @@ TEST_CASE("The JSON report has the candidates in order, the settings used and th
   CHECK(json["settings"]["objective"] == "posterior");
   CHECK(json["settings"]["noise"]["relative"] == 0.02);
   settings.objective = Objective::paper;
-  const Answer paper =
-      locate_damage(library.library(), library.measure(40, 0.01, NoiseShape::uniform, random), settings);
+  const Answer paper = locate_damage(
+      absolute_readings(library.library(), library.measure(40, 0.01, NoiseShape::uniform, random)), settings);
   CHECK(nlohmann::json::parse(
             json_report(paper, settings, library.library(), kSource))["candidates"][0]["posterior"]
             .is_null());
@@ -237,8 +247,8 @@ TEST_CASE("The CSV report has one quoted scene a line") {
   Random random(11);
   LookupSettings settings;
   settings.top = 2;
-  const Answer answer =
-      locate_damage(library.library(), library.measure(8, 0.0, NoiseShape::uniform, random), settings);
+  const Answer answer = locate_damage(
+      absolute_readings(library.library(), library.measure(8, 0.0, NoiseShape::uniform, random)), settings);
   const std::string text = csv_report(answer, library.library());
   CHECK(text.find("rank,scene,misfit,posterior,outcome,place\n1,\"") == 0);
   CHECK(std::count(text.begin(), text.end(), '\n') == 3);

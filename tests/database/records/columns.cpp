@@ -214,7 +214,7 @@ TEST_CASE("The h5py example names the datasets in the digest in their order") {
   const Model bridge = make_model(file.description);
   std::vector<std::string> expected;
   for (const DatasetValue& value : shared_datasets(test::made_up_provenance(file), bridge,
-                                                   {test::made_up_parameters(bridge, 0)}, {kBuiltState}))
+                                                   {test::made_up_parameters(bridge, 0)}, {kBuiltState}, {}))
     expected.push_back(value.path);
   CHECK_THAT(source_text("database/README.md"), Catch::Contains("`" + expected.back() + "` in the order"));
   expected.emplace_back(dataset::kChecksum);
