@@ -52,8 +52,10 @@ void add_noise_options(CLI::App& app, LocateDamageOptions& options) {
   app.add_option("--floor", options.floor_mm, "absolute part of the errors [mm], default 0")
       ->check(number_in_range(0.0, kLargestError, "MM"))
       ->option_text("MM");
-  app.add_option("--model-error", options.model_error,
-                 "the model's own error as a share of the change that a missing block makes, default 0")
+  app.add_option(
+         "--model-error", options.model_error,
+         "the model's own error as a share of the change that a missing block makes; default: what the "
+         "database states of it (0: none, the paper's setting)")
       ->check(checked_by(parse_noise_level, "LEVEL"))
       ->option_text("LEVEL");
   app.add_option(
@@ -135,7 +137,8 @@ LookupSettings finish(const LocateDamageOptions& options) {
   settings.noise.shape = parse_noise_shape(options.noise_model);
   if (!options.noise_level.empty()) settings.noise.relative = parse_noise_level(options.noise_level);
   settings.noise.floor = kMetresPerMillimetre * options.floor_mm;
-  settings.noise.model_error = parse_noise_level(options.model_error);
+  if (!options.model_error.empty())
+    settings.model_error = ModelError{parse_noise_level(options.model_error), 0.0, {}};
   settings.noise.silence = parse_noise_level(options.silence);
   settings.nuisance = {parse_noise_level(options.unknown_scale),
                        kMetresPerMillimetre * options.unknown_datum_mm,

@@ -5,7 +5,7 @@
 
 #include "core/error.h"
 #include "lookup/evidence/evidence_screen.h"
-#include "lookup/readings/noise_scale.h"
+#include "lookup/search/exhaustive_search.h"
 #include "lookup/search/indexed_search.h"
 #include "lookup/search/misfit.h"
 #include "lookup/search/nearest_search.h"
@@ -19,18 +19,9 @@ constexpr double kSameReadings = 0.1;
 constexpr double kSolverPrecision = 1e-9;      // [m] predictions are not compared more closely
 constexpr std::size_t kMostComparisons = 500;  // rows looked at for scenes that cannot be told apart
 
-std::size_t intact_row(const SceneTable& table) {
-  for (std::size_t row = 0; row < table.rows; ++row)
-    if (missing_blocks(table, row) == 0) return row;
-  throw Failure("the database has no intact scene, which a lookup needs to know what can move");
-}
-
 /// The evidence of every scene, or -infinity where it does not matter.
 std::vector<double> evidence_of_scenes(const Library& library, const Observation& observation,
                                        const Eligible& eligible, const LookupSettings& settings) {
-  if (settings.nuisance.any())
-    return log_evidence_with_nuisance(observation, library.table, eligible.rows, library.points,
-                                      settings.nuisance);
   return EvidenceScreen(library.table, library.index, eligible, settings.prior)(observation, settings.top);
 }
 
@@ -40,8 +31,7 @@ std::vector<ScoredRow> run_genetic(const Library& library, const Observation& ob
   std::vector<ScoredRow> found;
   for (const int missing : settings.prior.missing) {
     if (missing == 0) {
-      const std::size_t row = intact_row(library.table);
-      found.push_back({row, sum_of_differences(observation.displacement, library.table.row(row))});
+      found.push_back({0, sum_of_differences(observation.displacement, library.table.row(0))});
       continue;
     }
     answer.genetic.push_back(genetic_search(observation.displacement, library.table, space, missing,
@@ -49,6 +39,15 @@ std::vector<ScoredRow> run_genetic(const Library& library, const Observation& ob
     found.insert(found.end(), answer.genetic.back().best.begin(), answer.genetic.back().best.end());
   }
   return best_rows(std::move(found), settings.top);
+}
+
+std::vector<ScoredRow> smallest_misfits(const Library& library, const Observation& observation,
+                                        const Eligible& eligible, std::size_t count) {
+  if (library.index.clusters() == 0)
+    return exhaustive_search(observation.displacement, library.table, eligible.rows, count);
+  return IndexedSearch(library.table, library.index, library.points, eligible)
+      .search(observation.displacement, count)
+      .best;
 }
 
 std::vector<ScoredRow> scored_by_misfit(const Library& library, const Observation& observation,
@@ -61,9 +60,7 @@ std::vector<ScoredRow> scored_by_misfit(const Library& library, const Observatio
       return LinearIndex(library.table, eligible.rows, observation.displacement)
           .search(observation.displacement, settings.top);
     default:
-      return IndexedSearch(library.table, library.index, library.points, eligible)
-          .search(observation.displacement, settings.top)
-          .best;
+      return smallest_misfits(library, observation, eligible, settings.top);
   }
 }
 
@@ -85,8 +82,7 @@ std::vector<ScoredRow> scored_by_posterior(const Library& library, const Observa
   for (const std::size_t row : likely)
     result.push_back({row, sum_of_differences(observation.displacement, library.table.row(row))});
   if (kept == count) return result;
-  const IndexedSearch search(library.table, library.index, library.points, eligible);
-  for (const ScoredRow& row : search.search(observation.displacement, count).best)
+  for (const ScoredRow& row : smallest_misfits(library, observation, eligible, count))
     if (result.size() < count && std::find(likely.begin(), likely.end(), row.row) == likely.end())
       result.push_back(row);
   return result;
@@ -101,10 +97,11 @@ void order_by_posterior(std::vector<ScoredRow>& rows, const Posterior& posterior
 
 bool same_readings(const Observation& observation, const ErrorScales& scales, std::span<const double> a,
                    std::span<const double> b) {
+  const ExpectedErrors expected = expected_errors(observation, scales, a);
   double sum = 0.0;
   for (std::size_t i = 0; i < a.size(); ++i) {
     if (std::isnan(observation.reading[i])) continue;
-    const double scale = noise_scale(scales.slope[i], scales.offset[i], std::abs(a[i]));
+    const double scale = std::hypot(expected.instrument[i], expected.model[i]);
     const double difference = (a[i] - b[i]) / std::max(scale, kSolverPrecision);
     sum += difference * difference;
   }
@@ -119,9 +116,10 @@ std::vector<std::size_t> rows_to_compare(const std::vector<ScoredRow>& found, co
   return rows;
 }
 
-Fit fit_of(const Answer& answer, const NoiseModel& noise) {
-  if (answer.posterior->probability[answer.candidates.front().row] > 0.0)
-    return check_fit(answer.residuals, *answer.noise, noise.degrees_of_freedom);
+Fit fit_of(const Library& library, const Observation& observation, const Answer& answer) {
+  const std::size_t best = answer.candidates.front().row;
+  if (answer.posterior->probability[best] > 0.0)
+    return check_fit(observation, *answer.noise, library.table.row(best));
   return {false, 0.0,
           answer.posterior->credible.empty() ? "every scene is excluded by at least one reading"
                                              : "this scene is excluded by at least one reading"};
@@ -135,7 +133,7 @@ void judge_best(const Library& library, const Observation& observation, const st
   answer.noise = estimate_noise(observation, best);
   const ErrorScales scales = scales_at(observation, std::max(answer.noise->level, kSmallestLevel));
   answer.residuals = sensor_residuals(observation, scales, best);
-  answer.fit = fit_of(answer, observation.noise);
+  answer.fit = fit_of(library, observation, answer);
   const std::vector<std::size_t> others = rows_to_compare(found, *answer.posterior);
   for (Candidate& candidate : answer.candidates)
     for (const std::size_t other : others)
@@ -168,14 +166,14 @@ Candidate candidate_of(const Library& library, const ScoredRow& found,
 
 }  // namespace
 
-Answer locate_damage(const Comparison& comparison, const LookupSettings& settings) {
+Answer locate_damage(Comparison comparison, const LookupSettings& settings) {
+  if (settings.model_error) comparison.model_error = *settings.model_error;
   const Library& library = comparison.library;
   const Eligible eligible = eligible_rows(library.table, settings.prior.missing);
   if (eligible.rows.empty())
     throw Failure(fmt::format("the database has no solved scene with {} missing blocks",
                               fmt::join(settings.prior.missing, ", ")));
-  const Observation observation =
-      observe(comparison, library.table.row(intact_row(library.table)), settings.noise);
+  const Observation observation = observe(comparison, settings.noise, settings.nuisance);
   Answer answer;
   answer.readings = comparison.measured.count();
   answer.searched = eligible.rows.size();

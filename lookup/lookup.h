@@ -7,10 +7,10 @@
 
 #include "lookup/evidence/evidence.h"
 #include "lookup/evidence/fit.h"
-#include "lookup/evidence/nuisance.h"
 #include "lookup/evidence/posterior.h"
 #include "lookup/readings/comparison.h"
 #include "lookup/readings/noise_model.h"
+#include "lookup/readings/nuisance.h"
 #include "lookup/search/genetic_search.h"
 
 namespace voussoir {
@@ -26,6 +26,7 @@ struct LookupSettings {
   Search search = Search::exhaustive;
   Prior prior;
   NoiseModel noise;
+  std::optional<ModelError> model_error;  ///< in the place of the database's
   Nuisance nuisance;
   std::size_t top = 10;  ///< candidates wanted
   GeneticSettings genetic;
@@ -56,6 +57,6 @@ struct Answer {
 /// Scores the scenes of the library and ranks the best.
 /// Throws Failure if the library has no scene with the wanted numbers of missing blocks, InputError if no
 /// reading can tell scenes apart.
-Answer locate_damage(const Comparison& comparison, const LookupSettings& settings);
+Answer locate_damage(Comparison comparison, const LookupSettings& settings);
 
 }  // namespace voussoir

@@ -85,7 +85,7 @@ std::size_t row_of(const Library& library, const std::string& text) {
 
 Posterior posterior_of(const Library& library, const Measurements& measured, const Eligible& eligible,
                        const NoiseModel& noise, const Prior& prior) {
-  const Observation observation = observe(measured, library.table.row(0), noise);
+  const Observation observation = observe(absolute_readings(library, measured), noise);
   return posterior(library.table, eligible, log_evidence_of_rows(observation, library.table, eligible.rows),
                    prior, library.layout.size());
 }

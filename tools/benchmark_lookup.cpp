@@ -91,7 +91,7 @@ void time_posteriors(const Library& library, const std::vector<Query>& queries, 
   const EvidenceScreen screen(table, library.index, eligible, prior);
   for (const bool stated : {true, false}) {
     const auto observed = [&](std::size_t i) {
-      return observe(queries[i].measured, table.row(0),
+      return observe(absolute_readings(library, queries[i].measured),
                      stated ? NoiseModel{NoiseShape::uniform, queries[i].level} : NoiseModel{});
     };
     const std::string noise = stated ? "uniform noise, stated" : "noise unknown (default)";

@@ -34,11 +34,8 @@ std::string make_measurements(const Options& options) {
   const auto database = voussoir::Database::open(voussoir::find_database(options.database));
   const auto row = database.table().row(voussoir::find_row(database, options.scene));
   const voussoir::NoiseModel noise{voussoir::parse_noise_shape(options.noise_model),
-                                   voussoir::parse_noise_level(options.noise_level),
-                                   1e-3 * options.floor_mm,
-                                   0.0,
-                                   4.0,
-                                   voussoir::parse_noise_level(options.silence)};
+                                   voussoir::parse_noise_level(options.noise_level), 1e-3 * options.floor_mm,
+                                   4.0, voussoir::parse_noise_level(options.silence)};
   if (noise.shape == voussoir::NoiseShape::automatic)
     throw voussoir::InputError(
         "--noise-model auto cannot be simulated, expected uniform, gaussian, laplace or student");

@@ -59,19 +59,6 @@ VOUSSOIR_INLINE void make_exponential(DoubleLanes& x) {
   x = x > kLowest ? result : special;
 }
 
-/// x = log(x) within 1e-5 for positive normal numbers; anything for others.
-VOUSSOIR_INLINE void make_approximate_logarithm(FloatLanes& x) {
-  constexpr float kLog2 = 0.69314718F;
-  constexpr std::int32_t kRootHalfBits = 0x3F3504F3;
-  const FloatMask bits = reinterpret_cast<FloatMask>(x);
-  const FloatMask exponent = (bits - kRootHalfBits) >> 23;  // x = 2^exponent f with f in [sqrt(1/2), sqrt(2))
-  const FloatLanes f = reinterpret_cast<FloatLanes>(bits - (exponent << 23));
-  const FloatLanes s = (f - 1.0F) / (f + 1.0F);
-  const FloatLanes q = s * s;
-  x = __builtin_convertvector(exponent, FloatLanes) * kLog2 +
-      2.0F * s * (1.0F + q * (1.0F / 3.0F + q * (1.0F / 5.0F)));
-}
-
 /// Of doubles, for arrays: each value becomes its logarithm, its exponential.
 void make_logarithms(std::span<double> values);
 void make_exponentials(std::span<double> values);

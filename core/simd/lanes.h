@@ -3,14 +3,19 @@
 /// types, how they are compiled for every processor, and arithmetic that is the same for all of them.
 ///
 /// Kernels are templates on a number, which is a double or DoubleLanes, or loops over DoubleLanes or
-/// FloatLanes. Conditions are masks (bool, or one whole number for each lane), `mask ? a : b` picks lane by
-/// lane, and no operation mixes lanes unless it says so: a lane's bits do not depend on what the others hold.
+/// FloatLanes. Conditions
+/// are masks (bool, or one whole number for each lane), `mask ? a : b` picks lane by lane, and no operation
+/// mixes lanes unless it says so: a lane's bits do not depend on what the others hold.
 
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <type_traits>
 #include <vector>
+
+#ifdef __SSE2__
+#include <emmintrin.h>
+#endif
 
 /// What is compiled for every processor must be inlined there, or it is compiled for the oldest only.
 #define VOUSSOIR_INLINE inline __attribute__((always_inline))
@@ -38,7 +43,6 @@ using DoubleMask = LanesOf<std::int64_t, kLanes>::Type;
 
 inline constexpr std::size_t kFloatLanes = 8;
 using FloatLanes = LanesOf<float, kFloatLanes>::Type;
-using FloatMask = LanesOf<std::int32_t, kFloatLanes>::Type;
 
 template <class Lanes>
 using ElementOf = std::remove_cvref_t<decltype(Lanes{}[0])>;
@@ -101,16 +105,25 @@ VOUSSOIR_INLINE double magnitude(double a) {
 VOUSSOIR_INLINE DoubleLanes magnitude(DoubleLanes a) {
   return reinterpret_cast<DoubleLanes>(reinterpret_cast<DoubleMask>(a) & INT64_MAX);
 }
-VOUSSOIR_INLINE FloatLanes magnitude(FloatLanes a) {
-  return reinterpret_cast<FloatLanes>(reinterpret_cast<FloatMask>(a) & INT32_MAX);
-}
 
-template <class T>
-VOUSSOIR_INLINE T square_root(T a) {
-  T root{};
-  for (int i = 0; i < kLaneCount<T>; ++i) set_lane(root, i, __builtin_sqrt(lane(a, i)));
-  return root;
+VOUSSOIR_INLINE double square_root(double a) {
+  return __builtin_sqrt(a);
 }
+#ifdef __SSE2__
+/// Two roots at a time, which every processor with 64 bits has and the compiler does not find.
+VOUSSOIR_INLINE DoubleLanes square_root(DoubleLanes a) {
+  __m128d halves[2];
+  std::memcpy(halves, &a, sizeof a);
+  for (__m128d& half : halves) half = _mm_sqrt_pd(half);
+  std::memcpy(&a, halves, sizeof a);
+  return a;
+}
+#else
+VOUSSOIR_INLINE DoubleLanes square_root(DoubleLanes a) {
+  for (std::size_t i = 0; i < kLanes; ++i) a[i] = __builtin_sqrt(a[i]);
+  return a;
+}
+#endif
 
 /// 1 / sqrt(a) to round-off for a in [3, 4.2]; a is taken to the nearer end outside. Without roots and
 /// quotients, which take longest of all.

@@ -4,8 +4,11 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
+#include <numeric>
 
-#include "lookup/evidence/row_statistics.h"
+#include "lookup/evidence/level_curve.h"
+#include "lookup/evidence/level_evidence.h"
 #include "lookup/evidence/scene_evidence.h"
 #include "lookup/evidence/table_evidence.h"
 
@@ -13,130 +16,104 @@ namespace voussoir {
 namespace {
 
 constexpr double kImpossible = -std::numeric_limits<double>::infinity();
-constexpr std::array<NoiseShape, 3> kAutomaticShapes = {NoiseShape::uniform, NoiseShape::gaussian,
-                                                        NoiseShape::laplace};
-constexpr std::size_t kBlockRows = 1024;
-constexpr int kLevelsPerOctave = 8;  // of the grid, where the marginal over levels has no closed form
+constexpr std::size_t kBlockRows = 1024;  // worked out together: intermediate results stay in the cache
+constexpr double kCommonLevel = 0.05;     // from which the likeliest rows are looked for
+constexpr std::size_t kLikely = 8;        // rows with which all levels are tried
 
-/// The shapes that are possible, equally likely beforehand.
-std::span<const NoiseShape> shapes_of(const NoiseModel& noise) {
-  if (noise.shape == NoiseShape::automatic) return kAutomaticShapes;
-  return {&noise.shape, 1};
-}
+using Rows = std::span<const std::size_t>;
 
-/// Some rows of a table.
-SceneTable part_of(const SceneTable& table, std::size_t first, std::size_t count) {
-  SceneTable part = table;
-  part.rows = count;
-  part.vertical = table.vertical.subspan(first * table.points, count * table.points);
-  return part;
-}
-
-/// Student's t has no short statistics: one pass over the row.
-double log_student_likelihood(const Observation& observation, const ErrorScales& scales,
-                              std::span<const double> prediction, double sum_log_scale) {
-  double sum = -sum_log_scale;
-  for (const double z : standard_errors(observation, scales, prediction))
-    if (!std::isnan(z)) sum += log_density(NoiseShape::student, z, observation.noise.degrees_of_freedom);
-  return sum;
-}
-
-/// What stays the same for all noise levels.
-struct Problem {
-  const Observation& observation;
-  const SceneTable& table;
-  std::span<const std::size_t> rows;  // those that count, in ascending order; all others get -infinity
-  std::span<const NoiseShape> shapes;
-  std::vector<double> log_silence;  // of each row: that the silent sensors are silent
-};
-
-/// A function of blocks of rows, applied to all of them: intermediate results stay in the cache. The function
-/// gets a part of the table and the positions in it of the rows that count, and gives a logarithm for each
-/// row of the part. Rows that do not count get -infinity, the others what their silent sensors say on top.
+/// A function of blocks of rows, applied to all of them.
 template <typename Function>
-std::vector<double> block_by_block(const Problem& problem, Function function) {
-  std::vector<double> result(problem.table.rows, kImpossible);
-  std::vector<std::size_t> positions;
-  auto next = problem.rows.begin();
-  for (std::size_t first = 0; first < problem.table.rows; first += kBlockRows) {
-    const std::size_t count = std::min(kBlockRows, problem.table.rows - first);
-    positions.clear();
-    for (; next != problem.rows.end() && *next < first + count; ++next) positions.push_back(*next - first);
-    if (positions.empty()) continue;
-    const std::vector<double> logs = function(part_of(problem.table, first, count), positions);
-    for (const std::size_t row : positions)
-      result[first + row] = logs[row] + problem.log_silence[first + row];
+std::vector<double> block_by_block(Rows rows, Function function) {
+  std::vector<double> result;
+  result.reserve(rows.size());
+  for (std::size_t first = 0; first < rows.size(); first += kBlockRows) {
+    const std::vector<double> part = function(rows.subspan(first, std::min(kBlockRows, rows.size() - first)));
+    result.insert(result.end(), part.begin(), part.end());
   }
   return result;
 }
 
-std::vector<double> student_likelihoods(const Observation& observation, const ErrorScales& scales,
-                                        const SceneTable& part, std::span<const std::size_t> rows,
-                                        const TableStatistics& statistics) {
-  std::vector<double> result(part.rows, kImpossible);
-  for (const std::size_t row : rows)
-    if (!std::isnan(statistics.sum_absolute[row]))
-      result[row] = log_student_likelihood(observation, scales, part.row(row), statistics.sum_log_scale[row]);
-  return result;
-}
-
-std::vector<double> at_level(const Problem& problem, double level) {
-  const Observation& observation = problem.observation;
-  const ErrorScales scales = scales_at(observation, level);
-  return block_by_block(problem, [&](const SceneTable& part, std::span<const std::size_t> rows) {
-    const TableStatistics statistics = table_statistics(observation, scales, part);
+std::vector<double> at_level(const Observation& observation, double level, const SceneTable& table,
+                             Rows rows) {
+  const std::vector<NoiseShape> shapes = shapes_of(observation.noise);
+  return block_by_block(rows, [&](Rows block) {
     std::vector<std::vector<double>> logs;
-    for (const NoiseShape shape : problem.shapes)
-      logs.push_back(shape == NoiseShape::student
-                         ? student_likelihoods(observation, scales, part, rows, statistics)
-                         : log_likelihoods(shape, statistics, observation.count));
+    for (const NoiseShape shape : shapes)
+      logs.push_back(log_likelihoods_at(observation, shape, level, table, block));
     return log_mean(std::move(logs));
   });
 }
 
-std::vector<double> over_levels_in_closed_form(const Problem& problem) {
-  const Observation& observation = problem.observation;
+std::vector<double> over_levels_in_closed_form(const Observation& observation, const SceneTable& table,
+                                               Rows rows) {
   const ErrorScales scales = scales_at(observation, 1.0);
   std::vector<LevelIntegral> integrals;
-  for (const NoiseShape shape : problem.shapes) integrals.push_back(level_integral(shape, observation.count));
+  for (const NoiseShape shape : shapes_of(observation.noise))
+    integrals.push_back(level_integral(shape, observation.count));
   double best = kImpossible;
-  return block_by_block(problem, [&](const SceneTable& part, std::span<const std::size_t> rows) {
-    return log_mean_evidences(integrals, table_statistics(observation, scales, part), rows, observation.count,
-                              best);
+  return block_by_block(rows, [&](Rows block) {
+    return log_mean_evidences(integrals, table_statistics(observation, scales, table, block),
+                              observation.count, best);
   });
 }
 
-/// Levels from the smallest to the largest, evenly spaced in their logarithm.
-std::vector<double> level_grid() {
-  const double octaves = std::log2(kLargestLevel / kSmallestLevel);
-  const int steps = static_cast<int>(std::ceil(octaves * kLevelsPerOctave));
-  std::vector<double> levels(static_cast<std::size_t>(steps) + 1);
-  for (std::size_t i = 0; i < levels.size(); ++i)
-    levels[i] = kSmallestLevel * std::exp2(octaves * static_cast<double>(i) / steps);
-  return levels;
+/// The rows with the largest values.
+std::vector<std::size_t> rows_with_largest(const std::vector<double>& values, Rows rows, std::size_t count) {
+  std::vector<std::size_t> order(rows.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  count = std::min(count, order.size());
+  std::partial_sort(
+      order.begin(), order.begin() + static_cast<std::ptrdiff_t>(count), order.end(),
+      [&](std::size_t a, std::size_t b) { return values[a] != values[b] ? values[a] > values[b] : a < b; });
+  order.resize(count);
+  for (std::size_t& place : order) place = rows[place];
+  return order;
 }
 
-std::vector<double> over_level_grid(const Problem& problem) {
-  std::vector<double> result(problem.table.rows, kImpossible);
-  const std::vector<double> levels = level_grid();
-  for (const double level : levels) {
-    const std::vector<double> logs = at_level(problem, level);
-    for (const std::size_t row : problem.rows) result[row] = log_sum(result[row], logs[row]);
-  }
-  for (double& value : result) value -= std::log(static_cast<double>(levels.size()));
+/// Share of the levels' range that a row's likelihood fills: log of what its peak has to be multiplied by.
+double log_width(NoiseShape shape, std::size_t count) {
+  const auto n = static_cast<double>(count);
+  if (shape == NoiseShape::uniform) return -std::log(n * log_range());
+  const double power = shape == NoiseShape::gaussian ? 2.0 : 1.0;
+  return 0.5 * std::log(2.0 * std::numbers::pi / (n * power)) - std::log(log_range());
+}
+
+std::vector<double> peaks(const Observation& observation, NoiseShape shape, double level,
+                          const SceneTable& table, Rows rows) {
+  return block_by_block(
+      rows, [&](Rows block) { return log_likelihoods_at_peak(observation, shape, level, table, block); });
+}
+
+/// One shape's evidence over all levels; rows that are hopeless beside the best get -infinity.
+std::vector<double> over_levels(const Observation& observation, NoiseShape shape, const SceneTable& table,
+                                Rows rows) {
+  const auto likely = rows_with_largest(peaks(observation, shape, kCommonLevel, table, rows), rows, kLikely);
+  const double level = likeliest_level(observation, shape, table, likely);
+  const std::vector<double> estimates = peaks(observation, shape, level, table, rows);
+  const double least = *std::max_element(estimates.begin(), estimates.end()) - kHopeless;
+  std::vector<std::size_t> places, kept;
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    if (estimates[i] > kImpossible && estimates[i] >= least) {
+      places.push_back(i);
+      kept.push_back(rows[i]);
+    }
+  const std::vector<double> values = evidence_over_levels(observation, shape, level, table, kept);
+  std::vector<double> result(rows.size(), kImpossible);
+  for (std::size_t i = 0; i < places.size(); ++i) result[places[i]] = values[i];
   return result;
 }
 
-/// True if an unknown level multiplies all scales, so that the statistics for one level serve all.
-bool is_proportional(const Observation& observation) {
-  return !observation.has_absolute_errors() && observation.noise.shape != NoiseShape::student;
-}
-
-std::vector<double> log_evidence(const Problem& problem) {
-  const std::optional<double> level = problem.observation.noise.relative;
-  if (level) return at_level(problem, std::max(*level, kSmallestLevel));
-  return is_proportional(problem.observation) ? over_levels_in_closed_form(problem)
-                                              : over_level_grid(problem);
+std::vector<double> log_evidence(const Observation& observation, const SceneTable& table, Rows rows) {
+  if (rows.empty()) return {};
+  if (!observation.unknown_level)
+    return at_level(observation, std::max(observation.noise.relative.value_or(0.0), kSmallestLevel), table,
+                    rows);
+  if (has_closed_form(observation)) return over_levels_in_closed_form(observation, table, rows);
+  std::vector<std::vector<double>> logs;
+  for (const NoiseShape shape : shapes_of(observation.noise))
+    logs.push_back(over_levels(observation, shape, table, rows));
+  return log_mean(std::move(logs));
 }
 
 SceneTable table_of_one_row(std::span<const double> prediction) {
@@ -147,32 +124,17 @@ SceneTable table_of_one_row(std::span<const double> prediction) {
   return table;
 }
 
-/// The shape under which the readings are likeliest if the scene of a table with one row is the truth.
-std::span<const NoiseShape> likeliest_shape(const Problem& problem) {
-  std::size_t best = 0;
-  double best_log = kImpossible;
-  for (std::size_t i = 0; i < problem.shapes.size(); ++i) {
-    Problem single = problem;
-    single.shapes = problem.shapes.subspan(i, 1);
-    const double value = log_evidence(single).front();
-    if (value > best_log) best = i;
-    best_log = std::max(best_log, value);
-  }
-  return problem.shapes.subspan(best, 1);
-}
-
-double likeliest_grid_level(const Problem& problem) {
-  double best = kSmallestLevel;
-  double best_log = kImpossible;
-  for (const double level : level_grid()) {
-    const double value = at_level(problem, level).front();
-    if (value > best_log) best = level;
-    best_log = std::max(best_log, value);
-  }
-  return best;
-}
-
 }  // namespace
+
+std::vector<NoiseShape> shapes_of(const NoiseModel& noise) {
+  if (noise.shape != NoiseShape::automatic) return {noise.shape};
+  return {NoiseShape::uniform, NoiseShape::gaussian, NoiseShape::laplace};
+}
+
+bool has_closed_form(const Observation& observation) {
+  return observation.is_proportional() && !observation.has_nuisance() &&
+         observation.noise.shape != NoiseShape::student;
+}
 
 std::vector<double> log_chance_of_silence(const Observation& observation, const SceneTable& table,
                                           std::span<const std::size_t> rows) {
@@ -188,21 +150,49 @@ std::vector<double> log_chance_of_silence(const Observation& observation, const 
 std::vector<double> log_evidence_of_rows(const Observation& observation, const SceneTable& table,
                                          std::span<const std::size_t> rows) {
   require_readings(observation);
-  return log_evidence({observation, table, rows, shapes_of(observation.noise),
-                       log_chance_of_silence(observation, table, rows)});
+  const std::vector<double> logs = log_evidence(observation, table, rows);
+  const std::vector<double> log_silence = log_chance_of_silence(observation, table, rows);
+  std::vector<double> result(table.rows, kImpossible);
+  for (std::size_t i = 0; i < rows.size(); ++i) result[rows[i]] = logs[i] + log_silence[rows[i]];
+  return result;
+}
+
+std::vector<double> estimated_evidence(const Observation& observation, const SceneTable& table,
+                                       std::span<const std::size_t> rows,
+                                       std::span<const std::size_t> likely) {
+  std::vector<std::vector<double>> logs;
+  for (const NoiseShape shape : shapes_of(observation.noise)) {
+    const double level = likeliest_level(observation, shape, table, likely);
+    logs.push_back(peaks(observation, shape, level, table, rows));
+    for (double& log : logs.back()) log += log_width(shape, observation.count);
+  }
+  std::vector<double> result = log_mean(std::move(logs));
+  const std::vector<double> log_silence = log_chance_of_silence(observation, table, rows);
+  for (std::size_t i = 0; i < rows.size(); ++i) result[i] += log_silence[rows[i]];
+  return result;
 }
 
 NoiseEstimate estimate_noise(const Observation& observation, std::span<const double> prediction) {
   const SceneTable table = table_of_one_row(prediction);
-  const std::array<std::size_t, 1> rows = {0};
-  const std::vector<double> no_matter = {0.0};  // silence says nothing of the noise
-  Problem problem{observation, table, rows, shapes_of(observation.noise), no_matter};
-  problem.shapes = likeliest_shape(problem);
-  const NoiseShape shape = problem.shapes.front();
-  if (observation.noise.relative) return {shape, *observation.noise.relative, false};
-  if (!is_proportional(observation)) return {shape, likeliest_grid_level(problem), true};
-  const RowStatistics statistics = table_statistics(observation, scales_at(observation, 1.0), table).row(0);
-  return {shape, likeliest_level(shape, statistics, observation.count), true};
+  constexpr std::array<std::size_t, 1> kRow = {0};
+  NoiseEstimate estimate{shapes_of(observation.noise).front(), observation.noise.relative.value_or(0.0),
+                         observation.unknown_level};
+  double best = kImpossible;
+  for (const NoiseShape shape : shapes_of(observation.noise)) {
+    Observation one = observation;
+    one.noise.shape = shape;
+    const double log = log_evidence(one, table, kRow).front();
+    if (log <= best) continue;
+    best = log;
+    estimate.shape = shape;
+    if (!observation.unknown_level) continue;
+    estimate.level =
+        has_closed_form(observation)
+            ? likeliest_level(shape, table_statistics(one, scales_at(one, 1.0), table, kRow).row(0),
+                              one.count)
+            : likeliest_level(one, shape, table, kRow);
+  }
+  return estimate;
 }
 
 }  // namespace voussoir

@@ -9,14 +9,26 @@
 
 namespace voussoir {
 
-/// log p(readings | scene) of the given rows (in ascending order), with an unknown noise level and an
-/// automatic noise shape marginalised. -infinity for impossible scenes (a reading on a block that the scene
-/// lacks, or an error beyond a uniform noise's bound) and for all other rows; with an unknown level perhaps
-/// for scenes less likely than the likeliest by exp(50). A silent sensor on a block that the scene has counts
-/// with the chance of its failing. The result has a value for each row of the table. Throws InputError if no
-/// reading is at a point that can move.
+/// log p(readings | scene) of the given rows (in ascending order), with an unknown noise level, an automatic
+/// noise shape and nuisances marginalised. -infinity for impossible scenes (a reading on a block that the
+/// scene lacks; without a model error also one beyond a uniform noise's bound) and for all other rows; with
+/// an unknown level perhaps for scenes less likely than the likeliest by exp(50). A silent sensor on a block
+/// that the scene has counts with the chance of its failing. The result has a value for each row of the
+/// table. Throws InputError if no reading is at a point that can move.
 std::vector<double> log_evidence_of_rows(const Observation& observation, const SceneTable& table,
                                          std::span<const std::size_t> rows);
+
+/// Estimates of these evidences where the level is unknown, within a few nats, for each of the rows. `likely`
+/// are a few rows of which some explain the readings about as well as any.
+std::vector<double> estimated_evidence(const Observation& observation, const SceneTable& table,
+                                       std::span<const std::size_t> rows,
+                                       std::span<const std::size_t> likely);
+
+/// The noise's shapes that are possible, equally likely beforehand.
+std::vector<NoiseShape> shapes_of(const NoiseModel& noise);
+
+/// True if the evidence over an unknown level has a closed form.
+bool has_closed_form(const Observation& observation);
 
 /// log of the chance, in each of the given rows, that the silent sensors are silent: certain on missing
 /// blocks, the noise model's `silence` on the others. Zero for all other rows.

@@ -1,12 +1,17 @@
 #include "lookup/evidence/fit.h"
 
 #include <algorithm>
+#include <array>
 #include <boost/math/distributions/normal.hpp>
-#include <boost/math/special_functions/digamma.hpp>
+#include <boost/math/distributions/students_t.hpp>
 #include <boost/math/special_functions/gamma.hpp>
-#include <boost/math/special_functions/trigamma.hpp>
 #include <cmath>
 #include <limits>
+#include <numbers>
+
+#include "lookup/evidence/bounded_errors.h"
+#include "lookup/evidence/level_likelihood.h"
+#include "lookup/evidence/nuisance_likelihood.h"
 
 namespace voussoir {
 namespace {
@@ -40,35 +45,47 @@ double lower_tail(double standard_normal) {
   return boost::math::cdf(boost::math::normal(), standard_normal);
 }
 
-/// Sum of -log of a Beta(nu/2, 1/2) variate for each reading, against its normal limit.
-double student_chance(const std::vector<double>& errors, double nu) {
-  const auto n = static_cast<double>(errors.size());
-  double sum = 0.0;
-  for (const double z : errors) sum += std::log1p(z * z / (nu - 2.0));
-  const double mean = boost::math::digamma((nu + 1.0) / 2.0) - boost::math::digamma(nu / 2.0);
-  const double variance = boost::math::trigamma(nu / 2.0) - boost::math::trigamma((nu + 1.0) / 2.0);
-  return lower_tail(-(sum - n * mean) / std::sqrt(n * variance));
+/// The chance of an error at least as large as this one.
+double chance_of_error(NoiseShape shape, double error, double instrument, double model, double nu) {
+  if (shape == NoiseShape::student) {
+    const double scaled = std::abs(error) / std::hypot(instrument, model) * std::sqrt(nu / (nu - 2.0));
+    return 2.0 * boost::math::cdf(boost::math::complement(boost::math::students_t(nu), scaled));
+  }
+  if (model > 0.0) return chance_of_bounded_error(error, instrument, model);
+  return std::max(0.0, 1.0 + kBoundTolerance - std::abs(error) / instrument);
 }
 
-double chance_at_stated_level(const std::vector<double>& errors, NoiseShape shape,
-                              double degrees_of_freedom) {
-  const auto n = static_cast<double>(errors.size());
-  double absolute = 0.0, square = 0.0, largest = 0.0;
-  for (const double z : errors) {
-    absolute += std::abs(z);
-    square += z * z;
-    largest = std::max(largest, std::abs(z));
+/// Fisher's method: -2 sum log p_i has a chi square distribution if all p_i are even between 0 and 1.
+double fisher_chance(const Observation& observation, NoiseShape shape, const ExpectedErrors& expected,
+                     std::span<const double> prediction) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < prediction.size(); ++i)
+    if (!std::isnan(observation.reading[i]))
+      sum -= std::log(chance_of_error(shape, observation.reading[i] - prediction[i], expected.instrument[i],
+                                      expected.model[i], observation.noise.degrees_of_freedom));
+  return std::isfinite(sum) ? boost::math::gamma_q(static_cast<double>(observation.count), sum) : 0.0;
+}
+
+double chance_at_stated_level(const Observation& observation, const NoiseEstimate& noise,
+                              std::span<const double> prediction) {
+  constexpr std::array<std::size_t, 1> kRow = {0};
+  SceneTable table;
+  table.rows = 1;
+  table.points = prediction.size();
+  table.vertical = prediction;
+  const auto n = static_cast<double>(observation.count);
+  const ErrorScales scales = scales_at(observation, std::max(noise.level, kSmallestLevel));
+  if (observation.has_nuisance()) {
+    const RowStatistics row = nuisance_statistics(observation, scales, table, kRow).row(0);
+    return std::isnan(row.sum_absolute) ? 0.0 : boost::math::gamma_q(n / 2.0, row.sum_square / 2.0);
   }
-  switch (shape) {
-    case NoiseShape::uniform:
-      return largest <= 1.0 + 1e-9 ? 1.0 : 0.0;
-    case NoiseShape::laplace:
-      return boost::math::gamma_q(n, std::sqrt(2.0) * absolute);
-    case NoiseShape::student:
-      return student_chance(errors, degrees_of_freedom);
-    default:
-      return boost::math::gamma_q(n / 2.0, square / 2.0);
-  }
+  const RowStatistics row = table_statistics(observation, scales, table, kRow).row(0);
+  if (std::isnan(row.sum_absolute)) return 0.0;
+  if (noise.shape == NoiseShape::gaussian) return boost::math::gamma_q(n / 2.0, row.sum_square / 2.0);
+  if (noise.shape == NoiseShape::laplace)
+    return boost::math::gamma_q(n, std::numbers::sqrt2 * row.sum_absolute);
+  return fisher_chance(observation, noise.shape, expected_errors(observation, scales, prediction),
+                       prediction);
 }
 
 /// Chance that independent errors follow their neighbours as closely as these: von Neumann's ratio, normal
@@ -90,13 +107,14 @@ double chance_of_pattern(const std::vector<double>& errors) {
 
 std::vector<SensorResidual> sensor_residuals(const Observation& observation, const ErrorScales& scales,
                                              std::span<const double> prediction) {
-  const std::vector<double> sigma = error_scales(observation, scales, prediction);
+  const ExpectedErrors expected = expected_errors(observation, scales, prediction);
   std::vector<SensorResidual> result;
   for (std::size_t point = 0; point < prediction.size(); ++point) {
     const double reading = observation.displacement[point];
-    if (!std::isnan(reading))
-      result.push_back({point, reading, prediction[point], sigma[point],
-                        (reading - prediction[point]) / sigma[point], false});
+    if (std::isnan(reading)) continue;
+    const double scale = std::hypot(expected.instrument[point], expected.model[point]);
+    result.push_back(
+        {point, reading, prediction[point], scale, (reading - prediction[point]) / scale, false});
   }
   const double limit = limit_of_agreement(result);
   for (SensorResidual& residual : result)
@@ -104,14 +122,15 @@ std::vector<SensorResidual> sensor_residuals(const Observation& observation, con
   return result;
 }
 
-Fit check_fit(const std::vector<SensorResidual>& residuals, const NoiseEstimate& noise,
-              double degrees_of_freedom) {
-  const std::vector<double> errors = errors_of(residuals);
+Fit check_fit(const Observation& observation, const NoiseEstimate& noise,
+              std::span<const double> prediction) {
   if (!noise.estimated) {
-    const double chance = chance_at_stated_level(errors, noise.shape, degrees_of_freedom);
+    const double chance = chance_at_stated_level(observation, noise, prediction);
     return {chance >= kSmallestChance, chance,
             chance >= kSmallestChance ? "" : "the scatter exceeds the stated noise"};
   }
+  const ErrorScales scales = scales_at(observation, std::max(noise.level, kSmallestLevel));
+  const std::vector<double> errors = errors_of(sensor_residuals(observation, scales, prediction));
   if (noise.level * standard_deviation(noise.shape) > kSuspiciousLevel)
     return {false, 0.0, "the scatter is too large to be noise"};
   if (noise.level < kPerfectLevel || errors.size() < kFewestForPattern) return {};

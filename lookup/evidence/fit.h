@@ -11,7 +11,8 @@ namespace voussoir {
 
 struct Fit {
   bool explained = true;
-  double chance = 1.0;  ///< of a fit as bad as this or worse if the scene is the truth
+  double chance = 1.0;  ///< of a fit as bad as this or worse if the scene is the truth: even between 0 and 1
+                        ///< over many questions if the model and the stated noise are right
   std::string reason;   ///< in words, when the scene does not explain the readings
 };
 
@@ -19,7 +20,8 @@ struct SensorResidual {
   std::size_t point = 0;
   double reading = 0.0;    ///< [m]
   double predicted = 0.0;  ///< [m]
-  double scale = 0.0;      ///< [m] sigma (the bound of uniform noise); NaN at points that cannot move
+  double scale = 0.0;      ///< [m] of the instrument (the bound of uniform noise) and the model together; NaN
+                           ///< at points that cannot move
   double error = 0.0;      ///< in units of sigma; NaN at points that cannot move
   bool disagrees = false;  ///< far outside what the other sensors show
 };
@@ -28,11 +30,10 @@ struct SensorResidual {
 std::vector<SensorResidual> sensor_residuals(const Observation& observation, const ErrorScales& scales,
                                              std::span<const double> prediction);
 
-/// With a stated level: is the scatter about the scene as small as the noise model says (Gaussian: chi
-/// square; Laplace: sum of absolute errors; Student: sum of log terms; uniform: the bound)? With an unknown
-/// level: is it below the largest level, and free of a pattern along the bridge (von Neumann's ratio of
-/// successive differences)?
-Fit check_fit(const std::vector<SensorResidual>& residuals, const NoiseEstimate& noise,
-              double degrees_of_freedom);
+/// The predictive check of one scene. With a stated level: how likely is a scatter as large as this
+/// (Gaussian, and with nuisances: chi square; Laplace: sum of absolute errors; Student and uniform: Fisher's
+/// sum of the logarithms of every error's chance)? With an unknown level: is it below the largest level, and
+/// free of a pattern along the bridge (von Neumann's ratio of successive differences)?
+Fit check_fit(const Observation& observation, const NoiseEstimate& noise, std::span<const double> prediction);
 
 }  // namespace voussoir

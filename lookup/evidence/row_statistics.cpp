@@ -6,124 +6,155 @@
 #include <numbers>
 
 #include "core/simd/lane_math.h"
+#include "lookup/evidence/wide_product.h"
+#include "lookup/readings/common_variance.h"
 #include "lookup/readings/noise_scale.h"
 
 namespace voussoir {
 namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr std::size_t kSafeProducts = 16;  // factors within 1e+-19 of the unit cannot leave a double's range
 
-/// Running statistics, lane by lane, with the product of scales in place of the sum of their logarithms.
+/// Running statistics, lane by lane, with products in place of sums of logarithms.
 struct LaneStatistics {
   DoubleLanes sum_absolute{}, sum_square{}, largest{};
-  DoubleLanes product = DoubleLanes{} + 1.0;
+  DoubleLanes scales = DoubleLanes{} + 1.0, student = DoubleLanes{} + 1.0;
 };
 
 /// The arrays of an Observation and its scales, as the loop below wants them.
 struct View {
-  const double* reading;
-  const double* slope;
-  const double* offset;
-  const double* intact;
-  double model_error;
+  const double *reading, *slope, *offset, *intact, *origin, *own_variance;
+  double share_square;
   double inverse_unit;
+  double per_student;  ///< 1 / (nu - 2), or 0 if nobody asks
   std::size_t points;
+  bool counts_from_origin;
+
+  VOUSSOIR_INLINE DoubleLanes at(const double* values, std::size_t i, std::size_t count) const {
+    return load_some<DoubleLanes>(values + i, count, kNan);
+  }
 };
 
+template <bool kModelError, ErrorSum kSum>
 VOUSSOIR_INLINE void add_errors(const View& view, std::size_t i, std::size_t count, const double* prediction,
-                                LaneStatistics& statistics) {
-  const auto at = [&](const double* values) __attribute__((always_inline)) {
-    return load_some<DoubleLanes>(values + i, count, kNan);
-  };
-  const DoubleLanes reading = at(view.reading),
-                    predicted = load_some<DoubleLanes>(prediction + i, count, kNan);
-  const DoubleLanes slope = at(view.slope), offset = at(view.offset), movement = magnitude(predicted);
-  const DoubleLanes scale = view.model_error > 0.0 ? noise_scale(slope, offset, movement, view.model_error,
-                                                                 magnitude(at(view.intact) - predicted))
-                                                   : noise_scale(slope, offset, movement);
+                                double common, LaneStatistics& statistics) {
+  const DoubleLanes reading = view.at(view.reading, i, count), predicted = view.at(prediction, i, count);
+  const DoubleLanes movement =
+      magnitude(view.counts_from_origin ? predicted - view.at(view.origin, i, count) : predicted);
+  DoubleLanes scale = noise_scale(view.at(view.slope, i, count), view.at(view.offset, i, count), movement);
+  DoubleLanes error = magnitude(reading - predicted);
+  if constexpr (kModelError) {
+    const DoubleLanes variance =
+        model_variance<DoubleLanes>(view.at(view.own_variance, i, count) + common, view.share_square,
+                                    predicted - view.at(view.intact, i, count));
+    if constexpr (kSum == ErrorSum::variance) {
+      scale = square_root(scale * scale + variance);
+    } else {
+      const DoubleLanes beyond = error - 2.0 * square_root(variance);
+      error = beyond < 0.0 ? DoubleLanes{} : beyond;  // NaN stays
+    }
+  }
   const DoubleMask has_reading = reading == reading;
-  const DoubleLanes z = has_reading ? magnitude(reading - predicted) / scale : DoubleLanes{};
+  const DoubleLanes z = has_reading ? error / scale : DoubleLanes{};
   statistics.sum_absolute += z;
   statistics.sum_square += z * z;
   statistics.largest = z > statistics.largest ? z : statistics.largest;
-  statistics.product *= has_reading ? scale * view.inverse_unit : DoubleLanes{} + 1.0;
-}
-
-/// A positive number as mantissa times two to the power of the exponent: products of any length keep their
-/// range.
-struct WideProduct {
-  double mantissa = 1.0;
-  double exponent = 0.0;
-};
-
-/// Multiplies the lanes' products into the wide one and starts the lanes anew.
-VOUSSOIR_INLINE void flush(DoubleLanes& product, WideProduct& wide) {
-  constexpr std::int64_t kMantissaBits = 0x000FFFFFFFFFFFFF;
-  constexpr std::int64_t kOneBits = 0x3FF0000000000000;
-  const DoubleMask bits = reinterpret_cast<DoubleMask>(product);
-  const DoubleMask exponents = (bits >> 52) - 1023;
-  const DoubleLanes mantissas = reinterpret_cast<DoubleLanes>((bits & kMantissaBits) | kOneBits);
-  wide.mantissa *= (mantissas[0] * mantissas[1]) * (mantissas[2] * mantissas[3]);
-  wide.exponent += static_cast<double>((exponents[0] + exponents[1]) + (exponents[2] + exponents[3]));
-  product = DoubleLanes{} + 1.0;
+  statistics.scales *= has_reading ? scale * view.inverse_unit : DoubleLanes{} + 1.0;
+  if (view.per_student > 0.0) statistics.student *= 1.0 + z * z * view.per_student;
 }
 
 /// Where the statistics go; the logarithms are taken of all rows at once, later.
 struct Columns {
-  double* sum_absolute;
-  double* sum_square;
-  double* largest;
-  double* mantissa;
-  double* exponent;
+  double *sum_absolute, *sum_square, *largest;
+  double *scale_mantissa, *scale_exponent, *student_mantissa, *student_exponent;
 };
 
-VOUSSOIR_FOR_EVERY_PROCESSOR
-void collect(const View& view, const double* table, std::size_t rows, const Columns& columns) {
-  for (std::size_t row = 0; row < rows; ++row) {
-    const double* const prediction = table + row * view.points;
-    LaneStatistics lanes;
-    WideProduct product;
-    std::size_t i = 0;
-    for (std::size_t step = 1; i + kLanes <= view.points; i += kLanes, ++step) {
-      add_errors(view, i, kLanes, prediction, lanes);
-      if (step % kSafeProducts == 0) flush(lanes.product, product);
-    }
-    if (i < view.points) add_errors(view, i, view.points - i, prediction, lanes);
-    flush(lanes.product, product);
-    columns.sum_absolute[row] = sum_of(lanes.sum_absolute);
-    columns.sum_square[row] = sum_of(lanes.sum_square);
-    columns.largest[row] = largest_of(lanes.largest);
-    columns.mantissa[row] = product.mantissa;
-    columns.exponent[row] = product.exponent;
+template <bool kModelError, ErrorSum kSum>
+VOUSSOIR_INLINE void collect_row(const View& view, const double* prediction, double common, std::size_t row,
+                                 const Columns& columns) {
+  LaneStatistics lanes;
+  WideProduct scales, student;
+  const auto flush_both = [&]() __attribute__((always_inline)) {
+    flush(lanes.scales, scales);
+    if (view.per_student > 0.0) flush(lanes.student, student);
+  };
+  std::size_t i = 0;
+  for (std::size_t step = 1; i + kLanes <= view.points; i += kLanes, ++step) {
+    add_errors<kModelError, kSum>(view, i, kLanes, prediction, common, lanes);
+    if (step % kSafeProducts == 0) flush_both();
   }
+  if (i < view.points) add_errors<kModelError, kSum>(view, i, view.points - i, prediction, common, lanes);
+  flush_both();
+  columns.sum_absolute[row] = sum_of(lanes.sum_absolute);
+  columns.sum_square[row] = sum_of(lanes.sum_square);
+  columns.largest[row] = largest_of(lanes.largest);
+  columns.scale_mantissa[row] = scales.mantissa;
+  columns.scale_exponent[row] = scales.exponent;
+  columns.student_mantissa[row] = student.mantissa;
+  columns.student_exponent[row] = student.exponent;
+}
+
+using Rows = std::span<const std::size_t>;
+
+VOUSSOIR_FOR_EVERY_PROCESSOR
+void collect_plain(const View& view, const double* table, Rows rows, const double* common,
+                   const Columns& columns) {
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    collect_row<false, ErrorSum::variance>(view, table + rows[i] * view.points, common[i], i, columns);
+}
+VOUSSOIR_FOR_EVERY_PROCESSOR
+void collect_variance(const View& view, const double* table, Rows rows, const double* common,
+                      const Columns& columns) {
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    collect_row<true, ErrorSum::variance>(view, table + rows[i] * view.points, common[i], i, columns);
+}
+VOUSSOIR_FOR_EVERY_PROCESSOR
+void collect_beyond(const View& view, const double* table, Rows rows, const double* common,
+                    const Columns& columns) {
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    collect_row<true, ErrorSum::beyond>(view, table + rows[i] * view.points, common[i], i, columns);
+}
+
+View view_of(const Observation& observation, const ErrorScales& scales, const SceneTable& table) {
+  const double nu = observation.noise.degrees_of_freedom;
+  return {observation.reading.data(),
+          scales.slope.data(),
+          scales.offset.data(),
+          observation.intact.data(),
+          observation.origin.data(),
+          observation.own_variance.data(),
+          observation.error_share * observation.error_share,
+          1.0 / scales.unit,
+          observation.noise.shape == NoiseShape::student ? 1.0 / (nu - 2.0) : 0.0,
+          table.points,
+          observation.origin == observation.intact};
+}
+
+/// Mantissas become logarithms of mantissa times two to the exponent, plus a shift.
+void make_wide_logarithms(std::vector<double>& mantissa, const std::vector<double>& exponent, double shift) {
+  make_logarithms(mantissa);
+  for (std::size_t i = 0; i < mantissa.size(); ++i) mantissa[i] += exponent[i] * std::numbers::ln2 + shift;
 }
 
 }  // namespace
 
 TableStatistics table_statistics(const Observation& observation, const ErrorScales& scales,
-                                 const SceneTable& table) {
-  const std::vector<double> zeros(table.rows, 0.0);
-  TableStatistics result{zeros, zeros, zeros, zeros};
-  std::vector<double> exponent = zeros;
-  const View view{
-      observation.reading.data(),    scales.slope.data(), scales.offset.data(), observation.intact.data(),
-      observation.noise.model_error, 1.0 / scales.unit,   table.points};
-  collect(view, table.vertical.data(), table.rows,
-          {result.sum_absolute.data(), result.sum_square.data(), result.largest.data(),
-           result.sum_log_scale.data(), exponent.data()});
-  make_logarithms(result.sum_log_scale);
-  const double shift = static_cast<double>(observation.count) * std::log(scales.unit);
-  for (std::size_t row = 0; row < table.rows; ++row)
-    result.sum_log_scale[row] += exponent[row] * std::numbers::ln2 + shift;
-  return result;
-}
-
-std::vector<double> standard_errors(const Observation& observation, const ErrorScales& scales,
-                                    std::span<const double> prediction) {
-  std::vector<double> result = error_scales(observation, scales, prediction);
-  for (std::size_t i = 0; i < prediction.size(); ++i)
-    result[i] = (observation.reading[i] - prediction[i]) / result[i];
+                                 const SceneTable& table, std::span<const std::size_t> rows, ErrorSum sum) {
+  const std::vector<double> zeros(rows.size(), 0.0);
+  TableStatistics result{zeros, zeros, zeros, zeros, zeros};
+  std::vector<double> scale_exponent = zeros, student_exponent = zeros;
+  const View view = view_of(observation, scales, table);
+  const Columns columns{result.sum_absolute.data(),  result.sum_square.data(), result.largest.data(),
+                        result.sum_log_scale.data(), scale_exponent.data(),    result.sum_log_student.data(),
+                        student_exponent.data()};
+  const auto collect = !observation.has_model_error() ? collect_plain
+                       : sum == ErrorSum::variance    ? collect_variance
+                                                      : collect_beyond;
+  collect(view, table.vertical.data(), rows,
+          common_variances(observation.intact, observation.error_common, table, rows).data(), columns);
+  make_wide_logarithms(result.sum_log_scale, scale_exponent,
+                       static_cast<double>(observation.count) * std::log(scales.unit));
+  if (view.per_student > 0.0) make_wide_logarithms(result.sum_log_student, student_exponent, 0.0);
   return result;
 }
 

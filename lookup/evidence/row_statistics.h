@@ -1,5 +1,5 @@
 #pragma once
-/// @file What all noise shapes need to know of the errors of one candidate scene.
+/// @file What all noise shapes need to know of the errors of candidate scenes.
 
 #include <vector>
 
@@ -8,28 +8,34 @@
 
 namespace voussoir {
 
-/// Sums over the readings of z_i = (reading_i - d_i) / scale_i, scale_i being the noise_scale.
-struct RowStatistics {
-  double sum_absolute = 0.0;   ///< sum |z_i|; NaN if a reading has no prediction: the scene is impossible
-  double sum_square = 0.0;     ///< sum z_i^2
-  double largest = 0.0;        ///< max |z_i|
-  double sum_log_scale = 0.0;  ///< sum log scale_i [log m]
+/// How the instruments' errors and the model's own go together.
+enum class ErrorSum {
+  variance,  ///< scale_i^2 = instrument^2 + model's variance: Gaussian, and near enough Laplace and Student
+  beyond  ///< scale_i = instrument; of an error only what two deviations of the model do not explain counts
 };
 
-/// The statistics of every row of a table, column by column.
+/// Sums over the readings of z_i = (reading_i - d_i) / scale_i.
+struct RowStatistics {
+  double sum_absolute = 0.0;     ///< sum |z_i|; NaN if a reading has no prediction: the scene is impossible
+  double sum_square = 0.0;       ///< sum z_i^2
+  double largest = 0.0;          ///< max |z_i|
+  double sum_log_scale = 0.0;    ///< sum log scale_i [log m]
+  double sum_log_student = 0.0;  ///< sum log(1 + z_i^2 / (nu - 2)), nu being the degrees of freedom
+};
+
+/// The statistics of some rows, column by column.
 struct TableStatistics {
-  std::vector<double> sum_absolute, sum_square, largest, sum_log_scale;
+  std::vector<double> sum_absolute, sum_square, largest, sum_log_scale, sum_log_student;
 
   std::size_t rows() const { return largest.size(); }
   RowStatistics row(std::size_t i) const {
-    return {sum_absolute[i], sum_square[i], largest[i], sum_log_scale[i]};
+    return {sum_absolute[i], sum_square[i], largest[i], sum_log_scale[i], sum_log_student[i]};
   }
 };
-TableStatistics table_statistics(const Observation& observation, const ErrorScales& scales,
-                                 const SceneTable& table);
 
-/// z_i of one row; NaN where there is no reading.
-std::vector<double> standard_errors(const Observation& observation, const ErrorScales& scales,
-                                    std::span<const double> prediction);
+/// Of these rows of a table, in their order. Without a model error both sums are the same.
+TableStatistics table_statistics(const Observation& observation, const ErrorScales& scales,
+                                 const SceneTable& table, std::span<const std::size_t> rows,
+                                 ErrorSum sum = ErrorSum::variance);
 
 }  // namespace voussoir

@@ -2,13 +2,11 @@
 /// @file The probability (density) of the readings given one scene, for a stated noise level and over all
 /// levels, for the shapes whose statistics are short: uniform, Gaussian, Laplace.
 
+#include "lookup/evidence/level_likelihood.h"
 #include "lookup/evidence/row_statistics.h"
 #include "lookup/readings/noise_model.h"
 
 namespace voussoir {
-
-/// Errors may exceed the bound of uniform noise by this share of it: rounding.
-inline constexpr double kBoundTolerance = 1e-9;
 
 /// log p(readings | scene) when all scales are `level` times those of the statistics. -infinity for an
 /// impossible scene. Densities are per metre for each reading.

@@ -8,6 +8,7 @@
 
 #include "core/simd/lane_math.h"
 #include "lookup/evidence/level_curve.h"
+#include "lookup/evidence/level_evidence.h"
 #include "lookup/evidence/scene_evidence.h"
 
 namespace voussoir {
@@ -16,7 +17,6 @@ namespace {
 constexpr double kImpossible = -std::numeric_limits<double>::infinity();
 constexpr double kCutOff =
     1e-13;  // share of an integral over levels that may lie outside the range of levels
-constexpr double kHopeless = 50.0;  // log of the factor beyond which a scene's probability is taken for zero
 
 /// The evidence of every row for one shape; in the `open` rows it is an upper bound.
 struct ShapeEvidence {
@@ -32,13 +32,13 @@ const std::vector<double>& sums_of(NoiseShape shape, const TableStatistics& stat
 }
 
 ShapeEvidence shape_evidence(const LevelIntegral& integral, const TableStatistics& statistics,
-                             std::span<const std::size_t> rows, std::size_t count, double& best) {
+                             std::size_t count, double& best) {
   const std::vector<double>& sums = sums_of(integral.shape, statistics);
   ShapeEvidence result{integral.shape, sums, {}};
   make_logarithms(result.logs);
   for (std::size_t row = 0; row < statistics.rows(); ++row)
     result.logs[row] = integral.constant - integral.order * result.logs[row] - statistics.sum_log_scale[row];
-  for (const std::size_t row : rows) {
+  for (std::size_t row = 0; row < statistics.rows(); ++row) {
     double& value = result.logs[row];
     if (std::isnan(statistics.sum_absolute[row])) {
       value = kImpossible;
@@ -70,22 +70,6 @@ void close(ShapeEvidence& evidence, const TableStatistics& statistics, std::size
 
 }  // namespace
 
-std::vector<double> log_likelihoods(NoiseShape shape, const TableStatistics& statistics, std::size_t count) {
-  const bool bounded = shape == NoiseShape::uniform;
-  const LevelCurve unit = level_curve(shape, {1.0, 1.0, 1.0, 0.0}, count);
-  const std::vector<double>& sums =
-      shape == NoiseShape::laplace ? statistics.sum_absolute : statistics.sum_square;
-  const double constant = bounded ? -unit.count * std::numbers::ln2 : unit.constant;
-  const double factor = bounded ? 0.0 : unit.a;
-  const double limit = bounded ? 1.0 + kBoundTolerance : std::numeric_limits<double>::infinity();
-  std::vector<double> result(statistics.rows());
-  for (std::size_t row = 0; row < result.size(); ++row) {
-    const bool possible = statistics.largest[row] <= limit && !std::isnan(statistics.sum_absolute[row]);
-    result[row] = possible ? constant - factor * sums[row] - statistics.sum_log_scale[row] : kImpossible;
-  }
-  return result;
-}
-
 LevelIntegral level_integral(NoiseShape shape, std::size_t count) {
   const auto n = static_cast<double>(count);
   if (shape == NoiseShape::uniform)
@@ -102,11 +86,10 @@ LevelIntegral level_integral(NoiseShape shape, std::size_t count) {
 }
 
 std::vector<double> log_mean_evidences(std::span<const LevelIntegral> integrals,
-                                       const TableStatistics& statistics, std::span<const std::size_t> rows,
-                                       std::size_t count, double& best) {
+                                       const TableStatistics& statistics, std::size_t count, double& best) {
   std::vector<ShapeEvidence> parts;
   for (const LevelIntegral& integral : integrals)
-    parts.push_back(shape_evidence(integral, statistics, rows, count, best));
+    parts.push_back(shape_evidence(integral, statistics, count, best));
   std::vector<std::vector<double>> logs;
   for (ShapeEvidence& part : parts) {
     close(part, statistics, count, best);

@@ -1,5 +1,6 @@
 #pragma once
-/// @file The evidence of evidence.h for all rows of a table at once.
+/// @file The evidence over an unknown level in closed form, where all errors grow with the level, for many
+/// rows at once.
 
 #include <vector>
 
@@ -7,9 +8,6 @@
 #include "lookup/readings/noise_model.h"
 
 namespace voussoir {
-
-/// log_likelihood at level 1 of every row. Shapes: uniform, Gaussian, Laplace.
-std::vector<double> log_likelihoods(NoiseShape shape, const TableStatistics& statistics, std::size_t count);
 
 /// The integral of a likelihood over all levels is that of a power: exp(constant - order log(sum) -
 /// sum_log_scale), where `sum` is the shape's own statistic. It stands for log_evidence (relative error below
@@ -25,11 +23,9 @@ LevelIntegral level_integral(NoiseShape shape, std::size_t count);
 
 /// The logarithm of the mean over the shapes of log_evidence, for every row: in closed form where that
 /// stands, else by log_evidence itself. Of the latter, scenes less likely by a factor of exp(50) than
-/// exp(best) may get -infinity; `best` rises to the largest evidence of `rows`. What other rows get means
-/// nothing.
+/// exp(best) may get -infinity; `best` rises to the largest evidence.
 std::vector<double> log_mean_evidences(std::span<const LevelIntegral> integrals,
-                                       const TableStatistics& statistics, std::span<const std::size_t> rows,
-                                       std::size_t count, double& best);
+                                       const TableStatistics& statistics, std::size_t count, double& best);
 
 /// Row by row the logarithm of the mean of exp(logs[i][row]) over i.
 std::vector<double> log_mean(std::vector<std::vector<double>> logs);

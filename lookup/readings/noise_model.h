@@ -1,11 +1,11 @@
 #pragma once
 /// @file How readings scatter about the truth.
 ///
-/// The scale of sensor i under a candidate scene with displacement d_i is
-///     sigma_i = relative * |d_i| + floor,
-/// or the sensor's own sigma where the measurements state one, plus an allowance for the model's own error,
-/// model_error * |d_i - d_i(intact)| (noise_scale.h). The paper's noise d_i (1 + p U(-1, 1)) is `uniform`
-/// with relative = p.
+/// The instrument's error of sensor i under a candidate scene has the scale
+///     sigma_i = relative * |movement_i| + floor,
+/// or the sensor's own sigma where the measurements state one; the movement is the displacement, or the
+/// change where changes are read (noise_scale.h). The paper's noise d_i (1 + p U(-1, 1)) is `uniform` with
+/// relative = p. The model's own error comes on top (Observation, reading_density.h).
 ///
 /// A sensor on a missing block cannot read anything; one on a standing block may fail by itself. So a sensor
 /// that is there and silent speaks for the loss of its block, the more so the more reliable sensors are.
@@ -28,7 +28,6 @@ struct NoiseModel {
   NoiseShape shape = NoiseShape::automatic;
   std::optional<double> relative;   ///< [-] of the displacement; nothing: unknown, and marginalised
   double floor = 0.0;               ///< [m] absolute part
-  double model_error = 0.0;         ///< [-] of the change against the intact bridge
   double degrees_of_freedom = 4.0;  ///< of Student's t, more than 2
   double silence = 0.1;             ///< chance that a sensor on a standing block gives no reading
 };

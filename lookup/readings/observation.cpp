@@ -5,49 +5,84 @@
 #include <limits>
 
 #include "core/error.h"
+#include "lookup/readings/common_variance.h"
 #include "lookup/readings/noise_scale.h"
 
 namespace voussoir {
 namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr double kClamped = 1e-12;  // [m] points that move less are held by a support
+constexpr double kClamped = 1e-12;  // [m] points that never move more are held by a support
+
+std::span<const double> intact_row(const SceneTable& table) {
+  if (table.rows == 0 || !table.scene(0).removed.empty())
+    throw Failure("the database has no intact scene, which a lookup needs to know what can move");
+  return table.row(0);
+}
+
+/// True if a point moves neither in the intact bridge nor in a single.
+bool is_held(const SceneTable& table, std::size_t point) {
+  for (std::size_t row = 0; row < table.rows && table.scene(row).missing() <= 1; ++row)
+    if (std::abs(table.row(row)[point]) > kClamped) return false;
+  return true;
+}
+
+/// Takes the readings that say something, with their instruments' errors.
+void add_readings(const Comparison& comparison, Observation& observation) {
+  const Measurements& measured = comparison.measured;
+  for (std::size_t i = 0; i < measured.displacement.size(); ++i) {
+    if (std::isnan(measured.displacement[i]) || is_held(comparison.library.table, i)) continue;
+    const bool own = !std::isnan(measured.sigma[i]);
+    observation.reading[i] = measured.displacement[i];
+    observation.share[i] = own ? 0.0 : 1.0;
+    observation.floor[i] = own ? measured.sigma[i] : observation.noise.floor;
+    observation.own_sigmas |= own;
+    observation.unknown_level |= !own && !observation.noise.relative;
+    ++observation.count;
+  }
+}
+
+void add_model_error(const Comparison& comparison, Observation& observation) {
+  const ModelError& error = comparison.model_error;
+  observation.error_share = error.share;
+  observation.error_common = error.common;
+  if (is_change(comparison.kind))
+    observation.origin = observation.intact;
+  else
+    for (std::size_t i = 0; i < error.intact.size(); ++i)
+      observation.own_variance[i] = error.intact[i] * error.intact[i];
+}
 
 }  // namespace
 
-Observation observe(const Measurements& measurements, std::span<const double> intact,
-                    const NoiseModel& noise) {
-  const std::size_t points = measurements.displacement.size();
-  const auto stated = [](double sigma) { return !std::isnan(sigma); };
-  Observation result{.displacement = measurements.displacement,
-                     .reading = std::vector<double>(points, kNan),
-                     .share = std::vector<double>(points, 0.0),
-                     .floor = std::vector<double>(points, 1.0),
-                     .intact = {intact.begin(), intact.end()},
-                     .origin = std::vector<double>(points, 0.0),
-                     .own_error = std::vector<double>(points, 0.0),
-                     .silent = measurements.silent,
-                     .noise = noise,
-                     .own_sigmas = std::any_of(measurements.sigma.begin(), measurements.sigma.end(), stated)};
-  for (std::size_t i = 0; i < points; ++i) {
-    if (std::isnan(measurements.displacement[i]) || std::abs(intact[i]) <= kClamped) continue;
-    const bool own = stated(measurements.sigma[i]);
-    result.reading[i] = measurements.displacement[i];
-    result.share[i] = own ? 0.0 : 1.0;
-    result.floor[i] = own ? measurements.sigma[i] : noise.floor;
-    ++result.count;
-  }
-  return result;
+bool Observation::has_model_error() const {
+  return error_share > 0.0 || error_common > 0.0 ||
+         std::any_of(own_variance.begin(), own_variance.end(), [](double v) { return v > 0.0; });
 }
 
-Observation observe(const Comparison& comparison, std::span<const double> intact, const NoiseModel& noise) {
-  Observation result = observe(comparison.measured, intact, noise);
-  result.error_share = comparison.model_error.share;
-  result.error_common = comparison.model_error.common;
-  if (is_change(comparison.kind))
-    result.origin = result.intact;
-  else if (!comparison.model_error.intact.empty())
-    result.own_error = comparison.model_error.intact;
+Observation observe(const Comparison& comparison, const NoiseModel& noise, const Nuisance& nuisance) {
+  const std::span<const double> intact = intact_row(comparison.library.table);
+  const std::vector<double> zeros(intact.size(), 0.0);
+  Observation result;
+  result.displacement = comparison.measured.displacement;
+  result.reading.assign(intact.size(), kNan);
+  result.share = zeros;
+  result.floor.assign(intact.size(), 1.0);
+  result.intact = {intact.begin(), intact.end()};
+  result.origin = zeros;
+  result.own_variance = zeros;
+  result.silent = comparison.measured.silent;
+  result.noise = noise;
+  add_readings(comparison, result);
+  add_model_error(comparison, result);
+  const bool all_stated =
+      std::none_of(result.share.begin(), result.share.end(), [](double s) { return s > 0.0; });
+  if (noise.shape == NoiseShape::automatic && result.own_sigmas && all_stated)
+    result.noise.shape = NoiseShape::gaussian;
+  if (nuisance.any() && result.noise.shape != NoiseShape::gaussian)
+    throw InputError("an unknown scale, datum or tilt needs Gaussian noise, expected --noise-model gaussian");
+  result.unknown_scale = nuisance.scale;
+  result.levelling = levelling_columns(comparison, nuisance);
   return result;
 }
 
@@ -62,21 +97,28 @@ ErrorScales scales_at(const Observation& observation, double level) {
   for (std::size_t i = 0; i < result.slope.size(); ++i) {
     result.slope[i] *= level;
     result.offset[i] += result.slope[i] * kSmallestMovement;
-    if (!std::isnan(observation.reading[i]))
-      sum_log_scale +=
-          std::log(noise_scale(result.slope[i], result.offset[i], std::abs(observation.intact[i])));
+    if (std::isnan(observation.reading[i])) continue;
+    const double movement = std::abs(observation.intact[i] - observation.origin[i]);
+    const double scale = noise_scale(result.slope[i], result.offset[i], movement);
+    sum_log_scale += 0.5 * std::log(scale * scale + observation.own_variance[i]);
   }
   if (observation.count > 0) result.unit = std::exp(sum_log_scale / static_cast<double>(observation.count));
   return result;
 }
 
-std::vector<double> error_scales(const Observation& observation, const ErrorScales& scales,
-                                 std::span<const double> prediction) {
-  std::vector<double> result(prediction.size(), kNan);
-  for (std::size_t i = 0; i < prediction.size(); ++i)
-    if (!std::isnan(observation.reading[i]))
-      result[i] = noise_scale(scales.slope[i], scales.offset[i], std::abs(prediction[i]),
-                              observation.noise.model_error, std::abs(prediction[i] - observation.intact[i]));
+ExpectedErrors expected_errors(const Observation& observation, const ErrorScales& scales,
+                               std::span<const double> prediction) {
+  ExpectedErrors result{std::vector<double>(prediction.size(), kNan),
+                        std::vector<double>(prediction.size(), kNan)};
+  const double common = common_variance(observation.intact, observation.error_common, prediction);
+  for (std::size_t i = 0; i < prediction.size(); ++i) {
+    if (std::isnan(observation.reading[i])) continue;
+    result.instrument[i] =
+        noise_scale(scales.slope[i], scales.offset[i], std::abs(prediction[i] - observation.origin[i]));
+    result.model[i] = std::sqrt(model_variance(observation.own_variance[i] + common,
+                                               observation.error_share * observation.error_share,
+                                               prediction[i] - observation.intact[i]));
+  }
   return result;
 }
 

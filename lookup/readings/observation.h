@@ -7,6 +7,7 @@
 
 #include "lookup/readings/comparison.h"
 #include "lookup/readings/noise_model.h"
+#include "lookup/readings/nuisance.h"
 
 namespace voussoir {
 
@@ -18,33 +19,34 @@ struct Observation {
                               ///< 0 where the sensor states its own sigma
   std::vector<double> floor;  ///< [m] by which it is off besides: of the noise model, or the sensor's sigma
   std::vector<double> intact;  ///< [m] displacements of the intact bridge
-  std::vector<double>
-      origin;  ///< [m] from which movements count: zero, or `intact` if the readings are changes
-  std::vector<double> own_error;  ///< [m] standard deviation of the model's error in `intact`, as far as it
-                                  ///< is in what is compared: none in changes
-  double error_share = 0.0;  ///< ModelError of the signals
+  std::vector<double> origin;  ///< [m] from which movements count: zero, or `intact` if readings are changes
+  std::vector<double> own_variance;  ///< [m2] of the model's error in `intact` as far as it is in what is
+                                     ///< compared: none in changes
+  double error_share = 0.0;          ///< ModelError of the signals
   double error_common = 0.0;
-  std::vector<bool> silent;  ///< there is a sensor, but it gave no reading
-  NoiseModel noise;
-  std::size_t count = 0;    ///< of `reading`
-  bool own_sigmas = false;  ///< some sensor states its own sigma
+  double unknown_scale = 0.0;  ///< Nuisance::scale
+  Eigen::MatrixXd levelling;   ///< levelling_columns
+  std::vector<bool> silent;    ///< there is a sensor, but it gave no reading
+  NoiseModel noise;            ///< Gaussian in the place of automatic if all sensors state their sigma
+  std::size_t count = 0;       ///< of `reading`
+  bool own_sigmas = false;     ///< some sensor states its own sigma
+  bool unknown_level = false;  ///< some sensor does not, and nothing states the noise level
 
-  /// False if all errors grow with the noise level alone, so that statistics for one level serve all.
-  bool has_absolute_errors() const { return noise.floor > 0.0 || noise.model_error > 0.0 || own_sigmas; }
+  bool has_model_error() const;
+  bool has_nuisance() const { return unknown_scale > 0.0 || levelling.cols() > 0; }
+  /// All errors grow with the noise level alone, so that statistics for one level serve all.
+  bool is_proportional() const { return noise.floor == 0.0 && !own_sigmas && !has_model_error(); }
 };
 
-/// `intact` are the displacements of the intact bridge: points that do not move there are held by a support
-/// and move in no scene.
-Observation observe(const Comparison& comparison, std::span<const double> intact, const NoiseModel& noise);
-
-/// Of absolute readings, with a model that has no error of its own.
-Observation observe(const Measurements& measurements, std::span<const double> intact,
-                    const NoiseModel& noise);
+/// Reading by reading what `comparison` holds, with the noise and the unknowns about it. Points that do not
+/// move, neither in the intact bridge nor in singles, are held by a support: readings there say nothing.
+/// Throws InputError for unknowns beside noise that is not Gaussian.
+Observation observe(const Comparison& comparison, const NoiseModel& noise, const Nuisance& nuisance = {});
 
 /// Throws InputError unless some reading can tell scenes apart.
 void require_readings(const Observation& observation);
 
-/// The errors at one noise level, in the order of the points: noise_scale's slope and offset.
+/// The instruments' errors at one noise level, in the order of the points: noise_scale's slope and offset.
 struct ErrorScales {
   std::vector<double> slope;   ///< [-] zero where there is no reading
   std::vector<double> offset;  ///< [m] one where there is no reading
@@ -52,8 +54,12 @@ struct ErrorScales {
 };
 ErrorScales scales_at(const Observation& observation, double level);
 
-/// noise_scale of each reading under a scene [m]; NaN where there is no reading.
-std::vector<double> error_scales(const Observation& observation, const ErrorScales& scales,
-                                 std::span<const double> prediction);
+/// The errors to be expected under a scene [m], NaN where there is no reading.
+struct ExpectedErrors {
+  std::vector<double> instrument;  ///< noise_scale
+  std::vector<double> model;       ///< standard deviation: root of model_variance
+};
+ExpectedErrors expected_errors(const Observation& observation, const ErrorScales& scales,
+                               std::span<const double> prediction);
 
 }  // namespace voussoir

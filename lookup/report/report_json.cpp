@@ -37,7 +37,6 @@ ordered_json settings_json(const LookupSettings& settings) {
   ordered_json noise = {{"model", to_string(settings.noise.shape)},
                         {"relative", nullptr},
                         {"floor_m", settings.noise.floor},
-                        {"model_error", settings.noise.model_error},
                         {"silent_sensors", settings.noise.silence}};
   if (settings.noise.relative) noise["relative"] = *settings.noise.relative;
   if (settings.noise.shape == NoiseShape::student)

@@ -76,9 +76,6 @@ void add_noise_terms(const Answer& answer, const LookupSettings& settings, Terms
     terms.emplace_back("Noise, if the first scene is the truth", noise_in_words(*answer.noise));
   if (settings.noise.floor > 0.0)
     terms.emplace_back("Absolute part of the noise", fmt::format("{:.3g} mm", 1e3 * settings.noise.floor));
-  terms.emplace_back(
-      "Allowance for the model's error",
-      fmt::format("{:.3g} % of the change that a missing block makes", 100.0 * settings.noise.model_error));
   terms.emplace_back("Sensors that fail by themselves",
                      fmt::format("{:.3g} %", 100.0 * settings.noise.silence));
   if (settings.nuisance.any()) terms.emplace_back("Also unknown", unknowns_in_words(settings.nuisance));

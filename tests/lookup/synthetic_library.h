@@ -45,8 +45,11 @@ struct SyntheticLibrary {
 
   Library library() const { return {table, points, layout, index.view()}; }
   std::span<const double> intact() const { return table.row(0); }
-  Observation observe(const Measurements& measured, const NoiseModel& noise) const {
-    return voussoir::observe(measured, intact(), noise);
+  Observation observe(const Measurements& measured, const NoiseModel& noise, const Nuisance& nuisance = {},
+                      const ModelError& error = {}) const {
+    Comparison comparison = absolute_readings(library(), measured);
+    comparison.model_error = error;
+    return voussoir::observe(comparison, noise, nuisance);
   }
   std::size_t row_of(const Scene& scene) const {
     for (std::size_t row = 0; row < table.rows; ++row)

@@ -26,10 +26,9 @@ TEST_CASE("Lanes are loaded from any address and any type of number, and stored 
   const auto doubles = counting<double>();
   const auto shorts = counting<std::int16_t>();
   const auto wide = load<DoubleLanes>(doubles.data() + 3);
-  const auto narrowed = load<FloatLanes>(doubles.data() + 5), widened = load<FloatLanes>(shorts.data() + 7);
+  const auto widened = load<DoubleLanes>(shorts.data() + 7);
   for (int i = 0; i < 4; ++i) CHECK(wide[i] == 3.0 + i);
-  for (int i = 0; i < 8; ++i) CHECK(narrowed[i] == 5.0F + static_cast<float>(i));
-  for (int i = 0; i < 8; ++i) CHECK(widened[i] == 7.0F + static_cast<float>(i));
+  for (int i = 0; i < 4; ++i) CHECK(widened[i] == 7.0 + i);
   std::array<double, 5> stored{-1.0, -1.0, -1.0, -1.0, -1.0};
   store_some(wide, 3, stored.data() + 1);
   CHECK(stored == std::array{-1.0, 3.0, 4.0, 5.0, -1.0});
@@ -50,7 +49,7 @@ TEST_CASE("Sizes have no sign, and sums and the largest are of all lanes") {
   CHECK(largest_of(lanes) == 2.0);
   CHECK_FALSE(std::signbit(magnitude(lanes)[2]));
   CHECK(std::isnan(magnitude(DoubleLanes{} + kNan)[1]));
-  CHECK(sum_of(magnitude(FloatLanes{1.0F, -2.0F, 4.0F, -8.0F, 16.0F, -32.0F, 64.0F, -128.0F})) == 255.0F);
+  for (int i = 0; i < 4; ++i) CHECK(square_root(magnitude(lanes))[i] == std::sqrt(std::abs(lanes[i])));
   CHECK(any(lanes < -7.0));
   CHECK_FALSE(any(lanes > 2.0));
 }

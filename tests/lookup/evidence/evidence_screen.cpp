@@ -5,7 +5,6 @@
 
 #include "lookup/evidence/evidence.h"
 #include "lookup/evidence/evidence_screen.h"
-#include "lookup/evidence/float_statistics.h"
 #include "tests/lookup/synthetic_library.h"
 
 using namespace voussoir;
@@ -13,14 +12,20 @@ using voussoir::test::SyntheticLibrary;
 
 namespace {
 
+struct Question {
+  NoiseModel noise;
+  Nuisance nuisance{};
+  ModelError error{};
+};
+
 void check_same(const SyntheticLibrary& library, const EvidenceScreen& screen, const Eligible& eligible,
-                const Prior& prior, const Measurements& measured, const NoiseModel& noise) {
+                const Prior& prior, const Measurements& measured, const Question& question) {
+  const Observation observation =
+      library.observe(measured, question.noise, question.nuisance, question.error);
   const Posterior exact =
-      posterior(library.table, eligible,
-                log_evidence_of_rows(library.observe(measured, noise), library.table, eligible.rows), prior,
-                library.blocks);
-  const Posterior screened =
-      posterior(library.table, eligible, screen(library.observe(measured, noise)), prior, library.blocks);
+      posterior(library.table, eligible, log_evidence_of_rows(observation, library.table, eligible.rows),
+                prior, library.blocks);
+  const Posterior screened = posterior(library.table, eligible, screen(observation), prior, library.blocks);
   for (std::size_t row = 0; row < library.table.rows; ++row)
     REQUIRE(screened.probability[row] == Approx(exact.probability[row]).margin(2.0 * kScreenedAway));
   for (std::size_t id = 0; id < library.blocks; ++id)
@@ -47,9 +52,13 @@ TEST_CASE("The screened posterior is the exact one, for stated and unknown noise
         for (double& value : measured.displacement)
           if (random.below(5) == 0) value = std::nan("");
         NoiseModel noise{shape, stated ? std::optional(std::max(level, 1e-3)) : std::nullopt};
-        check_same(library, screen, eligible, prior, measured, noise);
+        check_same(library, screen, eligible, prior, measured, {noise});
         noise.floor = 1e-5;
-        if (stated) check_same(library, screen, eligible, prior, measured, noise);
+        check_same(library, screen, eligible, prior, measured, {noise});
+        const std::vector<double> intact_error(library.points.size(), 1e-6);
+        check_same(library, screen, eligible, prior, measured, {noise, {}, {0.03, 0.02, intact_error}});
+        if (shape == NoiseShape::gaussian)
+          check_same(library, screen, eligible, prior, measured, {noise, {0.1, 1e-4, 1e-5}});
         if (level > 0.02 || shape == NoiseShape::student) continue;  // much noise leaves many scenes possible
         noise.floor = 0.0;
         kept += screen.rows_that_matter(library.observe(measured, noise)).size();
@@ -69,16 +78,18 @@ TEST_CASE("The screened posterior has no row when every scene is impossible") {
   CHECK(posterior(library.table, eligible, evidence, {}, library.blocks).credible.empty());
 }
 
-TEST_CASE("Own sigmas and model errors switch the screen off but not the posterior") {
+TEST_CASE("Sensors' own sigmas are screened as well, and a library without an index") {
   const SyntheticLibrary library(2, 5);
   const Eligible eligible = eligible_rows(library.table, {0, 1, 2});
-  const EvidenceScreen screen(library.table, library.index.view(), eligible, {});
   Random random(3);
   Measurements measured = library.measure(3, 0.02, NoiseShape::uniform, random);
-  NoiseModel noise{NoiseShape::gaussian, 0.02, 0.0, 0.1};
-  CHECK(screen.rows_that_matter(library.observe(measured, noise)) == eligible.rows);
-  check_same(library, screen, eligible, {}, measured, noise);
-  noise.model_error = 0.0;
-  measured.sigma[1] = 1e-4;
-  check_same(library, screen, eligible, {}, measured, noise);
+  for (const SearchIndex& index : {library.index.view(), SearchIndex{}}) {
+    const EvidenceScreen screen(library.table, index, eligible, {});
+    measured.sigma.assign(measured.sigma.size(), std::nan(""));
+    measured.sigma[1] = 1e-4;
+    check_same(library, screen, eligible, {}, measured, {{NoiseShape::gaussian, 0.02}});
+    check_same(library, screen, eligible, {}, measured, {{}});
+    measured.sigma.assign(measured.sigma.size(), 3e-5);
+    check_same(library, screen, eligible, {}, measured, {{}, {}, {0.1, 0.05, {}}});
+  }
 }

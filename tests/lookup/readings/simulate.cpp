@@ -13,7 +13,7 @@ TEST_CASE(
   for (const NoiseShape shape :
        {NoiseShape::uniform, NoiseShape::gaussian, NoiseShape::laplace, NoiseShape::student}) {
     Random random(12);
-    const NoiseModel noise{shape, 0.05, 1e-5, 0.0, 8.0, 0.1};
+    const NoiseModel noise{shape, 0.05, 1e-5, 8.0, 0.1};
     const Measurements measured = simulate_readings(truth, noise, random);
     CHECK(measured.silent[7]);
     double sum = 0.0, square = 0.0;

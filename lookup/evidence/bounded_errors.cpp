@@ -1,0 +1,156 @@
+#include "lookup/evidence/bounded_errors.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "core/simd/lane_math.h"
+#include "lookup/readings/common_variance.h"
+#include "lookup/readings/noise_scale.h"
+
+namespace voussoir {
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kSmallestDeviation = 1e-12;  // [m] a model error below it counts as that
+constexpr double kFarInside = 6.5;  // deviations from the bound inside of which it is not felt: 4e-11
+constexpr double kNarrow = 0.02;    // half-widths below this many deviations are narrow
+
+/// Q(x) = exp(exponent) factor, for x >= 0, within 1.2e-7 of it (Numerical Recipes, erfcc: Chebyshev fit).
+template <class T>
+struct Tail {
+  T exponent, factor;
+};
+template <class T>
+VOUSSOIR_INLINE Tail<T> gaussian_tail(const T& x) {
+  const T z = x * (1.0 / std::numbers::sqrt2);
+  const T t = 1.0 / (1.0 + 0.5 * z);
+  T series = T{} + 0.17087277;
+  for (const double c : {-0.82215223, 1.48851587, -1.13520398, 0.27886807, -0.18628806, 0.09678418, 0.37409196,
+                         1.00002368, -1.26551223})
+    series = series * t + c;
+  return {series - z * z, 0.5 * t};
+}
+
+VOUSSOIR_INLINE DoubleLanes exponential(DoubleLanes x) {
+  make_exponential(x);
+  return x;
+}
+
+/// The density where the bound is narrow against the deviation, and the difference of tails would be lost in
+/// round-off: the Gaussian's times sinh(q) / q with q = e b / s^2, less what the Gaussian falls off across the
+/// bound, b^2 / (6 s^2).
+VOUSSOIR_INLINE Tail<DoubleLanes> narrow_density(const DoubleLanes& size, const DoubleLanes& half_width,
+                                                 const DoubleLanes& deviation) {
+  const DoubleLanes share = half_width / deviation, z = size / deviation;
+  const DoubleLanes q = larger(z * share, DoubleLanes{} + 1e-9);
+  const DoubleLanes sinh_per_q = (1.0 - exponential(-2.0 * q)) / (2.0 * q);  // without its factor exp(q)
+  constexpr double kPeak = std::numbers::inv_sqrtpi / std::numbers::sqrt2;
+  return {q - 0.5 * z * z, kPeak * sinh_per_q * (1.0 - share * share * (1.0 / 6.0)) / deviation};
+}
+
+/// A density as exp(exponent) factor.
+VOUSSOIR_INLINE Tail<DoubleLanes> bounded_density(const DoubleLanes& size, const DoubleLanes& half_width,
+                                                  const DoubleLanes& deviation) {
+  const DoubleLanes zero{};
+  const DoubleLanes from_bound = (size - half_width) / deviation;
+  const Tail<DoubleLanes> near = gaussian_tail(magnitude(from_bound));
+  const Tail<DoubleLanes> far = gaussian_tail((size + half_width) / deviation);
+  const DoubleLanes ratio = exponential(far.exponent - near.exponent) * (far.factor / near.factor);
+  const DoubleLanes outside = near.factor * (1.0 - ratio);
+  const DoubleLanes inside =
+      1.0 - near.factor * exponential(near.exponent) - far.factor * exponential(far.exponent);
+  const auto is_outside = from_bound >= 0.0;
+  const auto is_narrow = half_width < kNarrow * deviation;
+  const DoubleLanes wide_exponent = is_outside ? near.exponent : zero;
+  const DoubleLanes wide_factor = (is_outside ? outside : inside) / (2.0 * half_width);
+  const Tail<DoubleLanes> narrow = narrow_density(size, half_width, deviation);
+  return {is_narrow ? narrow.exponent : wide_exponent, is_narrow ? narrow.factor : wide_factor};
+}
+
+/// The arrays of an observation, as the loop below wants them.
+struct View {
+  const double *reading, *slope, *offset, *intact, *origin, *own_variance;
+  double share_square;
+  std::size_t points;
+};
+
+/// Sum of the logarithms; NaN if a reading has no prediction.
+VOUSSOIR_INLINE double log_likelihood_of_row(const View& view, double common, const double* prediction) {
+  DoubleLanes sum{};
+  for (std::size_t i = 0; i < view.points; i += kLanes) {
+    const std::size_t some = view.points - i < kLanes ? view.points - i : kLanes;
+    const auto at = [&](const double* values, double filling) __attribute__((always_inline)) {
+      return load_some<DoubleLanes>(values + i, some, filling);
+    };
+    const DoubleLanes reading = at(view.reading, kNan), predicted = at(prediction, kNan);
+    const auto has_reading = reading == reading;
+    if (!any(has_reading)) continue;
+    const DoubleLanes half_width =
+        noise_scale(at(view.slope, 0.0), at(view.offset, 1.0), magnitude(predicted - at(view.origin, 0.0)));
+    const DoubleLanes variance = model_variance<DoubleLanes>(at(view.own_variance, 0.0) + common,
+                                                             view.share_square, predicted - at(view.intact, 0.0));
+    DoubleLanes deviation = variance;
+    deviation = larger(square_root(deviation), DoubleLanes{} + kSmallestDeviation);
+    const DoubleLanes size = magnitude(reading - predicted);
+    DoubleLanes log_density = 2.0 * half_width;
+    const auto is_felt = has_reading & ~(size + kFarInside * deviation < half_width);
+    if (any(is_felt)) {
+      const Tail<DoubleLanes> density = bounded_density(size, half_width, deviation);
+      DoubleLanes factor = density.factor;
+      make_logarithm(factor);
+      make_logarithm(log_density);
+      log_density = is_felt ? density.exponent + factor : -log_density;
+    } else {
+      make_logarithm(log_density);
+      log_density = -log_density;
+    }
+    sum += has_reading ? (size == size ? log_density : DoubleLanes{} + kNan) : DoubleLanes{};
+  }
+  return sum_of(sum);
+}
+
+VOUSSOIR_FOR_EVERY_PROCESSOR
+void collect(const View& view, const double* table, const std::size_t* rows, const double* common,
+             std::size_t count, double* results) {
+  for (std::size_t i = 0; i < count; ++i)
+    results[i] = log_likelihood_of_row(view, common[i], table + rows[i] * view.points);
+}
+
+/// The integral of Q from x to infinity.
+double integral_of_tail(double x) {
+  const double q = 0.5 * std::erfc(x / std::numbers::sqrt2);
+  return std::exp(-0.5 * x * x) * std::numbers::inv_sqrtpi / std::numbers::sqrt2 - x * q;
+}
+
+}  // namespace
+
+double log_bounded_density(double error, double half_width, double deviation) {
+  const Tail<DoubleLanes> density = bounded_density(
+      DoubleLanes{} + std::abs(error), DoubleLanes{} + half_width, DoubleLanes{} + deviation);
+  return density.exponent[0] + std::log(density.factor[0]);
+}
+
+double chance_of_bounded_error(double error, double half_width, double deviation) {
+  const double size = std::abs(error);
+  if (half_width < kNarrow * deviation)
+    return std::erfc(size / std::sqrt(2.0 * (deviation * deviation + half_width * half_width / 3.0)));
+  return std::min(1.0, deviation / half_width *
+                           (integral_of_tail((size - half_width) / deviation) -
+                            integral_of_tail((size + half_width) / deviation)));
+}
+
+std::vector<double> log_bounded_likelihoods(const Observation& observation, const ErrorScales& scales,
+                                            const SceneTable& table, std::span<const std::size_t> rows) {
+  const std::vector<double> common =
+      common_variances(observation.intact, observation.error_common, table, rows);
+  std::vector<double> results(rows.size());
+  const View view{observation.reading.data(), scales.slope.data(), scales.offset.data(), observation.intact.data(),
+                  observation.origin.data(), observation.own_variance.data(),
+                  observation.error_share * observation.error_share, table.points};
+  collect(view, table.vertical.data(), rows.data(), common.data(), rows.size(), results.data());
+  return results;
+}
+
+}  // namespace voussoir

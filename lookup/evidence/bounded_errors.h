@@ -1,0 +1,26 @@
+#pragma once
+/// @file Bounded errors of instruments beside the model's own error: the convolution of a uniform and a
+/// Gaussian distribution. A reading beyond the bound is then unlikely, not impossible.
+///
+/// With the half-width b, the standard deviation s and the upper tail Q of the standard Gaussian, the density
+/// of the error e is
+///     (Q((|e| - b) / s) - Q((|e| + b) / s)) / (2 b).
+
+#include <span>
+
+#include "lookup/readings/observation.h"
+
+namespace voussoir {
+
+/// log of that density, within 1e-5. Precondition: s > 0.
+double log_bounded_density(double error, double half_width, double deviation);
+
+/// The chance of an error at least as large as |e|.
+double chance_of_bounded_error(double error, double half_width, double deviation);
+
+/// Sum of log_bounded_density over the readings, for each of these rows of a table; NaN if a reading has no
+/// prediction. Precondition: the observation has a model error.
+std::vector<double> log_bounded_likelihoods(const Observation& observation, const ErrorScales& scales,
+                                            const SceneTable& table, std::span<const std::size_t> rows);
+
+}  // namespace voussoir

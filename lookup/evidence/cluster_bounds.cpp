@@ -1,0 +1,189 @@
+#include "lookup/evidence/cluster_bounds.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "core/simd/lane_math.h"
+#include "lookup/evidence/evidence.h"
+#include "lookup/evidence/table_evidence.h"
+#include "lookup/evidence/wide_product.h"
+#include "lookup/readings/noise_scale.h"
+
+namespace voussoir {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kRoundOff = 1e-6;  // of a bound: it is compared with evidence worked out in another order
+constexpr double kLeastSum = 1e-30;
+
+/// The least sums of RowStatistics that a scene in the box can have, and the least of its scales.
+struct BoxStatistics {
+  double sum_absolute, sum_square, largest, sum_log_scale, sum_log_student;
+  double sum_square_beyond;      ///< of what lies beyond the instruments' bounds, over the model's deviation
+  double sum_log_instrument;     ///< of the instruments' scales
+};
+
+/// An Observation's arrays, filled up to the places of the index.
+struct View {
+  std::vector<double> reading, slope, offset, intact, origin, own_variance;
+  double share_square, common_square, inverse_unit, per_student;
+
+  View(const Observation& observation, const ErrorScales& scales, std::size_t places)
+      : reading(filled(observation.reading, places, std::nan(""))),
+        slope(filled(scales.slope, places, 0.0)),
+        offset(filled(scales.offset, places, 1.0)),
+        intact(filled(observation.intact, places, 0.0)),
+        origin(filled(observation.origin, places, 0.0)),
+        own_variance(filled(observation.own_variance, places, 0.0)),
+        share_square(observation.error_share * observation.error_share),
+        common_square(observation.error_common * observation.error_common),
+        inverse_unit(1.0 / scales.unit),
+        per_student(observation.noise.shape == NoiseShape::student
+                        ? 1.0 / (observation.noise.degrees_of_freedom - 2.0)
+                        : 0.0) {}
+
+  static std::vector<double> filled(std::vector<double> values, std::size_t places, double filling) {
+    values.resize(places, filling);
+    return values;
+  }
+};
+
+/// How far numbers between low and high are from zero.
+struct Distances {
+  DoubleLanes least, most;
+};
+VOUSSOIR_INLINE Distances distances(const DoubleLanes& low, const DoubleLanes& high) {
+  const DoubleLanes nearest = larger(low, -high);
+  return {larger(nearest, DoubleLanes{}), larger(-low, high)};
+}
+
+struct Box {
+  const std::int16_t *least, *most;
+  double unit;
+
+  VOUSSOIR_INLINE DoubleLanes low(std::size_t i) const { return load<DoubleLanes>(least + i) * unit; }
+  VOUSSOIR_INLINE DoubleLanes high(std::size_t i) const { return load<DoubleLanes>(most + i) * unit; }
+};
+
+/// The largest variance that all points of a scene can share: a mean square is at most the largest square.
+VOUSSOIR_INLINE double most_common_variance(const View& view, const Box& box) {
+  DoubleLanes most{};
+  for (std::size_t i = 0; i < view.reading.size(); i += kLanes) {
+    const auto intact = load<DoubleLanes>(view.intact.data() + i);
+    most = larger(most, distances(box.low(i) - intact, box.high(i) - intact).most);
+  }
+  const double largest = largest_of(most);
+  return view.common_square * largest * largest;
+}
+
+VOUSSOIR_INLINE BoxStatistics statistics_of(const View& view, const Box& box) {
+  const double common = view.common_square > 0.0 ? most_common_variance(view, box) : 0.0;
+  const DoubleLanes zero{}, one = DoubleLanes{} + 1.0;
+  DoubleLanes absolute{}, square{}, largest{}, square_beyond{};
+  DoubleLanes scales = one, instruments = one, student = one;
+  WideProduct wide_scales, wide_instruments, wide_student;
+  for (std::size_t i = 0, step = 1; i < view.reading.size(); i += kLanes, ++step) {
+    const auto at = [&](const std::vector<double>& values) __attribute__((always_inline)) {
+      return load<DoubleLanes>(values.data() + i);
+    };
+    const DoubleLanes reading = at(view.reading), low = box.low(i), high = box.high(i);
+    const DoubleMask has_reading = reading == reading;
+    const DoubleLanes error = distances(reading - high, reading - low).least;
+    const Distances movement = distances(low - at(view.origin), high - at(view.origin));
+    const Distances signal = distances(low - at(view.intact), high - at(view.intact));
+    const DoubleLanes slope = at(view.slope), offset = at(view.offset), own = at(view.own_variance);
+    const DoubleLanes least_instrument = noise_scale(slope, offset, movement.least);
+    const DoubleLanes most_instrument = noise_scale(slope, offset, movement.most);
+    const DoubleLanes least_variance = model_variance(own, view.share_square, signal.least);
+    const DoubleLanes most_variance = model_variance<DoubleLanes>(own + common, view.share_square, signal.most);
+    const DoubleLanes z =
+        has_reading ? error / square_root(most_instrument * most_instrument + most_variance) : zero;
+    const DoubleLanes beyond = larger(error - most_instrument, zero);
+    absolute += z;
+    square += z * z;
+    largest = larger(largest, has_reading ? error / most_instrument : zero);
+    // A bound without model error is felt at once.
+    square_beyond += has_reading && beyond > 0.0 ? beyond * beyond / most_variance : zero;
+    const DoubleLanes least_scale = square_root(least_instrument * least_instrument + least_variance);
+    scales *= has_reading ? least_scale * view.inverse_unit : one;
+    instruments *= has_reading ? least_instrument * view.inverse_unit : one;
+    if (view.per_student > 0.0) student *= 1.0 + z * z * view.per_student;
+    if (step % kSafeProducts == 0) {
+      flush(scales, wide_scales);
+      flush(instruments, wide_instruments);
+      flush(student, wide_student);
+    }
+  }
+  flush(scales, wide_scales);
+  flush(instruments, wide_instruments);
+  flush(student, wide_student);
+  const auto log = [](const WideProduct& product) __attribute__((always_inline)) {
+    return std::log(product.mantissa) + product.exponent * std::numbers::ln2;
+  };
+  return {sum_of(absolute),  sum_of(square),        largest_of(largest),  log(wide_scales),
+          log(wide_student), sum_of(square_beyond), log(wide_instruments)};
+}
+
+VOUSSOIR_FOR_EVERY_PROCESSOR
+void collect(const View& view, const SearchIndex& index, BoxStatistics* results) {
+  for (std::size_t cluster = 0; cluster < index.clusters(); ++cluster)
+    results[cluster] = statistics_of(view, {index.least.data() + cluster * index.places,
+                                            index.most.data() + cluster * index.places,
+                                            std::ldexp(1.0, index.exponent[cluster])});
+}
+
+double sum_for(NoiseShape shape, const BoxStatistics& box) {
+  return shape == NoiseShape::uniform ? box.largest : shape == NoiseShape::laplace ? box.sum_absolute : box.sum_square;
+}
+
+/// The largest that one shape's evidence can be, for the level that the statistics were taken at.
+double bound_at_level(NoiseShape shape, const BoxStatistics& box, double count, double nu) {
+  const double density = shape == NoiseShape::uniform ? 0.0 : count * log_density(shape, 0.0, nu);
+  switch (shape) {
+    case NoiseShape::uniform:
+      return -count * std::numbers::ln2 - box.sum_log_instrument - 0.5 * box.sum_square_beyond;
+    case NoiseShape::laplace:
+      return density - box.sum_log_scale - std::numbers::sqrt2 * box.sum_absolute;
+    case NoiseShape::student:
+      return density - box.sum_log_scale - 0.5 * (nu + 1.0) * box.sum_log_student;
+    default:
+      return density - box.sum_log_scale - 0.5 * box.sum_square;
+  }
+}
+
+}  // namespace
+
+bool cluster_bounds_apply(const Observation& observation) {
+  if (observation.has_nuisance()) return false;
+  return !observation.unknown_level || has_closed_form(observation);
+}
+
+std::vector<double> cluster_bounds(const Observation& observation, const SearchIndex& index) {
+  const double level =
+      observation.unknown_level ? 1.0 : std::max(observation.noise.relative.value_or(0.0), kSmallestLevel);
+  const ErrorScales scales = scales_at(observation, level);
+  std::vector<BoxStatistics> boxes(index.clusters());
+  collect(View(observation, scales, index.places), index, boxes.data());
+  const auto count = static_cast<double>(observation.count);
+  const double shift = count * std::log(scales.unit);
+  std::vector<double> result(boxes.size(), -kInfinity);
+  for (const NoiseShape shape : shapes_of(observation.noise)) {
+    const LevelIntegral integral =
+        observation.unknown_level ? level_integral(shape, observation.count) : LevelIntegral{};
+    for (std::size_t i = 0; i < boxes.size(); ++i) {
+      BoxStatistics box = boxes[i];
+      box.sum_log_scale += shift;
+      box.sum_log_instrument += shift;
+      const double bound =
+          observation.unknown_level
+              ? integral.constant - integral.order * std::log(std::max(sum_for(shape, box), kLeastSum)) - box.sum_log_scale
+              : bound_at_level(shape, box, count, observation.noise.degrees_of_freedom);
+      result[i] = std::max(result[i], bound + kRoundOff * (1.0 + std::abs(bound)));
+    }
+  }
+  return result;
+}
+
+}  // namespace voussoir

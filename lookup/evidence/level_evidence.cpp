@@ -1,0 +1,226 @@
+#include "lookup/evidence/level_evidence.h"
+
+#include <algorithm>
+#include <array>
+#include <boost/math/quadrature/gauss.hpp>
+#include <cmath>
+#include <limits>
+
+#include "lookup/evidence/bounded_errors.h"
+#include "lookup/evidence/level_curve.h"
+#include "lookup/evidence/scene_evidence.h"
+
+namespace voussoir {
+namespace {
+
+constexpr double kImpossible = -std::numeric_limits<double>::infinity();
+constexpr double kNegligible = 25.0;  // parts of an integrand below exp(-this) of its peak are left out
+constexpr int kLevelsPerOctave = 4;   // of the search for the likeliest level
+constexpr double kStep = 1.1;    // of the grid, in deviations of a peak of 1 / sqrt(2 count): the trapezoidal rule
+                                 // then integrates a bell to 1e-7
+constexpr double kPanel = 3.0;     // widest panel of Gauss's rule, in the same deviations, and narrowest, in 1 / count
+constexpr double kFarFromBest = 30.0;  // rows less likely than the best by exp(this) need not be exact
+constexpr double kWidening = 1.4;  // of the steps below the peaks, where likelihoods level out
+constexpr double kFarInside = 4.0;   // deviations of the model inside of which a bound is hardly felt: 3e-5
+constexpr double kFarBeyond = 7.0;   // .. and beyond which a reading is all but excluded
+
+const double kFirst = std::log(kSmallestLevel);
+const double kLast = std::log(kLargestLevel);
+
+/// Logarithms of levels, ascending, with the weights of a rule of integration.
+struct LevelGrid {
+  std::vector<double> log_level, weight;
+};
+
+/// The trapezoidal rule at these places.
+LevelGrid trapezoidal(std::vector<double> places) {
+  LevelGrid grid{std::move(places), {}};
+  grid.weight.assign(grid.log_level.size(), 0.0);
+  for (std::size_t i = 1; i < grid.log_level.size(); ++i) {
+    const double half = 0.5 * (grid.log_level[i] - grid.log_level[i - 1]);
+    grid.weight[i - 1] += half;
+    grid.weight[i] += half;
+  }
+  return grid;
+}
+
+/// Gauss's rule in panels that are small at both ends, where the range of levels may cut a peak on its steep
+/// side: likelihoods fall as fast as exp(-count u) there.
+LevelGrid graded_panels(double first, double last, double count) {
+  using Rule = boost::math::quadrature::gauss<double, 6>;
+  const double most = kPanel / std::sqrt(2.0 * count);
+  std::vector<double> lower = {first}, upper = {last};
+  for (double width = kPanel / count; lower.back() < upper.back(); width = std::min(2.0 * width, most)) {
+    const double gap = upper.back() - lower.back();
+    if (gap <= 2.0 * width) break;
+    lower.push_back(lower.back() + width);
+    upper.push_back(upper.back() - width);
+  }
+  lower.insert(lower.end(), upper.rbegin(), upper.rend());
+  LevelGrid grid;
+  for (std::size_t i = 1; i < lower.size(); ++i) {
+    const double half = 0.5 * (lower[i] - lower[i - 1]), middle = 0.5 * (lower[i] + lower[i - 1]);
+    for (const int side : {-1, 1})
+      for (std::size_t k = 0; k < Rule::abscissa().size(); ++k) {
+        const std::size_t node = side < 0 ? Rule::abscissa().size() - 1 - k : k;
+        grid.log_level.push_back(middle + side * half * Rule::abscissa()[node]);
+        grid.weight.push_back(half * Rule::weights()[node]);
+      }
+  }
+  return grid;
+}
+
+/// Fine about the level where the best rows peak, as far as rows that are not hopeless may peak and reach;
+/// coarser below, where absolute errors and the model's make the level lose its meaning.
+LevelGrid grid_about(double level, double count) {
+  const double peak = std::log(level);
+  const double step = kStep / std::sqrt(2.0 * count);
+  const double reach = kFarFromBest / count + std::sqrt(2.0 * kNegligible / count);
+  const double begin = peak - reach;
+  const double end = peak + reach + (kNegligible + 1.0) / count;
+  if (begin <= kFirst || end >= kLast) return graded_panels(kFirst, kLast, count);
+  std::vector<double> places;
+  for (double below = begin, width = step; below > kFirst; width *= kWidening) {
+    below = std::max(kFirst, below - width);
+    places.push_back(below);
+  }
+  std::reverse(places.begin(), places.end());
+  const int steps = std::max(1, static_cast<int>(std::ceil((end - begin) / step)));
+  for (int i = 0; i <= steps; ++i) places.push_back(begin + (end - begin) * i / steps);
+  return trapezoidal(std::move(places));
+}
+
+/// Sum over the grid, from its end towards small levels until nothing more is added.
+std::vector<double> over_grid(const Observation& observation, NoiseShape shape, double level,
+                              const SceneTable& table, std::span<const std::size_t> rows) {
+  const LevelGrid grid = grid_about(level, static_cast<double>(observation.count));
+  std::vector<double> result(rows.size(), kImpossible);
+  for (std::size_t i = grid.weight.size(); i-- > 0;) {
+    const std::vector<double> logs =
+        log_likelihoods_at(observation, shape, std::exp(grid.log_level[i]), table, rows);
+    bool adds = grid.log_level[i] > std::log(level);
+    for (std::size_t row = 0; row < rows.size(); ++row) {
+      const double term = logs[row] + std::log(grid.weight[i]);
+      adds |= term > result[row] - kNegligible;
+      result[row] = log_sum(result[row], term);
+    }
+    if (!adds) break;
+  }
+  for (double& value : result) value -= std::log(log_range());
+  return result;
+}
+
+/// One row under bounded errors: its integrand rises steeply where the bound takes in the last reading.
+class BoundedRow {
+ public:
+  BoundedRow(const Observation& observation, const SceneTable& table, std::size_t row)
+      : observation_(observation), table_(table), row_{row} {
+    find_edge();
+  }
+
+  /// The integral over all levels.
+  double log_integral() const {
+    if (!is_possible_) return kImpossible;
+    const double edge_begin = std::clamp(std::log(begin_), kFirst, kLast);
+    const double edge_end = std::clamp(std::log(end_), kFirst, kLast);
+    const double width = kPanelWidth / static_cast<double>(observation_.count);
+    double sum = kImpossible;
+    double top = kImpossible;
+    const auto add = [&](double from, double to) {
+      const double part = panel(from, to);
+      sum = log_sum(sum, part);
+      top = std::max(top, part);
+      return part > top - kNegligible;
+    };
+    double step = width;
+    for (double from = edge_end; from < kLast; step *= 2.0) {
+      const double to = std::min(kLast, from + step);
+      if (!add(from, to)) break;
+      from = to;
+    }
+    step = std::min(width, edge_end - edge_begin);
+    for (double to = edge_end; to > edge_begin && step > 0.0; step = std::min(2.0 * step, width)) {
+      const double from = std::max(edge_begin, to - step);
+      if (!add(from, to)) break;
+      to = from;
+    }
+    return sum;
+  }
+
+ private:
+  static constexpr double kPanelWidth = 6.0;
+
+  double log_likelihood(double log_level) const {
+    return log_likelihoods_at(observation_, NoiseShape::uniform, std::exp(log_level), table_, row_).front();
+  }
+
+  double panel(double from, double to) const {
+    using Rule = boost::math::quadrature::gauss<double, 10>;
+    std::array<double, 10> logs{};
+    std::size_t used = 0;
+    double top = kImpossible;
+    // Gauss's places are asked for in the rule's own order, twice.
+    Rule::integrate(
+        [&](double u) {
+          logs.at(used) = log_likelihood(u);
+          top = std::max(top, logs.at(used++));
+          return 0.0;
+        },
+        from, to);
+    if (top == kImpossible) return kImpossible;
+    std::size_t next = 0;
+    return top + std::log(Rule::integrate([&](double) { return std::exp(logs.at(next++) - top); }, from, to));
+  }
+
+  /// The levels between which the bound takes in the reading that needs the most.
+  void find_edge() {
+    const std::span<const double> prediction = table_.row(row_.front());
+    const ErrorScales unit = scales_at(observation_, 1.0);
+    const ExpectedErrors errors = expected_errors(observation_, unit, prediction);
+    for (std::size_t i = 0; i < prediction.size(); ++i) {
+      if (std::isnan(observation_.reading[i])) continue;
+      is_possible_ = is_possible_ && !std::isnan(prediction[i]);
+      if (unit.slope[i] == 0.0) continue;
+      const double relative = errors.instrument[i] - observation_.floor[i];
+      const double beyond = std::abs(observation_.reading[i] - prediction[i]) - observation_.floor[i];
+      begin_ = std::max(begin_, (beyond - kFarBeyond * errors.model[i]) / relative * (1.0 - kBoundTolerance));
+      end_ = std::max(end_, (beyond + kFarInside * errors.model[i]) / relative * (1.0 + kBoundTolerance));
+    }
+  }
+
+  const Observation& observation_;
+  const SceneTable& table_;
+  std::array<std::size_t, 1> row_;
+  bool is_possible_ = true;  // every reading has a prediction
+  double begin_ = kSmallestLevel;
+  double end_ = kSmallestLevel;
+};
+
+}  // namespace
+
+double likeliest_level(const Observation& observation, NoiseShape shape, const SceneTable& table,
+                       std::span<const std::size_t> rows) {
+  double best = kSmallestLevel;
+  double best_log = kImpossible;
+  const int steps = static_cast<int>(std::ceil((kLast - kFirst) / std::log(2.0) * kLevelsPerOctave));
+  for (int i = 0; i <= steps; ++i) {
+    const double level = std::exp(kFirst + (kLast - kFirst) * i / steps);
+    for (const double log : log_likelihoods_at(observation, shape, level, table, rows))
+      if (log > best_log) {
+        best = level;
+        best_log = log;
+      }
+  }
+  return best;
+}
+
+std::vector<double> evidence_over_levels(const Observation& observation, NoiseShape shape, double level,
+                                         const SceneTable& table, std::span<const std::size_t> rows) {
+  if (shape != NoiseShape::uniform) return over_grid(observation, shape, level, table, rows);
+  std::vector<double> result;
+  for (const std::size_t row : rows)
+    result.push_back(BoundedRow(observation, table, row).log_integral() - std::log(log_range()));
+  return result;
+}
+
+}  // namespace voussoir

@@ -1,0 +1,25 @@
+#pragma once
+/// @file The evidence over an unknown noise level where errors do not grow with the level alone: absolute
+/// parts, the model's own error, nuisances, Student's t. Levels are gone through where they matter.
+
+#include <vector>
+
+#include "lookup/evidence/level_likelihood.h"
+
+namespace voussoir {
+
+/// The level at which the readings are likeliest for the likeliest of these rows, on a grid of kLevelsPerOctave.
+/// A few rows only: every level is tried with each of them.
+double likeliest_level(const Observation& observation, NoiseShape shape, const SceneTable& table,
+                       std::span<const std::size_t> rows);
+
+/// log of the mean of p(readings | scene, level) over levels with a density uniform in log level between
+/// kSmallestLevel and kLargestLevel, for each of these rows. `level` is where the readings are likeliest for
+/// the best of them; rows that are less likely than that by exp(kHopeless) may have anything less.
+std::vector<double> evidence_over_levels(const Observation& observation, NoiseShape shape, double level,
+                                         const SceneTable& table, std::span<const std::size_t> rows);
+
+/// log of the factor beyond which a scene's probability is taken for zero.
+inline constexpr double kHopeless = 50.0;
+
+}  // namespace voussoir

@@ -1,0 +1,24 @@
+#pragma once
+/// @file The probability (density) of the readings given scenes, for one shape of the noise at one level.
+
+#include <vector>
+
+#include "database/records/database.h"
+#include "lookup/readings/observation.h"
+
+namespace voussoir {
+
+/// log p(readings | scene, level) of these rows of a table, in their order; -infinity for impossible scenes.
+/// Densities are per metre for each reading. Precondition, here and below: the shape is not automatic.
+std::vector<double> log_likelihoods_at(const Observation& observation, NoiseShape shape, double level,
+                                       const SceneTable& table, std::span<const std::size_t> rows);
+
+/// Estimates of the largest of these over all levels, from statistics at this level: right if all errors grow
+/// with the level alone; of Student's t the likelihood at this level.
+std::vector<double> log_likelihoods_at_peak(const Observation& observation, NoiseShape shape, double level,
+                                            const SceneTable& table, std::span<const std::size_t> rows);
+
+/// Errors may exceed the bound of uniform noise by this share of it: rounding.
+inline constexpr double kBoundTolerance = 1e-9;
+
+}  // namespace voussoir

@@ -1,0 +1,117 @@
+#include "lookup/evidence/nuisance_likelihood.h"
+
+#include <Eigen/Cholesky>
+#include <cmath>
+
+#include "lookup/readings/common_variance.h"
+#include "lookup/readings/noise_scale.h"
+
+namespace voussoir {
+namespace {
+
+constexpr double kLeastFactor = 1e-3;  // so that a scene cannot explain readings as noise-free
+
+/// The arrays of an observation at its points with readings, one after the other.
+struct Readings {
+  std::vector<std::size_t> point;
+  Eigen::ArrayXd reading, slope, offset, intact, origin, own_variance;
+  Eigen::MatrixXd levelling;  // readings x columns
+
+  Readings(const Observation& observation, const ErrorScales& scales) {
+    for (std::size_t i = 0; i < observation.reading.size(); ++i)
+      if (!std::isnan(observation.reading[i])) point.push_back(i);
+    const auto gathered = [&](const std::vector<double>& values) {
+      Eigen::ArrayXd result(static_cast<Eigen::Index>(point.size()));
+      for (std::size_t k = 0; k < point.size(); ++k) result[static_cast<Eigen::Index>(k)] = values[point[k]];
+      return result;
+    };
+    reading = gathered(observation.reading);
+    slope = gathered(scales.slope);
+    offset = gathered(scales.offset);
+    intact = gathered(observation.intact);
+    origin = gathered(observation.origin);
+    own_variance = gathered(observation.own_variance);
+    levelling.resize(reading.size(), observation.levelling.cols());
+    for (Eigen::Index k = 0; k < reading.size(); ++k)
+      levelling.row(k) =
+          observation.levelling.row(static_cast<Eigen::Index>(point[static_cast<std::size_t>(k)]));
+  }
+};
+
+/// Least squares of reading over prediction, kept positive.
+double fitted_factor(const Eigen::ArrayXd& reading, const Eigen::ArrayXd& prediction) {
+  const double square = prediction.square().sum();
+  return square > 0.0 ? std::max((reading * prediction).sum() / square, kLeastFactor) : 1.0;
+}
+
+/// What the rows share, and the vectors that are worked in.
+class RowSolver {
+ public:
+  RowSolver(const Observation& observation, const ErrorScales& scales)
+      : readings_(observation, scales),
+        share_square_(observation.error_share * observation.error_share),
+        unknown_scale_(observation.unknown_scale),
+        columns_(readings_.reading.size(), readings_.levelling.cols() + (unknown_scale_ > 0.0 ? 1 : 0)),
+        prediction_(readings_.reading.size()) {}
+
+  RowStatistics operator()(std::span<const double> row, double common) {
+    for (std::size_t k = 0; k < readings_.point.size(); ++k)
+      prediction_[static_cast<Eigen::Index>(k)] = row[readings_.point[k]];
+    difference_ = readings_.reading - prediction_;
+    RowStatistics result;
+    result.sum_absolute = difference_.abs().sum();
+    if (std::isnan(result.sum_absolute)) return result;
+    const double factor = unknown_scale_ > 0.0 ? fitted_factor(readings_.reading, prediction_) : 1.0;
+    instrument_ =
+        noise_scale<Eigen::ArrayXd>(readings_.slope * factor, readings_.offset, (prediction_ - readings_.origin).abs());
+    variance_ = instrument_.square() + model_variance<Eigen::ArrayXd>(readings_.own_variance + common, share_square_,
+                                                                      prediction_ - readings_.intact);
+    return with_columns(result);
+  }
+
+ private:
+  RowStatistics with_columns(RowStatistics result) {
+    inverse_root_ = variance_.rsqrt();
+    columns_.leftCols(readings_.levelling.cols()) = inverse_root_.matrix().asDiagonal() * readings_.levelling;
+    if (unknown_scale_ > 0.0)
+      columns_.rightCols(1) = (unknown_scale_ * prediction_ * inverse_root_).matrix();
+    difference_ *= inverse_root_;
+    normal_.noalias() = columns_.transpose() * columns_;
+    normal_.diagonal().array() += 1.0;
+    right_.noalias() = columns_.transpose() * difference_.matrix();
+    factorised_.compute(normal_);
+    factorised_.matrixL().solveInPlace(right_);
+    result.sum_square = difference_.square().sum() - right_.squaredNorm();
+    result.sum_log_scale =
+        0.5 * variance_.log().sum() + factorised_.matrixLLT().diagonal().array().log().sum();
+    return result;
+  }
+
+  Readings readings_;
+  double share_square_;
+  double unknown_scale_;
+  Eigen::MatrixXd columns_, normal_;
+  Eigen::VectorXd right_;
+  Eigen::ArrayXd prediction_, difference_, instrument_, variance_, inverse_root_;
+  Eigen::LLT<Eigen::MatrixXd> factorised_;
+};
+
+}  // namespace
+
+TableStatistics nuisance_statistics(const Observation& observation, const ErrorScales& scales,
+                                    const SceneTable& table, std::span<const std::size_t> rows) {
+  const std::vector<double> common =
+      common_variances(observation.intact, observation.error_common, table, rows);
+  const std::vector<double> zeros(rows.size(), 0.0);
+  TableStatistics result{zeros, zeros, zeros, zeros, zeros};
+  RowSolver solve(observation, scales);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const RowStatistics one = solve(table.row(rows[i]), common[i]);
+    result.sum_absolute[i] = one.sum_absolute;
+    result.sum_square[i] = one.sum_square;
+    result.sum_log_scale[i] = one.sum_log_scale;
+  }
+  return result;
+}
+
+}  // namespace voussoir

@@ -1,0 +1,53 @@
+#include "lookup/readings/common_variance.h"
+
+#include <array>
+#include <limits>
+
+#include "core/simd/lanes.h"
+
+namespace voussoir {
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+VOUSSOIR_INLINE double mean_square_signal(const double* intact, const double* row, std::size_t points) {
+  DoubleLanes sum{}, count{};
+  for (std::size_t i = 0; i < points; i += kLanes) {
+    const std::size_t some = points - i < kLanes ? points - i : kLanes;
+    const DoubleLanes signal =
+        load_some<DoubleLanes>(row + i, some, kNan) - load_some<DoubleLanes>(intact + i, some, kNan);
+    const DoubleMask known = signal == signal;
+    sum += known ? signal * signal : DoubleLanes{};
+    count += known ? DoubleLanes{} + 1.0 : DoubleLanes{};
+  }
+  return sum_of(sum) / larger(sum_of(count), 1.0);
+}
+
+VOUSSOIR_FOR_EVERY_PROCESSOR
+void collect(const double* intact, const double* table, std::size_t points, const std::size_t* rows,
+             std::size_t count, double factor, double* results) {
+  for (std::size_t i = 0; i < count; ++i)
+    results[i] = factor * mean_square_signal(intact, table + rows[i] * points, points);
+}
+
+}  // namespace
+
+std::vector<double> common_variances(std::span<const double> intact, double common, const SceneTable& table,
+                                     std::span<const std::size_t> rows) {
+  std::vector<double> results(rows.size(), 0.0);
+  if (common > 0.0)
+    collect(intact.data(), table.vertical.data(), table.points, rows.data(), rows.size(), common * common,
+            results.data());
+  return results;
+}
+
+double common_variance(std::span<const double> intact, double common, std::span<const double> row) {
+  SceneTable table;
+  table.rows = 1;
+  table.points = row.size();
+  table.vertical = row;
+  constexpr std::array<std::size_t, 1> kFirst = {0};
+  return common_variances(intact, common, table, kFirst).front();
+}
+
+}  // namespace voussoir

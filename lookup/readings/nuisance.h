@@ -1,0 +1,26 @@
+#pragma once
+/// @file Unknowns that are no damage: the overall scale of the response, and the datum and tilt of every
+/// levelling.
+
+#include <Eigen/Core>
+
+#include "lookup/readings/comparison.h"
+
+namespace voussoir {
+
+/// Readings are c d_i + b + t (x_i - x_mean) + noise with c ~ N(1, scale^2), b ~ N(0, datum^2), t ~ N(0,
+/// tilt^2); zero: known to be absent. Every epoch has a datum and a tilt of its own, so that differences of
+/// two epochs have both twice. The noise is Gaussian.
+struct Nuisance {
+  double scale = 0.0;  ///< [-] standard deviation of the factor on all displacements (joint stiffness)
+  double datum = 0.0;  ///< [m] of the shift of a levelling
+  double tilt = 0.0;   ///< [-] of its rotation (metres per metre)
+
+  bool any() const { return scale > 0.0 || datum > 0.0 || tilt > 0.0; }
+};
+
+/// The shifts and rotations of all levellings as columns of what they add to the readings, each times its
+/// standard deviation [m]: points x columns, zero where there is no reading.
+Eigen::MatrixXd levelling_columns(const Comparison& comparison, const Nuisance& nuisance);
+
+}  // namespace voussoir
