@@ -14,7 +14,8 @@ Field standing_load(const LoadDescription& load, const TopSurface& top, double s
   return force;
 }
 
-void add_vehicle(const LoadDescription& load, double place, double share, const TopSurface& top, Field& force) {
+void add_vehicle(const LoadDescription& load, double place, double share, const TopSurface& top,
+                 Field& force) {
   for (const Axle& axle : load.axles)
     if (top.is_under(place - axle.at)) top.add_force(place - axle.at, share * axle.force, force);
 }
@@ -42,7 +43,8 @@ std::vector<std::string> stage_names(const LoadDescription& load) {
   return names;
 }
 
-std::vector<LoadStage> load_stages(const LoadDescription& load, const Structure& structure, double thickness) {
+std::vector<LoadStage> load_stages(const LoadDescription& load, const Structure& structure,
+                                   double thickness) {
   const std::vector<std::string> names = stage_names(load);
   std::vector<LoadStage> stages;
   try {

@@ -47,7 +47,8 @@ void read_forces(TomlSection& section, const Stretch& bridge, LoadDescription& l
         read_place(one, "to_x_m", bridge, line.to_x);
         read_force(one, "force_N_per_m", line.force_per_length);
         if (!(line.to_x > line.from_x))
-          one.refuse("to_x_m", fmt::format("is {:g}: expected more than from_x_m = {:g}", line.to_x, line.from_x));
+          one.refuse("to_x_m",
+                     fmt::format("is {:g}: expected more than from_x_m = {:g}", line.to_x, line.from_x));
       });
   load.axles = read_all<Axle>(section, "axles", "axles = [{at_m = 0.0, force_N = 1e3}]",
                               [](TomlSection& one, Axle& axle) {
@@ -86,10 +87,11 @@ void read_places(TomlSection& section, const Stretch& bridge, LoadDescription& l
   for (int step = 0; step < steps; ++step) {
     load.places.push_back(steps == 1 ? from : from + (to - from) * step / (steps - 1));
     if (!stands_on(bridge, load, load.places.back()))
-      section.refuse(moves ? "from_m" : "place_m",
-                     fmt::format("with the front at x = {:g} m no axle is on the bridge: expected one between {:g} and "
-                                 "{:g} m",
-                                 load.places.back(), bridge.left, bridge.right));
+      section.refuse(
+          moves ? "from_m" : "place_m",
+          fmt::format("with the front at x = {:g} m no axle is on the bridge: expected one between {:g} and "
+                      "{:g} m",
+                      load.places.back(), bridge.left, bridge.right));
   }
 }
 
@@ -101,10 +103,12 @@ void read_name(TomlSection& section, const std::vector<LoadDescription>& before,
   });
   if (load.name.empty() || load.name.size() > kLongestName || !legible || load.name == "all" ||
       load.name == "none")
-    section.refuse("name", fmt::format("is '{}': expected up to {} letters, digits, - and _, and neither all nor none",
-                                       load.name, kLongestName));
+    section.refuse(
+        "name", fmt::format("is '{}': expected up to {} letters, digits, - and _, and neither all nor none",
+                            load.name, kLongestName));
   if (std::ranges::find(before, load.name, &LoadDescription::name) != before.end())
-    section.refuse("name", fmt::format("there are two loads '{}': expected a name of its own for each", load.name));
+    section.refuse("name",
+                   fmt::format("there are two loads '{}': expected a name of its own for each", load.name));
 }
 
 }  // namespace

@@ -13,8 +13,8 @@ struct Stretch {
 };
 
 /// Reads [[loads]]. Throws InputError "file:line: message" for impossible values, names that are taken and
-/// places outside the bridge, which reaches over `bridge`. Axles may stand beside the bridge, but not all of a
-/// vehicle's.
+/// places outside the bridge, which reaches over `bridge`. Axles may stand beside the bridge, but not all of
+/// a vehicle's.
 std::vector<LoadDescription> read_loads(const toml::array& tables, const std::string& file,
                                         const Stretch& bridge);
 

@@ -26,9 +26,7 @@ class TomlSection {
 
   void number(const char* key, double& target, double least, double most, bool least_allowed);
   void positive(const char* key, double& target) { number(key, target, 0.0, kMostOfAnySetting, false); }
-  void length(const char* key, double& target) {
-    number(key, target, kSmallestLength, kLargestLength, true);
-  }
+  void length(const char* key, double& target) { number(key, target, kSmallestLength, kLargestLength, true); }
   void not_negative(const char* key, double& target) { number(key, target, 0.0, kMostOfAnySetting, true); }
   void count(const char* key, int& target, int least, int most);
   void flag(const char* key, bool& target);

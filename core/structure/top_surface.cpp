@@ -8,8 +8,8 @@
 namespace voussoir {
 namespace {
 
-constexpr double kSamePlace = 1e-9;    ///< [m] round-off of the layout is 1e-15
-constexpr double kSameHeight = 1e-6;   ///< [m] as joints are found
+constexpr double kSamePlace = 1e-9;   ///< [m] round-off of the layout is 1e-15
+constexpr double kSameHeight = 1e-6;  ///< [m] as joints are found
 
 [[noreturn]] void refuse_place(double x) {
   throw InputError(fmt::format("there is no block under x = {:g} m to carry a load", x));
@@ -34,7 +34,8 @@ TopSurface::TopSurface(const Mesh& mesh) {
       const double middle = 0.5 * (ends_[i] + ends_[i + 1]);
       if (middle > edges_[e].right.x()) break;
       int& highest = highest_[i];
-      if (highest == kNone || edges_[e].height(middle) > edges_[static_cast<std::size_t>(highest)].height(middle))
+      if (highest == kNone ||
+          edges_[e].height(middle) > edges_[static_cast<std::size_t>(highest)].height(middle))
         highest = static_cast<int>(e);
     }
   }
@@ -72,7 +73,8 @@ void TopSurface::add_line(double left, double right, double force_per_length, Fi
   for (std::size_t i = 0; i < highest_.size(); ++i) {
     const double begin = std::max(left, ends_[i]), end = std::min(right, ends_[i + 1]);
     if (end <= begin) continue;
-    const double middle = 0.5 * (begin + end);  // shape functions are linear: their mean is that of the middle
+    const double middle =
+        0.5 * (begin + end);  // shape functions are linear: their mean is that of the middle
     if (highest_[i] == kNone) refuse_place(middle);
     share(edges_[static_cast<std::size_t>(highest_[i])], middle, force_per_length * (end - begin), load);
   }

@@ -17,8 +17,8 @@ class TopSurface {
   /// two edges of the same height meet each takes half. Throws InputError if there is no block under x.
   void add_force(double x, double force, Field& load) const;
 
-  /// Adds a downward force per length along x [N/m] from `left` to `right`, integrated exactly over the edges.
-  /// Throws InputError if there is no block under a part of it.
+  /// Adds a downward force per length along x [N/m] from `left` to `right`, integrated exactly over the
+  /// edges. Throws InputError if there is no block under a part of it.
   void add_line(double left, double right, double force_per_length, Field& load) const;
 
  private:
@@ -34,9 +34,10 @@ class TopSurface {
   std::vector<int> edges_at(double x) const;
   void share(const Edge& edge, double x, double force, Field& load) const;
 
-  std::vector<Edge> edges_;       ///< that face up
-  std::vector<double> ends_;      ///< x of their ends, ascending [m]: between two of them the highest edge is the same
-  std::vector<int> highest_;      ///< edge between each end and the next, or kNone
+  std::vector<Edge> edges_;  ///< that face up
+  std::vector<double>
+      ends_;  ///< x of their ends, ascending [m]: between two of them the highest edge is the same
+  std::vector<int> highest_;  ///< edge between each end and the next, or kNone
 };
 
 }  // namespace voussoir

@@ -7,6 +7,7 @@
 #include "core/structure/model.h"
 #include "database/records/provenance.h"
 #include "database/records/record.h"
+#include "database/records/state_name.h"
 #include "database/records/variant_parameters.h"
 
 namespace voussoir {

@@ -30,8 +30,10 @@ double moment(const Field& force, const Mesh& mesh) {
 
 }  // namespace
 
-TEST_CASE("A vehicle gives a stage for each place and one without it, axles beside the bridge left out (written out)",
-          "[loads]") {
+TEST_CASE(
+    "A vehicle gives a stage for each place and one without it, axles beside the bridge left out (written "
+    "out)",
+    "[loads]") {
   const Model bridge = test::small_bridge();  // from 0 to 6 m
   const auto stages = load_stages(truck(), bridge, 1.0);
   const std::vector<std::string> names = {"truck@1", "truck@2", "truck@3", "truck@off"};
@@ -47,7 +49,8 @@ TEST_CASE("A vehicle gives a stage for each place and one without it, axles besi
   }
 }
 
-TEST_CASE("A load that stands still is one stage with its own name, and its parts add up (superposition)", "[loads]") {
+TEST_CASE("A load that stands still is one stage with its own name, and its parts add up (superposition)",
+          "[loads]") {
   const Model bridge = test::small_bridge();
   LoadDescription points, lines, vehicle, all;
   points.points = {{1.2, 3e3}, {3.0, 5e3}};
@@ -59,12 +62,14 @@ TEST_CASE("A load that stands still is one stage with its own name, and its part
   REQUIRE(stages.size() == 1);
   CHECK(stages.front().name == "all");
   Field sum = Field::Zero(2, bridge.mesh.node_count());
-  for (const LoadDescription& part : {points, lines, vehicle}) sum += load_stages(part, bridge, 1.0).front().force;
+  for (const LoadDescription& part : {points, lines, vehicle})
+    sum += load_stages(part, bridge, 1.0).front().force;
   CHECK((stages.front().force - sum).cwiseAbs().maxCoeff() < 1e-9);
   CHECK(total(sum) == Approx(3e3 + 5e3 + 3.5 * 2e3 + 7e3));
 }
 
-TEST_CASE("Of a load that spreads over a width the bridge carries its thickness' share (closed form)", "[loads]") {
+TEST_CASE("Of a load that spreads over a width the bridge carries its thickness' share (closed form)",
+          "[loads]") {
   const Model bridge = test::small_bridge();
   LoadDescription load;
   load.points = {{1.2, 3e3}};
@@ -77,5 +82,6 @@ TEST_CASE("A load where there is no block is refused by name", "[loads]") {
   LoadDescription load;
   load.name = "far";
   load.points = {{7.0, 3e3}};
-  CHECK_THROWS_WITH(load_stages(load, test::small_bridge(), 1.0), Contains("load case 'far'") && Contains("x = 7 m"));
+  CHECK_THROWS_WITH(load_stages(load, test::small_bridge(), 1.0),
+                    Contains("load case 'far'") && Contains("x = 7 m"));
 }

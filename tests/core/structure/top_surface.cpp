@@ -75,7 +75,8 @@ TEST_CASE("A line load has its closed-form sum and moment and is what many point
   constexpr int kPoints = 10000;
   const double step = (right - left) / kPoints;
   for (int i = 0; i < kPoints; ++i) top.add_force(left + (i + 0.5) * step, per_length * step, points);
-  // Points are exact but in the steps in which an edge ends: there a node's share is off by part of a step's force.
+  // Points are exact but in the steps in which an edge ends: there a node's share is off by part of a step's
+  // force.
   CHECK((line - points).cwiseAbs().maxCoeff() < per_length * step);
   CHECK(line.cwiseAbs().maxCoeff() > 100.0 * per_length * step);
 }
@@ -84,9 +85,12 @@ TEST_CASE("The highest block carries the load; where two of one height meet, bot
   const Mesh mesh = mesh_of({rectangle("below", 0.0, 0.0, 2.0, 1.0), rectangle("above", 1.0, 1.0, 2.0, 2.0),
                              rectangle("beside", 2.0, 0.0, 3.0, 1.0), rectangle("next", 3.0, 0.0, 4.0, 1.0)});
   const TopSurface top(mesh);
-  for (const auto& [x, expected] :
-       {std::pair{0.5, std::array{8.0, 0.0, 0.0, 0.0}}, {1.5, {0.0, 8.0, 0.0, 0.0}}, {1.0, {0.0, 8.0, 0.0, 0.0}},
-        {2.0, {0.0, 8.0, 0.0, 0.0}}, {2.5, {0.0, 0.0, 8.0, 0.0}}, {3.0, {0.0, 0.0, 4.0, 4.0}}}) {
+  for (const auto& [x, expected] : {std::pair{0.5, std::array{8.0, 0.0, 0.0, 0.0}},
+                                    {1.5, {0.0, 8.0, 0.0, 0.0}},
+                                    {1.0, {0.0, 8.0, 0.0, 0.0}},
+                                    {2.0, {0.0, 8.0, 0.0, 0.0}},
+                                    {2.5, {0.0, 0.0, 8.0, 0.0}},
+                                    {3.0, {0.0, 0.0, 4.0, 4.0}}}) {
     Field load = nothing(mesh);
     top.add_force(x, 8.0, load);
     for (std::size_t block = 0; block < 4; ++block) CHECK(on_block(load, mesh, block) == expected.at(block));
