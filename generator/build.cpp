@@ -9,6 +9,7 @@
 #include "database/records/xdmf.h"
 #include "generator/build_settings.h"
 #include "generator/existing_database.h"
+#include "generator/model_error.h"
 #include "generator/results_key.h"
 #include "generator/reused_records.h"
 #include "generator/scene_list.h"
@@ -25,6 +26,7 @@ struct Build {
   std::vector<Model> bridges;  ///< the variants
   std::vector<VariantParameters> variants;
   std::vector<RecordKey> wanted;
+  StatePlan states;
   Provenance provenance;
 
   const Model& bridge() const { return bridges.front(); }
@@ -46,6 +48,9 @@ Build prepare(const BuildRequest& request, const SolverChoice& solver, Progress&
   std::vector<RecordKey> wanted;
   for (std::size_t variant = 0; variant < variants.size(); ++variant)
     std::ranges::move(keys_of(static_cast<std::int32_t>(variant), scenes), std::back_inserter(wanted));
+  const BridgeDescription& description = request.bridge.description;
+  StatePlan states = plan_states(state_names(request.histories, request.loads, description.loads),
+                                 bridges.front(), description);
   Provenance provenance = provenance_of(request, solver, bridges.front());
   return {request,
           solver,
@@ -53,14 +58,26 @@ Build prepare(const BuildRequest& request, const SolverChoice& solver, Progress&
           std::move(bridges),
           std::move(variants),
           std::move(wanted),
+          std::move(states),
           std::move(provenance)};
 }
 
-/// Records fit into the same journal if results, variants, control points and the choice of fields are the
-/// same.
+/// Names of the states that the database keeps.
+std::vector<std::string> kept_names(const StatePlan& plan) {
+  std::vector<std::string> names;
+  for (const std::size_t state : kept_states(plan)) names.push_back(plan[state].name);
+  return names;
+}
+
+/// Records fit into the same journal if results, variants, states, control points and the choice of fields
+/// are the same.
 std::string journal_key(const Build& build) {
   Sha256Stream hash;
   for (const DatasetValue& dataset : parameter_datasets(build.variants)) hash.add(dataset.bytes);
+  for (const PlannedState& state : build.states) {
+    hash.add(view_bytes(state.name));
+    hash.add(std::as_bytes(numbers_of(state.load)));
+  }
   std::string key = build.provenance.results_key + " " + to_hexadecimal(hash.finish());
   for (const ControlPoint& point : build.bridge().control_points)
     key += fmt::format(" {}", value(point.node));
@@ -68,12 +85,13 @@ std::string journal_key(const Build& build) {
 }
 
 KnownRecords open_records(const Build& build) {
-  KnownRecords known(Journal::open(build.request.output, build.provenance, journal_key(build)));
+  KnownRecords known(Journal::open(build.request.output, build.provenance, journal_key(build)), build.states,
+                     build.bridge().mesh.node_count());
   if (const auto& discarded = known.journal().discarded()) {
     const auto changes = differences(build.provenance, *discarded);
     build.progress.say(fmt::format("{}: its records are of another build and are dropped ({})",
                                    known.journal().path().string(),
-                                   changes.empty() ? "other variants, control points or --fields"
+                                   changes.empty() ? "other variants, states, control points or --fields"
                                                    : fmt::format("{}", fmt::join(changes, "; "))));
   }
   return known;
@@ -82,17 +100,33 @@ KnownRecords open_records(const Build& build) {
 /// How many records the old database gives.
 std::size_t reuse(const Build& build, Database old, KnownRecords& known) {
   auto reused = std::make_unique<ReusedRecords>(
-      std::move(old), NewRecords{build.bridges, build.variants, build.wanted, build.request.fields}, known);
+      std::move(old),
+      NewRecords{build.bridges, build.variants, build.wanted, build.request.fields, build.states,
+                 build.request.bridge.description},
+      known.journal());
   const std::size_t count = reused->size();
+  if (count > 0)
+    build.progress.say(fmt::format("{} scenes of the old file are still valid and are kept", count));
+  else if (!reused->state_names().empty())
+    build.progress.say(
+        fmt::format("of the scenes of the old file these states are still valid and are kept: {}",
+                    fmt::join(reused->state_names(), ", ")));
   known.add(std::move(reused));
   return count;
 }
 
 void write(const Build& build, const KnownRecords& known, BuildSummary& summary) {
-  const DatabaseContent content{build.provenance, build.bridge(), build.variants,
-                                build.wanted,     {kBuiltState},  build.request.fields};
+  const ErrorProbes probes{build.request.bridge.description, build.bridge(), build.states, build.solver};
+  const DatabaseContent content{build.provenance,
+                                build.bridge(),
+                                build.variants,
+                                build.wanted,
+                                kept_names(build.states),
+                                build.request.fields,
+                                estimate_model_errors(probes)};
+  summary.outcomes = OutcomeCounts(content.states);
   const WrittenDatabase written = write_database(build.request.output, content, [&](std::size_t row) {
-    Record record = known.read(build.wanted[row]);
+    Record record = known.kept_record(build.wanted[row], build.request.fields);
     summary.outcomes.add(record, build.bridge().layout);
     return record;
   });
@@ -108,14 +142,13 @@ void run(const Build& build, std::optional<Database> old, BuildSummary& summary)
     build.progress.say(
         fmt::format("going on with an interrupted build: {} scenes are done", summary.resumed));
   if (old) summary.reused = reuse(build, std::move(*old), known);
-  if (summary.reused > 0)
-    build.progress.say(fmt::format("{} scenes of the old file are still valid and are kept", summary.reused));
-  const BuildPlan plan = plan_build(build.wanted, build.bridges, build.request.rules,
-                                    [&](const RecordKey& key) { return known.contains(key); });
+  const BuildPlan plan = plan_build(build.wanted, {build.bridges, build.request.rules, build.states},
+                                    {[&](const RecordKey& key) { return known.has_record(key); },
+                                     [&](const RecordKey& key) { return known.can_start(key); }});
   summary.computed = plan.records();
   build.progress.start(summary.resumed + summary.reused + summary.computed, summary.resumed + summary.reused);
   run_plan(plan,
-           {build.bridges, build.solver, build.provenance.solver_settings, build.request.rules,
+           {build.bridges, build.solver, build.provenance.solver_settings, build.request.rules, build.states,
             build.request.fields, build.request.threads, build.progress},
            known);
   build.progress.finish();
@@ -147,7 +180,9 @@ BuildSummary build_database(const BuildRequest& request, const SolverChoice& sol
   BuildSummary summary;
   summary.output = request.output;
   ExistingDatabase existing = examine_existing(
-      request.output, {build.provenance, build.variants, build.wanted, request.fields}, request.force);
+      request.output,
+      {build.provenance, build.variants, build.wanted, kept_names(build.states), request.fields},
+      request.force);
   summary.changes = existing.changes;
   if (existing.up_to_date) {
     summary.up_to_date = true;

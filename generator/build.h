@@ -15,7 +15,9 @@ namespace voussoir {
 struct BuildRequest {
   BridgeFile bridge;
   std::filesystem::path output = "bridge.h5";
-  std::string scenes = "all";  ///< as parse_scene_list reads it; the same of every variant
+  std::string scenes = "all";       ///< as parse_scene_list reads it; the same of every variant
+  std::string histories = "built";  ///< as state_names reads it
+  std::string loads = "none";       ///< as state_names reads it
   /// Variants 1, 2..: the bridge with other parameters (see variant_of). Variant 0 is the bridge as it is.
   std::vector<VariantParameters> other_variants;
   int threads = 0;  ///< 0: one for each core
@@ -42,7 +44,7 @@ struct BuildSummary {
 Provenance provenance_of(const BuildRequest& request, const SolverChoice& solver);
 
 /// Builds the database of a bridge. The content does not depend on threads, interruptions or what the file
-/// held before. Throws InputError for a bad list of scenes or variants and Failure if files cannot be
+/// held before. Throws InputError for a bad list of scenes, states or variants and Failure if files cannot be
 /// written; every scene computed until then is kept in the journal and the same call goes on from there.
 BuildSummary build_database(const BuildRequest& request, const SolverChoice& solver, Progress& progress);
 

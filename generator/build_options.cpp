@@ -3,6 +3,8 @@
 #include <CLI/CLI.hpp>
 #include <map>
 
+#include "core/error.h"
+#include "database/records/state_name.h"
 #include "generator/build_switches.h"
 
 namespace voussoir {
@@ -73,6 +75,14 @@ void add_options(CLI::App& app, BuildOptions& options, Words& words) {
   app.add_option("bridge", options.bridge, "bridge file (TOML); default: the reference bridge");
   app.add_option("-o,--output", options.request.output, "database to write")->capture_default_str();
   app.add_option("--scenes", options.request.scenes, "which scenes, see below")->capture_default_str();
+  app.add_option(
+         "--history", options.request.histories,
+         "built: the blocks were missing from the start; lost: they went when the bridge carried its weight; "
+         "or built,lost")
+      ->capture_default_str();
+  app.add_option("--loads", options.request.loads,
+                 "all, none, or names of the bridge's load cases, which act after each history")
+      ->capture_default_str();
   app.add_option("--threads", options.request.threads, "threads, 0: one for each core")
       ->check(CLI::Range(0, kMostThreads))
       ->capture_default_str();
@@ -115,6 +125,11 @@ BuildOptions parse_build_options(int argc, char** argv) {
   options.request.fields = words.fields == "all" ? KeepField::yes : KeepField::no;
   for (const std::string& name : words.without)
     build_switch(name).switch_off(options.request.rules, options.motion.skips);
+  if (words.solver == "dynamic" &&
+      (options.request.histories != kBuiltState || options.request.loads != "none"))
+    throw InputError(
+        "--solver dynamic solves the history built without loads only: expected --history built and --loads "
+        "none");
   options.solver = words.solver == "dynamic" ? dynamic(options.motion) : quasi_static(options.motion);
   return options;
 }

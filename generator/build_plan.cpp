@@ -15,20 +15,33 @@ int stage_of(const Scene& scene) {
   return std::min(scene.missing(), kStages - 1);
 }
 
+/// The scene that is solved for this one, and this one if that is another.
+std::pair<Scene, std::optional<Scene>> solved_and_image(const RecordKey& key, const PlanBasis& basis) {
+  const Model& bridge = basis.bridges[static_cast<std::size_t>(key.variant)];
+  Scene solved = representative(key.scene, bridge, basis.rules);
+  const bool is_image = solved != key.scene;
+  return {std::move(solved), is_image ? std::optional(key.scene) : std::nullopt};
+}
+
 /// The keys that need a record and have none: those wanted that are unknown and what they start from.
-std::set<RecordKey> missing_records(const std::vector<RecordKey>& wanted, std::span<const Model> bridges,
-                                    const PlanRules& rules,
-                                    const std::function<bool(const RecordKey&)>& is_known) {
+std::set<RecordKey> missing_records(const std::vector<RecordKey>& wanted, const PlanBasis& basis,
+                                    const KnownKeys& known) {
   std::set<RecordKey> missing;
   for (const RecordKey& key : wanted)
-    if (!is_known(key)) missing.insert(missing.end(), key);
+    if (!known.has_record(key)) missing.insert(missing.end(), key);
   for (int pass = 1; pass < kStages; ++pass)  // pairs start from singles, singles from the intact bridge
-    for (const auto& [variant, scene] : std::vector<RecordKey>(missing.begin(), missing.end())) {
-      const Model& bridge = bridges[static_cast<std::size_t>(variant)];
-      for (const Scene& start : starting_scenes(representative(scene, bridge, rules), rules))
-        if (!is_known({variant, start})) missing.insert({variant, start});
+    for (const RecordKey& key : std::vector<RecordKey>(missing.begin(), missing.end())) {
+      const auto [solved, image] = solved_and_image(key, basis);
+      for (const Scene& start : starting_scenes(solved, image, basis.rules, basis.states))
+        if (!known.can_start({key.variant, start})) missing.insert({key.variant, start});
     }
   return missing;
+}
+
+void add_starts(const Scene& scene, std::set<Scene>& starts) {
+  if (!scene.removed.empty()) starts.insert(Scene{});
+  if (scene.missing() > 1)
+    for (const BlockId block : scene.removed) starts.insert(Scene{{block}});
 }
 
 }  // namespace
@@ -38,13 +51,13 @@ Scene representative(const Scene& scene, const Model& bridge, const PlanRules& r
   return mirrors ? std::min(scene, mirrored(scene, *bridge.symmetry)) : scene;
 }
 
-std::vector<Scene> starting_scenes(const Scene& solved, const PlanRules& rules) {
-  std::vector<Scene> scenes;
-  if (!rules.warm_starts) return scenes;
-  if (!solved.removed.empty()) scenes.push_back(Scene{});
-  if (solved.missing() > 1)
-    for (const BlockId block : solved.removed) scenes.push_back(Scene{{block}});
-  return scenes;
+std::vector<Scene> starting_scenes(const Scene& solved, const std::optional<Scene>& image,
+                                   const PlanRules& rules, const StatePlan& states) {
+  std::set<Scene> scenes;
+  if (place_of_lost(states) && !solved.removed.empty()) scenes.insert(Scene{});
+  if (rules.warm_starts) add_starts(solved, scenes);
+  if (rules.warm_starts && image && has_one_sided_loads(states)) add_starts(*image, scenes);
+  return {scenes.begin(), scenes.end()};
 }
 
 std::size_t BuildPlan::records() const {
@@ -54,18 +67,17 @@ std::size_t BuildPlan::records() const {
   return count;
 }
 
-BuildPlan plan_build(const std::vector<RecordKey>& wanted, std::span<const Model> bridges,
-                     const PlanRules& rules, const std::function<bool(const RecordKey&)>& is_known) {
+BuildPlan plan_build(const std::vector<RecordKey>& wanted, const PlanBasis& basis, const KnownKeys& known) {
   std::map<RecordKey, SolvingTask> tasks;
-  for (const auto& [variant, scene] : missing_records(wanted, bridges, rules, is_known)) {
-    const Scene solved = representative(scene, bridges[static_cast<std::size_t>(variant)], rules);
-    SolvingTask& task = tasks[{variant, solved}];
-    task.variant = variant;
-    task.solved = solved;
-    if (scene == solved)
-      task.records_solved = true;
+  for (const RecordKey& key : missing_records(wanted, basis, known)) {
+    auto [solved, image] = solved_and_image(key, basis);
+    SolvingTask& task = tasks[{key.variant, solved}];
+    task.variant = key.variant;
+    task.solved = std::move(solved);
+    if (image)
+      task.image = std::move(image);
     else
-      task.image = scene;
+      task.records_solved = true;
   }
   BuildPlan plan;
   plan.stages.resize(kStages);

@@ -7,6 +7,7 @@
 
 #include "core/structure/model.h"
 #include "database/records/record_key.h"
+#include "generator/state_plan.h"
 
 namespace voussoir {
 
@@ -36,14 +37,28 @@ struct PlanRules {
 /// image, or the scene itself if mirror images are not used or the bridge has no symmetry.
 Scene representative(const Scene& scene, const Model& bridge, const PlanRules& rules);
 
-/// The scenes whose fields the solving of this one starts from (see StartingFields).
-std::vector<Scene> starting_scenes(const Scene& solved, const PlanRules& rules);
+/// What a plan is made by.
+struct PlanBasis {
+  std::span<const Model> bridges;  ///< the variants
+  PlanRules rules;
+  const StatePlan& states;
+};
+
+/// The scenes whose states the solving of this one, and of its mirror image if that is wanted, needs: those
+/// that its searches start from (see StartingFields), and the intact bridge if blocks are lost.
+std::vector<Scene> starting_scenes(const Scene& solved, const std::optional<Scene>& image,
+                                   const PlanRules& rules, const StatePlan& states);
+
+/// What need not be computed.
+struct KnownKeys {
+  std::function<bool(const RecordKey&)> has_record;  ///< all that the database keeps of it
+  std::function<bool(const RecordKey&)> can_start;   ///< all states of it, so that others can start from them
+};
 
 /// A task for every wanted record and for the intact bridge and the singles that wanted scenes start from, in
-/// the same variant, except for records that are known already. With a mirror symmetry of the variant the
+/// the same variant, except for those known already. With a mirror symmetry of the variant the
 /// lexicographically smaller of a scene and its image is solved, whatever records are wanted, so that a
-/// record does not depend on the rest of the list. `bridges` are the variants.
-BuildPlan plan_build(const std::vector<RecordKey>& wanted, std::span<const Model> bridges,
-                     const PlanRules& rules, const std::function<bool(const RecordKey&)>& is_known);
+/// record does not depend on the rest of the list.
+BuildPlan plan_build(const std::vector<RecordKey>& wanted, const PlanBasis& basis, const KnownKeys& known);
 
 }  // namespace voussoir

@@ -15,8 +15,9 @@ bool has_keys(const Database& database, const std::vector<RecordKey>& wanted) {
 
 std::vector<std::string> find_changes(const Database& database, const WantedDatabase& wanted) {
   std::vector<std::string> changes = differences(wanted.provenance, database.provenance());
-  if (database.states() != std::vector<std::string>{kBuiltState})
-    changes.push_back("other states are wanted");
+  if (database.states() != wanted.states)
+    changes.push_back(fmt::format("other states are wanted ({}, was {})", fmt::join(wanted.states, ","),
+                                  fmt::join(database.states(), ",")));
   if (database.variants() != wanted.variants)
     changes.push_back(fmt::format("other variants of the bridge are wanted ({}, was {})",
                                   wanted.variants.size(), database.variants().size()));

@@ -20,6 +20,7 @@ struct WantedDatabase {
   const Provenance& provenance;
   const std::vector<VariantParameters>& variants;
   const std::vector<RecordKey>& keys;
+  std::vector<std::string> states;  ///< names
   KeepField fields;
 };
 

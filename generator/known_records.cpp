@@ -5,26 +5,47 @@
 
 namespace voussoir {
 
-const RecordSource* KnownRecords::source_of(const RecordKey& key) const {
-  if (journal_.contains(key)) return &journal_;
-  for (const auto& source : others_)
-    if (source->contains(key)) return source.get();
-  return nullptr;
+bool KnownRecords::has_record(const RecordKey& key) const {
+  return journal_.contains(key) || (reused_ && reused_->has_record(key));
 }
 
-bool KnownRecords::contains(const RecordKey& key) const {
-  return source_of(key) != nullptr;
+bool KnownRecords::can_start(const RecordKey& key) const {
+  return journal_.contains(key) || (reused_ && reused_->can_start(key));
 }
 
-Record KnownRecords::read(const RecordKey& key) const {
-  return source_of(key)->read(key);
-}
-
-Solution KnownRecords::read_solution(const RecordKey& key, Eigen::Index nodes) const {
-  const RecordedState state = read(key).states.at(0);
-  auto field = unpack_field(state.packed_field, nodes);
+Field KnownRecords::field_of(const RecordedState& state) const {
+  auto field = unpack_field(state.packed_field, nodes_);
   if (!field) throw Failure(fmt::format("{}: holds a damaged field; delete it", journal_.path().string()));
-  return solution_of(state, std::move(*field));
+  return std::move(*field);
+}
+
+Record KnownRecords::kept_record(const RecordKey& key, KeepField fields) const {
+  if (!journal_.contains(key)) return reused_->kept_record(key);
+  Record record = journal_.read(key);
+  const std::vector<std::size_t> kept = kept_states(*plan_);
+  if (kept.size() == record.states.size()) return record;
+  Record selection{key, {}, {}};
+  std::vector<Field> displacements;
+  for (const std::size_t state : kept) {
+    selection.states.push_back(std::move(record.states.at(state)));
+    if (fields == KeepField::yes) displacements.push_back(field_of(selection.states.back()));
+  }
+  std::vector<std::span<const double>> numbers;
+  for (const Field& displacement : displacements) numbers.push_back(numbers_of(displacement));
+  selection.checksum = scene_checksum(selection, numbers);
+  return selection;
+}
+
+SceneStates KnownRecords::old_states(const RecordKey& key) const {
+  return reused_ ? reused_->states(key) : SceneStates(plan_->size());
+}
+
+SceneStates KnownRecords::states(const RecordKey& key) const {
+  if (!journal_.contains(key)) return old_states(key);
+  SceneStates states;
+  for (const RecordedState& state : journal_.read(key).states)
+    states.emplace_back(solution_of(state, field_of(state)));
+  return states;
 }
 
 }  // namespace voussoir

@@ -1,34 +1,46 @@
 #pragma once
-/// @file Records that need not be computed: those of the build's journal, among them an interrupted build's,
-/// and those of other sources.
+/// @file What need not be computed: the records of the build's journal, among them an interrupted build's,
+/// and the states that an older database gives.
 
 #include <memory>
 #include <vector>
 
 #include "database/records/journal.h"
+#include "generator/reused_records.h"
 
 namespace voussoir {
 
 /// Where finished records are found during a build. Reading is not thread-safe, asking and appending are.
-class KnownRecords : public RecordSource {
+class KnownRecords {
  public:
-  explicit KnownRecords(Journal journal) : journal_(std::move(journal)) {}
+  /// A journal of records with all states of the plan, of fields with so many nodes.
+  KnownRecords(Journal journal, const StatePlan& plan, Eigen::Index nodes)
+      : journal_(std::move(journal)), plan_(&plan), nodes_(nodes) {}
 
-  void add(std::unique_ptr<RecordSource> source) { others_.push_back(std::move(source)); }
+  void add(std::unique_ptr<ReusedRecords> reused) { reused_ = std::move(reused); }
 
   Journal& journal() { return journal_; }
   const Journal& journal() const { return journal_; }
-  bool contains(const RecordKey& key) const override;
-  Record read(const RecordKey& key) const override;
-  /// The displacements of a scene that others start from, with its outcome, in the first state. Throws
-  /// Failure if they are not those of so many nodes.
-  Solution read_solution(const RecordKey& key, Eigen::Index nodes) const;
+
+  /// All states that the database keeps are there.
+  bool has_record(const RecordKey& key) const;
+  /// All states are there.
+  bool can_start(const RecordKey& key) const;
+
+  /// The record as the database keeps it. Precondition: has_record(key).
+  Record kept_record(const RecordKey& key, KeepField fields) const;
+  /// The states that the older database has of a scene. Thread-safe.
+  SceneStates old_states(const RecordKey& key) const;
+  /// All states. Precondition: can_start(key). Throws Failure if a field is damaged.
+  SceneStates states(const RecordKey& key) const;
 
  private:
-  const RecordSource* source_of(const RecordKey& key) const;
+  Field field_of(const RecordedState& state) const;
 
   Journal journal_;
-  std::vector<std::unique_ptr<RecordSource>> others_;
+  const StatePlan* plan_;
+  Eigen::Index nodes_;
+  std::unique_ptr<ReusedRecords> reused_;
 };
 
 }  // namespace voussoir

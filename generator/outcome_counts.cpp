@@ -10,37 +10,18 @@ namespace {
 
 constexpr std::size_t kMostListed = 20;  ///< unresolved scenes
 
-}  // namespace
-
-void OutcomeCounts::add(const Record& record, const BlockLayout& layout) {
-  const RecordedState& state = record.states.front();
-  ++scenes;
-  if (state.outcome == Outcome::standing) ++standing;
+void count(const RecordedState& state, const RecordKey& key, const BlockLayout& layout,
+           StateOutcomes& counts) {
+  if (state.outcome == Outcome::standing) ++counts.standing;
   if (state.outcome == Outcome::unresolved)
-    unresolved.push_back({to_string(record.key, layout), state.residual});
+    counts.unresolved.push_back({to_string(key, layout), state.residual});
   if (state.outcome != Outcome::collapsed) return;
-  ++collapsed;
-  if (state.extent == CollapseExtent::arch) ++arch_collapses;
-  if (state.extent == CollapseExtent::local) ++local_collapses;
+  ++counts.collapsed;
+  if (state.extent == CollapseExtent::arch) ++counts.arch_collapses;
+  if (state.extent == CollapseExtent::local) ++counts.local_collapses;
 }
 
-OutcomeCounts count_outcomes(const Database& database) {
-  OutcomeCounts counts;
-  for (std::size_t variant = 0; variant < database.variant_count(); ++variant) {
-    const SceneTable table = database.table(static_cast<std::int32_t>(variant), 0);
-    for (std::size_t row = 0; row < table.rows; ++row) {
-      Record record;
-      RecordedState& state = record.states.emplace_back();
-      state.outcome = static_cast<Outcome>(table.outcome[row]);
-      state.extent = static_cast<CollapseExtent>(table.collapse[row]);
-      if (state.outcome == Outcome::unresolved) record = database.record(table.first_record + row);
-      counts.add(record, database.layout());
-    }
-  }
-  return counts;
-}
-
-std::string to_text(const OutcomeCounts& counts) {
+std::string state_text(const StateOutcomes& counts) {
   std::string text = fmt::format("  standing    {}\n", counts.standing);
   text += fmt::format("  collapsed   {} ({} of the arch, {} of wall blocks only)\n", counts.collapsed,
                       counts.arch_collapses, counts.local_collapses);
@@ -53,17 +34,71 @@ std::string to_text(const OutcomeCounts& counts) {
   return text;
 }
 
-nlohmann::ordered_json to_json(const OutcomeCounts& counts) {
+nlohmann::ordered_json state_json(const StateOutcomes& counts) {
   nlohmann::ordered_json unresolved = nlohmann::ordered_json::array();
   for (const UnresolvedScene& scene : counts.unresolved)
     unresolved.push_back({{"scene", scene.scene}, {"residual", scene.residual}});
-  return {{"scenes", counts.scenes},
-          {"standing", counts.standing},
+  return {{"standing", counts.standing},
           {"collapsed", counts.collapsed},
           {"arch_collapses", counts.arch_collapses},
           {"local_collapses", counts.local_collapses},
           {"unresolved", counts.unresolved.size()},
           {"unresolved_scenes", unresolved}};
+}
+
+}  // namespace
+
+OutcomeCounts::OutcomeCounts(const std::vector<std::string>& state_names) {
+  for (const std::string& name : state_names) states.push_back({.state = name, .unresolved = {}});
+}
+
+void OutcomeCounts::add(const Record& record, const BlockLayout& layout) {
+  ++scenes;
+  for (std::size_t state = 0; state < states.size(); ++state)
+    count(record.states.at(state), record.key, layout, states[state]);
+}
+
+OutcomeCounts count_outcomes(const Database& database) {
+  OutcomeCounts counts(database.states());
+  counts.scenes = database.rows();
+  for (std::size_t variant = 0; variant < database.variant_count(); ++variant)
+    for (std::size_t place = 0; place < counts.states.size(); ++place) {
+      const SceneTable table = database.table(static_cast<std::int32_t>(variant), place);
+      for (std::size_t row = 0; row < table.rows; ++row) {
+        RecordedState state;
+        state.outcome = static_cast<Outcome>(table.outcome[row]);
+        state.extent = static_cast<CollapseExtent>(table.collapse[row]);
+        RecordKey key;
+        if (state.outcome == Outcome::unresolved) {  // the only ones of which more is told
+          Record record = database.record(table.first_record + row);
+          state.residual = record.states[place].residual;
+          key = std::move(record.key);
+        }
+        count(state, key, database.layout(), counts.states[place]);
+      }
+    }
+  return counts;
+}
+
+std::string to_text(const OutcomeCounts& counts) {
+  std::string text;
+  for (const StateOutcomes& state : counts.states) {
+    if (counts.states.size() > 1) text += fmt::format("  {}\n", state.state);
+    text += state_text(state);
+  }
+  return text;
+}
+
+nlohmann::ordered_json to_json(const OutcomeCounts& counts) {
+  nlohmann::ordered_json json = {{"scenes", counts.scenes}};
+  if (!counts.states.empty()) json.update(state_json(counts.states.front()));
+  nlohmann::ordered_json states = nlohmann::ordered_json::array();
+  for (const StateOutcomes& state : counts.states) {
+    states.push_back({{"state", state.state}});
+    states.back().update(state_json(state));
+  }
+  json["states"] = std::move(states);
+  return json;
 }
 
 }  // namespace voussoir

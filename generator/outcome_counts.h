@@ -1,6 +1,6 @@
 #pragma once
-/// @file How many scenes of a database stand, collapse, or have no outcome, and which these last are: of all
-/// variants, in the first state.
+/// @file How many scenes of a database, of all variants, stand, collapse, or have no outcome in each state,
+/// and which these last are.
 
 #include <nlohmann/json_fwd.hpp>
 #include <string>
@@ -15,24 +15,36 @@ struct UnresolvedScene {
   double residual = 0.0;  ///< as in Solution
 };
 
-struct OutcomeCounts {
-  std::size_t scenes = 0;
+/// Of one state.
+struct StateOutcomes {
+  std::string state;  ///< its name
   std::size_t standing = 0;
   std::size_t collapsed = 0;
   std::size_t arch_collapses = 0;   ///< of the collapsed: blocks of the arch move away
   std::size_t local_collapses = 0;  ///< of the collapsed: wall blocks only move away
   std::vector<UnresolvedScene> unresolved;
+};
 
+struct OutcomeCounts {
+  OutcomeCounts() = default;
+  explicit OutcomeCounts(const std::vector<std::string>& state_names);
+
+  std::size_t scenes = 0;
+  std::vector<StateOutcomes> states;  ///< as in the database
+
+  /// Precondition: the record has these states.
   void add(const Record& record, const BlockLayout& layout);
 };
 
 OutcomeCounts count_outcomes(const Database& database);
 
-/// Lines for people, indented by two blanks; at most twenty unresolved scenes are listed.
+/// Lines for people, indented by two blanks; at most twenty unresolved scenes of a state are listed. States
+/// are named if there are several.
 std::string to_text(const OutcomeCounts& counts);
 
 /// {"scenes", "standing", "collapsed", "arch_collapses", "local_collapses", "unresolved",
-/// "unresolved_scenes": [{"scene", "residual"}]}
+/// "unresolved_scenes": [{"scene", "residual"}]} of the first state, and "states": [{"state", the same}] of
+/// all.
 nlohmann::ordered_json to_json(const OutcomeCounts& counts);
 
 }  // namespace voussoir

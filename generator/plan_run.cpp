@@ -8,8 +8,6 @@
 
 #include "core/structure/mirror_symmetry.h"
 #include "generator/parallel.h"
-#include "generator/reused_records.h"
-#include "generator/start_field.h"
 
 namespace voussoir {
 namespace {
@@ -20,41 +18,42 @@ using Tasks = std::span<const SolvingTask>;
 struct VariantSolver {
   std::int32_t variant = -1;
   SceneSolver solver;
+  std::optional<StateSolving> states;
 
-  const SceneSolver& of(std::int32_t wanted, const PlanRun& run) {
-    if (variant != wanted) {
-      solver = nullptr;  // the old one's memory goes before the new one's comes
-      solver = run.solver.make_solver(run.bridges[static_cast<std::size_t>(wanted)], run.settings);
-    }
+  void prepare(std::int32_t wanted, const PlanRun& run) {
+    if (variant == wanted) return;
+    const Model& bridge = run.bridges[static_cast<std::size_t>(wanted)];
+    solver = nullptr;  // the old one's memory goes before the new one's comes
+    solver = run.solver.make_solver(bridge, run.settings);
+    states.emplace(bridge, run.states);
     variant = wanted;
-    return solver;
   }
 };
 
-/// Keeps the records that a task's solution gives.
-void keep_records(const PlanRun& run, const SolvingTask& task, const Solution& solution,
-                  KnownRecords& known) {
+/// Keeps the records that a task's solutions give.
+void keep_records(const PlanRun& run, const SolvingTask& task, const SceneGroup& group, KnownRecords& known) {
   const Model& bridge = run.bridges[static_cast<std::size_t>(task.variant)];
-  const auto keep = [&](const Scene& scene, const Solution& answer) {
+  const auto keep = [&](const Scene& scene, const SceneStates& states) {
+    std::vector<Solution> solutions;
+    for (const std::optional<Solution>& state : states) solutions.push_back(state.value());
     const KeepField field = starts_others(scene) ? KeepField::yes : run.fields;
     known.journal().append(
-        make_record({task.variant, scene}, std::span(&answer, 1), bridge.control_points, field, run.fields));
+        make_record({task.variant, scene}, solutions, bridge.control_points, field, run.fields));
     run.progress.advance(1);
   };
-  if (task.records_solved) keep(task.solved, solution);
-  if (task.image) keep(*task.image, mirrored_solution(solution, *bridge.symmetry));
+  if (task.records_solved) keep(task.solved, group.states);
+  if (task.image) keep(*task.image, group.image_states);
 }
 
 /// Solves some tasks of one variant side by side and keeps their records.
-void run_batch(const PlanRun& run, Tasks batch, const SceneSolver& solver, const StartingFields& starts,
+void run_batch(const PlanRun& run, Tasks batch, const VariantSolver& solver, const StartingFields& starts,
                KnownRecords& known) {
-  std::vector<std::optional<Field>> fields;
-  for (const SolvingTask& task : batch) fields.push_back(starts.start_for(task.solved));
-  std::vector<StageTask> scenes;
-  for (std::size_t i = 0; i < batch.size(); ++i)
-    scenes.push_back({.stage = {.scene = batch[i].solved}, .start = fields[i] ? &*fields[i] : nullptr});
-  const std::vector<Solution> solutions = solve_for_storage(solver, scenes);
-  for (std::size_t i = 0; i < batch.size(); ++i) keep_records(run, batch[i], solutions[i], known);
+  std::vector<SceneGroup> groups;
+  for (const SolvingTask& task : batch)
+    groups.push_back(
+        {task.solved, known.old_states({task.variant, task.solved}), task.records_solved, task.image});
+  solver.states->solve(solver.solver, starts, run.rules.warm_starts, groups);
+  for (std::size_t i = 0; i < batch.size(); ++i) keep_records(run, batch[i], groups[i], known);
 }
 
 /// The fields that tasks start from, by variant. They come out of the records, whether these were made just
@@ -63,12 +62,14 @@ std::map<std::int32_t, StartingFields> read_starts(const PlanRun& run, Tasks tas
                                                    const KnownRecords& known) {
   std::set<RecordKey> keys;
   for (const SolvingTask& task : tasks)
-    for (const Scene& start : starting_scenes(task.solved, run.rules)) keys.insert({task.variant, start});
+    for (const Scene& start : starting_scenes(task.solved, task.image, run.rules, run.states))
+      keys.insert({task.variant, start});
   std::map<std::int32_t, StartingFields> starts;
   for (const SolvingTask& task : tasks) starts[task.variant];
   for (const RecordKey& key : keys) {
-    const Solution solution = known.read_solution(key, run.bridges.front().mesh.node_count());
-    starts[key.variant].add(key.scene, solution.outcome, solution.displacement);
+    const SceneStates states = known.states(key);
+    for (std::size_t state = 0; state < states.size(); ++state)
+      starts[key.variant].add(key.scene, state, states[state].value());
   }
   return starts;
 }
@@ -120,7 +121,9 @@ void run_plan(const BuildPlan& plan, const PlanRun& run, KnownRecords& known) {
       const auto batches = split_into_batches(tasks, batch_size(tasks.size(), crew.size()));
       crew.for_each_index(batches.size(), [&](std::size_t i) {
         const std::int32_t variant = batches[i].front().variant;
-        run_batch(run, batches[i], solvers.local().of(variant, run), starts.at(variant), known);
+        VariantSolver& solver = solvers.local();
+        solver.prepare(variant, run);
+        run_batch(run, batches[i], solver, starts.at(variant), known);
       });
       left = left.subspan(tasks.size());
     }

@@ -4,7 +4,6 @@
 #include "generator/build_plan.h"
 #include "generator/known_records.h"
 #include "generator/progress.h"
-#include "generator/scene_solving.h"
 
 namespace voussoir {
 
@@ -18,6 +17,7 @@ struct PlanRun {
   const SolverChoice& solver;
   const std::string& settings;  ///< that the database states
   PlanRules rules;
+  const StatePlan& states;
   KeepField fields;
   int threads = 0;  ///< 0: one for each core
   Progress& progress;

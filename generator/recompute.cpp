@@ -1,24 +1,12 @@
 #include "generator/recompute.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <numeric>
 #include <random>
 
-#include "core/structure/mirror_symmetry.h"
-#include "generator/start_field.h"
+#include "generator/field_difference.h"
 
 namespace voussoir {
-namespace {
-
-double difference(double a, double b) {
-  if (std::isnan(a) && std::isnan(b)) return 0.0;
-  const double apart = std::abs(a - b);
-  return std::isnan(apart) ? std::numeric_limits<double>::infinity() : apart;
-}
-
-}  // namespace
 
 std::vector<std::size_t> choose_rows(std::size_t rows, std::size_t count, std::uint64_t seed) {
   std::vector<std::size_t> chosen(rows);
@@ -31,37 +19,37 @@ std::vector<std::size_t> choose_rows(std::size_t rows, std::size_t count, std::u
   return chosen;
 }
 
-Solution recompute(const RecordKey& key, const Database& database, const Model& bridge,
-                   const PlanRules& rules, const SceneSolver& solver) {
-  const Scene solved = representative(key.scene, bridge, rules);
+std::vector<Solution> recompute(const RecordKey& key, const RecomputedVariant& variant,
+                                const SceneSolver& solver) {
+  const bool is_stored =
+      variant.database.has_fields() && kept_states(variant.plan).size() == variant.plan.size();
+  SceneGroup group{
+      .solved = representative(key.scene, variant.bridge, variant.rules), .states = {}, .image = {}};
+  if (group.solved != key.scene) group.image = key.scene;
+  group.needs_all = !group.image;
   StartingFields starts;
-  for (const Scene& start : starting_scenes(solved, rules)) {
-    const auto row = database.has_fields() ? database.find(key.variant, start) : std::nullopt;
-    const Solution solution =
-        row ? database.solution(*row) : recompute({key.variant, start}, database, bridge, rules, solver);
-    starts.add(start, solution.outcome, solution.displacement);
+  for (const Scene& start : starting_scenes(group.solved, group.image, variant.rules, variant.plan)) {
+    const RecordKey start_key{key.variant, start};
+    const auto row = is_stored ? variant.database.find(key.variant, start) : std::nullopt;
+    const std::vector<Solution> anew = row ? std::vector<Solution>{} : recompute(start_key, variant, solver);
+    for (std::size_t state = 0; state < variant.plan.size(); ++state)
+      starts.add(start, state, row ? variant.database.solution(*row, state) : anew[state]);
   }
-  const auto start = starts.start_for(solved);
-  const StageTask task{.stage = {.scene = solved}, .start = start ? &*start : nullptr};
-  const Solution solution = solve_for_storage(solver, std::span(&task, 1)).front();
-  return solved == key.scene ? solution : mirrored_solution(solution, *bridge.symmetry);
+  variant.equations.solve(solver, starts, variant.rules.warm_starts, std::span(&group, 1));
+  std::vector<Solution> solutions;
+  for (std::optional<Solution>& state : group.image ? group.image_states : group.states)
+    solutions.push_back(std::move(state.value()));
+  return solutions;
 }
 
 double largest_difference(const Solution& recomputed, const Database& database, std::size_t row,
-                          const std::vector<ControlPoint>& points) {
-  double largest = 0.0;
-  const auto compare = [&largest](const auto& now, const auto& stored) {
-    for (Eigen::Index i = 0; i < now.size(); ++i) largest = std::max(largest, difference(now(i), stored(i)));
-  };
-  if (database.has_fields()) {
-    const Field stored = database.field(row);
-    compare(recomputed.displacement.reshaped(), stored.reshaped());
-  } else {
-    const std::vector<double> stored = database.record(row).states.front().vertical;
-    compare(vertical_displacements(recomputed.displacement, points),
-            Eigen::Map<const Eigen::VectorXd>(stored.data(), static_cast<Eigen::Index>(stored.size())));
-  }
-  return largest;
+                          std::size_t state, const std::vector<ControlPoint>& points) {
+  if (database.has_fields())
+    return largest_difference(recomputed.displacement.reshaped(), database.field(row, state).reshaped());
+  const std::vector<double> stored = database.record(row).states[state].vertical;
+  return largest_difference(
+      vertical_displacements(recomputed.displacement, points),
+      Eigen::Map<const Eigen::VectorXd>(stored.data(), static_cast<Eigen::Index>(stored.size())));
 }
 
 }  // namespace voussoir

@@ -49,8 +49,9 @@ std::string support_text(const SupportDescription& supports) {
 }
 
 std::string physics_text(const BridgeDescription& description) {
-  const auto& [name, wall, spans, material, joints, supports, control_points, mesh, gravity,
-               joint_tolerance] = description;
+  const auto& [name, wall, spans, material, joints, supports, control_points, mesh, gravity, joint_tolerance,
+               loads] = description;
+  static_cast<void>(loads);  // whose states are told apart by load case
   static_cast<void>(name);
   static_cast<void>(control_points);
   std::string text = wall_text(wall);

@@ -4,6 +4,8 @@
 
 #include "core/error.h"
 #include "database/format/field_codec.h"
+#include "database/records/state_name.h"
+#include "generator/stored_bridge.h"
 
 namespace voussoir {
 namespace {
@@ -25,10 +27,27 @@ bool has_right_checksum(const Record& record, std::span<const Field> fields) {
   return scene_checksum(record, numbers) == record.checksum;
 }
 
+/// The load case of a stage, if the description has it.
+const LoadDescription* find_load(const BridgeDescription& description, std::string_view stage) {
+  const auto load =
+      std::ranges::find(description.loads, stage.substr(0, stage.find('@')), &LoadDescription::name);
+  return load == description.loads.end() ? nullptr : &*load;
+}
+
+/// Does the state mean the same in both? Histories always do.
+bool is_same_state(const std::string& state, const BridgeDescription& now, const BridgeDescription& before) {
+  const std::string_view stage = load_stage_of(state);
+  if (stage.empty()) return true;
+  const LoadDescription* load = find_load(now, stage);
+  const LoadDescription* old_load = find_load(before, stage);
+  return load != nullptr && old_load != nullptr && *load == *old_load;
+}
+
 }  // namespace
 
 ReusedRecords::ReusedRecords(Database old, const NewRecords& records, const RecordSource& known)
-    : old_(std::move(old)), bridges_(records.bridges), fields_(records.fields) {
+    : old_(std::move(old)), bridges_(records.bridges), fields_(records.fields), plan_(records.states) {
+  match_states(records.description);
   const std::set<RecordKey> wanted(records.wanted.begin(), records.wanted.end());
   const auto& old_variants = old_.variants();
   for (const VariantParameters& variant : records.variants) {
@@ -40,28 +59,51 @@ ReusedRecords::ReusedRecords(Database old, const NewRecords& records, const Reco
     for (std::size_t row = 0; row < table.rows; ++row) {
       const RecordKey key{static_cast<std::int32_t>(old_variant_.size() - 1), table.scene(row)};
       const bool useful = starts_others(key.scene) || wanted.contains(key);
-      if (useful && !known.contains(key) && adopted(key)) keys_.insert(key);
+      std::vector<Field> fields;
+      if (useful && !known.contains(key) && old_record(key, fields)) keys_.insert(key);
     }
   }
 }
 
-/// The old database's record made into one of the new database, or nothing if it is damaged.
-std::optional<Record> ReusedRecords::adopted(const RecordKey& key) const {
+void ReusedRecords::match_states(const BridgeDescription& description) {
+  const BridgeDescription before = description_of(old_);
+  has_kept_ = has_all_ = true;
+  for (const PlannedState& state : plan_) {
+    const bool same = is_same_state(state.name, description, before);
+    old_state_.push_back(same ? old_.find_state(state.name) : std::nullopt);
+    has_all_ = has_all_ && old_state_.back();
+    has_kept_ = has_kept_ && (old_state_.back() || !state.kept);
+  }
+}
+
+std::vector<std::string> ReusedRecords::state_names() const {
+  std::vector<std::string> names;
+  for (std::size_t state = 0; state < plan_.size(); ++state)
+    if (old_state_[state]) names.push_back(plan_[state].name);
+  return names;
+}
+
+/// The old database's record with the fields of its states, or nothing if it is damaged.
+std::optional<Record> ReusedRecords::old_record(const RecordKey& key, std::vector<Field>& fields) const {
   try {
     const std::int32_t variant = *old_variant_[static_cast<std::size_t>(key.variant)];
-    const Record record = old_.record(old_.find(variant, key.scene).value());
-    const auto fields = fields_of(record, bridges_.front().mesh);
-    if (!fields || !has_right_checksum(record, *fields)) return std::nullopt;
-    return fits(record, key, *fields) ? record : made_new(key, record, *fields);
+    Record record = old_.record(old_.find(variant, key.scene).value());
+    auto found = fields_of(record, bridges_.front().mesh);
+    if (!found || !has_right_checksum(record, *found)) return std::nullopt;
+    fields = std::move(*found);
+    return record;
   } catch (const InputError&) {  // a chunk that cannot be read
     return std::nullopt;
   }
 }
 
-/// The old file may have measured at other points and numbered its variants otherwise.
+/// The old file may have other states, have measured at other points and numbered its variants otherwise.
 bool ReusedRecords::fits(const Record& record, const RecordKey& key, std::span<const Field> fields) const {
   if (fields_ == KeepField::no || record.key != key) return false;
+  const std::vector<std::size_t> kept = kept_states(plan_);
+  if (kept.size() != fields.size()) return false;
   for (std::size_t i = 0; i < fields.size(); ++i) {
+    if (old_state_[kept[i]] != i) return false;
     const Eigen::VectorXd vertical = vertical_displacements(fields[i], bridges_.front().control_points);
     const std::span numbers(vertical.data(), static_cast<std::size_t>(vertical.size()));
     if (!std::ranges::equal(std::as_bytes(numbers), view_bytes(record.states[i].vertical))) return false;
@@ -69,17 +111,24 @@ bool ReusedRecords::fits(const Record& record, const RecordKey& key, std::span<c
   return true;
 }
 
-Record ReusedRecords::made_new(const RecordKey& key, const Record& old, std::span<const Field> fields) const {
+Record ReusedRecords::kept_record(const RecordKey& key) const {
+  std::vector<Field> fields;
+  auto record = old_record(key, fields);
+  if (!record) throw Failure(fmt::format("{}: changed while it was being read", old_.path().string()));
+  if (fits(*record, key, fields)) return std::move(*record);
   std::vector<Solution> solutions;
-  for (std::size_t i = 0; i < fields.size(); ++i) solutions.push_back(solution_of(old.states[i], fields[i]));
-  const KeepField keep = starts_others(key.scene) ? KeepField::yes : fields_;
-  return make_record(key, solutions, bridges_.front().control_points, keep, fields_);
+  for (const std::size_t state : kept_states(plan_))
+    solutions.push_back(solution_of(record->states[*old_state_[state]], fields[*old_state_[state]]));
+  return make_record(key, solutions, bridges_.front().control_points, fields_, fields_);
 }
 
-Record ReusedRecords::read(const RecordKey& key) const {
-  auto record = adopted(key);
-  if (!record) throw Failure(fmt::format("{}: changed while it was being read", old_.path().string()));
-  return std::move(*record);
+SceneStates ReusedRecords::states(const RecordKey& key) const {
+  SceneStates states(plan_.size());
+  std::vector<Field> fields;
+  const auto record = keys_.contains(key) ? old_record(key, fields) : std::nullopt;
+  for (std::size_t state = 0; record && state < plan_.size(); ++state)
+    if (const auto old = old_state_[state]) states[state] = solution_of(record->states[*old], fields[*old]);
+  return states;
 }
 
 }  // namespace voussoir

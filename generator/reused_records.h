@@ -1,5 +1,5 @@
 #pragma once
-/// @file Records of an older database that can be taken over into a new one.
+/// @file What an older database has that can be taken over into a new one.
 
 #include <set>
 #include <span>
@@ -7,6 +7,7 @@
 #include "core/structure/model.h"
 #include "database/records/database.h"
 #include "database/records/record_source.h"
+#include "generator/state_solving.h"
 
 namespace voussoir {
 
@@ -16,27 +17,44 @@ struct NewRecords {
   std::span<const VariantParameters> variants;
   const std::vector<RecordKey>& wanted;
   KeepField fields;
+  const StatePlan& states;
+  const BridgeDescription& description;  ///< whose loads are those of the states
 };
 
-class ReusedRecords : public RecordSource {
+class ReusedRecords {
  public:
-  /// Takes over, from an older database with the same results key and with fields, the records of variants
-  /// with the same parameters that are wanted or can start others; records whose checksums are not right stay
-  /// behind, and so do those that `known` has already.
+  /// Takes over, from an older database with the same results key and with fields, the states with the same
+  /// history and the same load case of variants with the same parameters, of scenes that are wanted or can
+  /// start others. Records whose checksums are not right stay behind, and so do those that `known` has
+  /// already.
   ReusedRecords(Database old, const NewRecords& records, const RecordSource& known);
 
-  std::size_t size() const { return keys_.size(); }
-  bool contains(const RecordKey& key) const override { return keys_.contains(key); }
-  Record read(const RecordKey& key) const override;
+  /// The scenes of which all that the new database keeps is there.
+  std::size_t size() const { return has_kept_ ? keys_.size() : 0; }
+  /// The names of the states that the old database gives.
+  std::vector<std::string> state_names() const;
+
+  bool has_record(const RecordKey& key) const { return has_kept_ && keys_.contains(key); }
+  bool can_start(const RecordKey& key) const { return has_all_ && keys_.contains(key); }
+  /// The record as the new database keeps it. Precondition: has_record(key). Throws Failure if the old file
+  /// changed meanwhile.
+  Record kept_record(const RecordKey& key) const;
+  /// The states that the old database has of a scene.
+  SceneStates states(const RecordKey& key) const;
 
  private:
-  std::optional<Record> adopted(const RecordKey& key) const;
-  Record made_new(const RecordKey& key, const Record& old, std::span<const Field> fields) const;
+  void match_states(const BridgeDescription& description);
+  std::optional<Record> old_record(const RecordKey& key, std::vector<Field>& fields) const;
   bool fits(const Record& record, const RecordKey& key, std::span<const Field> fields) const;
 
   Database old_;
   std::span<const Model> bridges_;
   KeepField fields_;
+  const StatePlan& plan_;
+  std::vector<std::optional<std::size_t>>
+      old_state_;  ///< of each state of the plan: its number in the old database
+  bool has_kept_ = false;
+  bool has_all_ = false;
   std::vector<std::optional<std::int32_t>> old_variant_;  ///< of each variant: its number in the old database
   std::set<RecordKey> keys_;
 };

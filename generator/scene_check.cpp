@@ -7,6 +7,7 @@
 #include "core/statics/quasi_static_solver.h"
 #include "core/structure/mirror_symmetry.h"
 #include "database/format/field_codec.h"
+#include "generator/field_difference.h"
 #include "generator/verify.h"
 
 namespace voussoir {
@@ -23,9 +24,15 @@ class Examination {
       const Record record = checked_.database.record(row_);
       const std::vector<Field> fields = take_fields(record);
       check_checksum(record, fields);
+      const std::vector<std::size_t> planned = kept_states(checked_.plan);
+      states_.resize(checked_.plan.size());
+      for (std::size_t state = 0; state < fields.size(); ++state)
+        states_[planned[state]] = solution_of(record.states[state], fields[state]);
       for (std::size_t state = 0; state < record.states.size(); ++state) {
+        place_ = state;
+        planned_ = planned[state];
         check_collapse(record.states[state]);
-        if (!fields.empty()) check_field(state, record.states[state], fields[state]);
+        if (!fields.empty()) check_field(record.states[state], fields[state]);
       }
     } catch (const InputError& error) {
       report(error.what());
@@ -36,6 +43,11 @@ class Examination {
  private:
   void report(const std::string& what) {
     check_.problems.push_back(fmt::format("scene {}: {}", to_string(key_, checked_.bridge.layout), what));
+  }
+  /// Of the state under examination.
+  void report_state(const std::string& what) {
+    const bool several = checked_.database.states().size() > 1;
+    report(several ? fmt::format("as {}: {}", checked_.plan[planned_].name, what) : what);
   }
 
   /// The fields of the record's states; none if the database has none. Throws InputError if one cannot be
@@ -62,15 +74,30 @@ class Examination {
 
   void check_collapse(const RecordedState& state) {
     if (state.extent != collapse_extent(checked_.bridge.layout, state.moving))
-      report("its kind of collapse is not that of the blocks that move");
+      report_state("its kind of collapse is not that of the blocks that move");
   }
 
-  void check_field(std::size_t place, const RecordedState& state, const Field& field) {
-    check_.field_checked = true;
+  void check_field(const RecordedState& state, const Field& field) {
+    ++check_.fields;
     check_presence(field);
     check_control_points(state, field);
     if (state.outcome == Outcome::standing) check_equilibrium(field);
-    if (checked_.bridge.symmetry) check_mirror_image(place, state, field);
+    check_repetition(state, field);
+    if (checked_.bridge.symmetry && checked_.plan[planned_].mirrors) check_mirror_image(state, field);
+  }
+
+  /// Where a state is that of an earlier one (see StateSolving), both are equal bit by bit.
+  void check_repetition(const RecordedState& state, const Field& field) {
+    const PlannedState& planned = checked_.plan[planned_];
+    if (!planned.before || !states_[*planned.before]) return;
+    const Solution& before = *states_[*planned.before];
+    const bool neither_stands = state.outcome != Outcome::standing && before.outcome != Outcome::standing;
+    const bool repeats =
+        planned.is_load ? before.outcome != Outcome::standing : neither_stands || key_.scene.removed.empty();
+    if (!repeats) return;
+    if (state.outcome != before.outcome ||
+        !(largest_difference(field.reshaped(), before.displacement.reshaped()) <= 0.0))
+      report_state(fmt::format("is not as it was as {}", checked_.plan[*planned.before].name));
   }
 
   /// Numbers at the nodes of all blocks but the removed ones.
@@ -81,9 +108,9 @@ class Examination {
       const auto numbers = field.middleCols(nodes.begin, nodes.size()).array();
       const bool right = removed[block] ? numbers.isNaN().all() : numbers.isFinite().all();
       if (!right)
-        report(fmt::format("the displacements of block {} are {}",
-                           to_string(checked_.bridge.layout.blocks[block].index),
-                           removed[block] ? "there although it is removed" : "no numbers"));
+        report_state(fmt::format("the displacements of block {} are {}",
+                                 to_string(checked_.bridge.layout.blocks[block].index),
+                                 removed[block] ? "there although it is removed" : "no numbers"));
     }
   }
 
@@ -91,57 +118,58 @@ class Examination {
     const Eigen::VectorXd expected = vertical_displacements(field, checked_.bridge.control_points);
     const auto same = [](double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); };
     if (!std::equal(expected.begin(), expected.end(), state.vertical.begin(), state.vertical.end(), same))
-      report("its control displacements are not those of its field");
+      report_state("its control displacements are not those of its field");
   }
 
   void check_equilibrium(const Field& field) {
-    const StageEquations equations(checked_.system, checked_.coefficients, {.scene = key_.scene});
-    const double unbalance = unbalanced_force(equations, field);
+    auto memory = checked_.equations.memory_before(key_.scene, planned_, states_, checked_.of_intact);
+    const double unbalance =
+        unbalanced_force(checked_.equations.equations(key_.scene, planned_, std::move(memory)), field);
     check_.unbalance = std::max(check_.unbalance, unbalance);
     if (!(unbalance <= checked_.most_unbalance))
-      report(fmt::format("stands, but its field is out of equilibrium by {:.1e} of the largest nodal weight",
-                         unbalance));
+      report_state(fmt::format(
+          "stands, but its field is out of equilibrium by {:.1e} of the largest nodal weight", unbalance));
   }
 
   /// Each pair of images is compared once, by the earlier of the two.
-  void check_mirror_image(std::size_t place, const RecordedState& state, const Field& field) {
+  void check_mirror_image(const RecordedState& state, const Field& field) {
     const Scene image = mirrored(key_.scene, *checked_.bridge.symmetry);
     const auto image_row = checked_.database.find(key_.variant, image);
     if (!image_row || *image_row <= row_) return;
     check_.mirror_compared = true;
-    const Solution other = checked_.database.solution(*image_row, place);
+    const Solution other = checked_.database.solution(*image_row, place_);
     const std::string name = to_string(image, checked_.bridge.layout);
-    if (other.outcome != state.outcome) report(fmt::format("its mirror image {} has another outcome", name));
+    if (other.outcome != state.outcome)
+      report_state(fmt::format("its mirror image {} has another outcome", name));
     if (state.outcome != Outcome::standing && !checked_.mirror_images_used) return;
     if (other.moving != mirrored(state.moving, *checked_.bridge.symmetry))
-      report(fmt::format("its mirror image {} has other moving blocks", name));
-    const Field expected = mirrored(field, *checked_.bridge.symmetry);
-    const double difference = (other.displacement - expected)
-                                  .array()
-                                  .isNaN()
-                                  .select(0.0, other.displacement - expected)
-                                  .cwiseAbs()
-                                  .maxCoeff();
+      report_state(fmt::format("its mirror image {} has other moving blocks", name));
+    const double difference = largest_difference(other.displacement.reshaped(),
+                                                 mirrored(field, *checked_.bridge.symmetry).reshaped());
     if (!(difference <= (checked_.mirror_images_used ? 0.0 : kSameDisplacement)))
-      report(fmt::format("differs from its mirror image {} by {:.1e} m", name, difference));
+      report_state(fmt::format("differs from its mirror image {} by {:.1e} m", name, difference));
   }
 
   const CheckedVariant& checked_;
   std::size_t row_;
+  SceneStates states_;       ///< as stored, in the order of the plan
+  std::size_t place_ = 0;    ///< of the state under examination, in the database
+  std::size_t planned_ = 0;  ///< the same in the plan
   RecordKey key_;
   SceneCheck check_;
 };
 
 }  // namespace
 
-double most_stored_unbalance(const EquilibriumSystem& system, const Coefficients& coefficients,
-                             std::string_view settings) {
+double most_stored_unbalance(const Model& bridge, std::string_view settings) {
   // A motion ends when the resultant on no block exceeds a hundredth of its weight; single nodes, which share
   // a block's resultant unevenly and still vibrate a little, may be a few times further off.
   constexpr double kRest = 0.05;
   if (settings.starts_with("solver = dynamic")) return kRest;
   constexpr double kBonded = 1.0;
-  const Field zero = Field::Zero(2, system.structure->mesh.node_count());
+  const EquilibriumSystem system(bridge);
+  const Coefficients coefficients(system, bridge.parameters);
+  const Field zero = Field::Zero(2, bridge.mesh.node_count());
   const StageEquations equations(system, coefficients, Stage{});
   Eigen::SparseMatrix<double> tangent = system.pattern;
   assemble(equations, zero, kBonded, {tangent.valuePtr()});

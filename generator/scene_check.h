@@ -3,24 +3,25 @@
 
 #include <optional>
 
-#include "core/statics/equilibrium.h"
 #include "database/records/database.h"
+#include "generator/state_solving.h"
 
 namespace voussoir {
 
 /// What the checks of a scene need to know of its database and its variant.
 struct CheckedVariant {
   const Database& database;
-  const Model& bridge;               ///< bridge_of(database), the variant
-  const EquilibriumSystem& system;   ///< of that bridge
-  const Coefficients& coefficients;  ///< of that bridge
-  double most_unbalance = 0.0;       ///< most_stored_unbalance(system)
-  bool mirror_images_used = false;   ///< images are then equal bit by bit
+  const Model& bridge;                 ///< bridge_of(database), the variant
+  const StatePlan& plan;               ///< of the database's states
+  const StateSolving& equations;       ///< of that bridge and that plan
+  std::vector<JointMemory> of_intact;  ///< what joints remember of the intact bridge as built
+  double most_unbalance = 0.0;         ///< most_stored_unbalance(bridge)
+  bool mirror_images_used = false;     ///< images are then equal bit by bit
 };
 
 struct SceneCheck {
   std::vector<std::string> problems;
-  bool field_checked = false;
+  std::size_t fields = 0;  ///< that were checked
   bool mirror_compared = false;
   double unbalance = 0.0;  ///< of a standing scene's stored fields, the largest
 };
@@ -29,8 +30,7 @@ struct SceneCheck {
 /// largest nodal weight] in a database built with these settings. From Newton's method: the solver's own
 /// limit, and half a storage step at every node against the stiffness of the bridge with all joints closed
 /// (the largest sum of absolute values in a row of the tangent). From a motion: what is taken for rest.
-double most_stored_unbalance(const EquilibriumSystem& system, const Coefficients& coefficients,
-                             std::string_view settings);
+double most_stored_unbalance(const Model& bridge, std::string_view settings);
 
 /// Never throws for what is wrong with the scene's data.
 SceneCheck check_scene(const CheckedVariant& checked, std::size_t row);

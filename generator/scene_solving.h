@@ -21,6 +21,9 @@ struct SolverChoice {
   /// A solver of a variant with these settings, which `settings` gave for the nominal bridge; called for each
   /// thread.
   std::function<SceneSolver(const Model&, const std::string& settings)> make_solver;
+  /// One that finds equilibria only, quickly: for what is compared with others and not kept. May be empty: no
+  /// model error is then estimated.
+  std::function<SceneSolver(const Model&)> make_equilibrium_solver{};
 };
 
 /// The program's own solvers (core/solve).
@@ -31,10 +34,10 @@ SceneSolver stated_solver(const Model& model, const std::string& settings);
 SolverChoice quasi_static(const DynamicSettings& motion = {});
 SolverChoice dynamic(const DynamicSettings& motion = {});
 
-/// Solves the scenes and rounds their fields to the storage precision.
+/// Solves the scenes and rounds their fields to the storage precision. What the joints remember is left out.
 std::vector<Solution> solve_for_storage(const SceneSolver& solver, std::span<const StageTask> scenes);
 
-/// The mirror image of a solution, in the same storage precision.
+/// The mirror image of a solution, in the same storage precision and without memory.
 Solution mirrored_solution(const Solution& solution, const MirrorSymmetry& symmetry);
 
 }  // namespace voussoir

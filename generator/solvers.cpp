@@ -30,8 +30,12 @@ SceneSolver stated_solver(const Model& model, const std::string& settings) {
 }
 
 SolverChoice solver_with(const SolverSettings& settings) {
-  return {[settings](const Model& model) { return to_text(acting_settings(settings, model)); },
-          stated_solver};
+  return {[settings](const Model& model) { return to_text(acting_settings(settings, model)); }, stated_solver,
+          [settings](const Model& model) {
+            const auto solver =
+                std::make_shared<QuasiStaticSolver>(model, acting_settings(settings, model).newton);
+            return [solver](std::span<const StageTask> tasks) { return solver->solve(tasks); };
+          }};
 }
 
 SolverChoice quasi_static(const DynamicSettings& motion) {

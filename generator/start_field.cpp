@@ -9,19 +9,40 @@ Field zero_for_nan(const Field& field) {
 
 }  // namespace
 
-void StartingFields::add(const Scene& scene, Outcome outcome, const Field& displacement) {
-  if (outcome != Outcome::standing) return;
-  if (scene.missing() == 0) intact_ = displacement;
-  if (scene.missing() == 1) standing_singles_[scene] = displacement;
+void StartingFields::add(const Scene& scene, std::size_t state, const Solution& solution) {
+  if (solution.outcome == Outcome::standing && scene.missing() <= 1)
+    standing_[{scene, state}] = solution.displacement;
 }
 
-std::optional<Field> StartingFields::start_for(const Scene& scene) const {
-  if (scene.removed.empty() || !intact_) return std::nullopt;
-  Field start = *intact_;
+const Field* StartingFields::find(const Scene& scene, std::size_t state) const {
+  const auto found = standing_.find({scene, state});
+  return found == standing_.end() ? nullptr : &found->second;
+}
+
+std::optional<Field> StartingFields::start_for(const Scene& scene, std::size_t state) const {
+  const Field* intact_field = intact(state);
+  if (scene.removed.empty() || intact_field == nullptr) return std::nullopt;
+  Field start = *intact_field;
   if (scene.missing() == 1) return start;
+  for (const BlockId block : scene.removed)
+    if (const Field* single = find(Scene{{block}}, state)) start += *single - *intact_field;
+  return zero_for_nan(start);
+}
+
+std::optional<Field> StartingFields::change(const Scene& scene, std::size_t before, std::size_t after) const {
+  const Field* from = find(scene, before);
+  const Field* to = find(scene, after);
+  return from == nullptr || to == nullptr ? std::nullopt : std::optional<Field>(*to - *from);
+}
+
+Field StartingFields::start_after(const Scene& scene, const Field& own, std::size_t before,
+                                  std::size_t after) const {
+  const auto intact_change = scene.removed.empty() ? std::nullopt : change(Scene{}, before, after);
+  if (!intact_change) return zero_for_nan(own);
+  Field start = own + *intact_change;
   for (const BlockId block : scene.removed) {
-    const auto single = standing_singles_.find(Scene{{block}});
-    if (single != standing_singles_.end()) start += single->second - *intact_;
+    const auto single = scene.missing() > 1 ? change(Scene{{block}}, before, after) : std::nullopt;
+    if (single) start += *single - *intact_change;
   }
   return zero_for_nan(start);
 }

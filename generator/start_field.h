@@ -3,29 +3,45 @@
 
 #include <map>
 #include <optional>
+#include <span>
+#include <vector>
 
 #include "core/statics/solution.h"
 #include "core/structure/scene.h"
 
 namespace voussoir {
 
-/// Solved fields, in storage precision, that other scenes start from.
+/// Solved fields of the intact bridge and the singles, in storage precision, that other scenes start from.
+/// Starts depend on these fields and the scene's own only, so every build of a scene starts from the same
+/// numbers whatever was computed before it. They are zero wherever a field has no displacement.
 class StartingFields {
  public:
-  /// Takes in the intact bridge or a single if it stands; anything else is ignored. Not thread-safe.
-  void add(const Scene& scene, Outcome outcome, const Field& displacement);
+  /// Takes in a state of the intact bridge or a single if it stands; anything else is ignored. Not
+  /// thread-safe.
+  void add(const Scene& scene, std::size_t state, const Solution& solution);
 
-  /// The start for a scene: nothing (zero) for the intact bridge, the intact field for a single, and for a
-  /// scene with more missing blocks the sum of what each of its blocks changes when it alone is missing,
+  /// The start for a state of a scene of which nothing is known: nothing (zero) for the intact bridge, the
+  /// intact field for a single, and for a scene with more missing blocks the sum of what each of its blocks
+  /// changes when it alone is missing,
   ///     d = d_intact + sum_i (d_i - d_intact)   over the singles i that stand,
-  /// with zero wherever a field has no displacement, and nothing for any scene if the intact bridge does not
-  /// stand. It depends on these fields only, so every build of a scene starts from the same numbers whatever
-  /// was computed before it.
-  std::optional<Field> start_for(const Scene& scene) const;
+  /// and nothing for any scene if the intact bridge does not stand.
+  std::optional<Field> start_for(const Scene& scene, std::size_t state = 0) const;
+
+  /// The start for state `after` of a scene that stands in state `before` with the field `own`: with c the
+  /// change from `before` to `after`,
+  ///     d = own + c_intact + sum_i (c_i - c_intact)   over the singles i, other than the scene, that stand
+  ///     in
+  /// both. Where the intact bridge does not stand in both: `own`.
+  Field start_after(const Scene& scene, const Field& own, std::size_t before, std::size_t after) const;
+
+  /// The field of the intact bridge in a state, if it stands.
+  const Field* intact(std::size_t state) const { return find(Scene{}, state); }
 
  private:
-  std::optional<Field> intact_;
-  std::map<Scene, Field> standing_singles_;
+  const Field* find(const Scene& scene, std::size_t state) const;
+  std::optional<Field> change(const Scene& scene, std::size_t before, std::size_t after) const;
+
+  std::map<std::pair<Scene, std::size_t>, Field> standing_;  ///< by scene and state
 };
 
 }  // namespace voussoir

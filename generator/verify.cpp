@@ -7,6 +7,7 @@
 #include "core/error.h"
 #include "database/records/content_digest.h"
 #include "database/records/schema.h"
+#include "database/records/state_name.h"
 #include "database/search/stored_index.h"
 #include "generator/build_settings.h"
 #include "generator/parallel.h"
@@ -38,7 +39,8 @@ void check_geometry(const Database& database, const Model& stored, VerifyReport&
   const Model bridge = same_program ? make_model(description) : stored;
   std::vector<VariantParameters> variants = database.variants();
   variants.front() = parameters_of(bridge);  // of the others nothing else says what they should be
-  const auto expected = shared_datasets(provenance, bridge, variants, {kBuiltState}, database.model_errors());
+  const auto expected =
+      shared_datasets(provenance, bridge, variants, database.states(), database.model_errors());
   for (const DatasetValue& value : expected)
     if (!std::ranges::equal(value.bytes, database.dataset_bytes(value.path.c_str())))
       report.problems.push_back(fmt::format("dataset '{}': is not what the bridge text gives", value.path));
@@ -53,7 +55,7 @@ void check_scenes(const CheckedVariant& checked, const SceneTable& table, int th
   Crew(threads).for_each_index(
       checks.size(), [&](std::size_t i) { checks[i] = check_scene(checked, table.first_record + i); });
   for (const SceneCheck& check : checks) {
-    report.fields += check.field_checked ? 1 : 0;
+    report.fields += check.fields;
     report.mirror_pairs += check.mirror_compared ? 1 : 0;
     report.largest_unbalance = std::max(report.largest_unbalance, check.unbalance);
     report.problems.insert(report.problems.end(), check.problems.begin(), check.problems.end());
@@ -62,48 +64,59 @@ void check_scenes(const CheckedVariant& checked, const SceneTable& table, int th
 
 /// What searches look at first follows from the control displacements.
 void check_search(const Database& database, VerifyReport& report) {
-  const SceneTable& table = database.table();
-  for (const DatasetValue& value : search_datasets(table.vertical, table.points))
-    if (!std::ranges::equal(value.bytes, database.dataset_bytes(value.path.c_str())))
-      report.problems.push_back(
-          fmt::format("dataset '{}': is not what the control displacements give", value.path));
+  for (std::size_t state = 0; state < database.states().size(); ++state) {
+    const std::string& name = database.states()[state];
+    const SceneTable table = database.table(kNominalVariant, state);
+    if (!is_history(name)) continue;
+    for (const DatasetValue& value : search_datasets(name, table.vertical, table.points))
+      if (!std::ranges::equal(value.bytes, database.dataset_bytes(value.path.c_str())))
+        report.problems.push_back(
+            fmt::format("dataset '{}': is not what the control displacements give", value.path));
+  }
 }
 
 struct Recomputed {
   double difference = 0.0;
-  std::string problem;
+  std::vector<std::string> problems{};
 };
 
-Recomputed recompute_row(const Database& database, const Model& bridge, std::size_t row,
-                         const SceneSolver& solver) {
+Recomputed recompute_row(const RecomputedVariant& variant, std::size_t row, const SceneSolver& solver) {
+  const Database& database = variant.database;
   const RecordKey key = database.key(row);
-  const PlanRules rules = rules_in(database.provenance().solver_settings);
-  const Solution solution = recompute(key, database, bridge, rules, solver);
-  const Outcome stored = database.record(row).states.front().outcome;
-  const std::string name = to_string(key, bridge.layout);
-  if (solution.outcome != stored)
-    return {0.0, fmt::format("scene {}: solved anew it is {}, not {}", name, to_string(solution.outcome),
-                             to_string(stored))};
-  const double difference = largest_difference(solution, database, row, bridge.control_points);
-  if (stored == Outcome::standing && !(difference <= kSameDisplacement))
-    return {difference, fmt::format("scene {}: solved anew it differs by {:.1e} m", name, difference)};
-  return {difference, {}};
+  const std::vector<Solution> solutions = recompute(key, variant, solver);
+  const std::vector<std::size_t> kept = kept_states(variant.plan);
+  const Record record = database.record(row);
+  Recomputed result;
+  for (std::size_t state = 0; state < kept.size(); ++state) {
+    const Solution& anew = solutions[kept[state]];
+    const Outcome stored = record.states[state].outcome;
+    const std::string name = fmt::format("scene {}: solved anew {} ", to_string(key, variant.bridge.layout),
+                                         database.states()[state]);
+    const double difference = largest_difference(anew, database, row, state, variant.bridge.control_points);
+    if (anew.outcome != stored)
+      result.problems.push_back(
+          fmt::format("{}it is {}, not {}", name, to_string(anew.outcome), to_string(stored)));
+    else if (stored == Outcome::standing && !(difference <= kSameDisplacement))
+      result.problems.push_back(fmt::format("{}it differs by {:.1e} m", name, difference));
+    if (anew.outcome == stored) result.difference = std::max(result.difference, difference);
+  }
+  return result;
 }
 
 /// Solves those of the rows anew that are of the variant whose bridge this is.
-void check_recomputed(const VerifyRequest& request, const CheckedVariant& checked,
+void check_recomputed(const VerifyRequest& request, const RecomputedVariant& variant,
                       std::span<const std::size_t> rows, VerifyReport& report) {
-  const std::string settings = checked.database.provenance().solver_settings;
+  const std::string settings = variant.database.provenance().solver_settings;
   std::vector<Recomputed> results(rows.size());
   oneapi::tbb::enumerable_thread_specific<SceneSolver> solvers(
-      [&] { return stated_solver(checked.bridge, settings); });
+      [&] { return stated_solver(variant.bridge, settings); });
   Crew(request.threads).for_each_index(rows.size(), [&](std::size_t i) {
-    results[i] = recompute_row(checked.database, checked.bridge, rows[i], solvers.local());
+    results[i] = recompute_row(variant, rows[i], solvers.local());
   });
   report.recomputed += rows.size();
   for (const Recomputed& result : results) {
     report.largest_recomputed_difference = std::max(report.largest_recomputed_difference, result.difference);
-    if (!result.problem.empty()) report.problems.push_back(result.problem);
+    report.problems.insert(report.problems.end(), result.problems.begin(), result.problems.end());
   }
 }
 
@@ -114,18 +127,48 @@ std::span<const std::size_t> rows_in(const SceneTable& table, std::span<const st
   return {begin, end};
 }
 
+/// What the joints remember of the variant's intact bridge as built, which all that is lost begins with.
+std::vector<JointMemory> memory_of_intact(const RecomputedVariant& variant, std::int32_t number) {
+  if (!place_of_lost(variant.plan)) return {};
+  const Database& database = variant.database;
+  const auto row = database.has_fields() ? database.find(number, Scene{}) : std::nullopt;
+  // In the intact bridge nothing is lost: its first history's state is that as built.
+  const Solution intact =
+      row ? database.solution(*row, 0)
+          : recompute({number, Scene{}}, variant,
+                      stated_solver(variant.bridge, database.provenance().solver_settings))
+                .front();
+  return variant.equations.memory_of_intact(intact.outcome == Outcome::standing ? &intact.displacement
+                                                                                : nullptr);
+}
+
 void check_variant(const VerifyRequest& request, const Database& database, const Model& bridge,
-                   const SceneTable& table, std::span<const std::size_t> recomputed, VerifyReport& report) {
+                   std::int32_t number, const StatePlan& plan, VerifyReport& report) {
   const std::string settings = database.provenance().solver_settings;
-  const EquilibriumSystem system(bridge);
-  const Coefficients coefficients(system, bridge.parameters);
-  const double most_unbalance = most_stored_unbalance(system, coefficients, settings);
-  const CheckedVariant checked{database,     bridge,         system,
-                               coefficients, most_unbalance, rules_in(settings).mirror_images};
-  report.most_unbalance = std::max(report.most_unbalance, most_unbalance);
+  const SceneTable table = database.table(number, 0);
+  const StateSolving equations(bridge, plan);
+  const RecomputedVariant variant{database, bridge, plan, equations, rules_in(settings)};
+  const CheckedVariant checked{database,
+                               bridge,
+                               plan,
+                               equations,
+                               memory_of_intact(variant, number),
+                               most_stored_unbalance(bridge, settings),
+                               variant.rules.mirror_images};
+  report.most_unbalance = std::max(report.most_unbalance, checked.most_unbalance);
   check_scenes(checked, table, request.threads, report);
+  const auto recomputed = choose_rows(database.rows(), request.recompute, request.seed);
   const auto rows = rows_in(table, recomputed);
-  if (!rows.empty()) check_recomputed(request, checked, rows, report);
+  if (!rows.empty()) check_recomputed(request, variant, rows, report);
+}
+
+/// What the database's states are. Throws InputError naming the dataset if they are none that there can be.
+StatePlan plan_of(const Database& database, const Model& nominal) {
+  try {
+    return plan_states(database.states(), nominal, description_of(database));
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("dataset '{}': {}", dataset::kStates, error.what()));
+  }
 }
 
 void check_content(const VerifyRequest& request, VerifyReport& report) {
@@ -135,10 +178,9 @@ void check_content(const VerifyRequest& request, VerifyReport& report) {
   const Model nominal = bridge_of(database);
   check_geometry(database, nominal, report);
   check_search(database, report);
-  const auto recomputed = choose_rows(database.rows(), request.recompute, request.seed);
+  const StatePlan plan = plan_of(database, nominal);
   for (std::int32_t variant = 0; static_cast<std::size_t>(variant) < database.variant_count(); ++variant)
-    check_variant(request, database, bridge_of(database, nominal, variant), database.table(variant, 0),
-                  recomputed, report);
+    check_variant(request, database, bridge_of(database, nominal, variant), variant, plan, report);
 }
 
 }  // namespace

@@ -14,13 +14,14 @@ std::vector<Solution> CombinedSolver::solve(std::span<const StageTask> tasks) {
   return solutions;
 }
 
-/// Sets the scenes that are still open in motion: takes the collapses, polishes what rests.
+/// Sets the scenes that are still open in motion, which begins with nothing slipped: takes the collapses,
+/// polishes what rests.
 void CombinedSolver::follow(const DecisionRules& rules, std::span<const StageTask> tasks,
                             std::vector<Solution>& solutions) {
   std::vector<std::size_t> open;
   std::vector<Scene> moving;
   for (std::size_t i = 0; i < tasks.size(); ++i)
-    if (solutions[i].outcome == Outcome::unresolved) {
+    if (solutions[i].outcome == Outcome::unresolved && tasks[i].before == nullptr) {
       open.push_back(i);
       moving.push_back(tasks[i].stage.scene);
     }

@@ -24,7 +24,8 @@ class CombinedSolver {
   explicit CombinedSolver(const Model& model)
       : CombinedSolver(model, acting_settings(SolverSettings::of(SolverKind::quasi_static), model)) {}
 
-  /// Tasks of whole scenes under their weight, nothing before them.
+  /// Stages with nothing before them: whole scenes under their weight. Later stages are left to Newton: what
+  /// makes no progress is `unresolved`.
   std::vector<Solution> solve(std::span<const StageTask> tasks);
 
  private:

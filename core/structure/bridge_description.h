@@ -1,8 +1,10 @@
 #pragma once
-/// @file What a bridge file says: geometry, material, joints, supports, control points. SI units throughout.
+/// @file What a bridge file says: geometry, material, joints, supports, control points, loads. SI units
+/// throughout.
 
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -81,6 +83,40 @@ struct MeshDescription {
   bool split_at_corners = true;  ///< also put nodes where neighbours' corners touch an edge
 };
 
+/// A force at a place on top.
+struct PointLoad {
+  double x = 0.0;      ///< [m]
+  double force = 0.0;  ///< [N] downwards
+  friend bool operator==(const PointLoad&, const PointLoad&) = default;
+};
+
+/// A force spread evenly along the top.
+struct LineLoad {
+  double from_x = 0.0, to_x = 0.0;  ///< [m]
+  double force_per_length = 0.0;    ///< [N/m] downwards, per length along x
+  friend bool operator==(const LineLoad&, const LineLoad&) = default;
+};
+
+struct Axle {
+  double at =
+      0.0;  ///< [m] behind the vehicle's front, which points to the right: x = place of the front - at
+  double force = 0.0;  ///< [N] downwards
+  friend bool operator==(const Axle&, const Axle&) = default;
+};
+
+/// A load case: what stands on the bridge beside its weight.
+struct LoadDescription {
+  std::string name;  ///< letters, digits, - and _
+  std::vector<PointLoad> points;
+  std::vector<LineLoad> lines;
+  std::vector<Axle> axles;     ///< of one vehicle
+  std::vector<double> places;  ///< [m] x of the vehicle's front, one step of the load after the other
+  std::optional<double>
+      width;            ///< [m] out of plane over which forces spread; nothing: the bridge's thickness
+  bool unload = false;  ///< the load is taken away at the end
+  friend bool operator==(const LoadDescription&, const LoadDescription&) = default;
+};
+
 /// Everything that defines a bridge. The default value is the reference bridge.
 struct BridgeDescription {
   std::string name = "reference";
@@ -93,6 +129,7 @@ struct BridgeDescription {
   MeshDescription mesh;
   double gravity = 9.81;          ///< [m/s2] downwards
   double joint_tolerance = 1e-6;  ///< [m] edges closer than this form a joint
+  std::vector<LoadDescription> loads;
 };
 
 }  // namespace voussoir

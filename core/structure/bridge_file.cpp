@@ -1,16 +1,11 @@
 #include "core/structure/bridge_file.h"
 
-#include <toml++/toml.h>
 #include <cmath>
 #include <fstream>
-#include <initializer_list>
-#include <iterator>
-#include <limits>
 #include <numbers>
-#include <set>
 #include <utility>
 
-#include "core/error.h"
+#include "core/structure/loads_section.h"
 #include "reference_bridge_text.h"
 
 namespace voussoir {
@@ -19,128 +14,12 @@ namespace {
 constexpr std::uintmax_t kLargestFile = 1 << 20;  ///< [bytes] a bridge file is a page or two
 constexpr std::size_t kLongestLine = 4096;        ///< [bytes] bounds how deep dotted keys nest
 constexpr double kDegree = std::numbers::pi / 180.0;
-constexpr double kMost = 1e15;            ///< largest value of any setting
-constexpr double kSmallestLength = 1e-3;  ///< [m] of any part: joints are found within 1e-6 m
-constexpr double kLargestLength = 1e5;    ///< [m] of anything
 constexpr int kMostCourses = 1000;
 constexpr int kMostVoussoirs = 1000;
 constexpr double kMostBlocks = 20000;
 constexpr double kMostPieces = 300000;  ///< blocks, each counted four times a level of refinement
 
-/// Reads the keys of one table; remembers which were read, so that the others can be refused.
-class Section {
- public:
-  Section(const std::string& file, const toml::table* table, std::string title)
-      : file_(file), table_(table), title_(std::move(title)) {}
-
-  void number(const char* key, double& target, double least, double most, bool least_allowed) {
-    const toml::node* node = take(key);
-    if (node == nullptr) return;
-    const auto number = node->value<double>();
-    if (!number || !node->is_number()) fail(*node, key, "expected a number");
-    if (!std::isfinite(*number) || *number > most || *number < least || (*number == least && !least_allowed))
-      fail(*node, key,
-           fmt::format("is {}: expected a number {} {:g} and at most {:g}", *number,
-                       least_allowed ? "of at least" : "greater than", least, most));
-    target = *number;
-  }
-  void positive(const char* key, double& target) { number(key, target, 0.0, kMost, false); }
-  void length(const char* key, double& target) { number(key, target, kSmallestLength, kLargestLength, true); }
-  void not_negative(const char* key, double& target) { number(key, target, 0.0, kMost, true); }
-
-  void count(const char* key, int& target, int least, int most) {
-    const toml::node* node = take(key);
-    if (node == nullptr) return;
-    if (!node->is_integer()) fail(*node, key, "expected a whole number");
-    const std::int64_t number = node->as_integer()->get();
-    if (number < least || number > most)
-      fail(*node, key, fmt::format("is {}: expected a whole number from {} to {}", number, least, most));
-    target = static_cast<int>(number);
-  }
-
-  void flag(const char* key, bool& target) {
-    const toml::node* node = take(key);
-    if (node == nullptr) return;
-    if (!node->is_boolean()) fail(*node, key, "expected true or false");
-    target = node->as_boolean()->get();
-  }
-
-  void text(const char* key, std::string& target) {
-    const toml::node* node = take(key);
-    if (node == nullptr) return;
-    if (!node->is_string()) fail(*node, key, "expected a text in quotes");
-    target = node->as_string()->get();
-  }
-
-  template <typename Choice>
-  void choice(const char* key, Choice& target,
-              std::initializer_list<std::pair<const char*, Choice>> choices) {
-    const toml::node* node = take(key);
-    if (node == nullptr) return;
-    std::string names;
-    for (const auto& [name, value] : choices) {
-      if (node->is_string() && node->as_string()->get() == name) {
-        target = value;
-        return;
-      }
-      names += fmt::format("{}\"{}\"", names.empty() ? "" : ", ", name);
-    }
-    fail(*node, key, "expected one of " + names);
-  }
-
-  /// A sub-table, or nothing; not-a-table is an error.
-  const toml::table* table(const char* key) {
-    const toml::node* node = take(key);
-    if (node != nullptr && !node->is_table())
-      fail(*node, key, fmt::format("expected a table: write [{}]", key));
-    return node == nullptr ? nullptr : node->as_table();
-  }
-
-  /// The tables of an array of tables, or nothing.
-  const toml::array* tables(const char* key) {
-    const toml::node* node = take(key);
-    if (node == nullptr) return nullptr;
-    if (!node->is_array() ||
-        (!node->as_array()->empty() && !node->as_array()->is_homogeneous(toml::node_type::table)))
-      fail(*node, key, fmt::format("expected tables: write [[{}]]", key));
-    return node->as_array();
-  }
-
-  void refuse_unknown_keys() const {
-    if (table_ == nullptr) return;
-    for (const auto& [key, node] : *table_)
-      if (!known_.contains(std::string(key.str()))) {
-        std::string names;
-        for (const std::string& known : known_) names += (names.empty() ? "" : ", ") + known;
-        throw InputError(
-            at_line(file_, key.source().begin.line,
-                    fmt::format("unknown key '{}'{}: expected one of {}", key.str(), title_, names)));
-      }
-  }
-
-  long line_of(const char* key) const {
-    const toml::node* node = table_ == nullptr ? nullptr : table_->get(key);
-    if (node != nullptr) return node->source().begin.line;
-    return table_ == nullptr ? 0 : static_cast<long>(table_->source().begin.line);
-  }
-
- private:
-  const toml::node* take(const char* key) {
-    known_.insert(key);
-    return table_ == nullptr ? nullptr : table_->get(key);
-  }
-  [[noreturn]] void fail(const toml::node& node, const char* key, const std::string& expected) const {
-    throw InputError(
-        at_line(file_, node.source().begin.line, fmt::format("{}{}: {}", key, title_, expected)));
-  }
-
-  const std::string& file_;
-  const toml::table* table_;
-  std::string title_;  ///< " in [wall]" for messages
-  std::set<std::string> known_;
-};
-
-void read_wall(Section section, WallDescription& wall) {
+void read_wall(TomlSection section, WallDescription& wall) {
   section.length("length_m", wall.length);
   section.count("courses", wall.courses, 0, kMostCourses);
   section.length("course_height_m", wall.course_height);
@@ -150,7 +29,7 @@ void read_wall(Section section, WallDescription& wall) {
   section.refuse_unknown_keys();
 }
 
-SpanDescription read_span(Section section) {
+SpanDescription read_span(TomlSection section) {
   SpanDescription span;
   section.number("centre_x_m", span.centre_x, -kLargestLength, kLargestLength, true);
   section.number("centre_y_m", span.centre_y, 0.0, kLargestLength, true);
@@ -161,7 +40,7 @@ SpanDescription read_span(Section section) {
   return span;
 }
 
-void read_material(Section section, Material& material) {
+void read_material(TomlSection section, Material& material) {
   section.positive("young_modulus_Pa", material.young_modulus);
   section.number("poisson_ratio", material.poisson_ratio, 0.0, 0.49, true);
   section.positive("density_kg_m3", material.density);
@@ -170,7 +49,7 @@ void read_material(Section section, Material& material) {
   section.refuse_unknown_keys();
 }
 
-void read_joints(Section section, BridgeDescription& description) {
+void read_joints(TomlSection section, BridgeDescription& description) {
   JointMaterial& joints = description.joints;
   section.positive("normal_stiffness_Pa_per_m", joints.normal_stiffness);
   section.positive("tangential_stiffness_Pa_per_m", joints.tangential_stiffness);
@@ -181,7 +60,7 @@ void read_joints(Section section, BridgeDescription& description) {
   section.refuse_unknown_keys();
 }
 
-void read_supports(Section section, SupportDescription& supports) {
+void read_supports(TomlSection section, SupportDescription& supports) {
   for (const auto& [key, target] : {std::pair{"base", &supports.base}, std::pair{"sides", &supports.sides}})
     section.choice(
         key, *target,
@@ -189,13 +68,13 @@ void read_supports(Section section, SupportDescription& supports) {
   section.refuse_unknown_keys();
 }
 
-void read_control_points(Section section, ControlPointDescription& points) {
+void read_control_points(TomlSection section, ControlPointDescription& points) {
   section.flag("top", points.top);
   section.flag("arch", points.arch);
   section.refuse_unknown_keys();
 }
 
-void read_mesh(Section section, MeshDescription& mesh) {
+void read_mesh(TomlSection section, MeshDescription& mesh) {
   section.count("refinement", mesh.refinement, 0, 5);
   section.flag("split_at_corners", mesh.split_at_corners);
   section.refuse_unknown_keys();
@@ -238,6 +117,14 @@ void check_geometry(const BridgeDescription& description, const std::vector<long
   }
 }
 
+/// From where to where there can be blocks.
+Stretch extent_along_x(const BridgeDescription& description) {
+  if (description.wall.courses > 0 || description.spans.empty()) return {0.0, description.wall.length};
+  const SpanDescription& first = description.spans.front();
+  const SpanDescription& last = description.spans.back();
+  return {first.centre_x - first.extrados_radius(), last.centre_x + last.extrados_radius()};
+}
+
 /// The parser keeps the depth of values within bounds, but not that of keys a.b.c.
 void check_lines(std::string_view text, const std::string& file) {
   long line = 1;
@@ -252,9 +139,9 @@ void check_lines(std::string_view text, const std::string& file) {
 
 BridgeDescription interpret(const toml::table& root, const std::string& file) {
   BridgeDescription description;
-  Section top(file, &root, "");
+  TomlSection top(file, &root, "");
   const auto section = [&](const char* key) {
-    return Section(file, top.table(key), fmt::format(" in [{}]", key));
+    return TomlSection(file, top.table(key), fmt::format(" in [{}]", key));
   };
   top.text("name", description.name);
   top.not_negative("gravity_m_s2", description.gravity);
@@ -266,17 +153,19 @@ BridgeDescription interpret(const toml::table& root, const std::string& file) {
   read_mesh(section("mesh"), description.mesh);
 
   std::vector<long> span_lines(description.spans.size(), 0);
-  if (const toml::array* spans = top.tables("spans")) {
+  if (const toml::array* spans = top.tables("spans", "[[spans]]")) {
     description.spans.clear();
     span_lines.clear();
     for (const toml::node& node : *spans) {
-      description.spans.push_back(read_span(Section(file, node.as_table(), " in [[spans]]")));
+      description.spans.push_back(read_span(TomlSection(file, node.as_table(), " in [[spans]]")));
       span_lines.push_back(static_cast<long>(node.source().begin.line));
     }
   }
+  const toml::array* loads = top.tables("loads", "[[loads]]");
   top.refuse_unknown_keys();
   check_size(description, file, top.line_of("wall"));
   check_geometry(description, span_lines, file);
+  if (loads != nullptr) description.loads = read_loads(*loads, file, extent_along_x(description));
   return description;
 }
 

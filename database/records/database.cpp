@@ -1,5 +1,6 @@
 #include "database/records/database.h"
 
+#include <algorithm>
 #include <mutex>
 
 #include "database/format/hdf5_file.h"
@@ -64,7 +65,7 @@ struct Database::Implementation {
   StoredTable rows{file, count_blocks(file), points.size(), states.size(), read_variant_count(file)};
   SceneTable table = rows.part(kNominalVariant, 0);
 
-  OnFirstUse<SearchIndex> search_index{};
+  std::vector<OnFirstUse<SearchIndex>> search_indices = std::vector<OnFirstUse<SearchIndex>>(states.size());
   OnFirstUse<BlockLayout> layout{};
   OnFirstUse<Mesh> mesh{};
   OnFirstUse<std::vector<Joint>> joints{};
@@ -121,6 +122,11 @@ const std::vector<std::string>& Database::states() const {
 const std::vector<ModelError>& Database::model_errors() const {
   return implementation_->model_errors;
 }
+std::optional<std::size_t> Database::find_state(std::string_view name) const {
+  const auto found = std::ranges::find(states(), name);
+  return found == states().end() ? std::nullopt
+                                 : std::optional(static_cast<std::size_t>(found - states().begin()));
+}
 std::size_t Database::variant_count() const {
   return implementation_->rows.variants();
 }
@@ -145,9 +151,11 @@ const std::vector<VariantParameters>& Database::variants() const {
       [&] { return read_parameters(implementation_->file, layout().size(), joint_count); });
 }
 
-const SearchIndex& Database::search_index() const {
-  return implementation_->search_index.get(
-      [&] { return read_search_index(implementation_->file, table().rows, table().points); });
+const SearchIndex& Database::search_index(std::size_t state) const {
+  implementation_->check_state(state);
+  return implementation_->search_indices[state].get([&] {
+    return read_search_index(implementation_->file, states()[state], table().rows, table().points);
+  });
 }
 
 const BlockLayout& Database::layout() const {

@@ -44,15 +44,18 @@ class Database {
   const std::string& digest() const;  ///< SHA-256 of the content, hexadecimal
   const std::string& bridge_name() const;
   const std::vector<StoredPoint>& control_points() const;
-  const std::vector<std::string>& states() const;          ///< names, at least one
-  const std::vector<ModelError>& model_errors() const;     ///< one for each state
-  const std::vector<VariantParameters>& variants() const;  ///< read on first use
-  std::size_t variant_count() const;                       ///< at least one
+  const std::vector<std::string>& states() const;                      ///< names, at least one
+  const std::vector<ModelError>& model_errors() const;                 ///< one for each state
+  const std::vector<VariantParameters>& variants() const;              ///< read on first use
+  std::optional<std::size_t> find_state(std::string_view name) const;  ///< its number, or nothing
+  std::size_t variant_count() const;                                   ///< at least one
 
   const SceneTable& table() const;  ///< of the nominal variant in the first state
   /// Throws InputError for a variant or state that does not exist.
   SceneTable table(std::int32_t variant, std::size_t state) const;
-  const SearchIndex& search_index() const;  ///< of table(); read on first use
+  /// Of the nominal variant in a history's own state, or in the first; read on first use. Throws InputError
+  /// for other states, which have none.
+  const SearchIndex& search_index(std::size_t state = 0) const;
 
   const BlockLayout& layout() const;         ///< read on first use
   const Mesh& mesh() const;                  ///< read on first use

@@ -28,9 +28,6 @@ struct Record {
   Sha256 checksum{};                  ///< scene_checksum of all of the above
 };
 
-/// The one state that is solved for: gravity on the bridge that was built without the blocks.
-inline constexpr char kBuiltState[] = "built";
-
 enum class KeepField { no, yes };
 
 /// The record of a solved scene, a solution for each state. Precondition: the fields have been rounded by

@@ -173,8 +173,9 @@ std::vector<DatasetValue> shared_datasets(const Provenance& provenance, const Mo
   append_mesh(bridge.mesh, datasets);
   append_joints(bridge.joints, datasets);
   append_points(bridge.control_points, datasets);
-  datasets.push_back(
-      name_dataset(dataset::kStates, states, kStateNameWidth, "the states of every record, in their order"));
+  datasets.push_back(name_dataset(dataset::kStates, states, kStateNameWidth,
+                                  "the states of every record, in their order: a history, or a history, a "
+                                  "colon and a stage of a load case"));
   std::ranges::move(model_error_datasets(model_errors, states.size(), bridge.control_points.size()),
                     std::back_inserter(datasets));
   std::ranges::move(parameter_datasets(variants), std::back_inserter(datasets));

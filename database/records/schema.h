@@ -17,7 +17,7 @@ inline constexpr char kFormatName[] = "voussoir database";
 inline constexpr int kSchemaVersion = 5;
 inline constexpr std::size_t kBlockLabelWidth = 32;  ///< bytes, padded with zeros
 inline constexpr std::size_t kPointNameWidth = 8;    ///< bytes, padded with zeros
-inline constexpr std::size_t kStateNameWidth = 16;   ///< bytes, padded with zeros
+inline constexpr std::size_t kStateNameWidth = 32;   ///< bytes, padded with zeros
 
 /// Paths of datasets.
 namespace dataset {

@@ -78,12 +78,23 @@ class Columns {
   Hdf5Handle field_dataset_;
 };
 
-/// The control displacements that searches look at: of the nominal variant, whose rows come first, in the
-/// first state, which comes first.
-std::span<const double> searched_rows(const DatabaseContent& content, ByteView vertical) {
+/// The control displacements that searches look at in a state: of the nominal variant, whose rows come first.
+std::span<const double> searched_rows(const DatabaseContent& content, std::size_t state, ByteView vertical) {
+  const std::size_t points = content.bridge.control_points.size();
   const auto rows = std::ranges::count(content.keys, kNominalVariant, &RecordKey::variant);
-  return {reinterpret_cast<const double*>(vertical.data()),
-          static_cast<std::size_t>(rows) * content.bridge.control_points.size()};
+  const std::span all(reinterpret_cast<const double*>(vertical.data()), vertical.size() / sizeof(double));
+  return all.subspan(state * content.keys.size() * points, static_cast<std::size_t>(rows) * points);
+}
+
+/// An index for each history.
+void write_search_indices(const DatabaseContent& content, ByteView vertical, Hdf5Output& output) {
+  for (std::size_t state = 0; state < content.states.size(); ++state) {
+    if (!is_history(content.states[state])) continue;
+    const auto rows = searched_rows(content, state, vertical);
+    for (const DatasetValue& dataset :
+         search_datasets(content.states[state], rows, content.bridge.control_points.size()))
+      output.add_dataset(dataset);
+  }
 }
 
 void write_attributes(const Provenance& provenance, const std::string& digest, Hdf5Output& output) {
@@ -116,9 +127,7 @@ std::string write_content(const std::filesystem::path& path, const DatabaseConte
   Columns columns(content, output);
   for (std::size_t row = 0; row < content.keys.size(); ++row) columns.put(row, record_of_row(row));
   columns.write();
-  const auto searched = searched_rows(content, columns.bytes(dataset::kVertical));
-  for (const DatasetValue& dataset : search_datasets(searched, content.bridge.control_points.size()))
-    output.add_dataset(dataset);
+  write_search_indices(content, columns.bytes(dataset::kVertical), output);
   std::string digest = digest_of(shared, columns.bytes(dataset::kChecksum));
   write_attributes(content.provenance, digest, output);
   output.close();

@@ -8,6 +8,7 @@
 #include "database/records/model_error.h"
 #include "database/records/provenance.h"
 #include "database/records/record.h"
+#include "database/records/state_name.h"
 #include "database/records/variant_parameters.h"
 
 namespace voussoir {

@@ -1,7 +1,7 @@
 #pragma once
-/// @file The search index: rows of control displacements in clusters of rows that are alike, each cluster as
-/// a box and each row as a few bytes. It follows from control/vertical_displacement and says nothing new;
-/// searches look at it first and read only the rows that it cannot rule out.
+/// @file The search index of a state: rows of control displacements in clusters of rows that are alike, each
+/// cluster as a box and each row as a few bytes. It follows from control/vertical_displacement and says
+/// nothing new; searches look at it first and read only the rows that it cannot rule out.
 
 #include <cstddef>
 #include <cstdint>

@@ -54,56 +54,71 @@ bool is_small(const SlotBounds& bounds) {
 
 }  // namespace
 
-std::vector<DatasetValue> search_datasets(std::span<const double> rows, std::size_t points) {
-  const SearchIndexData index = build_search_index(rows, points);
-  const std::uint64_t places = index.places;
-  return {
-      dataset_of(dataset::kIndexExponent, ElementType::int32, index.exponent, kFlat, "1",
-                 "of each cluster: its unit is 2^exponent metres"),
-      dataset_of(dataset::kIndexCoarseness, ElementType::int32, index.coarseness, kFlat, "1",
-                 "of each cluster: its rows' distances count 2^coarseness units"),
-      dataset_of(dataset::kIndexFirst, ElementType::int32, index.first, kFlat, "1",
-                 "the first slot of each cluster, and one past the last slot"),
-      dataset_of(dataset::kIndexCentre, ElementType::int16, index.centre, places, "1",
-                 "the middle of each cluster's rows [units]; places beyond the points are filled up"),
-      dataset_of(dataset::kIndexLeast, ElementType::int16, index.least, places, "1",
-                 "the least displacements of each cluster's rows, rounded down [units]"),
-      dataset_of(dataset::kIndexMost, ElementType::int16, index.most, places, "1",
-                 "the largest displacements of each cluster's rows, rounded up [units]"),
-      dataset_of(dataset::kIndexRow, ElementType::int32, index.row, kFlat, "1", "the scene of each slot"),
-      dataset_of(
-          dataset::kIndexBounds, ElementType::int32, as_numbers(index.bounds), 2, "1",
-          "of each slot: distance from the centre (lower 16 bits) and step (upper 16 bits); what sketching "
-          "lost less step times the sum of the sketch"),
-      dataset_of(dataset::kIndexSketch, ElementType::int8, index.sketch, places, "1",
-                 "of each slot: the steps from the centre"),
-  };
+std::string index_path(const std::string& state, const char* name) {
+  return "search_" + state + "/" + name;
 }
 
-SearchIndex read_search_index(const Hdf5File& file, std::size_t rows, std::size_t points) {
+std::vector<DatasetValue> search_datasets(const std::string& state, std::span<const double> rows,
+                                          std::size_t points) {
+  const SearchIndexData index = build_search_index(rows, points);
+  const std::uint64_t places = index.places;
+  std::vector<DatasetValue> datasets = {
+      dataset_of(index_dataset::kExponent, ElementType::int32, index.exponent, kFlat, "1",
+                 "of each cluster: its unit is 2^exponent metres"),
+      dataset_of(index_dataset::kCoarseness, ElementType::int32, index.coarseness, kFlat, "1",
+                 "of each cluster: its rows' distances count 2^coarseness units"),
+      dataset_of(index_dataset::kFirst, ElementType::int32, index.first, kFlat, "1",
+                 "the first slot of each cluster, and one past the last slot"),
+      dataset_of(index_dataset::kCentre, ElementType::int16, index.centre, places, "1",
+                 "the middle of each cluster's rows [units]; places beyond the points are filled up"),
+      dataset_of(index_dataset::kLeast, ElementType::int16, index.least, places, "1",
+                 "the least displacements of each cluster's rows, rounded down [units]"),
+      dataset_of(index_dataset::kMost, ElementType::int16, index.most, places, "1",
+                 "the largest displacements of each cluster's rows, rounded up [units]"),
+      dataset_of(index_dataset::kRow, ElementType::int32, index.row, kFlat, "1", "the scene of each slot"),
+      dataset_of(
+          index_dataset::kBounds, ElementType::int32, as_numbers(index.bounds), 2, "1",
+          "of each slot: distance from the centre (lower 16 bits) and step (upper 16 bits); what sketching "
+          "lost less step times the sum of the sketch"),
+      dataset_of(index_dataset::kSketch, ElementType::int8, index.sketch, places, "1",
+                 "of each slot: the steps from the centre"),
+  };
+  for (DatasetValue& each : datasets) each.path = index_path(state, each.path.c_str());
+  return datasets;
+}
+
+SearchIndex read_search_index(const Hdf5File& file, const std::string& state, std::size_t rows,
+                              std::size_t points) {
+  const auto path = [&](const char* name) { return index_path(state, name); };
   SearchIndex index;
   index.places = places_for(points);
-  index.exponent = file.numbers<std::int32_t>(dataset::kIndexExponent, ElementType::int32, kFlat);
-  index.coarseness = file.numbers<std::int32_t>(dataset::kIndexCoarseness, ElementType::int32, kFlat);
-  index.first = file.numbers<std::int32_t>(dataset::kIndexFirst, ElementType::int32, kFlat);
-  index.centre = file.numbers<std::int16_t>(dataset::kIndexCentre, ElementType::int16, index.places);
-  index.least = file.numbers<std::int16_t>(dataset::kIndexLeast, ElementType::int16, index.places);
-  index.most = file.numbers<std::int16_t>(dataset::kIndexMost, ElementType::int16, index.places);
-  index.row = file.numbers<std::int32_t>(dataset::kIndexRow, ElementType::int32, kFlat);
-  const auto bounds = file.numbers<std::int32_t>(dataset::kIndexBounds, ElementType::int32, 2);
+  index.exponent =
+      file.numbers<std::int32_t>(path(index_dataset::kExponent).c_str(), ElementType::int32, kFlat);
+  index.coarseness =
+      file.numbers<std::int32_t>(path(index_dataset::kCoarseness).c_str(), ElementType::int32, kFlat);
+  index.first = file.numbers<std::int32_t>(path(index_dataset::kFirst).c_str(), ElementType::int32, kFlat);
+  index.centre =
+      file.numbers<std::int16_t>(path(index_dataset::kCentre).c_str(), ElementType::int16, index.places);
+  index.least =
+      file.numbers<std::int16_t>(path(index_dataset::kLeast).c_str(), ElementType::int16, index.places);
+  index.most =
+      file.numbers<std::int16_t>(path(index_dataset::kMost).c_str(), ElementType::int16, index.places);
+  index.row = file.numbers<std::int32_t>(path(index_dataset::kRow).c_str(), ElementType::int32, kFlat);
+  const auto bounds = file.numbers<std::int32_t>(path(index_dataset::kBounds).c_str(), ElementType::int32, 2);
   index.bounds = {reinterpret_cast<const SlotBounds*>(bounds.data()), bounds.size() / 2};
-  index.sketch = file.numbers<std::int8_t>(dataset::kIndexSketch, ElementType::int8, index.places);
+  index.sketch =
+      file.numbers<std::int8_t>(path(index_dataset::kSketch).c_str(), ElementType::int8, index.places);
   const std::size_t in_boxes = index.clusters() * index.places;
   file.require(index.row.size() == rows && index.bounds.size() == rows &&
                    index.sketch.size() == rows * index.places &&
                    index.coarseness.size() == index.clusters() && index.centre.size() == in_boxes &&
                    index.least.size() == in_boxes && index.most.size() == in_boxes && in_order(index) &&
                    each_once(index.row),
-               "the datasets of search/ do not fit together");
+               "the datasets of " + path("") + " do not fit together");
   file.require(within(index.exponent, -kLargestExponent, kLargestExponent) &&
                    within(index.coarseness, 0, kMostCoarse) && within(index.centre) && within(index.least) &&
                    within(index.most) && std::all_of(index.bounds.begin(), index.bounds.end(), is_small),
-               "the datasets of search/ hold numbers out of range");
+               "the datasets of " + path("") + " hold numbers out of range");
   return index;
 }
 

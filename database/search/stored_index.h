@@ -1,31 +1,36 @@
 #pragma once
-/// @file The search index as datasets of search/.
+/// @file The search index as datasets, one index for each history's own state.
 
 #include "database/format/hdf5_file.h"
 #include "database/search/search_index.h"
 
 namespace voussoir {
 
-/// Paths of the index's datasets.
-namespace dataset {
-inline constexpr char kIndexExponent[] = "search/exponent";
-inline constexpr char kIndexCoarseness[] = "search/coarseness";
-inline constexpr char kIndexFirst[] = "search/first";
-inline constexpr char kIndexCentre[] = "search/centre";
-inline constexpr char kIndexLeast[] = "search/least";
-inline constexpr char kIndexMost[] = "search/most";
-inline constexpr char kIndexRow[] = "search/row";
-inline constexpr char kIndexBounds[] = "search/bounds";
-inline constexpr char kIndexSketch[] = "search/sketch";
-}  // namespace dataset
+/// Names of the index's datasets in its group.
+namespace index_dataset {
+inline constexpr char kExponent[] = "exponent";
+inline constexpr char kCoarseness[] = "coarseness";
+inline constexpr char kFirst[] = "first";
+inline constexpr char kCentre[] = "centre";
+inline constexpr char kLeast[] = "least";
+inline constexpr char kMost[] = "most";
+inline constexpr char kRow[] = "row";
+inline constexpr char kBounds[] = "bounds";
+inline constexpr char kSketch[] = "sketch";
+}  // namespace index_dataset
 
-/// What is stored for rows of `points` displacements [m] (not empty): the same rows always give the same
-/// bytes.
-std::vector<DatasetValue> search_datasets(std::span<const double> rows, std::size_t points);
+/// The path of a dataset of a state's index: "search_built/row".
+std::string index_path(const std::string& state, const char* name);
 
-/// The index of so many rows and points, in place in the file. Throws InputError unless every row is in it
-/// once and all numbers are such that no sum of them overflows. Whether they are the right ones is for
-/// verify-database.
-SearchIndex read_search_index(const Hdf5File& file, std::size_t rows, std::size_t points);
+/// What is stored of a state for rows of `points` displacements [m] (not empty): the same rows always give
+/// the same bytes.
+std::vector<DatasetValue> search_datasets(const std::string& state, std::span<const double> rows,
+                                          std::size_t points);
+
+/// The index of a state with so many rows and points, in place in the file. Throws InputError unless every
+/// row is in it once and all numbers are such that no sum of them overflows. Whether they are the right ones
+/// is for verify-database.
+SearchIndex read_search_index(const Hdf5File& file, const std::string& state, std::size_t rows,
+                              std::size_t points);
 
 }  // namespace voussoir

@@ -27,8 +27,8 @@ VOUSSOIR_INLINE Tail<T> gaussian_tail(const T& x) {
   const T z = x * (1.0 / std::numbers::sqrt2);
   const T t = 1.0 / (1.0 + 0.5 * z);
   T series = T{} + 0.17087277;
-  for (const double c : {-0.82215223, 1.48851587, -1.13520398, 0.27886807, -0.18628806, 0.09678418, 0.37409196,
-                         1.00002368, -1.26551223})
+  for (const double c : {-0.82215223, 1.48851587, -1.13520398, 0.27886807, -0.18628806, 0.09678418,
+                         0.37409196, 1.00002368, -1.26551223})
     series = series * t + c;
   return {series - z * z, 0.5 * t};
 }
@@ -39,8 +39,8 @@ VOUSSOIR_INLINE DoubleLanes exponential(DoubleLanes x) {
 }
 
 /// The density where the bound is narrow against the deviation, and the difference of tails would be lost in
-/// round-off: the Gaussian's times sinh(q) / q with q = e b / s^2, less what the Gaussian falls off across the
-/// bound, b^2 / (6 s^2).
+/// round-off: the Gaussian's times sinh(q) / q with q = e b / s^2, less what the Gaussian falls off across
+/// the bound, b^2 / (6 s^2).
 VOUSSOIR_INLINE Tail<DoubleLanes> narrow_density(const DoubleLanes& size, const DoubleLanes& half_width,
                                                  const DoubleLanes& deviation) {
   const DoubleLanes share = half_width / deviation, z = size / deviation;
@@ -89,8 +89,8 @@ VOUSSOIR_INLINE double log_likelihood_of_row(const View& view, double common, co
     if (!any(has_reading)) continue;
     const DoubleLanes half_width =
         noise_scale(at(view.slope, 0.0), at(view.offset, 1.0), magnitude(predicted - at(view.origin, 0.0)));
-    const DoubleLanes variance = model_variance<DoubleLanes>(at(view.own_variance, 0.0) + common,
-                                                             view.share_square, predicted - at(view.intact, 0.0));
+    const DoubleLanes variance = model_variance<DoubleLanes>(
+        at(view.own_variance, 0.0) + common, view.share_square, predicted - at(view.intact, 0.0));
     DoubleLanes deviation = variance;
     deviation = larger(square_root(deviation), DoubleLanes{} + kSmallestDeviation);
     const DoubleLanes size = magnitude(reading - predicted);
@@ -127,8 +127,8 @@ double integral_of_tail(double x) {
 }  // namespace
 
 double log_bounded_density(double error, double half_width, double deviation) {
-  const Tail<DoubleLanes> density = bounded_density(
-      DoubleLanes{} + std::abs(error), DoubleLanes{} + half_width, DoubleLanes{} + deviation);
+  const Tail<DoubleLanes> density =
+      bounded_density(DoubleLanes{} + std::abs(error), DoubleLanes{} + half_width, DoubleLanes{} + deviation);
   return density.exponent[0] + std::log(density.factor[0]);
 }
 
@@ -146,9 +146,14 @@ std::vector<double> log_bounded_likelihoods(const Observation& observation, cons
   const std::vector<double> common =
       common_variances(observation.intact, observation.error_common, table, rows);
   std::vector<double> results(rows.size());
-  const View view{observation.reading.data(), scales.slope.data(), scales.offset.data(), observation.intact.data(),
-                  observation.origin.data(), observation.own_variance.data(),
-                  observation.error_share * observation.error_share, table.points};
+  const View view{observation.reading.data(),
+                  scales.slope.data(),
+                  scales.offset.data(),
+                  observation.intact.data(),
+                  observation.origin.data(),
+                  observation.own_variance.data(),
+                  observation.error_share * observation.error_share,
+                  table.points};
   collect(view, table.vertical.data(), rows.data(), common.data(), rows.size(), results.data());
   return results;
 }

@@ -21,8 +21,8 @@ constexpr double kLeastSum = 1e-30;
 /// The least sums of RowStatistics that a scene in the box can have, and the least of its scales.
 struct BoxStatistics {
   double sum_absolute, sum_square, largest, sum_log_scale, sum_log_student;
-  double sum_square_beyond;      ///< of what lies beyond the instruments' bounds, over the model's deviation
-  double sum_log_instrument;     ///< of the instruments' scales
+  double sum_square_beyond;   ///< of what lies beyond the instruments' bounds, over the model's deviation
+  double sum_log_instrument;  ///< of the instruments' scales
 };
 
 /// An Observation's arrays, filled up to the places of the index.
@@ -97,7 +97,8 @@ VOUSSOIR_INLINE BoxStatistics statistics_of(const View& view, const Box& box) {
     const DoubleLanes least_instrument = noise_scale(slope, offset, movement.least);
     const DoubleLanes most_instrument = noise_scale(slope, offset, movement.most);
     const DoubleLanes least_variance = model_variance(own, view.share_square, signal.least);
-    const DoubleLanes most_variance = model_variance<DoubleLanes>(own + common, view.share_square, signal.most);
+    const DoubleLanes most_variance =
+        model_variance<DoubleLanes>(own + common, view.share_square, signal.most);
     const DoubleLanes z =
         has_reading ? error / square_root(most_instrument * most_instrument + most_variance) : zero;
     const DoubleLanes beyond = larger(error - most_instrument, zero);
@@ -129,13 +130,15 @@ VOUSSOIR_INLINE BoxStatistics statistics_of(const View& view, const Box& box) {
 VOUSSOIR_FOR_EVERY_PROCESSOR
 void collect(const View& view, const SearchIndex& index, BoxStatistics* results) {
   for (std::size_t cluster = 0; cluster < index.clusters(); ++cluster)
-    results[cluster] = statistics_of(view, {index.least.data() + cluster * index.places,
-                                            index.most.data() + cluster * index.places,
-                                            std::ldexp(1.0, index.exponent[cluster])});
+    results[cluster] = statistics_of(
+        view, {index.least.data() + cluster * index.places, index.most.data() + cluster * index.places,
+               std::ldexp(1.0, index.exponent[cluster])});
 }
 
 double sum_for(NoiseShape shape, const BoxStatistics& box) {
-  return shape == NoiseShape::uniform ? box.largest : shape == NoiseShape::laplace ? box.sum_absolute : box.sum_square;
+  return shape == NoiseShape::uniform   ? box.largest
+         : shape == NoiseShape::laplace ? box.sum_absolute
+                                        : box.sum_square;
 }
 
 /// The largest that one shape's evidence can be, for the level that the statistics were taken at.
@@ -176,10 +179,11 @@ std::vector<double> cluster_bounds(const Observation& observation, const SearchI
       BoxStatistics box = boxes[i];
       box.sum_log_scale += shift;
       box.sum_log_instrument += shift;
-      const double bound =
-          observation.unknown_level
-              ? integral.constant - integral.order * std::log(std::max(sum_for(shape, box), kLeastSum)) - box.sum_log_scale
-              : bound_at_level(shape, box, count, observation.noise.degrees_of_freedom);
+      const double bound = observation.unknown_level
+                               ? integral.constant -
+                                     integral.order * std::log(std::max(sum_for(shape, box), kLeastSum)) -
+                                     box.sum_log_scale
+                               : bound_at_level(shape, box, count, observation.noise.degrees_of_freedom);
       result[i] = std::max(result[i], bound + kRoundOff * (1.0 + std::abs(bound)));
     }
   }

@@ -1,5 +1,6 @@
 #pragma once
-/// @file From above, the evidence of the scenes of a cluster of the search index, from the cluster's box alone.
+/// @file From above, the evidence of the scenes of a cluster of the search index, from the cluster's box
+/// alone.
 
 #include <vector>
 

@@ -16,13 +16,14 @@ namespace {
 constexpr double kImpossible = -std::numeric_limits<double>::infinity();
 constexpr double kNegligible = 25.0;  // parts of an integrand below exp(-this) of its peak are left out
 constexpr int kLevelsPerOctave = 4;   // of the search for the likeliest level
-constexpr double kStep = 1.1;    // of the grid, in deviations of a peak of 1 / sqrt(2 count): the trapezoidal rule
-                                 // then integrates a bell to 1e-7
-constexpr double kPanel = 3.0;     // widest panel of Gauss's rule, in the same deviations, and narrowest, in 1 / count
+constexpr double kStep = 1.1;  // of the grid, in deviations of a peak of 1 / sqrt(2 count): the trapezoidal
+                               // rule then integrates a bell to 1e-7
+constexpr double kPanel =
+    3.0;  // widest panel of Gauss's rule, in the same deviations, and narrowest, in 1 / count
 constexpr double kFarFromBest = 30.0;  // rows less likely than the best by exp(this) need not be exact
-constexpr double kWidening = 1.4;  // of the steps below the peaks, where likelihoods level out
-constexpr double kFarInside = 4.0;   // deviations of the model inside of which a bound is hardly felt: 3e-5
-constexpr double kFarBeyond = 7.0;   // .. and beyond which a reading is all but excluded
+constexpr double kWidening = 1.4;      // of the steps below the peaks, where likelihoods level out
+constexpr double kFarInside = 4.0;     // deviations of the model inside of which a bound is hardly felt: 3e-5
+constexpr double kFarBeyond = 7.0;     // .. and beyond which a reading is all but excluded
 
 const double kFirst = std::log(kSmallestLevel);
 const double kLast = std::log(kLargestLevel);

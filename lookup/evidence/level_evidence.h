@@ -8,8 +8,8 @@
 
 namespace voussoir {
 
-/// The level at which the readings are likeliest for the likeliest of these rows, on a grid of kLevelsPerOctave.
-/// A few rows only: every level is tried with each of them.
+/// The level at which the readings are likeliest for the likeliest of these rows, on a grid of
+/// kLevelsPerOctave. A few rows only: every level is tried with each of them.
 double likeliest_level(const Observation& observation, NoiseShape shape, const SceneTable& table,
                        std::span<const std::size_t> rows);
 

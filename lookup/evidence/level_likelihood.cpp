@@ -70,7 +70,8 @@ std::vector<double> of_possible_rows(const TableStatistics& statistics, Value va
 std::vector<double> log_likelihoods_at(const Observation& observation, NoiseShape shape, double level,
                                        const SceneTable& table, std::span<const std::size_t> rows) {
   if (shape == NoiseShape::uniform && observation.has_model_error()) {
-    std::vector<double> logs = log_bounded_likelihoods(observation, scales_at(observation, level), table, rows);
+    std::vector<double> logs =
+        log_bounded_likelihoods(observation, scales_at(observation, level), table, rows);
     for (double& log : logs)
       if (std::isnan(log)) log = kImpossible;
     return logs;

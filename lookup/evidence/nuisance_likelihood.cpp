@@ -62,10 +62,11 @@ class RowSolver {
     result.sum_absolute = difference_.abs().sum();
     if (std::isnan(result.sum_absolute)) return result;
     const double factor = unknown_scale_ > 0.0 ? fitted_factor(readings_.reading, prediction_) : 1.0;
-    instrument_ =
-        noise_scale<Eigen::ArrayXd>(readings_.slope * factor, readings_.offset, (prediction_ - readings_.origin).abs());
-    variance_ = instrument_.square() + model_variance<Eigen::ArrayXd>(readings_.own_variance + common, share_square_,
-                                                                      prediction_ - readings_.intact);
+    instrument_ = noise_scale<Eigen::ArrayXd>(readings_.slope * factor, readings_.offset,
+                                              (prediction_ - readings_.origin).abs());
+    variance_ =
+        instrument_.square() + model_variance<Eigen::ArrayXd>(readings_.own_variance + common, share_square_,
+                                                              prediction_ - readings_.intact);
     return with_columns(result);
   }
 
@@ -73,8 +74,7 @@ class RowSolver {
   RowStatistics with_columns(RowStatistics result) {
     inverse_root_ = variance_.rsqrt();
     columns_.leftCols(readings_.levelling.cols()) = inverse_root_.matrix().asDiagonal() * readings_.levelling;
-    if (unknown_scale_ > 0.0)
-      columns_.rightCols(1) = (unknown_scale_ * prediction_ * inverse_root_).matrix();
+    if (unknown_scale_ > 0.0) columns_.rightCols(1) = (unknown_scale_ * prediction_ * inverse_root_).matrix();
     difference_ *= inverse_root_;
     normal_.noalias() = columns_.transpose() * columns_;
     normal_.diagonal().array() += 1.0;

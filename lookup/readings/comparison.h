@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "database/records/state_name.h"
 #include "lookup/readings/library.h"
 #include "lookup/readings/measurements.h"
 

@@ -33,8 +33,7 @@ Eigen::MatrixXd levelling_columns(const Comparison& comparison, const Nuisance& 
     double mean_x = 0.0;
     for (const std::size_t i : places)
       mean_x += comparison.library.points[i].position.x() / static_cast<double>(places.size());
-    if (nuisance.datum > 0.0)
-      add_column(places, [&](const StoredPoint&) { return epochs * nuisance.datum; });
+    if (nuisance.datum > 0.0) add_column(places, [&](const StoredPoint&) { return epochs * nuisance.datum; });
     if (nuisance.tilt > 0.0)
       add_column(places, [&, mean = mean_x](const StoredPoint& point) {
         return epochs * nuisance.tilt * (point.position.x() - mean);

@@ -87,10 +87,12 @@ std::vector<Stretch> scene_stretches(const Database& database, const std::string
     const Bytes chunk = database.record(row).states.at(0).packed_field;
     stretches.push_back({scene(row) + ":", dataset::kField, place_of(bytes, chunk), chunk.size()});
   }
-  for (const char* path : {dataset::kIndexCentre, dataset::kIndexLeast, dataset::kIndexMost,
-                           dataset::kIndexRow, dataset::kIndexBounds, dataset::kIndexSketch})
-    stretches.push_back(
-        {"no scene", path, place_of(bytes, database, path), database.dataset_bytes(path).size()});
+  for (const char* name : {index_dataset::kCentre, index_dataset::kLeast, index_dataset::kMost,
+                           index_dataset::kRow, index_dataset::kBounds, index_dataset::kSketch}) {
+    const std::string path = index_path(kBuiltState, name);
+    stretches.push_back({"no scene", path, place_of(bytes, database, path.c_str()),
+                         database.dataset_bytes(path.c_str()).size()});
+  }
   return stretches;
 }
 

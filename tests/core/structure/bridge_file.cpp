@@ -109,7 +109,7 @@ TEST_CASE("Every key of a bridge file sets its own value, in the unit of its nam
 }
 
 TEST_CASE("Every example bridge makes a symmetric bridge with control points", "[bridge-file]") {
-  for (const char* name : {"reference", "small", "two-span"}) {
+  for (const char* name : {"reference", "small", "two-span", "load-test"}) {
     const Model bridge = make_model(read_bridge_file(test::example_bridge(name)).description);
     INFO(name);
     CHECK(bridge.symmetry.has_value());

@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "core/structure/bridge_file.h"
+#include "core/structure/loads.h"
 #include "core/structure/model.h"
 #include "tests/support/fuzzing.h"
 
@@ -70,7 +71,11 @@ const std::vector<std::string> kNasty = {"nan",
                                          "smallest_piece_m2 = 1e15\n",
                                          "tolerance_m = 0.1\n",
                                          "centre_y_m = 0\n",
-                                         "bond = \"stack\"\n"};
+                                         "bond = \"stack\"\n",
+                                         "[[loads]]\n",
+                                         "steps = 999\n",
+                                         "place_m = ",
+                                         "points = [{x_m = 1, force_N = 1}]\n"};
 
 bool is_sound(const Model& bridge) {
   for (const Block& block : bridge.layout.blocks)
@@ -83,7 +88,11 @@ test::Verdict read(const std::string& text) {
     const BridgeDescription description = parse_bridge_file(text, "fuzz.toml").description;
     if (lay_blocks(description).size() > kMostBlocksMeshed || description.mesh.refinement > 1)
       return test::Verdict::set_aside;
-    if (!is_sound(make_model(description))) FAIL("accepted an unsound bridge: " << text);
+    const Model bridge = make_model(description);
+    if (!is_sound(bridge)) FAIL("accepted an unsound bridge: " << text);
+    for (const LoadDescription& load : description.loads)
+      for (const LoadStage& stage : load_stages(load, bridge, description.material.thickness))
+        if (!stage.force.allFinite()) FAIL("accepted an unsound load: " << text);
     return test::Verdict::accepted;
   } catch (const InputError& error) {
     if (std::string(error.what()).empty()) FAIL("refused without a word: " << text);

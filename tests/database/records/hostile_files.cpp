@@ -90,11 +90,12 @@ TEST_CASE("Datasets of another type, rank or size are refused and named") {
 
 TEST_CASE("A search index that names a scene twice or has numbers out of range is refused") {
   const std::string good = small_file();
-  const auto refusal = [&](const char* path, int number) {
+  const auto refusal = [&](const char* name, int number) {
+    const std::string path = index_path(kBuiltState, name);
     Forgery forged(good);
     {
       const auto lock = lock_hdf5();
-      const Hdf5Handle dataset(H5Dopen2(forged.file(), path, H5P_DEFAULT), H5Dclose);
+      const Hdf5Handle dataset(H5Dopen2(forged.file(), path.c_str(), H5P_DEFAULT), H5Dclose);
       const Hdf5Handle space(H5Dget_space(dataset.get()), H5Sclose);
       const std::vector<int> numbers(static_cast<std::size_t>(H5Sget_simple_extent_npoints(space.get())),
                                      number);
@@ -102,13 +103,16 @@ TEST_CASE("A search index that names a scene twice or has numbers out of range i
     }
     return forged.refusal();
   };
-  CHECK_THAT(refusal(dataset::kIndexRow, 0), Catch::Contains("search/ do not fit together"));
-  CHECK_THAT(refusal(dataset::kIndexFirst, 0), Catch::Contains("search/ do not fit together"));
-  CHECK_THAT(refusal(dataset::kIndexExponent, 1000), Catch::Contains("search/ hold numbers out of range"));
-  CHECK_THAT(refusal(dataset::kIndexCoarseness, -1), Catch::Contains("search/ hold numbers out of range"));
-  CHECK_THAT(refusal(dataset::kIndexLeast, 32000), Catch::Contains("search/ hold numbers out of range"));
-  CHECK_THAT(refusal(dataset::kIndexBounds, 0x7FFFFFFF),
-             Catch::Contains("search/ hold numbers out of range"));
+  CHECK_THAT(refusal(index_dataset::kRow, 0), Catch::Contains("search_built/ do not fit together"));
+  CHECK_THAT(refusal(index_dataset::kFirst, 0), Catch::Contains("search_built/ do not fit together"));
+  CHECK_THAT(refusal(index_dataset::kExponent, 1000),
+             Catch::Contains("search_built/ hold numbers out of range"));
+  CHECK_THAT(refusal(index_dataset::kCoarseness, -1),
+             Catch::Contains("search_built/ hold numbers out of range"));
+  CHECK_THAT(refusal(index_dataset::kLeast, 32000),
+             Catch::Contains("search_built/ hold numbers out of range"));
+  CHECK_THAT(refusal(index_dataset::kBounds, 0x7FFFFFFF),
+             Catch::Contains("search_built/ hold numbers out of range"));
 }
 
 TEST_CASE("Absurd dimensions are refused without allocating memory for them") {

@@ -5,6 +5,7 @@
 #include "database/format/mapped_file.h"
 #include "database/records/database.h"
 #include "database/records/schema.h"
+#include "database/search/stored_index.h"
 #include "tests/support/made_up_database.h"
 #include "tests/support/temporary_folder.h"
 
@@ -103,6 +104,28 @@ TEST_CASE("The table of a variant in a state lies in the file in one piece and i
   CHECK_THROWS_WITH(database.table(3, 0), Catch::Contains("no variant 3 (0 to 2 exist)"));
   CHECK_THROWS_WITH(database.table(-1, 0), Catch::Contains("no variant -1"));
   CHECK_THROWS_WITH(database.table(0, 2), Catch::Contains("no state 2 (0 to 1 exist)"));
+}
+
+TEST_CASE("Each history has a search index, made of its own rows (computed anew), and load cases have none") {
+  const test::TemporaryFolder folder;
+  const BridgeFile file = test::small_bridge_file();
+  const Model bridge = make_model(file.description);
+  DatabaseContent content = test::made_up_content(file, bridge, all_scenes(38, 1), KeepField::no, 2, 3);
+  content.states = {kBuiltState, kLostState, state_name(kLostState, "truck@1")};
+  write_database(folder / "three.h5", content, [&](std::size_t row) {
+    return test::made_up_record(bridge, content.keys[row], 3, KeepField::no);
+  });
+  const Database database = Database::open(folder / "three.h5");
+  CHECK(database.find_state("lost:truck@1") == 2);
+  CHECK_FALSE(database.find_state("lost:truck"));
+  for (std::size_t state = 0; state < 2; ++state) {
+    const SceneTable table = database.table(kNominalVariant, state);
+    CHECK(database.search_index(state).row.size() == table.rows);
+    for (const DatasetValue& value : search_datasets(content.states[state], table.vertical, table.points))
+      CHECK(std::ranges::equal(value.bytes, database.dataset_bytes(value.path.c_str())));
+  }
+  CHECK(&database.search_index() == &database.search_index(0));
+  CHECK_THROWS_AS(database.search_index(2), InputError);
 }
 
 TEST_CASE("The variants' parameters and the joints that they belong to are read back as they were written") {

@@ -38,7 +38,8 @@ TEST_CASE("The density of bounded errors beside Gaussian ones is their convoluti
       if (error < 0.0) continue;
       INFO(share << " " << beyond);
       const auto exact = static_cast<double>(log_convolution(error, half_width, deviation));
-      // The tail's fit is good to 1.2e-7; the difference of two tails 0.04 deviations apart is a fiftieth of them.
+      // The tail's fit is good to 1.2e-7; the difference of two tails 0.04 deviations apart is a fiftieth of
+      // them.
       CHECK(log_bounded_density(error, half_width, deviation) == Approx(exact).epsilon(1e-12).margin(1e-5));
       CHECK(log_bounded_density(-error, half_width, deviation) ==
             log_bounded_density(error, half_width, deviation));

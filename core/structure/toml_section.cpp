@@ -1,0 +1,88 @@
+#include "core/structure/toml_section.h"
+
+#include <cmath>
+
+namespace voussoir {
+
+const toml::node* TomlSection::take(const char* key) {
+  known_.insert(key);
+  return table_ == nullptr ? nullptr : table_->get(key);
+}
+
+void TomlSection::refuse(const char* key, const std::string& expected) const {
+  throw InputError(at_line(file_, line_of(key), fmt::format("{}{}: {}", key, title_, expected)));
+}
+
+void TomlSection::number(const char* key, double& target, double least, double most, bool least_allowed) {
+  const toml::node* node = take(key);
+  if (node == nullptr) return;
+  const auto number = node->value<double>();
+  if (!number || !node->is_number()) refuse(key, "expected a number");
+  if (!std::isfinite(*number) || *number > most || *number < least || (*number == least && !least_allowed))
+    refuse(key, fmt::format("is {}: expected a number {} {:g} and at most {:g}", *number,
+                            least_allowed ? "of at least" : "greater than", least, most));
+  target = *number;
+}
+
+void TomlSection::count(const char* key, int& target, int least, int most) {
+  const toml::node* node = take(key);
+  if (node == nullptr) return;
+  if (!node->is_integer()) refuse(key, "expected a whole number");
+  const std::int64_t number = node->as_integer()->get();
+  if (number < least || number > most)
+    refuse(key, fmt::format("is {}: expected a whole number from {} to {}", number, least, most));
+  target = static_cast<int>(number);
+}
+
+void TomlSection::flag(const char* key, bool& target) {
+  const toml::node* node = take(key);
+  if (node == nullptr) return;
+  if (!node->is_boolean()) refuse(key, "expected true or false");
+  target = node->as_boolean()->get();
+}
+
+void TomlSection::text(const char* key, std::string& target) {
+  const toml::node* node = take(key);
+  if (node == nullptr) return;
+  if (!node->is_string()) refuse(key, "expected a text in quotes");
+  target = node->as_string()->get();
+}
+
+const toml::table* TomlSection::table(const char* key) {
+  const toml::node* node = take(key);
+  if (node != nullptr && !node->is_table()) refuse(key, fmt::format("expected a table: write [{}]", key));
+  return node == nullptr ? nullptr : node->as_table();
+}
+
+const toml::array* TomlSection::tables(const char* key, const char* how) {
+  const toml::node* node = take(key);
+  if (node == nullptr) return nullptr;
+  if (!node->is_array() ||
+      (!node->as_array()->empty() && !node->as_array()->is_homogeneous(toml::node_type::table)))
+    refuse(key, fmt::format("expected tables: write {}", how));
+  return node->as_array();
+}
+
+void TomlSection::require(const char* key) const {
+  if (!has(key)) refuse(key, "is missing");
+}
+
+void TomlSection::refuse_unknown_keys() const {
+  if (table_ == nullptr) return;
+  for (const auto& [key, node] : *table_)
+    if (!known_.contains(std::string(key.str()))) {
+      std::string names;
+      for (const std::string& known : known_) names += (names.empty() ? "" : ", ") + known;
+      throw InputError(
+          at_line(file_, key.source().begin.line,
+                  fmt::format("unknown key '{}'{}: expected one of {}", key.str(), title_, names)));
+    }
+}
+
+long TomlSection::line_of(const char* key) const {
+  const toml::node* node = table_ == nullptr ? nullptr : table_->get(key);
+  if (node != nullptr) return static_cast<long>(node->source().begin.line);
+  return table_ == nullptr ? 0 : static_cast<long>(table_->source().begin.line);
+}
+
+}  // namespace voussoir

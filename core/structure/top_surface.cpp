@@ -1,0 +1,83 @@
+#include "core/structure/top_surface.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.h"
+
+namespace voussoir {
+namespace {
+
+constexpr double kSamePlace = 1e-9;   ///< [m] round-off of the layout is 1e-15
+constexpr double kSameHeight = 1e-6;  ///< [m] as joints are found
+
+[[noreturn]] void refuse_place(double x) {
+  throw InputError(fmt::format("there is no block under x = {:g} m to carry a load", x));
+}
+
+}  // namespace
+
+TopSurface::TopSurface(const Mesh& mesh) {
+  for (const BoundaryEdge& edge : mesh.edges) {
+    const Point left = mesh.position(edge.to), right = mesh.position(edge.from);  // the block is below
+    if (right.x() - left.x() <= kSamePlace) continue;
+    edges_.push_back({edge.to, edge.from, left, right});
+    ends_.insert(ends_.end(), {left.x(), right.x()});
+  }
+  std::ranges::sort(ends_);
+  const auto same = std::ranges::unique(ends_, [](double a, double b) { return b - a <= kSamePlace; });
+  ends_.erase(same.begin(), same.end());
+  highest_.assign(ends_.empty() ? 0 : ends_.size() - 1, kNone);
+  for (std::size_t e = 0; e < edges_.size(); ++e) {
+    const auto first = std::ranges::lower_bound(ends_, edges_[e].left.x() - kSamePlace) - ends_.begin();
+    for (auto i = static_cast<std::size_t>(first); i + 1 < ends_.size(); ++i) {
+      const double middle = 0.5 * (ends_[i] + ends_[i + 1]);
+      if (middle > edges_[e].right.x()) break;
+      int& highest = highest_[i];
+      if (highest == kNone ||
+          edges_[e].height(middle) > edges_[static_cast<std::size_t>(highest)].height(middle))
+        highest = static_cast<int>(e);
+    }
+  }
+}
+
+/// The highest edge at x, or two that meet there.
+std::vector<int> TopSurface::edges_at(double x) const {
+  std::vector<int> found;
+  for (std::size_t i = 0; i < highest_.size(); ++i)
+    if (highest_[i] != kNone && x >= ends_[i] - kSamePlace && x <= ends_[i + 1] + kSamePlace)
+      found.push_back(highest_[i]);
+  if (found.size() < 2) return found;
+  const auto height = [&](int e) { return edges_[static_cast<std::size_t>(e)].height(x); };
+  const double top = std::max(height(found.front()), height(found.back()));
+  std::erase_if(found, [&](int e) { return height(e) < top - kSameHeight; });
+  return found;
+}
+
+void TopSurface::share(const Edge& edge, double x, double force, Field& load) const {
+  const double right = std::clamp(edge.share_of_right(x), 0.0, 1.0);
+  load(1, value(edge.left_node)) -= (1.0 - right) * force;
+  load(1, value(edge.right_node)) -= right * force;
+}
+
+void TopSurface::add_force(double x, double force, Field& load) const {
+  const std::vector<int> edges = edges_at(x);
+  if (edges.empty()) refuse_place(x);
+  for (const int e : edges)
+    share(edges_[static_cast<std::size_t>(e)], x, force / static_cast<double>(edges.size()), load);
+}
+
+void TopSurface::add_line(double left, double right, double force_per_length, Field& load) const {
+  if (ends_.empty() || left < ends_.front() - kSamePlace) refuse_place(left);
+  if (right > ends_.back() + kSamePlace) refuse_place(right);
+  for (std::size_t i = 0; i < highest_.size(); ++i) {
+    const double begin = std::max(left, ends_[i]), end = std::min(right, ends_[i + 1]);
+    if (end <= begin) continue;
+    const double middle =
+        0.5 * (begin + end);  // shape functions are linear: their mean is that of the middle
+    if (highest_[i] == kNone) refuse_place(middle);
+    share(edges_[static_cast<std::size_t>(highest_[i])], middle, force_per_length * (end - begin), load);
+  }
+}
+
+}  // namespace voussoir

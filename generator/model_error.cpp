@@ -1,0 +1,130 @@
+#include "generator/model_error.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+#include "core/structure/block_layout.h"
+#include "generator/state_solving.h"
+
+namespace voussoir {
+namespace {
+
+constexpr std::size_t kMostProbes = 24;  // singles: under 2 % of the time of a whole database
+constexpr double kFinestPieces = 20000;  // triangles; larger bridges are not refined further
+
+using Settlements = std::vector<Eigen::VectorXd>;  // of each state; empty where the scene does not stand
+
+Settlements settlements_of(const SceneGroup& group, const StatePlan& plan, const Model& bridge) {
+  Settlements settlements;
+  for (const std::size_t state : kept_states(plan)) {
+    const Solution& solution = *group.states[state];
+    settlements.push_back(solution.outcome == Outcome::standing
+                              ? vertical_displacements(solution.displacement, bridge.control_points)
+                              : Eigen::VectorXd());
+  }
+  return settlements;
+}
+
+/// Control displacements of the intact bridge and the singles, on one mesh.
+std::vector<Settlements> solve_probes(const ErrorProbes& probes, const Model& bridge,
+                                      const BridgeDescription& description, const std::vector<Scene>& singles) {
+  std::vector<std::string> names;
+  for (const std::size_t state : kept_states(probes.states)) names.push_back(probes.states[state].name);
+  const StatePlan plan = plan_states(names, bridge, description);
+  const StateSolving solving(bridge, plan);
+  const SceneSolver solver = probes.solver.make_equilibrium_solver(bridge);
+  StartingFields starts;
+  SceneGroup intact{.solved = {}, .states = {}, .image = {}};
+  solving.solve(solver, starts, true, std::span(&intact, 1));
+  for (std::size_t state = 0; state < plan.size(); ++state) starts.add({}, state, *intact.states[state]);
+  std::vector<SceneGroup> groups;
+  for (const Scene& single : singles) groups.push_back({.solved = single, .states = {}, .image = {}});
+  solving.solve(solver, starts, true, groups);
+  std::vector<Settlements> result = {settlements_of(intact, plan, bridge)};
+  for (const SceneGroup& group : groups) result.push_back(settlements_of(group, plan, bridge));
+  return result;
+}
+
+/// Singles of wall blocks, evenly spread.
+std::vector<Scene> probed_singles(const BlockLayout& layout) {
+  std::vector<Scene> singles;
+  for (std::size_t b = 0; b < layout.size(); ++b)
+    if (layout.blocks[b].role == BlockRole::wall) singles.push_back(Scene{{BlockId{static_cast<std::int32_t>(b)}}});
+  std::vector<Scene> scenes;
+  const std::size_t count = std::min(kMostProbes, singles.size());
+  for (std::size_t i = 0; i < count; ++i) scenes.push_back(singles[(2 * i + 1) * singles.size() / (2 * count)]);
+  return scenes;
+}
+
+/// Least squares of e_i^2 = share^2 s_i^2 + common^2 rms(s)^2, every signal counting alike.
+class ErrorFit {
+ public:
+  void add(const Eigen::VectorXd& signal, const Eigen::VectorXd& error) {
+    double sum = 0.0;
+    Eigen::Index count = 0;
+    for (const double s : signal)
+      if (!std::isnan(s)) {
+        sum += s * s;
+        ++count;
+      }
+    const double mean_square = count > 0 ? sum / static_cast<double>(count) : 0.0;
+    if (mean_square == 0.0) return;
+    for (Eigen::Index i = 0; i < signal.size(); ++i) {
+      if (std::isnan(signal[i]) || std::isnan(error[i])) continue;
+      const Eigen::Vector2d terms(signal[i] * signal[i] / mean_square, 1.0);
+      normal_ += terms * terms.transpose();
+      right_ += terms * (error[i] * error[i] / mean_square);
+    }
+  }
+
+  /// share^2 and common^2. Where one would be negative it is zero, and the other is fitted alone.
+  Eigen::Vector2d squares() const {
+    if (normal_.determinant() <= 0.0) return Eigen::Vector2d::Zero();
+    const Eigen::Vector2d both = normal_.inverse() * right_;
+    if (both.minCoeff() >= 0.0) return both;
+    const Eigen::Index kept = both[0] < 0.0 ? 1 : 0;
+    Eigen::Vector2d one = Eigen::Vector2d::Zero();
+    one[kept] = std::max(0.0, right_[kept] / normal_(kept, kept));
+    return one;
+  }
+
+ private:
+  Eigen::Matrix2d normal_ = Eigen::Matrix2d::Zero();
+  Eigen::Vector2d right_ = Eigen::Vector2d::Zero();
+};
+
+ModelError error_of_state(const std::vector<Settlements>& coarse, const std::vector<Settlements>& fine,
+                          std::size_t state) {
+  const Eigen::VectorXd& intact = coarse.front()[state];
+  const Eigen::VectorXd& fine_intact = fine.front()[state];
+  if (intact.size() == 0 || fine_intact.size() == 0) return {};
+  ErrorFit fit;
+  for (std::size_t i = 1; i < coarse.size(); ++i) {
+    if (coarse[i][state].size() == 0 || fine[i][state].size() == 0) continue;
+    const Eigen::VectorXd signal = coarse[i][state] - intact;
+    fit.add(signal, kErrorPerLevel * (fine[i][state] - fine_intact - signal));
+  }
+  const Eigen::Vector2d squares = fit.squares();
+  const Eigen::VectorXd error = kErrorPerLevel * (fine_intact - intact).cwiseAbs();
+  return {std::sqrt(squares[0]), std::sqrt(squares[1]), {error.begin(), error.end()}};
+}
+
+}  // namespace
+
+std::vector<ModelError> estimate_model_errors(const ErrorProbes& probes) {
+  const std::size_t states = kept_states(probes.states).size();
+  const bool is_fine = 4.0 * static_cast<double>(probes.bridge.mesh.triangles.size()) > kFinestPieces;
+  if (!probes.solver.make_equilibrium_solver || is_fine) return std::vector<ModelError>(states);
+  BridgeDescription finer = probes.description;
+  ++finer.mesh.refinement;
+  const std::vector<Scene> singles = probed_singles(probes.bridge.layout);
+  const auto coarse = solve_probes(probes, probes.bridge, probes.description, singles);
+  const auto fine = solve_probes(probes, make_model(finer), finer, singles);
+  std::vector<ModelError> result;
+  for (std::size_t state = 0; state < states; ++state)
+    result.push_back(error_of_state(coarse, fine, state));
+  return result;
+}
+
+}  // namespace voussoir
