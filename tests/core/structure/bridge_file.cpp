@@ -1,6 +1,10 @@
 #include "core/structure/bridge_file.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
+#include <cctype>
+#include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "core/error.h"
@@ -149,4 +153,71 @@ TEST_CASE("Bad bridge files are refused with file, line and what was expected", 
 
 TEST_CASE("A missing bridge file is named", "[bridge-file]") {
   CHECK_THROWS_WITH(read_bridge_file("/nowhere/bridge.toml"), Contains("/nowhere/bridge.toml"));
+}
+
+namespace {
+
+/// What a number may be. `most` is always allowed.
+struct Limits {
+  const char* key;  ///< a bridge file up to the number
+  double least, most;
+  bool least_allowed;
+  bool whole = false;
+};
+
+const std::vector<Limits> kLimits = {{"[wall]\nlength_m = ", 1e-3, 1e5, true},
+                                     {"[wall]\ncourses = ", 0.0, 1000.0, true, true},
+                                     {"[wall]\ncourse_height_m = ", 1e-3, 1e5, true},
+                                     {"[wall]\nblock_length_m = ", 1e-3, 1e5, true},
+                                     {"[wall]\nsmallest_piece_m2 = ", 0.0, 1e15, false},
+                                     {"[material]\nyoung_modulus_Pa = ", 0.0, 1e15, false},
+                                     {"[material]\npoisson_ratio = ", 0.0, 0.49, true},
+                                     {"[material]\ndensity_kg_m3 = ", 0.0, 1e15, false},
+                                     {"[material]\nthickness_m = ", 0.0, 1e15, false},
+                                     {"[joints]\nnormal_stiffness_Pa_per_m = ", 0.0, 1e15, false},
+                                     {"[joints]\ntangential_stiffness_Pa_per_m = ", 0.0, 1e15, false},
+                                     {"[joints]\nfriction_angle_deg = ", 0.0, 89.0, true},
+                                     {"[joints]\ntolerance_m = ", 0.0, 0.1, false},
+                                     {"[mesh]\nrefinement = ", 0.0, 5.0, true, true},
+                                     {"gravity_m_s2 = ", 0.0, 1e15, true},
+                                     {"[[spans]]\ncentre_x_m = ", -1e5, 1e5, true},
+                                     {"[[spans]]\ncentre_y_m = ", 0.0, 1e5, true},
+                                     {"[[spans]]\nintrados_radius_m = ", 1e-3, 1e5, true},
+                                     {"[[spans]]\nring_thickness_m = ", 1e-3, 1e5, true},
+                                     {"[[spans]]\nvoussoirs = ", 3.0, 1000.0, true, true}};
+
+/// Does the key take this value? The bridge may still be refused for a ring that its wall cannot hold or for
+/// too many blocks, which are other checks.
+bool is_within_limits(const Limits& limits, double number) {
+  try {
+    parse_bridge_file(fmt::format("{}{}\n", limits.key, number), "limits.toml");
+  } catch (const InputError& error) {
+    const std::string message = error.what();
+    if (message.find(fmt::format(" is {}: expected a", number)) != std::string::npos) return false;
+    CHECK_THAT(message, Contains("the ring reaches") || Contains(" blocks"));
+  }
+  return true;
+}
+
+/// The next number that a file can state, towards `side` of infinity.
+double next_number(const Limits& limits, double number, double side) {
+  if (limits.whole) return number + side;
+  if (number == 0.0) return side * std::numeric_limits<double>::min();
+  return std::nextafter(number, side * std::numeric_limits<double>::infinity());
+}
+
+}  // namespace
+
+TEST_CASE("Numbers at their limits are taken or refused as the table says, those just beyond are refused",
+          "[bridge-file]") {
+  const auto is_number = [](const Key& key) { return std::isdigit(std::string(key.text).back()) != 0; };
+  REQUIRE(static_cast<std::size_t>(std::count_if(kKeys.begin(), kKeys.end(), is_number)) == kLimits.size());
+  for (const Limits& limits : kLimits) {
+    INFO(limits.key);
+    CHECK(is_within_limits(limits, limits.least) == limits.least_allowed);
+    CHECK(is_within_limits(limits, next_number(limits, limits.least, 1.0)));
+    CHECK_FALSE(is_within_limits(limits, next_number(limits, limits.least, -1.0)));
+    CHECK(is_within_limits(limits, limits.most));
+    CHECK_FALSE(is_within_limits(limits, next_number(limits, limits.most, 1.0)));
+  }
 }
