@@ -28,7 +28,8 @@ Settlements settlements_of(const SceneGroup& group, const StatePlan& plan, const
 
 /// Control displacements of the intact bridge and the singles, on one mesh.
 std::vector<Settlements> solve_probes(const ErrorProbes& probes, const Model& bridge,
-                                      const BridgeDescription& description, const std::vector<Scene>& singles) {
+                                      const BridgeDescription& description,
+                                      const std::vector<Scene>& singles) {
   std::vector<std::string> names;
   for (const std::size_t state : kept_states(probes.states)) names.push_back(probes.states[state].name);
   const StatePlan plan = plan_states(names, bridge, description);
@@ -50,10 +51,12 @@ std::vector<Settlements> solve_probes(const ErrorProbes& probes, const Model& br
 std::vector<Scene> probed_singles(const BlockLayout& layout) {
   std::vector<Scene> singles;
   for (std::size_t b = 0; b < layout.size(); ++b)
-    if (layout.blocks[b].role == BlockRole::wall) singles.push_back(Scene{{BlockId{static_cast<std::int32_t>(b)}}});
+    if (layout.blocks[b].role == BlockRole::wall)
+      singles.push_back(Scene{{BlockId{static_cast<std::int32_t>(b)}}});
   std::vector<Scene> scenes;
   const std::size_t count = std::min(kMostProbes, singles.size());
-  for (std::size_t i = 0; i < count; ++i) scenes.push_back(singles[(2 * i + 1) * singles.size() / (2 * count)]);
+  for (std::size_t i = 0; i < count; ++i)
+    scenes.push_back(singles[(2 * i + 1) * singles.size() / (2 * count)]);
   return scenes;
 }
 
@@ -122,8 +125,7 @@ std::vector<ModelError> estimate_model_errors(const ErrorProbes& probes) {
   const auto coarse = solve_probes(probes, probes.bridge, probes.description, singles);
   const auto fine = solve_probes(probes, make_model(finer), finer, singles);
   std::vector<ModelError> result;
-  for (std::size_t state = 0; state < states; ++state)
-    result.push_back(error_of_state(coarse, fine, state));
+  for (std::size_t state = 0; state < states; ++state) result.push_back(error_of_state(coarse, fine, state));
   return result;
 }
 

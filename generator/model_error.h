@@ -9,8 +9,8 @@
 namespace voussoir {
 
 /// What a mesh one level finer changes is this part of the whole error. Measured on the reference bridge, 41
-/// singles: the first two levels change a signal by 0.43 and 0.46 % (median) each, and an independent program's
-/// finest mesh by 1.45 % (docs/numerics.md).
+/// singles: the first two levels change a signal by 0.43 and 0.46 % (median) each, and an independent
+/// program's finest mesh by 1.45 % (docs/numerics.md).
 inline constexpr double kErrorPerLevel = 3.0;
 
 struct ErrorProbes {

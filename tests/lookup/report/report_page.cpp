@@ -13,8 +13,10 @@ TEST_CASE("The page names scenes that sensors cannot tell from the first when th
   const LookupSettings settings;
   const Measurements measured =
       library.measure(library.row_of({{BlockId{5}}}), 0.01, NoiseShape::uniform, random);
-  Answer answer = locate_damage(library.library(), measured, settings);
-  const auto page = [&] { return page_report(answer, settings, library.library(), measured, {}); };
+  Answer answer = locate_damage(absolute_readings(library.library(), measured), settings);
+  const auto page = [&] {
+    return page_report(answer, settings, absolute_readings(library.library(), measured), {});
+  };
   std::vector<Scene>& same = answer.candidates.front().same_readings;
   same.clear();
   CHECK_THAT(page(), !Contains("cannot tell it from"));
