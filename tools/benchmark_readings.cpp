@@ -19,7 +19,7 @@ std::optional<std::size_t> standing_row(const Library& library, const Scene& sce
   for (std::size_t row = 0; row < library.table.rows; ++row)
     if (library.table.scene(row) == scene)
       return library.table.outcome[row] == static_cast<std::uint8_t>(Outcome::standing) ? std::optional(row)
-                                                                                       : std::nullopt;
+                                                                                        : std::nullopt;
   return std::nullopt;
 }
 
@@ -78,8 +78,8 @@ Rates look_up(const TwoBridges& bridges, const Scene& scene, const Eligible& eli
   for (int i = 0; i < times; ++i) {
     const Observation observation =
         observe(take_readings(bridges, *true_row, instrument, random), told(instrument));
-    const Posterior answer = posterior(bridges.library.table, eligible, screen(observation), prior,
-                                       bridges.library.layout.size());
+    const Posterior answer =
+        posterior(bridges.library.table, eligible, screen(observation), prior, bridges.library.layout.size());
     count(answer, *row, rates);
     rates.chances.push_back(predictive_chance(observation, bridges.library, answer));
   }
@@ -111,7 +111,8 @@ std::vector<Scene> standing_singles(const TwoBridges& bridges) {
   std::vector<Scene> singles;
   for (std::size_t b = 0; b < bridges.library.layout.size(); ++b) {
     const Scene single{{BlockId{static_cast<std::int32_t>(b)}}};
-    if (standing_row(bridges.library, single) && standing_row(bridges.truth, single)) singles.push_back(single);
+    if (standing_row(bridges.library, single) && standing_row(bridges.truth, single))
+      singles.push_back(single);
   }
   return singles;
 }

@@ -1,5 +1,6 @@
 #pragma once
-/// @file How often the truth is found from readings that another database made: another mesh, other stiffness.
+/// @file How often the truth is found from readings that another database made: another mesh, other
+/// stiffness.
 
 #include <string>
 #include <vector>
@@ -18,20 +19,20 @@ struct TwoBridges {
 /// Readings of a true scene as one instrument takes them.
 struct Instrument {
   ReadingKind kind = ReadingKind::change;
-  NoiseModel noise;         ///< relative noise of absolute readings, or a floor: the deviation of changes
-  bool level_told = true;   ///< the lookup knows the noise level
+  NoiseModel noise;        ///< relative noise of absolute readings, or a floor: the deviation of changes
+  bool level_told = true;  ///< the lookup knows the noise level
 };
 
 struct Rates {
   int trials = 0;
-  int first = 0;        ///< the truth is likelier than any other scene
-  int in_credible = 0;  ///< the truth is in the 95 % set
-  int damaged = 0;      ///< some block is missing with more than 50 %
+  int first = 0;                ///< the truth is likelier than any other scene
+  int in_credible = 0;          ///< the truth is in the 95 % set
+  int damaged = 0;              ///< some block is missing with more than 50 %
   std::vector<double> chances;  ///< of the predictive check at the likeliest scene
 };
 
-/// Looks readings of each of these scenes up among the scenes with the given numbers of missing blocks, so many
-/// times each. Scenes that the truth lacks, or that do not stand in it, are left out.
+/// Looks readings of each of these scenes up among the scenes with the given numbers of missing blocks, so
+/// many times each. Scenes that the truth lacks, or that do not stand in it, are left out.
 Rates find_again(const TwoBridges& bridges, const std::vector<Scene>& scenes, const std::vector<int>& missing,
                  const Instrument& instrument, int times, std::uint64_t seed);
 

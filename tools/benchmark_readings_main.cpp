@@ -20,6 +20,7 @@ struct Options {
   std::string state = voussoir::kBuiltState;
   int trials = 100;
   std::optional<double> model_error;
+  double scale_error = 0.0;
 };
 
 double share(int count, const Rates& rates) {
@@ -28,14 +29,16 @@ double share(int count, const Rates& rates) {
 
 /// Share of the predictive checks that reject at this level.
 double rejected(const Rates& rates, double level) {
-  return share(static_cast<int>(std::ranges::count_if(rates.chances, [&](double p) { return p < level; })), rates);
+  return share(static_cast<int>(std::ranges::count_if(rates.chances, [&](double p) { return p < level; })),
+               rates);
 }
 
 void print_rates(const std::string& what, const Rates& rates) {
-  fmt::print("  {:<34} {:>6} trials: first {:.3f}, in the 95 % set {:.3f}, called damaged {:.3f}, "
-             "check below 5 % {:.3f}, below 0.1 % {:.4f}\n",
-             what, rates.trials, share(rates.first, rates), share(rates.in_credible, rates),
-             share(rates.damaged, rates), rejected(rates, 0.05), rejected(rates, 0.001));
+  fmt::print(
+      "  {:<34} {:>6} trials: first {:.3f}, in the 95 % set {:.3f}, called damaged {:.3f}, "
+      "check below 5 % {:.3f}, below 0.1 % {:.4f}\n",
+      what, rates.trials, share(rates.first, rates), share(rates.in_credible, rates),
+      share(rates.damaged, rates), rejected(rates, 0.05), rejected(rates, 0.001));
 }
 
 void absolute_noise(const TwoBridges& bridges, const Options& options) {
@@ -68,11 +71,14 @@ std::string benchmark(const Options& options) {
   const auto database = voussoir::Database::open(voussoir::find_database(options.database));
   const auto state = [&](const voussoir::Database& of) {
     const auto found = of.find_state(options.state);
-    if (!found) throw voussoir::Failure(fmt::format("{}: has no state {}", of.path().string(), options.state));
+    if (!found)
+      throw voussoir::Failure(fmt::format("{}: has no state {}", of.path().string(), options.state));
     return *found;
   };
   const Library library = library_of(database, state(database));
   voussoir::ModelError error = database.model_errors()[state(database)];
+  for (std::size_t i = 0; i < error.intact.size(); ++i)
+    error.intact[i] = std::hypot(error.intact[i], options.scale_error * library.table.row(0)[i]);
   if (options.model_error) error = {*options.model_error, 0.0, {}};
   std::vector<std::string> truths = options.truths;
   truths.insert(truths.begin(), database.path().string());
@@ -99,6 +105,8 @@ int main(int argc, char** argv) {
   app.add_option("--state", options.state, "of both, default built");
   app.add_option("--trials", options.trials, "of each of the paper's cases, default 100")
       ->check(CLI::Range(1, 1000000));
-  app.add_option("--model-error", options.model_error, "in the place of the database's: a share of the signal");
+  app.add_option("--model-error", options.model_error,
+                 "in the place of the database's: a share of the signal");
+  app.add_option("--scale-error", options.scale_error, "x");
   return voussoir::run_program(app, argc, argv, [&] { return benchmark(options); });
 }

@@ -6,8 +6,9 @@
 #include <numbers>
 
 #include "core/simd/lane_math.h"
+#include "lookup/evidence/point_arrays.h"
+#include "lookup/evidence/scale_fit.h"
 #include "lookup/readings/common_variance.h"
-#include "lookup/readings/noise_scale.h"
 
 namespace voussoir {
 namespace {
@@ -69,42 +70,34 @@ VOUSSOIR_INLINE Tail<DoubleLanes> bounded_density(const DoubleLanes& size, const
   return {is_narrow ? narrow.exponent : wide_exponent, is_narrow ? narrow.factor : wide_factor};
 }
 
-/// The arrays of an observation, as the loop below wants them.
-struct View {
-  const double *reading, *slope, *offset, *intact, *origin, *own_variance;
-  double share_square;
-  std::size_t points;
+/// What a row has of its own: variance of the model that all points share, the common factor of all movements
+/// and its variance.
+struct RowTerms {
+  double common, factor, variance;
 };
 
 /// Sum of the logarithms; NaN if a reading has no prediction.
-VOUSSOIR_INLINE double log_likelihood_of_row(const View& view, double common, const double* prediction) {
+VOUSSOIR_INLINE double log_likelihood_of_row(const PointArrays& arrays, const RowTerms& row,
+                                             const double* prediction) {
   DoubleLanes sum{};
-  for (std::size_t i = 0; i < view.points; i += kLanes) {
-    const std::size_t some = view.points - i < kLanes ? view.points - i : kLanes;
-    const auto at = [&](const double* values, double filling) __attribute__((always_inline)) {
-      return load_some<DoubleLanes>(values + i, some, filling);
-    };
-    const DoubleLanes reading = at(view.reading, kNan), predicted = at(prediction, kNan);
-    const auto has_reading = reading == reading;
+  for (std::size_t i = 0; i < arrays.points; i += kLanes) {
+    const std::size_t some = arrays.points - i < kLanes ? arrays.points - i : kLanes;
+    const PointLanes at = point_lanes(arrays, prediction, i, some, row.common);
+    const DoubleMask has_reading = at.reading == at.reading;
     if (!any(has_reading)) continue;
-    const DoubleLanes half_width =
-        noise_scale(at(view.slope, 0.0), at(view.offset, 1.0), magnitude(predicted - at(view.origin, 0.0)));
-    const DoubleLanes variance = model_variance<DoubleLanes>(
-        at(view.own_variance, 0.0) + common, view.share_square, predicted - at(view.intact, 0.0));
-    DoubleLanes deviation = variance;
-    deviation = larger(square_root(deviation), DoubleLanes{} + kSmallestDeviation);
-    const DoubleLanes size = magnitude(reading - predicted);
+    const DoubleLanes movement = at.predicted - at.origin, half_width = at.instrument;
+    const DoubleLanes deviation = larger(square_root(at.variance + row.variance * movement * movement),
+                                         DoubleLanes{} + kSmallestDeviation);
+    const DoubleLanes size = magnitude(at.reading - at.origin - row.factor * movement);
     DoubleLanes log_density = 2.0 * half_width;
-    const auto is_felt = has_reading & ~(size + kFarInside * deviation < half_width);
+    const DoubleMask is_felt = has_reading & ~(size + kFarInside * deviation < half_width);
+    make_logarithm(log_density);
+    log_density = -log_density;
     if (any(is_felt)) {
       const Tail<DoubleLanes> density = bounded_density(size, half_width, deviation);
       DoubleLanes factor = density.factor;
       make_logarithm(factor);
-      make_logarithm(log_density);
-      log_density = is_felt ? density.exponent + factor : -log_density;
-    } else {
-      make_logarithm(log_density);
-      log_density = -log_density;
+      log_density = is_felt ? density.exponent + factor : log_density;
     }
     sum += has_reading ? (size == size ? log_density : DoubleLanes{} + kNan) : DoubleLanes{};
   }
@@ -112,10 +105,10 @@ VOUSSOIR_INLINE double log_likelihood_of_row(const View& view, double common, co
 }
 
 VOUSSOIR_FOR_EVERY_PROCESSOR
-void collect(const View& view, const double* table, const std::size_t* rows, const double* common,
+void collect(const PointArrays& arrays, const double* table, const std::size_t* rows, const RowTerms* terms,
              std::size_t count, double* results) {
   for (std::size_t i = 0; i < count; ++i)
-    results[i] = log_likelihood_of_row(view, common[i], table + rows[i] * view.points);
+    results[i] = log_likelihood_of_row(arrays, terms[i], table + rows[i] * arrays.points);
 }
 
 /// The integral of Q from x to infinity.
@@ -145,16 +138,14 @@ std::vector<double> log_bounded_likelihoods(const Observation& observation, cons
                                             const SceneTable& table, std::span<const std::size_t> rows) {
   const std::vector<double> common =
       common_variances(observation.intact, observation.error_common, table, rows);
+  const ScaleFits fits = scale_fits(observation, scales, table, rows, kBoundedVariance);
+  std::vector<RowTerms> terms;
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    terms.push_back({common[i], fits.factor_of(i), fits.variance_of(i)});
   std::vector<double> results(rows.size());
-  const View view{observation.reading.data(),
-                  scales.slope.data(),
-                  scales.offset.data(),
-                  observation.intact.data(),
-                  observation.origin.data(),
-                  observation.own_variance.data(),
-                  observation.error_share * observation.error_share,
-                  table.points};
-  collect(view, table.vertical.data(), rows.data(), common.data(), rows.size(), results.data());
+  collect(point_arrays(observation, scales), table.vertical.data(), rows.data(), terms.data(), rows.size(),
+          results.data());
+  for (std::size_t i = 0; i < fits.factor.size(); ++i) results[i] -= 0.5 * fits.square[i] + fits.log_width[i];
   return results;
 }
 

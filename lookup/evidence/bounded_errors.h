@@ -19,7 +19,8 @@ double log_bounded_density(double error, double half_width, double deviation);
 double chance_of_bounded_error(double error, double half_width, double deviation);
 
 /// Sum of log_bounded_density over the readings, for each of these rows of a table; NaN if a reading has no
-/// prediction. Precondition: the observation has a model error.
+/// prediction. An unknown common factor is fitted (scale_fit.h); what the fit leaves open of it counts as a
+/// model's error. Precondition: the observation has a model error or an unknown factor.
 std::vector<double> log_bounded_likelihoods(const Observation& observation, const ErrorScales& scales,
                                             const SceneTable& table, std::span<const std::size_t> rows);
 

@@ -159,7 +159,7 @@ double bound_at_level(NoiseShape shape, const BoxStatistics& box, double count, 
 }  // namespace
 
 bool cluster_bounds_apply(const Observation& observation) {
-  if (observation.has_nuisance()) return false;
+  if (observation.has_levelling() || observation.unknown_scale > 0.0) return false;
   return !observation.unknown_level || has_closed_form(observation);
 }
 

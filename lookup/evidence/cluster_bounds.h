@@ -10,7 +10,7 @@
 namespace voussoir {
 
 /// True if there are bounds for these readings: the level is stated, or the evidence over all levels has a
-/// closed form, and there are no nuisances.
+/// closed form, and neither the common factor nor levellings are unknown.
 bool cluster_bounds_apply(const Observation& observation);
 
 /// For each cluster no less than the log evidence of any of its scenes, silent sensors left out; -infinity if

@@ -132,28 +132,34 @@ std::vector<NoiseShape> shapes_of(const NoiseModel& noise) {
 }
 
 bool has_closed_form(const Observation& observation) {
-  return observation.is_proportional() && !observation.has_nuisance() &&
-         observation.noise.shape != NoiseShape::student;
+  return observation.is_proportional() && observation.noise.shape != NoiseShape::student;
 }
 
 std::vector<double> log_chance_of_silence(const Observation& observation, const SceneTable& table,
                                           std::span<const std::size_t> rows) {
-  std::vector<double> result(table.rows, 0.0);
+  std::vector<double> result(rows.size(), 0.0);
   for (std::size_t point = 0; point < table.points; ++point) {
     if (!observation.silent[point]) continue;
-    for (const std::size_t row : rows)
-      if (!std::isnan(table.row(row)[point])) result[row] += std::log(observation.noise.silence);
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      if (!std::isnan(table.row(rows[i])[point])) result[i] += std::log(observation.noise.silence);
   }
   return result;
 }
 
-std::vector<double> log_evidence_of_rows(const Observation& observation, const SceneTable& table,
+std::vector<double> log_evidence_of_each(const Observation& observation, const SceneTable& table,
                                          std::span<const std::size_t> rows) {
   require_readings(observation);
-  const std::vector<double> logs = log_evidence(observation, table, rows);
+  std::vector<double> logs = log_evidence(observation, table, rows);
   const std::vector<double> log_silence = log_chance_of_silence(observation, table, rows);
+  for (std::size_t i = 0; i < rows.size(); ++i) logs[i] += log_silence[i];
+  return logs;
+}
+
+std::vector<double> log_evidence_of_rows(const Observation& observation, const SceneTable& table,
+                                         std::span<const std::size_t> rows) {
+  const std::vector<double> logs = log_evidence_of_each(observation, table, rows);
   std::vector<double> result(table.rows, kImpossible);
-  for (std::size_t i = 0; i < rows.size(); ++i) result[rows[i]] = logs[i] + log_silence[rows[i]];
+  for (std::size_t i = 0; i < rows.size(); ++i) result[rows[i]] = logs[i];
   return result;
 }
 
@@ -168,7 +174,7 @@ std::vector<double> estimated_evidence(const Observation& observation, const Sce
   }
   std::vector<double> result = log_mean(std::move(logs));
   const std::vector<double> log_silence = log_chance_of_silence(observation, table, rows);
-  for (std::size_t i = 0; i < rows.size(); ++i) result[i] += log_silence[rows[i]];
+  for (std::size_t i = 0; i < rows.size(); ++i) result[i] += log_silence[i];
   return result;
 }
 

@@ -9,12 +9,16 @@
 
 namespace voussoir {
 
-/// log p(readings | scene) of the given rows (in ascending order), with an unknown noise level, an automatic
-/// noise shape and nuisances marginalised. -infinity for impossible scenes (a reading on a block that the
-/// scene lacks; without a model error also one beyond a uniform noise's bound) and for all other rows; with
-/// an unknown level perhaps for scenes less likely than the likeliest by exp(50). A silent sensor on a block
-/// that the scene has counts with the chance of its failing. The result has a value for each row of the
-/// table. Throws InputError if no reading is at a point that can move.
+/// log p(readings | scene), a value for each of the given rows (in ascending order), with an unknown noise
+/// level, an automatic noise shape and nuisances marginalised. -infinity for impossible scenes (a reading on
+/// a block that the scene lacks; without a model error also one beyond a uniform noise's bound), with an
+/// unknown level perhaps for scenes less likely than the likeliest by exp(50). A silent sensor on a block
+/// that the scene has counts with the chance of its failing. Throws InputError if no reading is at a point
+/// that can move.
+std::vector<double> log_evidence_of_each(const Observation& observation, const SceneTable& table,
+                                         std::span<const std::size_t> rows);
+
+/// The same with a value for each row of the table, -infinity for those that are not given.
 std::vector<double> log_evidence_of_rows(const Observation& observation, const SceneTable& table,
                                          std::span<const std::size_t> rows);
 
@@ -31,7 +35,7 @@ std::vector<NoiseShape> shapes_of(const NoiseModel& noise);
 bool has_closed_form(const Observation& observation);
 
 /// log of the chance, in each of the given rows, that the silent sensors are silent: certain on missing
-/// blocks, the noise model's `silence` on the others. Zero for all other rows.
+/// blocks, the noise model's `silence` on the others.
 std::vector<double> log_chance_of_silence(const Observation& observation, const SceneTable& table,
                                           std::span<const std::size_t> rows);
 

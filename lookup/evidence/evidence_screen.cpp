@@ -19,7 +19,7 @@ namespace {
 constexpr std::array<std::size_t, 2> kClustersFirst = {8, 32};
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr std::size_t kLikelyRows = 16;  // that say where an unknown level lies
-constexpr double kEstimate = 8.0;        // an estimate of a logarithm may be off by this much
+constexpr double kEstimate = 12.0;       // an estimate of a logarithm may be off by this much
 
 /// The sum of |reading - centre| for each cluster [m].
 std::vector<double> distances_from(std::span<const double> readings, const SearchIndex& index) {
@@ -72,22 +72,6 @@ std::vector<std::size_t> EvidenceScreen::rows_of(std::span<const std::size_t> cl
   return rows;
 }
 
-/// A value for each of the rows.
-std::vector<double> EvidenceScreen::exact_evidence(const Observation& observation,
-                                                   std::span<const std::size_t> rows) const {
-  std::vector<double> vertical;
-  vertical.reserve(rows.size() * table_.points);
-  for (const std::size_t row : rows)
-    vertical.insert(vertical.end(), table_.row(row).begin(), table_.row(row).end());
-  SceneTable gathered;
-  gathered.rows = rows.size();
-  gathered.points = table_.points;
-  gathered.vertical = vertical;
-  std::vector<std::size_t> all(rows.size());
-  std::iota(all.begin(), all.end(), std::size_t{0});
-  return log_evidence_of_rows(observation, gathered, all);
-}
-
 /// The clusters with the centres nearest to the readings.
 std::vector<std::size_t> EvidenceScreen::nearest_clusters(const Observation& observation,
                                                           std::size_t count) const {
@@ -107,7 +91,7 @@ std::optional<double> EvidenceScreen::least_that_matters(const Observation& obse
                                                          std::size_t count) const {
   for (const std::size_t wanted : kClustersFirst) {
     const std::vector<std::size_t> rows = rows_of(nearest_clusters(observation, wanted));
-    std::vector<double> values = exact_evidence(observation, rows);
+    std::vector<double> values = log_evidence_of_each(observation, table_, rows);
     for (std::size_t i = 0; i < values.size(); ++i) values[i] += log_prior_[rows[i]];
     std::erase_if(values, [](double value) { return !std::isfinite(value); });
     if (values.size() >= count) return least_beside(std::move(values), count, eligible_.rows.size());
@@ -126,30 +110,33 @@ std::vector<std::size_t> EvidenceScreen::rows_within_bounds(const Observation& o
   return rows_of(clusters);
 }
 
-/// A few rows near the readings.
-std::vector<std::size_t> EvidenceScreen::likely_rows(const Observation& observation) const {
-  std::vector<std::size_t> near = eligible_.rows;
-  if (index_.clusters() > 0) {
-    near = rows_of(nearest_clusters(observation, kClustersFirst.front()));
-    if (near.empty()) near = eligible_.rows;
-  }
+/// A few rows near the readings, in ascending order.
+std::vector<std::size_t> EvidenceScreen::likely_rows(const Observation& observation,
+                                                     std::size_t count) const {
+  std::vector<std::size_t> near;
+  if (index_.clusters() > 0) near = rows_of(nearest_clusters(observation, kClustersFirst.front()));
+  if (near.size() < count) near = eligible_.rows;
   std::vector<std::size_t> rows;
-  for (const ScoredRow& found : exhaustive_search(observation.displacement, table_, near, kLikelyRows))
+  for (const ScoredRow& found : exhaustive_search(observation.displacement, table_, near, count))
     rows.push_back(found.row);
+  std::sort(rows.begin(), rows.end());
   return rows;
 }
 
-/// Estimates of all rows tell which matter.
+/// Rows whose estimates come near what a few likely rows really have.
 std::vector<std::size_t> EvidenceScreen::rows_by_estimate(const Observation& observation,
                                                           std::size_t count) const {
-  std::vector<double> estimates =
-      estimated_evidence(observation, table_, eligible_.rows, likely_rows(observation));
-  for (std::size_t i = 0; i < estimates.size(); ++i) estimates[i] += log_prior_[eligible_.rows[i]];
+  const std::vector<std::size_t> likely = likely_rows(observation, std::max(count, kLikelyRows));
+  std::vector<double> values = log_evidence_of_each(observation, table_, likely);
+  for (std::size_t i = 0; i < values.size(); ++i) values[i] += log_prior_[likely[i]];
   const double least =
-      least_beside(estimates, std::min(count, estimates.size()), eligible_.rows.size()) - kEstimate;
+      least_beside(std::move(values), std::min(count, likely.size()), eligible_.rows.size()) - kEstimate;
+  const std::vector<double> estimates = estimated_evidence(observation, table_, eligible_.rows, likely);
   std::vector<std::size_t> result;
-  for (std::size_t i = 0; i < estimates.size(); ++i)
-    if (estimates[i] >= least && estimates[i] > -kInfinity) result.push_back(eligible_.rows[i]);
+  for (std::size_t i = 0; i < estimates.size(); ++i) {
+    const std::size_t row = eligible_.rows[i];
+    if (estimates[i] > -kInfinity && estimates[i] + log_prior_[row] >= least) result.push_back(row);
+  }
   return result;
 }
 
@@ -162,11 +149,7 @@ std::vector<std::size_t> EvidenceScreen::rows_that_matter(const Observation& obs
 }
 
 std::vector<double> EvidenceScreen::operator()(const Observation& observation, std::size_t count) const {
-  const std::vector<std::size_t> rows = rows_that_matter(observation, count);
-  const std::vector<double> evidence = exact_evidence(observation, rows);
-  std::vector<double> of_all(table_.rows, -std::numeric_limits<double>::infinity());
-  for (std::size_t i = 0; i < rows.size(); ++i) of_all[rows[i]] = evidence[i];
-  return of_all;
+  return log_evidence_of_rows(observation, table_, rows_that_matter(observation, count));
 }
 
 }  // namespace voussoir

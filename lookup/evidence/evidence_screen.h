@@ -32,11 +32,10 @@ class EvidenceScreen {
  private:
   std::vector<std::size_t> rows_of(std::span<const std::size_t> clusters) const;
   std::vector<std::size_t> nearest_clusters(const Observation& observation, std::size_t count) const;
-  std::vector<std::size_t> likely_rows(const Observation& observation) const;
+  std::vector<std::size_t> likely_rows(const Observation& observation, std::size_t count) const;
   std::optional<double> least_that_matters(const Observation& observation, std::size_t count) const;
   std::vector<std::size_t> rows_within_bounds(const Observation& observation, std::size_t count) const;
   std::vector<std::size_t> rows_by_estimate(const Observation& observation, std::size_t count) const;
-  std::vector<double> exact_evidence(const Observation& observation, std::span<const std::size_t> rows) const;
 
   const SceneTable& table_;
   SearchIndex index_;

@@ -12,6 +12,7 @@
 #include "lookup/evidence/bounded_errors.h"
 #include "lookup/evidence/level_likelihood.h"
 #include "lookup/evidence/nuisance_likelihood.h"
+#include "lookup/evidence/scale_fit.h"
 
 namespace voussoir {
 namespace {
@@ -57,12 +58,16 @@ double chance_of_error(NoiseShape shape, double error, double instrument, double
 
 /// Fisher's method: -2 sum log p_i has a chi square distribution if all p_i are even between 0 and 1.
 double fisher_chance(const Observation& observation, NoiseShape shape, const ExpectedErrors& expected,
-                     std::span<const double> prediction) {
+                     std::span<const double> prediction, const ScaleFits& fits) {
   double sum = 0.0;
-  for (std::size_t i = 0; i < prediction.size(); ++i)
-    if (!std::isnan(observation.reading[i]))
-      sum -= std::log(chance_of_error(shape, observation.reading[i] - prediction[i], expected.instrument[i],
-                                      expected.model[i], observation.noise.degrees_of_freedom));
+  for (std::size_t i = 0; i < prediction.size(); ++i) {
+    if (std::isnan(observation.reading[i])) continue;
+    const double movement = prediction[i] - observation.origin[i];
+    const double error = observation.reading[i] - observation.origin[i] - fits.factor_of(0) * movement;
+    const double model = std::hypot(expected.model[i], std::sqrt(fits.variance_of(0)) * movement);
+    sum -= std::log(
+        chance_of_error(shape, error, expected.instrument[i], model, observation.noise.degrees_of_freedom));
+  }
   return std::isfinite(sum) ? boost::math::gamma_q(static_cast<double>(observation.count), sum) : 0.0;
 }
 
@@ -75,17 +80,19 @@ double chance_at_stated_level(const Observation& observation, const NoiseEstimat
   table.vertical = prediction;
   const auto n = static_cast<double>(observation.count);
   const ErrorScales scales = scales_at(observation, std::max(noise.level, kSmallestLevel));
-  if (observation.has_nuisance()) {
+  if (observation.has_levelling()) {
     const RowStatistics row = nuisance_statistics(observation, scales, table, kRow).row(0);
     return std::isnan(row.sum_absolute) ? 0.0 : boost::math::gamma_q(n / 2.0, row.sum_square / 2.0);
   }
   const RowStatistics row = table_statistics(observation, scales, table, kRow).row(0);
   if (std::isnan(row.sum_absolute)) return 0.0;
-  if (noise.shape == NoiseShape::gaussian) return boost::math::gamma_q(n / 2.0, row.sum_square / 2.0);
+  if (noise.shape == NoiseShape::gaussian)
+    return boost::math::gamma_q(n / 2.0, (row.sum_square + row.scale_square) / 2.0);
   if (noise.shape == NoiseShape::laplace)
     return boost::math::gamma_q(n, std::numbers::sqrt2 * row.sum_absolute);
-  return fisher_chance(observation, noise.shape, expected_errors(observation, scales, prediction),
-                       prediction);
+  const double instrument_variance = noise.shape == NoiseShape::uniform ? kBoundedVariance : 1.0;
+  return fisher_chance(observation, noise.shape, expected_errors(observation, scales, prediction), prediction,
+                       scale_fits(observation, scales, table, kRow, instrument_variance));
 }
 
 /// Chance that independent errors follow their neighbours as closely as these: von Neumann's ratio, normal

@@ -23,7 +23,8 @@ constexpr double kPanel =
 constexpr double kFarFromBest = 30.0;  // rows less likely than the best by exp(this) need not be exact
 constexpr double kWidening = 1.4;      // of the steps below the peaks, where likelihoods level out
 constexpr double kFarInside = 4.0;     // deviations of the model inside of which a bound is hardly felt: 3e-5
-constexpr double kFarBeyond = 7.0;     // .. and beyond which a reading is all but excluded
+constexpr double kMostScaleDeviations = 4.0;  // of an unknown common factor, that count
+constexpr double kFarBeyond = 7.0;            // .. and beyond which a reading is all but excluded
 
 const double kFirst = std::log(kSmallestLevel);
 const double kLast = std::log(kLargestLevel);
@@ -178,14 +179,18 @@ class BoundedRow {
     const std::span<const double> prediction = table_.row(row_.front());
     const ErrorScales unit = scales_at(observation_, 1.0);
     const ExpectedErrors errors = expected_errors(observation_, unit, prediction);
+    const double deviations = observation_.unknown_scale * kMostScaleDeviations;
     for (std::size_t i = 0; i < prediction.size(); ++i) {
       if (std::isnan(observation_.reading[i])) continue;
       is_possible_ = is_possible_ && !std::isnan(prediction[i]);
       if (unit.slope[i] == 0.0) continue;
       const double relative = errors.instrument[i] - observation_.floor[i];
       const double beyond = std::abs(observation_.reading[i] - prediction[i]) - observation_.floor[i];
-      begin_ = std::max(begin_, (beyond - kFarBeyond * errors.model[i]) / relative * (1.0 - kBoundTolerance));
-      end_ = std::max(end_, (beyond + kFarInside * errors.model[i]) / relative * (1.0 + kBoundTolerance));
+      const double scaled = deviations * std::abs(prediction[i] - observation_.origin[i]);
+      begin_ = std::max(
+          begin_, (beyond - kFarBeyond * errors.model[i] - scaled) / relative * (1.0 - kBoundTolerance));
+      end_ = std::max(end_,
+                      (beyond + kFarInside * errors.model[i] + scaled) / relative * (1.0 + kBoundTolerance));
     }
   }
 

@@ -32,7 +32,8 @@ struct ScaledLikelihood {
 
 /// Of Gaussian and Laplace shapes.
 ScaledLikelihood scaled_likelihood(NoiseShape shape, const RowStatistics& statistics, double count) {
-  const double constant = count * log_density(shape, 0.0, 0.0) - statistics.sum_log_scale;
+  const double constant =
+      count * log_density(shape, 0.0, 0.0) - statistics.sum_log_scale - 0.5 * statistics.scale_square;
   if (shape == NoiseShape::laplace)
     return {constant, count, std::numbers::sqrt2 * statistics.sum_absolute, 1.0};
   return {constant, count, 0.5 * statistics.sum_square, 2.0};
@@ -40,18 +41,18 @@ ScaledLikelihood scaled_likelihood(NoiseShape shape, const RowStatistics& statis
 
 double student_log_likelihood(const RowStatistics& statistics, double count, double nu) {
   return count * log_density(NoiseShape::student, 0.0, nu) - statistics.sum_log_scale -
-         0.5 * (nu + 1.0) * statistics.sum_log_student;
+         0.5 * (nu + 1.0) * statistics.sum_log_student - 0.5 * statistics.scale_square;
 }
 
 /// The logarithm of the density of errors within the bound.
 double log_inside(const RowStatistics& statistics, double count) {
-  return -count * std::numbers::ln2 - statistics.sum_log_scale;
+  return -count * std::numbers::ln2 - statistics.sum_log_scale - 0.5 * statistics.scale_square;
 }
 
 TableStatistics statistics_at(const Observation& observation, NoiseShape shape, double level,
                               const SceneTable& table, std::span<const std::size_t> rows) {
   const ErrorScales scales = scales_at(observation, level);
-  if (observation.has_nuisance()) return nuisance_statistics(observation, scales, table, rows);
+  if (observation.has_levelling()) return nuisance_statistics(observation, scales, table, rows);
   return table_statistics(observation, scales, table, rows,
                           shape == NoiseShape::uniform ? ErrorSum::beyond : ErrorSum::variance);
 }
@@ -69,7 +70,7 @@ std::vector<double> of_possible_rows(const TableStatistics& statistics, Value va
 
 std::vector<double> log_likelihoods_at(const Observation& observation, NoiseShape shape, double level,
                                        const SceneTable& table, std::span<const std::size_t> rows) {
-  if (shape == NoiseShape::uniform && observation.has_model_error()) {
+  if (shape == NoiseShape::uniform && observation.softens_bounds()) {
     std::vector<double> logs =
         log_bounded_likelihoods(observation, scales_at(observation, level), table, rows);
     for (double& log : logs)

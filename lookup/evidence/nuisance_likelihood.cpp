@@ -9,8 +9,6 @@
 namespace voussoir {
 namespace {
 
-constexpr double kLeastFactor = 1e-3;  // so that a scene cannot explain readings as noise-free
-
 /// The arrays of an observation at its points with readings, one after the other.
 struct Readings {
   std::vector<std::size_t> point;
@@ -38,12 +36,6 @@ struct Readings {
   }
 };
 
-/// Least squares of reading over prediction, kept positive.
-double fitted_factor(const Eigen::ArrayXd& reading, const Eigen::ArrayXd& prediction) {
-  const double square = prediction.square().sum();
-  return square > 0.0 ? std::max((reading * prediction).sum() / square, kLeastFactor) : 1.0;
-}
-
 /// What the rows share, and the vectors that are worked in.
 class RowSolver {
  public:
@@ -61,9 +53,8 @@ class RowSolver {
     RowStatistics result;
     result.sum_absolute = difference_.abs().sum();
     if (std::isnan(result.sum_absolute)) return result;
-    const double factor = unknown_scale_ > 0.0 ? fitted_factor(readings_.reading, prediction_) : 1.0;
-    instrument_ = noise_scale<Eigen::ArrayXd>(readings_.slope * factor, readings_.offset,
-                                              (prediction_ - readings_.origin).abs());
+    movement_ = prediction_ - readings_.origin;
+    instrument_ = noise_scale<Eigen::ArrayXd>(readings_.slope, readings_.offset, movement_.abs());
     variance_ =
         instrument_.square() + model_variance<Eigen::ArrayXd>(readings_.own_variance + common, share_square_,
                                                               prediction_ - readings_.intact);
@@ -74,7 +65,7 @@ class RowSolver {
   RowStatistics with_columns(RowStatistics result) {
     inverse_root_ = variance_.rsqrt();
     columns_.leftCols(readings_.levelling.cols()) = inverse_root_.matrix().asDiagonal() * readings_.levelling;
-    if (unknown_scale_ > 0.0) columns_.rightCols(1) = (unknown_scale_ * prediction_ * inverse_root_).matrix();
+    if (unknown_scale_ > 0.0) columns_.rightCols(1) = (unknown_scale_ * movement_ * inverse_root_).matrix();
     difference_ *= inverse_root_;
     normal_.noalias() = columns_.transpose() * columns_;
     normal_.diagonal().array() += 1.0;
@@ -92,7 +83,7 @@ class RowSolver {
   double unknown_scale_;
   Eigen::MatrixXd columns_, normal_;
   Eigen::VectorXd right_;
-  Eigen::ArrayXd prediction_, difference_, instrument_, variance_, inverse_root_;
+  Eigen::ArrayXd prediction_, movement_, difference_, instrument_, variance_, inverse_root_;
   Eigen::LLT<Eigen::MatrixXd> factorised_;
 };
 
@@ -103,7 +94,7 @@ TableStatistics nuisance_statistics(const Observation& observation, const ErrorS
   const std::vector<double> common =
       common_variances(observation.intact, observation.error_common, table, rows);
   const std::vector<double> zeros(rows.size(), 0.0);
-  TableStatistics result{zeros, zeros, zeros, zeros, zeros};
+  TableStatistics result{zeros, zeros, zeros, zeros, zeros, zeros};
   RowSolver solve(observation, scales);
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const RowStatistics one = solve(table.row(rows[i]), common[i]);

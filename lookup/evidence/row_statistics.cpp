@@ -6,14 +6,13 @@
 #include <numbers>
 
 #include "core/simd/lane_math.h"
+#include "lookup/evidence/point_arrays.h"
+#include "lookup/evidence/scale_fit.h"
 #include "lookup/evidence/wide_product.h"
 #include "lookup/readings/common_variance.h"
-#include "lookup/readings/noise_scale.h"
 
 namespace voussoir {
 namespace {
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 /// Running statistics, lane by lane, with products in place of sums of logarithms.
 struct LaneStatistics {
@@ -21,40 +20,37 @@ struct LaneStatistics {
   DoubleLanes scales = DoubleLanes{} + 1.0, student = DoubleLanes{} + 1.0;
 };
 
-/// The arrays of an Observation and its scales, as the loop below wants them.
+/// What a row is worked out with.
 struct View {
-  const double *reading, *slope, *offset, *intact, *origin, *own_variance;
-  double share_square;
+  PointArrays arrays;
   double inverse_unit;
   double per_student;  ///< 1 / (nu - 2), or 0 if nobody asks
-  std::size_t points;
-  bool counts_from_origin;
+};
 
-  VOUSSOIR_INLINE DoubleLanes at(const double* values, std::size_t i, std::size_t count) const {
-    return load_some<DoubleLanes>(values + i, count, kNan);
-  }
+/// What a row has of its own.
+struct RowTerms {
+  double common;    ///< variance of the model that all points share [m2]
+  double factor;    ///< of all movements
+  double variance;  ///< of that factor
 };
 
 template <bool kModelError, ErrorSum kSum>
 VOUSSOIR_INLINE void add_errors(const View& view, std::size_t i, std::size_t count, const double* prediction,
-                                double common, LaneStatistics& statistics) {
-  const DoubleLanes reading = view.at(view.reading, i, count), predicted = view.at(prediction, i, count);
-  const DoubleLanes movement =
-      magnitude(view.counts_from_origin ? predicted - view.at(view.origin, i, count) : predicted);
-  DoubleLanes scale = noise_scale(view.at(view.slope, i, count), view.at(view.offset, i, count), movement);
-  DoubleLanes error = magnitude(reading - predicted);
+                                const RowTerms& row, LaneStatistics& statistics) {
+  const PointLanes at = point_lanes(view.arrays, prediction, i, count, row.common);
+  DoubleLanes scale = at.instrument;
+  DoubleLanes error = magnitude(at.reading - at.predicted);
   if constexpr (kModelError) {
-    const DoubleLanes variance =
-        model_variance<DoubleLanes>(view.at(view.own_variance, i, count) + common, view.share_square,
-                                    predicted - view.at(view.intact, i, count));
+    const DoubleLanes movement = at.predicted - at.origin;
+    error = magnitude(at.reading - at.origin - row.factor * movement);
     if constexpr (kSum == ErrorSum::variance) {
-      scale = square_root(scale * scale + variance);
+      scale = square_root(scale * scale + at.variance);
     } else {
-      const DoubleLanes beyond = error - 2.0 * square_root(variance);
+      const DoubleLanes beyond = error - 2.0 * square_root(at.variance + row.variance * movement * movement);
       error = beyond < 0.0 ? DoubleLanes{} : beyond;  // NaN stays
     }
   }
-  const DoubleMask has_reading = reading == reading;
+  const DoubleMask has_reading = at.reading == at.reading;
   const DoubleLanes z = has_reading ? error / scale : DoubleLanes{};
   statistics.sum_absolute += z;
   statistics.sum_square += z * z;
@@ -70,8 +66,8 @@ struct Columns {
 };
 
 template <bool kModelError, ErrorSum kSum>
-VOUSSOIR_INLINE void collect_row(const View& view, const double* prediction, double common, std::size_t row,
-                                 const Columns& columns) {
+VOUSSOIR_INLINE void collect_row(const View& view, const double* prediction, const RowTerms& terms,
+                                 std::size_t row, const Columns& columns) {
   LaneStatistics lanes;
   WideProduct scales, student;
   const auto flush_both = [&]() __attribute__((always_inline)) {
@@ -79,11 +75,12 @@ VOUSSOIR_INLINE void collect_row(const View& view, const double* prediction, dou
     if (view.per_student > 0.0) flush(lanes.student, student);
   };
   std::size_t i = 0;
-  for (std::size_t step = 1; i + kLanes <= view.points; i += kLanes, ++step) {
-    add_errors<kModelError, kSum>(view, i, kLanes, prediction, common, lanes);
+  for (std::size_t step = 1; i + kLanes <= view.arrays.points; i += kLanes, ++step) {
+    add_errors<kModelError, kSum>(view, i, kLanes, prediction, terms, lanes);
     if (step % kSafeProducts == 0) flush_both();
   }
-  if (i < view.points) add_errors<kModelError, kSum>(view, i, view.points - i, prediction, common, lanes);
+  if (i < view.arrays.points)
+    add_errors<kModelError, kSum>(view, i, view.arrays.points - i, prediction, terms, lanes);
   flush_both();
   columns.sum_absolute[row] = sum_of(lanes.sum_absolute);
   columns.sum_square[row] = sum_of(lanes.sum_square);
@@ -97,37 +94,39 @@ VOUSSOIR_INLINE void collect_row(const View& view, const double* prediction, dou
 using Rows = std::span<const std::size_t>;
 
 VOUSSOIR_FOR_EVERY_PROCESSOR
-void collect_plain(const View& view, const double* table, Rows rows, const double* common,
+void collect_plain(const View& view, const double* table, Rows rows, const RowTerms* terms,
                    const Columns& columns) {
   for (std::size_t i = 0; i < rows.size(); ++i)
-    collect_row<false, ErrorSum::variance>(view, table + rows[i] * view.points, common[i], i, columns);
+    collect_row<false, ErrorSum::variance>(view, table + rows[i] * view.arrays.points, terms[i], i, columns);
 }
 VOUSSOIR_FOR_EVERY_PROCESSOR
-void collect_variance(const View& view, const double* table, Rows rows, const double* common,
+void collect_variance(const View& view, const double* table, Rows rows, const RowTerms* terms,
                       const Columns& columns) {
   for (std::size_t i = 0; i < rows.size(); ++i)
-    collect_row<true, ErrorSum::variance>(view, table + rows[i] * view.points, common[i], i, columns);
+    collect_row<true, ErrorSum::variance>(view, table + rows[i] * view.arrays.points, terms[i], i, columns);
 }
 VOUSSOIR_FOR_EVERY_PROCESSOR
-void collect_beyond(const View& view, const double* table, Rows rows, const double* common,
+void collect_beyond(const View& view, const double* table, Rows rows, const RowTerms* terms,
                     const Columns& columns) {
   for (std::size_t i = 0; i < rows.size(); ++i)
-    collect_row<true, ErrorSum::beyond>(view, table + rows[i] * view.points, common[i], i, columns);
+    collect_row<true, ErrorSum::beyond>(view, table + rows[i] * view.arrays.points, terms[i], i, columns);
 }
 
-View view_of(const Observation& observation, const ErrorScales& scales, const SceneTable& table) {
+View view_of(const Observation& observation, const ErrorScales& scales) {
   const double nu = observation.noise.degrees_of_freedom;
-  return {observation.reading.data(),
-          scales.slope.data(),
-          scales.offset.data(),
-          observation.intact.data(),
-          observation.origin.data(),
-          observation.own_variance.data(),
-          observation.error_share * observation.error_share,
-          1.0 / scales.unit,
-          observation.noise.shape == NoiseShape::student ? 1.0 / (nu - 2.0) : 0.0,
-          table.points,
-          observation.origin == observation.intact};
+  return {point_arrays(observation, scales), 1.0 / scales.unit,
+          observation.noise.shape == NoiseShape::student ? 1.0 / (nu - 2.0) : 0.0};
+}
+
+std::vector<RowTerms> terms_of(const Observation& observation, const SceneTable& table, Rows rows,
+                               const ScaleFits& fits) {
+  const std::vector<double> common =
+      common_variances(observation.intact, observation.error_common, table, rows);
+  std::vector<RowTerms> terms;
+  terms.reserve(rows.size());
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    terms.push_back({common[i], fits.factor_of(i), fits.variance_of(i)});
+  return terms;
 }
 
 /// Mantissas become logarithms of mantissa times two to the exponent, plus a shift.
@@ -141,20 +140,24 @@ void make_wide_logarithms(std::vector<double>& mantissa, const std::vector<doubl
 TableStatistics table_statistics(const Observation& observation, const ErrorScales& scales,
                                  const SceneTable& table, std::span<const std::size_t> rows, ErrorSum sum) {
   const std::vector<double> zeros(rows.size(), 0.0);
-  TableStatistics result{zeros, zeros, zeros, zeros, zeros};
+  TableStatistics result{zeros, zeros, zeros, zeros, zeros, zeros};
   std::vector<double> scale_exponent = zeros, student_exponent = zeros;
-  const View view = view_of(observation, scales, table);
+  const View view = view_of(observation, scales);
   const Columns columns{result.sum_absolute.data(),  result.sum_square.data(), result.largest.data(),
                         result.sum_log_scale.data(), scale_exponent.data(),    result.sum_log_student.data(),
                         student_exponent.data()};
-  const auto collect = !observation.has_model_error() ? collect_plain
-                       : sum == ErrorSum::variance    ? collect_variance
-                                                      : collect_beyond;
-  collect(view, table.vertical.data(), rows,
-          common_variances(observation.intact, observation.error_common, table, rows).data(), columns);
+  const ScaleFits fits =
+      scale_fits(observation, scales, table, rows, sum == ErrorSum::beyond ? kBoundedVariance : 1.0);
+  const bool plain = !observation.has_model_error() && observation.unknown_scale == 0.0;
+  const auto collect = plain ? collect_plain : sum == ErrorSum::variance ? collect_variance : collect_beyond;
+  collect(view, table.vertical.data(), rows, terms_of(observation, table, rows, fits).data(), columns);
   make_wide_logarithms(result.sum_log_scale, scale_exponent,
                        static_cast<double>(observation.count) * std::log(scales.unit));
   if (view.per_student > 0.0) make_wide_logarithms(result.sum_log_student, student_exponent, 0.0);
+  for (std::size_t i = 0; i < fits.factor.size(); ++i) {
+    result.scale_square[i] = fits.square[i];
+    result.sum_log_scale[i] += fits.log_width[i];
+  }
   return result;
 }
 

@@ -79,9 +79,10 @@ Observation observe(const Comparison& comparison, const NoiseModel& noise, const
       std::none_of(result.share.begin(), result.share.end(), [](double s) { return s > 0.0; });
   if (noise.shape == NoiseShape::automatic && result.own_sigmas && all_stated)
     result.noise.shape = NoiseShape::gaussian;
-  if (nuisance.any() && result.noise.shape != NoiseShape::gaussian)
-    throw InputError("an unknown scale, datum or tilt needs Gaussian noise, expected --noise-model gaussian");
-  result.unknown_scale = nuisance.scale;
+  if ((nuisance.datum > 0.0 || nuisance.tilt > 0.0) && result.noise.shape != NoiseShape::gaussian)
+    throw InputError("an unknown datum or tilt needs Gaussian noise, expected --noise-model gaussian");
+  const bool is_absolute = !is_change(comparison.kind) && result.has_model_error();
+  result.unknown_scale = std::max(nuisance.scale, is_absolute ? kLeastUnknownScale : 0.0);
   result.levelling = levelling_columns(comparison, nuisance);
   return result;
 }

@@ -24,7 +24,7 @@ struct Observation {
                                      ///< compared: none in changes
   double error_share = 0.0;          ///< ModelError of the signals
   double error_common = 0.0;
-  double unknown_scale = 0.0;  ///< Nuisance::scale
+  double unknown_scale = 0.0;  ///< standard deviation of the common factor of all movements
   Eigen::MatrixXd levelling;   ///< levelling_columns
   std::vector<bool> silent;    ///< there is a sensor, but it gave no reading
   NoiseModel noise;            ///< Gaussian in the place of automatic if all sensors state their sigma
@@ -33,9 +33,13 @@ struct Observation {
   bool unknown_level = false;  ///< some sensor does not, and nothing states the noise level
 
   bool has_model_error() const;
-  bool has_nuisance() const { return unknown_scale > 0.0 || levelling.cols() > 0; }
+  /// A reading beyond the bound of uniform noise is unlikely, not impossible.
+  bool softens_bounds() const { return has_model_error() || unknown_scale > 0.0; }
+  bool has_levelling() const { return levelling.cols() > 0; }
   /// All errors grow with the noise level alone, so that statistics for one level serve all.
-  bool is_proportional() const { return noise.floor == 0.0 && !own_sigmas && !has_model_error(); }
+  bool is_proportional() const {
+    return noise.floor == 0.0 && !own_sigmas && !softens_bounds() && !has_levelling();
+  }
 };
 
 /// Reading by reading what `comparison` holds, with the noise and the unknowns about it. Points that do not

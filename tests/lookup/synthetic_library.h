@@ -45,9 +45,11 @@ struct SyntheticLibrary {
 
   Library library() const { return {table, points, layout, index.view()}; }
   std::span<const double> intact() const { return table.row(0); }
+  /// Absolute readings, or changes (added to the intact displacements) if the model has an error.
   Observation observe(const Measurements& measured, const NoiseModel& noise, const Nuisance& nuisance = {},
                       const ModelError& error = {}) const {
     Comparison comparison = absolute_readings(library(), measured);
+    if (error != ModelError{}) comparison.kind = ReadingKind::change;
     comparison.model_error = error;
     return voussoir::observe(comparison, noise, nuisance);
   }
