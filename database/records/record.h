@@ -7,6 +7,7 @@
 #include "core/structure/control_point.h"
 #include "database/format/sha256.h"
 #include "database/records/record_key.h"
+#include "database/records/state_name.h"
 
 namespace voussoir {
 
@@ -27,9 +28,6 @@ struct Record {
   std::vector<RecordedState> states;  ///< one for each state of the database
   Sha256 checksum{};                  ///< scene_checksum of all of the above
 };
-
-/// The one state that is solved for: gravity on the bridge that was built without the blocks.
-inline constexpr char kBuiltState[] = "built";
 
 enum class KeepField { no, yes };
 

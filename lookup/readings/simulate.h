@@ -3,6 +3,7 @@
 
 #include <span>
 
+#include "database/records/database.h"
 #include "lookup/readings/measurements.h"
 #include "lookup/readings/noise_model.h"
 #include "lookup/readings/random.h"
