@@ -28,7 +28,7 @@ std::string loads_of(const Database& database, const std::string& history) {
 
 /// The states of one history; a message instead of what is missing.
 std::variant<ReadingStates, std::string> states_of(const ReadingsFile& file, const Database& database,
-                                            const std::string& history) {
+                                                   const std::string& history) {
   const std::optional<std::size_t> base = find_state(database, history);
   if (!base)
     return at_line(database.path().string(), 0,
@@ -50,7 +50,7 @@ std::variant<ReadingStates, std::string> states_of(const ReadingsFile& file, con
 }  // namespace
 
 ReadingStates find_reading_states(const ReadingsFile& file, const Database& database,
-                   const std::optional<std::string>& history) {
+                                  const std::optional<std::string>& history) {
   const bool absolute = file.kind == ReadingKind::absolute;
   const std::string usual = history.value_or(absolute ? kBuiltState : kLostState);
   auto found = states_of(file, database, usual);

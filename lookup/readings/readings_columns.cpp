@@ -43,7 +43,8 @@ class Header {
 
   void claim(std::size_t& column, std::size_t position) const {
     if (column != kAbsent)
-      fail(fmt::format("column {} is given twice or beside another value column", voussoir::quoted(names()[position])));
+      fail(fmt::format("column {} is given twice or beside another value column",
+                       voussoir::quoted(names()[position])));
     column = position;
   }
 
@@ -84,7 +85,8 @@ class Header {
     if (before != after)
       fail(before ? "column 'before_mm' without 'after_mm'" : "column 'after_mm' without 'before_mm'");
     if (before && columns_.value != kAbsent)
-      fail(fmt::format("column {} beside 'before_mm' and 'after_mm'", voussoir::quoted(names()[columns_.value])));
+      fail(fmt::format("column {} beside 'before_mm' and 'after_mm'",
+                       voussoir::quoted(names()[columns_.value])));
     if (!before && columns_.value == kAbsent) fail("no value column");
     if (!before) return;
     columns_.factor = kMetresPerMillimetre;

@@ -33,7 +33,8 @@ struct ReadingsColumns {
 /// What a header may have, for messages.
 extern const std::string_view kReadingsColumns;
 
-/// Throws InputError for a header that leaves open what is read where, and for numbers with two decimal marks.
+/// Throws InputError for a header that leaves open what is read where, and for numbers with two decimal
+/// marks.
 ReadingsColumns find_readings_columns(const CsvTable& table);
 
 }  // namespace voussoir

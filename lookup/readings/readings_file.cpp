@@ -35,8 +35,9 @@ class Reader {
     for (const CsvLine& line : table_.rows) file.readings.push_back(read_row(line));
     const auto has_value = [](const Reading& reading) { return !std::isnan(reading.value); };
     if (std::none_of(file.readings.begin(), file.readings.end(), has_value))
-      table_.fail(0, columns_.two_epochs() ? "no usable row, expected at least one point with a value before and after"
-                                           : "no usable row, expected at least one point with a displacement");
+      table_.fail(0, columns_.two_epochs()
+                         ? "no usable row, expected at least one point with a value before and after"
+                         : "no usable row, expected at least one point with a displacement");
     return file;
   }
 
@@ -78,17 +79,19 @@ class Reader {
 
   std::size_t named_sensor(const CsvLine& line) const {
     const std::string& name = line.fields[columns_.point];
-    const auto found =
-        std::find_if(sensors_.begin(), sensors_.end(), [&](const Sensor& sensor) { return sensor.name == name; });
+    const auto found = std::find_if(sensors_.begin(), sensors_.end(),
+                                    [&](const Sensor& sensor) { return sensor.name == name; });
     if (found == sensors_.end())
-      table_.fail(line.number, fmt::format("unknown point {}, expected {} to {}{}", voussoir::quoted(name),
-                                           sensors_.front().name, sensors_[control_points_ - 1].name,
-                                           sensors_.size() > control_points_ ? ", or a sensor of the list" : ""));
-    if (found->quantity != Quantity::uy && columns_.vertical_only)
       table_.fail(line.number,
-                  fmt::format("sensor {} reads no vertical displacement, expected a column value_mm, change_mm, "
-                              "or before_mm,after_mm",
-                              name));
+                  fmt::format("unknown point {}, expected {} to {}{}", voussoir::quoted(name),
+                              sensors_.front().name, sensors_[control_points_ - 1].name,
+                              sensors_.size() > control_points_ ? ", or a sensor of the list" : ""));
+    if (found->quantity != Quantity::uy && columns_.vertical_only)
+      table_.fail(
+          line.number,
+          fmt::format("sensor {} reads no vertical displacement, expected a column value_mm, change_mm, "
+                      "or before_mm,after_mm",
+                      name));
     return static_cast<std::size_t>(found - sensors_.begin());
   }
 
@@ -100,15 +103,16 @@ class Reader {
     std::size_t nearest = 0;
     for (std::size_t i = 1; i < control_points_; ++i) {
       const double gain = distance(nearest) - distance(i);
-      const bool twin = std::abs(gain) <= kSamePlace && line_of_.contains({nearest, load}) &&
-                        !line_of_.contains({i, load});
+      const bool twin =
+          std::abs(gain) <= kSamePlace && line_of_.contains({nearest, load}) && !line_of_.contains({i, load});
       if (gain > kSamePlace || twin) nearest = i;
     }
     if (distance(nearest) > kPointTolerance)
-      table_.fail(line.number,
-                  fmt::format("no control point at x = {} m, y = {} m: the nearest, {}, is {:.3g} m away, "
-                              "expected at most {} m",
-                              place.x(), place.y(), sensors_[nearest].name, distance(nearest), kPointTolerance));
+      table_.fail(
+          line.number,
+          fmt::format("no control point at x = {} m, y = {} m: the nearest, {}, is {:.3g} m away, "
+                      "expected at most {} m",
+                      place.x(), place.y(), sensors_[nearest].name, distance(nearest), kPointTolerance));
     return nearest;
   }
 
@@ -125,8 +129,8 @@ class Reader {
     if (says_nothing(text)) return kNan;
     const std::optional<double> number = parse_number(text, columns_.mark);
     if (!number)
-      table_.fail(line.number,
-                  fmt::format("{} is no finite number, expected a displacement or nothing", voussoir::quoted(text)));
+      table_.fail(line.number, fmt::format("{} is no finite number, expected a displacement or nothing",
+                                           voussoir::quoted(text)));
     const double metres = columns_.factor * *number;
     if (std::abs(metres) > kLargestDisplacement)
       table_.fail(line.number,
@@ -140,8 +144,9 @@ class Reader {
     if (says_nothing(text)) return kNan;
     const std::optional<double> number = parse_number(text, columns_.mark);
     if (!number || *number <= 0.0)
-      table_.fail(line.number, fmt::format("{} is no sigma, expected a positive number of millimetres or nothing",
-                                           voussoir::quoted(text)));
+      table_.fail(line.number,
+                  fmt::format("{} is no sigma, expected a positive number of millimetres or nothing",
+                              voussoir::quoted(text)));
     return kMetresPerMillimetre * *number;
   }
 

@@ -48,8 +48,9 @@ inline constexpr double kPointTolerance = 0.05;
 inline constexpr double kLargestDisplacement = 100.0;
 
 /// Reads a text (`name` is used in messages). Where two control points share a place (neighbouring blocks'
-/// corners), the first row with its coordinates is the left block's, the second the right block's. Throws InputError "file:line: ..." for anything else than the
-/// above, for a sensor that comes twice under the same load, and for a file without any reading.
+/// corners), the first row with its coordinates is the left block's, the second the right block's. Throws
+/// InputError "file:line: ..." for anything else than the above, for a sensor that comes twice under the same
+/// load, and for a file without any reading.
 ReadingsFile parse_readings(std::string_view text, const std::string& name, const SensorList& list);
 
 /// The same for a file; the path "-" is the standard input.

@@ -28,7 +28,8 @@ SensorList control_point_sensors(const std::vector<StoredPoint>& points) {
 std::vector<NodeWeight> displacement_weights(const Place& place, const Point& direction, const Mesh& mesh) {
   const IndexRange range = mesh.block_triangles[static_cast<std::size_t>(value(place.block))];
   std::vector<NodeWeight> weights;
-  double best = -std::numeric_limits<double>::infinity();  // the triangle about the place has no negative share
+  double best =
+      -std::numeric_limits<double>::infinity();  // the triangle about the place has no negative share
   for (int t = range.begin; t < range.end; ++t) {
     const Triangle& triangle = mesh.triangles[static_cast<std::size_t>(t)];
     const Eigen::Vector3d shares = shares_of(triangle, place.position, mesh);

@@ -18,7 +18,7 @@ constexpr std::string_view kQuantities = "ux, uy, tilt or distance";
 
 enum Column : std::size_t { kName, kQuantity, kX, kY, kX2, kY2, kBlock, kBlock2, kColumnCount };
 constexpr std::array<std::string_view, kColumnCount> kNames = {"name", "quantity", "x_m",   "y_m",
-                                                                "x2_m", "y2_m",     "block", "block2"};
+                                                               "x2_m", "y2_m",     "block", "block2"};
 
 std::optional<Quantity> parse_quantity(std::string_view text) {
   if (text == "ux") return Quantity::ux;
@@ -79,7 +79,8 @@ class Reader {
     const std::string& header = table_.header.fields[position];
     const auto found = std::find(kNames.begin(), kNames.end(), header);
     if (found == kNames.end())
-      table_.fail(table_.header.number, fmt::format("unknown column {}, expected {}", voussoir::quoted(header), kColumns));
+      table_.fail(table_.header.number,
+                  fmt::format("unknown column {}, expected {}", voussoir::quoted(header), kColumns));
     std::size_t& column = columns_[static_cast<std::size_t>(found - kNames.begin())];
     if (column != kNone)
       table_.fail(table_.header.number,
@@ -119,15 +120,16 @@ class Reader {
     for (std::size_t i = 0; i < layout_.size(); ++i)
       if (touches(layout_.blocks[i].polygon, at)) blocks.push_back(BlockId{static_cast<std::int32_t>(i)});
     if (blocks.empty())
-      table_.fail(line.number, fmt::format("x = {} m, y = {} m is outside the bridge, expected a place on a block",
-                                           at.x(), at.y()));
+      table_.fail(line.number,
+                  fmt::format("x = {} m, y = {} m is outside the bridge, expected a place on a block", at.x(),
+                              at.y()));
     const std::optional<BlockId> named = named_block(line, block_column);
     if (named && std::find(blocks.begin(), blocks.end(), *named) == blocks.end())
-      table_.fail(line.number, fmt::format("x = {} m, y = {} m is not on block {}, expected {}", at.x(), at.y(),
-                                           layout_[*named].label, labels(blocks)));
+      table_.fail(line.number, fmt::format("x = {} m, y = {} m is not on block {}, expected {}", at.x(),
+                                           at.y(), layout_[*named].label, labels(blocks)));
     if (!named && blocks.size() > 1)
-      table_.fail(line.number, fmt::format("blocks meet at x = {} m, y = {} m, expected {} in column {}", at.x(),
-                                           at.y(), labels(blocks), kNames[block_column]));
+      table_.fail(line.number, fmt::format("blocks meet at x = {} m, y = {} m, expected {} in column {}",
+                                           at.x(), at.y(), labels(blocks), kNames[block_column]));
     return {at, named.value_or(blocks.front())};
   }
 
@@ -155,7 +157,8 @@ class Reader {
     } catch (const InputError& error) {
       table_.fail(line.number, error.what());
     }
-    table_.fail(line.number, fmt::format("{} in column {}, expected one block", voussoir::quoted(field), kNames[column]));
+    table_.fail(line.number,
+                fmt::format("{} in column {}, expected one block", voussoir::quoted(field), kNames[column]));
   }
 
   const CsvTable& table_;
@@ -175,7 +178,8 @@ void parse_sensors(std::string_view text, const std::string& name, const BlockLa
     Sensor sensor = reader.read(line);
     const auto same = [&](const Sensor& other) { return other.name == sensor.name; };
     if (std::any_of(list.sensors.begin(), list.sensors.end(), same))
-      table.fail(line.number, fmt::format("sensor {} is there already, expected another name", voussoir::quoted(sensor.name)));
+      table.fail(line.number, fmt::format("sensor {} is there already, expected another name",
+                                          voussoir::quoted(sensor.name)));
     list.sensors.push_back(std::move(sensor));
   }
 }

@@ -24,7 +24,8 @@ double parse_sigma(std::string_view text) {
   if (digits.ends_with("mm")) digits.remove_suffix(2);
   const std::optional<double> number = parse_number(trimmed(digits));
   if (!number || *number <= 0.0 || *number > kLargestSigma)
-    throw InputError(fmt::format("{} given, expected a positive number of millimetres such as 0.02mm", quoted(text)));
+    throw InputError(
+        fmt::format("{} given, expected a positive number of millimetres such as 0.02mm", quoted(text)));
   return kMetresPerMillimetre * *number;
 }
 

@@ -21,8 +21,9 @@ std::string input_name(const std::filesystem::path& path) {
 
 std::string read_text_input(const std::filesystem::path& path, const std::string& expected) {
   const auto failed = [&] {
-    return InputError(at_line(input_name(path), 0,
-                              fmt::format("cannot be read ({}), expected {}", std::strerror(errno), expected)));
+    return InputError(
+        at_line(input_name(path), 0,
+                fmt::format("cannot be read ({}), expected {}", std::strerror(errno), expected)));
   };
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(
       std::fopen(path == "-" ? "/dev/stdin" : path.c_str(), "rb"), &std::fclose);

@@ -18,8 +18,8 @@ struct Dialect {
   bool quote_all;
   bool mark;  // byte order mark
   const char* line_end;
-  bool shouting;            // header names in capitals
-  const char* around;       // blanks around fields
+  bool shouting;              // header names in capitals
+  const char* around;         // blanks around fields
   std::string extra_columns;  // separators at the end of every line
 };
 
@@ -121,15 +121,18 @@ TEST_CASE("What is no table is refused with the file, the line and what was expe
   CHECK(error_of("a;b,c\n") == "m.csv:1: the header has commas and semicolons, expected one separator");
   CHECK(error_of("a,b\n1,2\n1\n") == "m.csv:3: 1 values, expected 2 as in the header");
   CHECK(error_of("a,b\nT1,1,5\n") ==
-        "m.csv:2: 3 values, expected 2 as in the header (a number with a decimal comma needs quotation marks, or a "
+        "m.csv:2: 3 values, expected 2 as in the header (a number with a decimal comma needs quotation "
+        "marks, or a "
         "file with semicolons)");
   CHECK(error_of("a;b\n1;\"2\n3;4\n") ==
         "m.csv:2: the quotation mark before '2' is not closed, expected another in this line");
   CHECK(error_of("a;b\n\"1\"x;2\n") ==
-        "m.csv:2: 'x' follows a closing quotation mark, expected the end of the field (a quotation mark in a field "
+        "m.csv:2: 'x' follows a closing quotation mark, expected the end of the field (a quotation mark in a "
+        "field "
         "is written twice)");
-  CHECK(error_of("a,b,,\n1,2,,3\n") == "m.csv:2: 4 values, expected 2 as in the header (a number with a decimal "
-                                       "comma needs quotation marks, or a file with semicolons)");
+  CHECK(error_of("a,b,,\n1,2,,3\n") ==
+        "m.csv:2: 4 values, expected 2 as in the header (a number with a decimal "
+        "comma needs quotation marks, or a file with semicolons)");
   CHECK(error_of(std::string("a,b\n1\0,2\n", 9)) == "m.csv:1: the file holds binary data, expected CSV");
   for (const char* const mark : {"\xFF\xFEp", "\xFE\xFFp"})
     CHECK(error_of(mark) == "m.csv:1: the file is UTF-16, expected UTF-8 (save it as plain CSV)");

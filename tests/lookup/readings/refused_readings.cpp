@@ -9,9 +9,8 @@ using namespace voussoir;
 
 namespace {
 
-const std::vector<StoredPoint> kPoints = {{"T1", Point(0, 6), BlockId{0}},
-                                          {"T2", Point(1, 6), BlockId{0}},
-                                          {"A1", Point(1, 2), BlockId{2}}};
+const std::vector<StoredPoint> kPoints = {
+    {"T1", Point(0, 6), BlockId{0}}, {"T2", Point(1, 6), BlockId{0}}, {"A1", Point(1, 2), BlockId{2}}};
 
 /// The control points, and a tilt meter.
 SensorList sensors() {
@@ -35,7 +34,8 @@ struct Wrong {
 };
 
 const std::string kExpected =
-    ", expected point or x_m,y_m; one of uy_mm, uy_m, settlement_mm, value_mm, change_mm, or before_mm,after_mm; "
+    ", expected point or x_m,y_m; one of uy_mm, uy_m, settlement_mm, value_mm, change_mm, or "
+    "before_mm,after_mm; "
     "optionally sigma_mm, load";
 
 const std::vector<Wrong> kHeaders = {
@@ -54,13 +54,15 @@ const std::vector<Wrong> kHeaders = {
     {"point,before_mm\nT1,1\n", "column 'before_mm' without 'after_mm'"},
     {"point,after_mm\nT1,1\n", "column 'after_mm' without 'before_mm'"},
     {"point,before_mm,after_mm,uy_mm\nT1,1,1,1\n", "column 'uy_mm' beside 'before_mm' and 'after_mm'"},
-    {"point,before_mm,after_mm,change_mm\nT1,1,1,1\n", "column 'change_mm' beside 'before_mm' and 'after_mm'"}};
+    {"point,before_mm,after_mm,change_mm\nT1,1,1,1\n",
+     "column 'change_mm' beside 'before_mm' and 'after_mm'"}};
 
 const std::string kNumber = " is no finite number, expected a displacement or nothing";
 const std::string kSigma = " is no sigma, expected a positive number of millimetres or nothing";
 
 const std::vector<Wrong> kRows = {
-    {"# x\npoint,uy_mm\nT1,1\nT99,1\n", "m.csv:4: unknown point 'T99', expected T1 to A1, or a sensor of the list"},
+    {"# x\npoint,uy_mm\nT1,1\nT99,1\n",
+     "m.csv:4: unknown point 'T99', expected T1 to A1, or a sensor of the list"},
     {"point,uy_mm\nT1,1\nT2,1\nT1,2\n",
      "m.csv:4: point T1 is given again, expected each point once (first in line 2)"},
     {"point,uy_mm\nT1,soft\n", "m.csv:2: 'soft'" + kNumber},
@@ -72,10 +74,12 @@ const std::vector<Wrong> kRows = {
     {"point,uy_m\nT1,-350\n",
      "m.csv:2: '-350' is a displacement of 350 m, expected at most 100 m (check the units)"},
     {"point,uy_mm\nT1,-3,5\n",
-     "m.csv:2: 3 values, expected 2 as in the header (a number with a decimal comma needs quotation marks, or a file "
+     "m.csv:2: 3 values, expected 2 as in the header (a number with a decimal comma needs quotation marks, "
+     "or a file "
      "with semicolons)"},
     {"point,uy_mm\nT1\n", "m.csv:2: 1 values, expected 2 as in the header"},
-    {"point;uy_mm\nT1;1,5\nT2;2.5\n", "m.csv:3: '2.5' has a decimal point, expected a decimal comma as in line 2"},
+    {"point;uy_mm\nT1;1,5\nT2;2.5\n",
+     "m.csv:3: '2.5' has a decimal point, expected a decimal comma as in line 2"},
     {"x_m,y_m,uy_mm\n1,high,1\n", "m.csv:2: 'high' is no coordinate, expected a number in metres"},
     {"x_m,y_m,uy_mm\nnan,1,1\n", "m.csv:2: 'nan' is no coordinate, expected a number in metres"},
     {"point,uy_mm,sigma_mm\nT1,-1,0\n", "m.csv:2: '0'" + kSigma},

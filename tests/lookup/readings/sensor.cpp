@@ -31,19 +31,24 @@ const Eigen::Matrix2d kGradient = (Eigen::Matrix2d() << 1e-4, -3e-4, 5e-4, 2e-4)
 
 }  // namespace
 
-// Tolerances: sums of fewer than ten products of numbers of 1e-3 with shares below 10 lose at most some 1e-17.
+// Tolerances: sums of fewer than ten products of numbers of 1e-3 with shares below 10 lose at most some
+// 1e-17.
 
-TEST_CASE("A displacement is exact in a linear field, for every triangle's centroid (linear shape functions)") {
+TEST_CASE(
+    "A displacement is exact in a linear field, for every triangle's centroid (linear shape functions)") {
   const Mesh& mesh = small_bridge().mesh;
   const Field field = linear_field(kShift, kGradient);
   for (std::size_t id = 0; id < mesh.block_triangles.size(); ++id)
     for (int t = mesh.block_triangles[id].begin; t < mesh.block_triangles[id].end; ++t) {
       Point at = Point::Zero();
-      for (const NodeId node : mesh.triangles[static_cast<std::size_t>(t)].nodes) at += mesh.position(node) / 3.0;
+      for (const NodeId node : mesh.triangles[static_cast<std::size_t>(t)].nodes)
+        at += mesh.position(node) / 3.0;
       const Place place{at, BlockId{static_cast<std::int32_t>(id)}};
       const Point expected = kShift + kGradient * at;
-      CHECK(shown(displacement_weights(place, Point(1, 0), mesh), field) == Approx(expected.x()).margin(1e-16));
-      CHECK(shown(displacement_weights(place, Point(0, 1), mesh), field) == Approx(expected.y()).margin(1e-16));
+      CHECK(shown(displacement_weights(place, Point(1, 0), mesh), field) ==
+            Approx(expected.x()).margin(1e-16));
+      CHECK(shown(displacement_weights(place, Point(0, 1), mesh), field) ==
+            Approx(expected.y()).margin(1e-16));
       for (const NodeWeight& part : displacement_weights(place, Point(0, 1), mesh))
         CHECK(part.weight.y() == Approx(1.0 / 3.0).epsilon(1e-9));  // of its own triangle, not another's
     }
@@ -63,7 +68,8 @@ TEST_CASE("A uniform stretch tilts a rectangular block by nothing (symmetry)") {
   CHECK(shown(rotation_weights(block("2,1"), small_bridge().mesh), field) == Approx(0.0).margin(1e-16));
 }
 
-TEST_CASE("A distance becomes longer by its length times the strain along it, whatever rotates (closed form)") {
+TEST_CASE(
+    "A distance becomes longer by its length times the strain along it, whatever rotates (closed form)") {
   const Mesh& mesh = small_bridge().mesh;
   const Place from{{0.25, 0.6}, block("2,1")};
   const Place to{{0.75, 0.9}, block("2,1")};

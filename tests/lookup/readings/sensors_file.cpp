@@ -42,8 +42,9 @@ const std::string kHeader = "name,quantity,x_m,y_m,x2_m,y2_m,block,block2\n";
 
 TEST_CASE("Sensors are read with their quantity, place and block") {
   const std::vector<Sensor> sensors =
-      parse(kHeader + "L,ux,0.75,0.75,,,,\nV,uy,0.5,0.75,,,,\nR,tilt,0.5,0.75,,,,\nB,tilt,,,,,\"3,2\",\n"
-                      "G,distance,0.8,0.8,0.8,1.2,,\n");
+      parse(kHeader +
+            "L,ux,0.75,0.75,,,,\nV,uy,0.5,0.75,,,,\nR,tilt,0.5,0.75,,,,\nB,tilt,,,,,\"3,2\",\n"
+            "G,distance,0.8,0.8,0.8,1.2,,\n");
   REQUIRE(sensors.size() == 5);
   CHECK(sensors[0].quantity == Quantity::ux);
   CHECK(sensors[0].position == Point(0.75, 0.75));
@@ -83,12 +84,16 @@ TEST_CASE("Wrong sensors are refused with the file, the line, the value and what
       {kHeader + "T1,uy,0.5,0.75,,,,\n", "s.csv:2: sensor 'T1' is there already, expected another name"},
       {kHeader + "V,uy,0.5,0.75,,,,\nV,ux,0.5,0.75,,,,\n",
        "s.csv:3: sensor 'V' is there already, expected another name"},
-      {kHeader + "V,uy,0.5,,,,,\n", "s.csv:2: '' is no coordinate, expected a number in metres in column y_m"},
-      {kHeader + "V,uy,nan,1,,,,\n", "s.csv:2: 'nan' is no coordinate, expected a number in metres in column x_m"},
+      {kHeader + "V,uy,0.5,,,,,\n",
+       "s.csv:2: '' is no coordinate, expected a number in metres in column y_m"},
+      {kHeader + "V,uy,nan,1,,,,\n",
+       "s.csv:2: 'nan' is no coordinate, expected a number in metres in column x_m"},
       {kHeader + "V,uy,3.0,0.2,,,,\n",
        "s.csv:2: x = 3 m, y = 0.2 m is outside the bridge, expected a place on a block"},
-      {kHeader + "V,uy,0.5,0.75,,,\"3,1\",\n", "s.csv:2: x = 0.5 m, y = 0.75 m is not on block 3,1, expected 2,1"},
-      {kHeader + "V,uy,0.5,0.75,,,\"99,1\",\n", "s.csv:2: there is no block 99,1: this bridge has no course 99"},
+      {kHeader + "V,uy,0.5,0.75,,,\"3,1\",\n",
+       "s.csv:2: x = 0.5 m, y = 0.75 m is not on block 3,1, expected 2,1"},
+      {kHeader + "V,uy,0.5,0.75,,,\"99,1\",\n",
+       "s.csv:2: there is no block 99,1: this bridge has no course 99"},
       {kHeader + "V,uy,0.5,0.75,,,\"2,1+3,1\",\n", "s.csv:2: '2,1+3,1' in column block, expected one block"},
       {kHeader + "V,uy,0.5,0.75,1,,,\n", "s.csv:2: '1' in column x2_m, expected nothing but for a distance"},
       {kHeader + "R,tilt,,,,,,\n", "s.csv:2: a tilt without place and without block, expected one of them"},
