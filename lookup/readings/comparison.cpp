@@ -40,15 +40,15 @@ std::vector<int> levelling_of(const std::vector<Channel>& channels) {
   return groups;
 }
 
-/// Puts the readings into their channels: in the database's own table the control points, else the rows.
-void enter(const ReadingsFile& file, bool own_table, std::optional<double> sigma, Comparison& comparison) {
+/// Puts the readings into their channels.
+void enter(const ReadingsFile& file, std::optional<double> sigma, Comparison& comparison) {
   const std::size_t channels = comparison.library.points.size();
   comparison.measured = no_measurements(channels);
   if (file.two_epochs) comparison.before = comparison.after = no_measurements(channels).displacement;
   const std::vector<double> origin = origin_of(comparison);
   for (std::size_t i = 0; i < file.readings.size(); ++i) {
     const Reading& reading = file.readings[i];
-    const std::size_t channel = own_table ? reading.sensor : i;
+    const std::size_t channel = channel_of(comparison, reading, i);
     comparison.measured.displacement[channel] = origin[channel] + reading.value;
     comparison.measured.silent[channel] = reading.silent;
     comparison.measured.sigma[channel] = std::isnan(reading.sigma) && sigma ? *sigma : reading.sigma;
@@ -116,10 +116,15 @@ Comparison compare(const ReadingsFile& file, const SensorList& list, const Datab
                                          : library_of_channels(database, states.base, channels),
                     .measured = {},
                     .model_error = {}};
-  enter(file, own_table, settings.sigma, result);
+  enter(file, settings.sigma, result);
   result.model_error = model_error_of(database, states.base, channels, result.library);
   if (!own_table) result.levelling = levelling_of(channels);
   return result;
+}
+
+/// In the database's own table the channels are control points, else the file's rows.
+std::size_t channel_of(const Comparison& comparison, const Reading& reading, std::size_t position) {
+  return comparison.library.storage == nullptr ? reading.sensor : position;
 }
 
 std::vector<double> origin_of(const Comparison& comparison) {

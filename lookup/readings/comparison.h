@@ -42,6 +42,9 @@ struct ComparisonSettings {
 Comparison compare(const ReadingsFile& file, const SensorList& list, const Database& database,
                    const ComparisonSettings& settings);
 
+/// The channel of the file's reading number `position`.
+std::size_t channel_of(const Comparison& comparison, const Reading& reading, std::size_t position);
+
 /// What has been added to the readings of each channel [m]: the intact bridge's prediction to changes, else
 /// zero.
 std::vector<double> origin_of(const Comparison& comparison);
