@@ -34,7 +34,7 @@ std::string locate(const voussoir::LocateDamageOptions& options) {
     voussoir::write_file(*options.page, options.page->extension() == ".svg"
                                             ? voussoir::picture_report(answer, comparison)
                                             : voussoir::page_report(answer, settings, comparison, source));
-  return voussoir::report(answer, settings, comparison.library, source, options.format);
+  return voussoir::report(answer, settings, comparison, source, options.format);
 }
 
 }  // namespace

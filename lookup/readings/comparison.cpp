@@ -118,7 +118,12 @@ Comparison compare(const ReadingsFile& file, const SensorList& list, const Datab
                     .model_error = {}};
   enter(file, settings.sigma, result);
   result.model_error = model_error_of(database, states.base, channels, result.library);
-  if (!own_table) result.levelling = levelling_of(channels);
+  if (own_table) return result;
+  result.levelling = levelling_of(channels);
+  for (const Channel& channel : channels) {
+    result.quantity.push_back(channel.sensor->quantity);
+    result.load.push_back(channel.load);
+  }
   return result;
 }
 

@@ -39,8 +39,8 @@ std::string to_csv(const ReadingsFile& file, const SensorList& list) {
   const auto has_sigma = [](const Reading& reading) { return !std::isnan(reading.sigma); };
   const bool sigmas = std::any_of(file.readings.begin(), file.readings.end(), has_sigma);
   const bool loads = is_loaded(file.kind);
-  std::string text =
-      fmt::format("point,{}{}{}\n", loads ? "load," : "", value_columns(file, list), sigmas ? ",sigma_mm" : "");
+  std::string text = fmt::format("point,{}{}{}\n", loads ? "load," : "", value_columns(file, list),
+                                 sigmas ? ",sigma_mm" : "");
   for (const Reading& reading : file.readings) {
     text += field(list.sensors[reading.sensor].name) + ",";
     if (loads) text += field(reading.load) + ",";
@@ -58,7 +58,8 @@ std::string to_csv(const Measurements& readings, const std::vector<StoredPoint>&
   ReadingsFile file{"", ReadingKind::absolute, false, {}};
   const double none = std::nan("");
   for (std::size_t i = 0; i < points.size(); ++i)
-    file.readings.push_back({.sensor = i, .value = readings.displacement[i], .before = none, .after = none, .sigma = none});
+    file.readings.push_back(
+        {.sensor = i, .value = readings.displacement[i], .before = none, .after = none, .sigma = none});
   return to_csv(file, control_point_sensors(points));
 }
 

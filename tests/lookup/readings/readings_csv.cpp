@@ -12,7 +12,8 @@ const std::vector<StoredPoint> kPoints = {{"T1", Point(0, 6), BlockId{0}}, {"T2"
 /// The control points, and a sensor whose name needs quotation marks.
 SensorList sensors() {
   SensorList list = control_point_sensors(kPoints);
-  list.sensors.push_back({"N \"a\", b", Quantity::tilt, Point(1, 1), {BlockId{0}}, {{NodeId{0}, Point(0, 1)}}});
+  list.sensors.push_back(
+      {"N \"a\", b", Quantity::tilt, Point(1, 1), {BlockId{0}}, {{NodeId{0}, Point(0, 1)}}});
   return list;
 }
 
@@ -52,7 +53,8 @@ TEST_CASE("What is written is read again, whatever the kind (inverse functions)"
     }
 }
 
-TEST_CASE("Absolute readings are written in millimetres to a tenth of a micrometre, silent ones without value") {
+TEST_CASE(
+    "Absolute readings are written in millimetres to a tenth of a micrometre, silent ones without value") {
   CHECK(to_csv(as_measurements(std::vector<double>{-1.23456e-3, std::nan("")}), kPoints) ==
         "point,uy_mm\nT1,-1.2346\nT2,\n");
 }
