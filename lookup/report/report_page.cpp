@@ -62,6 +62,7 @@ Figure candidates_figure(const Answer& answer, const Library& library) {
 }
 
 std::string level_in_words(const NoiseModel& noise) {
+  if (noise.relative == 0.0) return "nothing relative to the reading";
   return noise.relative ? fmt::format("{:.3g} % of the displacement, as stated", 100.0 * *noise.relative)
                         : "unknown; all levels are weighed";
 }

@@ -83,6 +83,14 @@ std::string reading_element(const ReportPictures& report, const BridgeFrame& fra
                             tip_element(point_tip(report, point)));
 }
 
+/// [m] on the bridge's scale that the top's longest upward line needs above the others' start.
+double room_above(const ReportPictures& report, double longest) {
+  double upward = 0.0;
+  for (std::size_t point = 0; point < report.shown.reading.size(); ++point)
+    if (hangs(report, point)) upward = std::max(upward, report.shown.reading[point]);
+  return longest > 0.0 ? kLongestReading * upward / longest : 0.0;
+}
+
 double largest_reading(const ReportPictures& report) {
   double largest = 0.0;
   for (std::size_t point = 0; point < report.shown.reading.size(); ++point)
@@ -108,7 +116,9 @@ Table block_table(const ReportPictures& report) {
 }  // namespace
 
 Drawing draw_bridge(const ReportPictures& report) {
-  const BridgeFrame frame = frame_of(report.library.layout, kPictureWidth, kReadingsHeight, 0.15);
+  const double longest = largest_reading(report);
+  const BridgeFrame frame =
+      frame_of(report.library.layout, kPictureWidth, kReadingsHeight + room_above(report, longest), 0.15);
   const bool with_bar = report.answer.posterior.has_value();
   Drawing drawing{frame.width, frame.height + (with_bar ? kColourBarHeight : 0.0),
                   "The bridge; each block coloured by the probability that it is missing", ""};
@@ -116,7 +126,6 @@ Drawing draw_bridge(const ReportPictures& report) {
       ground_element(report.library.layout, frame) +
       block_elements(report.library.layout, frame, [&](BlockId id) { return block_look(report, id); }) +
       best_scene_marks(report, frame);
-  const double longest = largest_reading(report);
   const double units = longest > 0.0 ? kLongestReading * frame.scale / longest : 0.0;
   for (std::size_t point = 0; point < report.library.points.size(); ++point)
     drawing.elements += reading_element(report, frame, point, units);

@@ -65,7 +65,7 @@ Table profile_table(const ReportPictures& report, const PointSet& set) {
               {}};
   if (epochs)
     table.columns.insert(table.columns.begin() + 2,
-                      {fmt::format("before [{}]", unit), fmt::format("after [{}]", unit)});
+                         {fmt::format("before [{}]", unit), fmt::format("after [{}]", unit)});
   for (const std::size_t point : set.points) {
     const SensorResidual* const residual = residual_of(report, point);
     table.rows.push_back(
@@ -73,8 +73,9 @@ Table profile_table(const ReportPictures& report, const PointSet& set) {
          kMillimetres * report.shown.reading[point], kMillimetres * report.shown.expected[point],
          residual != nullptr && report.answer.noise ? kMillimetres * band_of(report, *residual) : kNan});
     if (epochs)
-      table.rows.back().insert(table.rows.back().begin() + 2, {kMillimetres * report.comparison.before[point],
-                                                               kMillimetres * report.comparison.after[point]});
+      table.rows.back().insert(
+          table.rows.back().begin() + 2,
+          {kMillimetres * report.comparison.before[point], kMillimetres * report.comparison.after[point]});
   }
   return table;
 }

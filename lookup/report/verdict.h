@@ -8,11 +8,11 @@
 namespace voussoir {
 
 enum class Verdict {
-  located,             ///< some block is missing with at least kCertain
-  damaged_unlocated,   ///< blocks are missing with at least kCertain, but no single one is
-  intact,              ///< no block is missing with at least kCertain
-  cannot_tell,         ///< none of these
-  unexplained          ///< no scene explains the readings: what is likeliest among them means nothing
+  located,            ///< some block is missing with at least kCertain
+  damaged_unlocated,  ///< blocks are missing with at least kCertain, but no single one is
+  intact,             ///< no block is missing with at least kCertain
+  cannot_tell,        ///< none of these
+  unexplained         ///< no scene explains the readings: what is likeliest among them means nothing
 };
 
 inline constexpr double kCertain = 0.9;
