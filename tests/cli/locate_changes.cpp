@@ -21,8 +21,8 @@ struct Workshop {
   std::string database = (folder / "small.h5").string();
 
   Workshop() {
-    const ProgramResult built = test::run("build-database", {test::example_bridge("small").string(), "-o", database,
-                                                             "--scenes", "singles", "--quiet"});
+    const ProgramResult built = test::run("build-database", {test::example_bridge("small").string(), "-o",
+                                                             database, "--scenes", "singles", "--quiet"});
     if (built.exit_code != 0) throw std::runtime_error(built.err);
   }
   std::string file(const std::string& name, const std::string& text) const {
@@ -84,7 +84,8 @@ TEST_CASE("Changes, two epochs and other sensors name the scene that they were m
 
 TEST_CASE("The same seed gives the same change as a change and as two epochs") {
   const auto readings = [](const char* kind) {
-    const auto json = workshop().locate(workshop().make("4,2", {"--kind", kind, "--sigma", "0.02", "--seed", "7"}));
+    const auto json =
+        workshop().locate(workshop().make("4,2", {"--kind", kind, "--sigma", "0.02", "--seed", "7"}));
     std::vector<double> changes;
     for (const auto& sensor : json.at("sensors")) changes.push_back(sensor.at("reading_m").get<double>());
     return changes;
@@ -96,28 +97,36 @@ TEST_CASE("The same seed gives the same change as a change and as two epochs") {
 }
 
 TEST_CASE("A file reads the same with semicolons and decimal commas") {
-  const std::string comma = "point,before_mm,after_mm,sigma_mm\nT1,1.5,1.25,0.01\nT4,0.5,0.75,0.01\nA3,1,1,0.01\n";
+  const std::string comma =
+      "point,before_mm,after_mm,sigma_mm\nT1,1.5,1.25,0.01\nT4,0.5,0.75,0.01\nA3,1,1,0.01\n";
   const std::string semicolon =
-      "\xEF\xBB\xBFPoint;Before_mm;After_mm;Sigma_mm\r\nT1;1,5;1,25;0,01\r\nT4;0,5;0,75;0,01\r\nA3;1;1;0,01\r\n";
-  const auto of = [&](const std::string& text) { return workshop().locate(workshop().file("read.csv", text)); };
+      "\xEF\xBB\xBFPoint;Before_mm;After_mm;Sigma_mm\r\nT1;1,5;1,25;0,01\r\nT4;0,5;0,75;0,01\r\nA3;1;1;0,"
+      "01\r\n";
+  const auto of = [&](const std::string& text) {
+    return workshop().locate(workshop().file("read.csv", text));
+  };
   CHECK(of(comma) == of(semicolon));
 }
 
 TEST_CASE("A datum of the second epoch is no damage when it is said to be unknown") {
-  const std::string path = workshop().make("intact", {"--kind", "change", "--sigma", "0.0001mm", "--datum", "0.5"});
+  const std::string path =
+      workshop().make("intact", {"--kind", "change", "--sigma", "0.0001mm", "--datum", "0.5"});
   CHECK(workshop().locate(path, {"--unknown-datum", "0.5"}).at("candidates").at(0).at("scene") == "intact");
 }
 
 TEST_CASE("Wrong questions about readings give one line with what was expected") {
   const std::string change = "point,change_mm\nT1,1\n";
   CHECK_THAT(workshop().error("point,before_mm\nT1,1\n"), Contains(":1:") && Contains("without 'after_mm'"));
-  CHECK_THAT(workshop().error("point,load,uy_mm\nT1,axle,1\n"), Contains(":2:") && Contains("no load 'axle'"));
+  CHECK_THAT(workshop().error("point,load,uy_mm\nT1,axle,1\n"),
+             Contains(":2:") && Contains("no load 'axle'"));
   CHECK_THAT(workshop().error(change, {"--history", "lost"}), Contains("has no history 'lost'"));
   CHECK_THAT(workshop().error(change, {"--history", "broken"}), Contains("--history"));
   for (const char* const sigma : {"0", "-1", "0.02m", "nan"})
-    CHECK_THAT(workshop().error(change, {"--sigma", sigma}), Contains("expected a positive number of millimetres"));
+    CHECK_THAT(workshop().error(change, {"--sigma", sigma}),
+               Contains("expected a positive number of millimetres"));
   const std::string outside = workshop().file("outside.csv", "name,quantity,x_m,y_m\nV,uy,50,1\n");
-  CHECK_THAT(workshop().error(change, {"--sensors", outside}), Contains("outside.csv:2:") && Contains("outside the bridge"));
+  CHECK_THAT(workshop().error(change, {"--sensors", outside}),
+             Contains("outside.csv:2:") && Contains("outside the bridge"));
   CHECK_THAT(workshop().error("point;uy_mm\nT1;1.234\n"), Contains(":2:") && Contains("1.234 or 1234"));
 }
 

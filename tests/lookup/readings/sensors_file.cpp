@@ -59,6 +59,17 @@ TEST_CASE("Sensors are read with their quantity, place and block") {
   CHECK((sensors[4].position - Point(0.8, 1.0)).norm() < 1e-12);
 }
 
+TEST_CASE("The example's sensors are on the reference bridge, its gauge over a joint") {
+  const std::string examples = std::string(VOUSSOIR_SOURCE_DIR) + "/examples/";
+  const Model bridge = make_model(read_bridge_file(examples + "bridges/reference.toml").description);
+  SensorList list;
+  read_sensors(examples + "sensors/reference.csv", bridge.layout, bridge.mesh, list);
+  REQUIRE(list.sensors.size() == 4);
+  CHECK(bridge.layout[list.sensors[1].blocks.front()].label == "10,4");
+  CHECK(bridge.layout[list.sensors[2].blocks.front()].label == "10,5");
+  CHECK(list.sensors[3].blocks.size() == 2);
+}
+
 TEST_CASE("A place where blocks meet belongs to the block that is named") {
   CHECK(error_of("name,quantity,x_m,y_m\nV,uy,0.25,1.0\n") ==
         "s.csv:2: blocks meet at x = 0.25 m, y = 1 m, expected 2,1 or 3,1 in column block");

@@ -49,7 +49,7 @@ TEST_CASE(
   const test::SyntheticLibrary library(3, 6);
   const SensorList list = control_point_sensors(library.points);
   const Comparison comparison = comparison_with(library, ReadingKind::change);
-  const NoiseModel exact{NoiseShape::gaussian, 0.0, 0.0, 0.0, 4.0, 0.0};
+  const NoiseModel exact{.shape = NoiseShape::gaussian, .relative = 0.0, .silence = 0.0};
   Random random(5);
   const ReadingsFile file =
       simulate_file(blank_file(list, ReadingKind::change, {}), comparison, 2, exact, {}, random);
@@ -67,7 +67,7 @@ TEST_CASE(
   const test::SyntheticLibrary library(2, 5);
   const SensorList list = control_point_sensors(library.points);
   const Comparison comparison = comparison_with(library, ReadingKind::change);
-  const NoiseModel exact{NoiseShape::gaussian, 0.0, 0.0, 0.0, 4.0, 0.0};
+  const NoiseModel exact{.shape = NoiseShape::gaussian, .relative = 0.0, .silence = 0.0};
   const Levelling levelling{2e-4, 1e-4};
   double shifts = 0.0, tilts = 0.0;
   constexpr int kDraws = 2000;

@@ -69,7 +69,8 @@ TEST_CASE("Without probabilities there is no verdict") {
   LookupSettings paper;
   paper.objective = Objective::paper;
   const Comparison comparison = two_epochs();
-  const auto json = nlohmann::json::parse(json_report(locate_damage(comparison, paper), paper, comparison, {}));
+  const auto json =
+      nlohmann::json::parse(json_report(locate_damage(comparison, paper), paper, comparison, {}));
   CHECK(json.at("verdict").is_null());
   CHECK(json.at("intact_probability").is_null());
 }
@@ -83,7 +84,8 @@ TEST_CASE("The text says the history, the verdict and what moved most, before an
   for (std::size_t i = 1; i < synthetic().points.size(); ++i)
     if (std::abs(change_at(i)) > std::abs(change_at(most))) most = i;
   const std::string change = fmt::format("{:.3f}", 1e3 * change_at(most));
-  CHECK_THAT(text, Contains(fmt::format("      {:<20}      2.000 {:>11}  {:>9}  {:>9}\n", synthetic().points[most].name,
+  CHECK_THAT(text, Contains(fmt::format("      {:<20}      2.000 {:>11}  {:>9}  {:>9}\n",
+                                        synthetic().points[most].name,
                                         fmt::format("{:.3f}", 2.0 + 1e3 * change_at(most)), change, change)));
   CHECK_THAT(text, !Contains("settlement"));
 }
