@@ -22,7 +22,7 @@ struct Observation {
       origin;  ///< [m] from which movements count: zero, or `intact` if the readings are changes
   std::vector<double> own_error;  ///< [m] standard deviation of the model's error in `intact`, as far as it
                                   ///< is in what is compared: none in changes
-  double error_share = 0.0;       ///< ModelError of the signals
+  double error_share = 0.0;  ///< ModelError of the signals
   double error_common = 0.0;
   std::vector<bool> silent;  ///< there is a sensor, but it gave no reading
   NoiseModel noise;

@@ -24,8 +24,15 @@ ReportPictures::ReportPictures(const Answer& of, const Comparison& with)
       library(with.library),
       shown(shown_readings(with, of.candidates.front().row)) {}
 
-bool on_arch(const ReportPictures& report, std::size_t point) {
-  return report.library.layout[report.library.points[point].block].role == BlockRole::ring;
+Site site_of(const ReportPictures& report, std::size_t point) {
+  const auto& points = report.library.points;
+  if (report.library.layout[points[point].block].role == BlockRole::ring) return Site::arch;
+  if (report.library.storage == nullptr) return Site::top;
+  const auto lower = [](const StoredPoint& a, const StoredPoint& b) {
+    return a.position.y() < b.position.y();
+  };
+  const double highest = std::max_element(points.begin(), points.end(), lower)->position.y();
+  return points[point].position.y() >= highest - kPointTolerance ? Site::top : Site::elsewhere;
 }
 
 const SensorResidual* residual_of(const ReportPictures& report, std::size_t point) {

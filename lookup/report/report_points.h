@@ -19,7 +19,10 @@ struct ReportPictures {
   ShownReadings shown;  ///< beside what the first candidate lets expect
 };
 
-bool on_arch(const ReportPictures& report, std::size_t point);
+/// Where a sensor is: on a block of the arch, as high as the highest other sensor, or elsewhere. Control
+/// points that are not on the arch are on top.
+enum class Site { arch, top, elsewhere };
+Site site_of(const ReportPictures& report, std::size_t point);
 
 /// Of the first candidate; nothing where there is no reading, and without a noise model.
 const SensorResidual* residual_of(const ReportPictures& report, std::size_t point);
