@@ -56,19 +56,11 @@ bool hangs(const ReportPictures& report, std::size_t point) {
          (report.comparison.load.empty() || report.comparison.load[point] == report.comparison.load.front());
 }
 
-double highest_point(const ReportPictures& report) {
-  double highest = -std::numeric_limits<double>::infinity();
-  for (const StoredPoint& point : report.library.points) highest = std::max(highest, point.position.y());
-  return highest;
-}
-
 /// A sensor with its reading as a line that hangs from it: from the intrados into the opening, and on top
 /// from a line above the bridge.
 std::string reading_element(const ReportPictures& report, const BridgeFrame& frame, std::size_t point,
                             double units_a_metre) {
-  const bool on_top =
-      !on_arch(report, point) && report.library.points[point].position.y() >= highest_point(report);
-  const double lift = on_top ? kReadingsHeight - 0.2 : 0.0;
+  const double lift = site_of(report, point) == Site::top ? kReadingsHeight - 0.2 : 0.0;
   const Point at = frame(report.library.points[point].position + Point(0.0, lift));
   const double reading = report.shown.reading[point];
   const bool silent = std::isnan(reading);

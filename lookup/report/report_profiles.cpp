@@ -123,9 +123,9 @@ void add_set(const ReportPictures& report, const std::string& title, const std::
   for (std::size_t point = 0; point < report.library.points.size(); ++point)
     if (quantity_of(report.comparison, point) == quantity && belongs(point)) points.push_back(point);
   if (points.empty()) return;
-  sets.push_back({fmt::format("{}, {} to {}", title, report.library.points[points.front()].name,
-                              report.library.points[points.back()].name),
-                  id, quantity, points});
+  const std::string& first = report.library.points[points.front()].name;
+  const std::string& last = report.library.points[points.back()].name;
+  sets.push_back({title + ", " + (points.size() == 1 ? first : first + " to " + last), id, quantity, points});
 }
 
 std::vector<PointSet> point_sets(const ReportPictures& report) {
@@ -136,10 +136,12 @@ std::vector<PointSet> point_sets(const ReportPictures& report) {
     const auto under = [&](std::size_t point) {
       return load.empty() || report.comparison.load[point] == load;
     };
-    for (const bool arch : {false, true})
-      add_set(
-          report, arch ? "Arch" : "Top", (arch ? "arch" : "top") + number, Quantity::uy,
-          [&](std::size_t point) { return under(point) && on_arch(report, point) == arch; }, sets);
+    const auto at = [&](Site site) {
+      return [&, site](std::size_t point) { return under(point) && site_of(report, point) == site; };
+    };
+    add_set(report, "Top", "top" + number, Quantity::uy, at(Site::top), sets);
+    add_set(report, "Arch", "arch" + number, Quantity::uy, at(Site::arch), sets);
+    add_set(report, "Wall", "wall" + number, Quantity::uy, at(Site::elsewhere), sets);
     add_set(report, "Horizontal", "horizontal" + number, Quantity::ux, under, sets);
     add_set(report, "Tilts", "tilt" + number, Quantity::tilt, under, sets);
     add_set(report, "Distances", "distance" + number, Quantity::distance, under, sets);
