@@ -8,13 +8,7 @@
 
 #include <cstddef>
 
-#ifdef __SANITIZE_THREAD__
-#include <atomic>
-#include <exception>
-#include <mutex>
-#include <thread>
-#include <vector>
-#endif
+#include "core/threads.h"
 
 namespace voussoir {
 
@@ -45,23 +39,7 @@ class Crew {
 /// still shows.
 template <class Work>
 void Crew::for_each_index(std::size_t count, const Work& work) {
-  std::atomic<std::size_t> next = 0;
-  std::exception_ptr failure;
-  std::mutex mutex;
-  const auto run = [&] {
-    try {
-      for (std::size_t i = next++; i < count; i = next++) work(i);
-    } catch (...) {
-      const std::scoped_lock lock(mutex);
-      if (!failure) failure = std::current_exception();
-      next = count;
-    }
-  };
-  {
-    std::vector<std::jthread> threads;
-    for (int thread = 0; thread < size(); ++thread) threads.emplace_back(run);
-  }
-  if (failure) std::rethrow_exception(failure);
+  for_each_index_on_threads(count, size(), work);
 }
 
 #else

@@ -21,15 +21,17 @@ std::filesystem::path find_database(const std::optional<std::string>& given);
 /// only when it is whole.
 int run_program(CLI::App& app, int argc, char** argv, const std::function<std::string()>& program);
 
-/// An option with one of a few named values.
+/// An option with one of a few named values. --help names them as "{a,b}", which completions are made from.
 template <typename Value>
 CLI::Option* add_choice(CLI::App& app, const std::string& names, Value& value,
                         const std::map<std::string, Value>& choices, const std::string& description) {
+  std::string texts;
+  for (const auto& [text, meaning] : choices) texts += (texts.empty() ? "" : ",") + text;
   return app
       .add_option_function<std::string>(
           names, [&value, choices](const std::string& text) { value = choices.at(text); }, description)
       ->check(CLI::IsMember(choices))
-      ->option_text("NAME");
+      ->option_text("{" + texts + "}");
 }
 
 /// An option's check: the text must be acceptable to `parse`, whose InputError becomes the message.

@@ -4,6 +4,7 @@
 
 #include "core/error.h"
 #include "lookup/command_line.h"
+#include "lookup/readings/stated_sigmas.h"
 
 namespace voussoir {
 namespace {
@@ -35,6 +36,31 @@ void add_search_options(CLI::App& app, LocateDamageOptions& options) {
   app.add_option("--top", settings.top, "how many candidates to list, default 10")
       ->check(CLI::Range(std::size_t{1}, kMostCandidates))
       ->option_text("N");
+}
+
+void add_reading_options(CLI::App& app, LocateDamageOptions& options) {
+  app.add_option("MEASUREMENTS", options.measurements,
+                 "CSV with a header: point (or x_m,y_m), and uy_mm, uy_m, settlement_mm or value_mm, or "
+                 "change_mm, or "
+                 "before_mm and after_mm; optionally sigma_mm, load; - reads the standard input")
+      ->required()
+      ->option_text("FILE");
+  app.add_option("-d,--database", options.database, "default: $VOUSSOIR_DATABASE, else ./bridge.h5")
+      ->option_text("FILE");
+  app.add_option("--sensors", options.sensors,
+                 "CSV of sensors that readings may name beside control points: name, quantity (ux, uy, tilt, "
+                 "distance), x_m, y_m, x2_m, y2_m, block, block2")
+      ->option_text("FILE");
+  add_choice<std::string>(
+      app, "--history", options.history, {{kBuiltState, kBuiltState}, {kLostState, kLostState}},
+      "whether the blocks were never there (built) or went later (lost); default: built for "
+      "displacements since the bridge carried nothing, else lost if the database has it");
+  app.add_option(
+         "--sigma", options.sigma,
+         "standard deviation of every reading that has no sigma_mm, such as 0.02mm; with it the noise "
+         "is gaussian and nothing relative unknown")
+      ->check(checked_by(parse_sigma, "MM"))
+      ->option_text("MM");
 }
 
 void add_noise_options(CLI::App& app, LocateDamageOptions& options) {
@@ -105,14 +131,7 @@ void add_genetic_options(CLI::App& app, GeneticSettings& genetic) {
 }  // namespace
 
 void add_options(CLI::App& app, LocateDamageOptions& options) {
-  app.add_option(
-         "MEASUREMENTS", options.measurements,
-         "CSV with a header: point (or x_m,y_m) and uy_mm, uy_m or settlement_mm, optionally sigma_mm; "
-         "- reads the standard input")
-      ->required()
-      ->option_text("FILE");
-  app.add_option("-d,--database", options.database, "default: $VOUSSOIR_DATABASE, else ./bridge.h5")
-      ->option_text("FILE");
+  add_reading_options(app, options);
   add_choice<ReportFormat>(
       app, "--format", options.format,
       {{"text", ReportFormat::text}, {"json", ReportFormat::json}, {"csv", ReportFormat::csv}},
@@ -143,6 +162,13 @@ LookupSettings finish(const LocateDamageOptions& options) {
   settings.nuisance = {parse_noise_level(options.unknown_scale),
                        kMetresPerMillimetre * options.unknown_datum_mm,
                        kMetresPerMillimetre * options.unknown_tilt_mm_per_m};
+  return settings;
+}
+
+ComparisonSettings comparison_settings(const LocateDamageOptions& options) {
+  ComparisonSettings settings;
+  if (!options.history.empty()) settings.history = options.history;
+  if (!options.sigma.empty()) settings.sigma = parse_sigma(options.sigma);
   return settings;
 }
 

@@ -14,10 +14,13 @@ namespace voussoir {
 struct LocateDamageOptions {
   std::string measurements;
   std::optional<std::string> database;
+  std::optional<std::filesystem::path> sensors;  ///< file of sensors beside the control points
   LookupSettings settings;
   ReportFormat format = ReportFormat::text;
   std::optional<std::filesystem::path> page;  ///< file to write the report page or picture to
   // Texts and units of the command line, which finish() turns into settings.
+  std::string history;
+  std::string sigma;
   std::string noise_level;
   std::string noise_model = "auto";
   double floor_mm = 0.0;
@@ -33,5 +36,6 @@ void add_options(CLI::App& app, LocateDamageOptions& options);
 
 /// The settings that the parsed options stand for. Throws InputError for what does not go together.
 LookupSettings finish(const LocateDamageOptions& options);
+ComparisonSettings comparison_settings(const LocateDamageOptions& options);
 
 }  // namespace voussoir

@@ -8,6 +8,7 @@
 #include <chrono>
 
 #include "core/error.h"
+#include "lookup/readings/readings_csv.h"
 #include "lookup/readings/simulate.h"
 #include "lookup/report/text_file.h"
 

@@ -1,74 +1,173 @@
-/// @file make-measurements: a measurements file with the noise of one's choice, from a scene of a database.
+/// @file make-measurements: a measurements file with the errors of one's choice, from a scene of a database.
 
 #include "core/error.h"
 #include "lookup/command_line.h"
+#include "lookup/readings/readings_csv.h"
+#include "lookup/readings/sensors_file.h"
 #include "lookup/readings/simulate.h"
+#include "lookup/readings/stated_sigmas.h"
 #include "lookup/report/field_query.h"
 #include "lookup/report/text_file.h"
 
 namespace {
 
+using namespace voussoir;
+
+enum class Kind { absolute, change, epochs };
+
 struct Options {
   std::string scene;
   std::optional<std::string> database;
+  Kind kind = Kind::absolute;
+  std::string history;
+  std::vector<std::string> loads;
+  std::optional<std::string> sensors;
   std::string noise_level = "5%";
   std::string noise_model = "uniform";
   double floor_mm = 0.0;
+  std::string sigma;
+  double datum_mm = 0.0;
+  double tilt_mm_per_m = 0.0;
   std::string silence = "0%";
   std::uint64_t seed = 1;
   bool hide = false;
   std::string output;
 };
 
-std::string heading(const Options& options, const voussoir::Database& database) {
-  std::string text =
-      fmt::format("# Simulated levelling of the bridge '{}': vertical displacements under its own weight.\n",
-                  database.bridge_name());
-  if (!options.hide) text += fmt::format("# scene: {}\n", options.scene);
-  text += fmt::format("# noise: {} of the displacement and {} mm, {}\n# seed: {}\n", options.noise_level,
-                      options.floor_mm, options.noise_model, options.seed);
+NoiseModel noise_of(const Options& options) {
+  NoiseModel noise;
+  noise.silence = parse_noise_level(options.silence);
+  if (!options.sigma.empty()) {
+    noise.shape = NoiseShape::gaussian;
+    noise.relative = 0.0;
+    noise.floor = parse_sigma(options.sigma);
+    return noise;
+  }
+  noise.shape = parse_noise_shape(options.noise_model);
+  noise.relative = parse_noise_level(options.noise_level);
+  noise.floor = 1e-3 * options.floor_mm;
+  if (noise.shape == NoiseShape::automatic)
+    throw InputError(
+        "--noise-model auto cannot be simulated, expected uniform, gaussian, laplace or student");
+  return noise;
+}
+
+ReadingKind reading_kind(const Options& options) {
+  if (options.loads.empty())
+    return options.kind == Kind::absolute ? ReadingKind::absolute : ReadingKind::change;
+  if (options.kind == Kind::change)
+    throw InputError("--load with --kind change, expected --kind absolute (what the load adds) or epochs");
+  return options.kind == Kind::absolute ? ReadingKind::load : ReadingKind::load_change;
+}
+
+std::string_view what_is_read(ReadingKind kind) {
+  switch (kind) {
+    case ReadingKind::change:
+      return "changes between two times";
+    case ReadingKind::load:
+      return "what loads add";
+    case ReadingKind::load_change:
+      return "what loads add, at two times";
+    default:
+      return "displacements since the bridge carried nothing";
+  }
+}
+
+std::string errors_in_words(const Options& options) {
+  std::string text = options.sigma.empty() ? fmt::format("{} of the value and {} mm, {}", options.noise_level,
+                                                         options.floor_mm, options.noise_model)
+                                           : fmt::format("gaussian, standard deviation {} mm",
+                                                         1e3 * parse_sigma(options.sigma));
+  if (options.datum_mm > 0.0) text += fmt::format(", datum {} mm", options.datum_mm);
+  if (options.tilt_mm_per_m > 0.0) text += fmt::format(", tilt {} mm per m", options.tilt_mm_per_m);
   return text;
 }
 
+std::string heading(const Options& options, const Comparison& comparison, const Database& database) {
+  std::string text = fmt::format("# Simulated readings of the bridge '{}': {} (history {}).\n",
+                                 database.bridge_name(), what_is_read(comparison.kind), comparison.history);
+  if (!options.hide) text += fmt::format("# scene: {}\n", options.scene);
+  return text + fmt::format("# errors: {}\n# seed: {}\n", errors_in_words(options), options.seed);
+}
+
 std::string make_measurements(const Options& options) {
-  const auto database = voussoir::Database::open(voussoir::find_database(options.database));
-  const auto row = database.table().row(voussoir::find_row(database, options.scene));
-  const voussoir::NoiseModel noise{voussoir::parse_noise_shape(options.noise_model),
-                                   voussoir::parse_noise_level(options.noise_level), 1e-3 * options.floor_mm,
-                                   4.0, voussoir::parse_noise_level(options.silence)};
-  if (noise.shape == voussoir::NoiseShape::automatic)
-    throw voussoir::InputError(
-        "--noise-model auto cannot be simulated, expected uniform, gaussian, laplace or student");
-  voussoir::Random random(options.seed);
-  const auto readings = voussoir::simulate_readings(row, noise, random);
-  const std::string text = heading(options, database) + voussoir::to_csv(readings, database.control_points());
+  const NoiseModel noise = noise_of(options);
+  const auto database = Database::open(find_database(options.database));
+  SensorList list = control_point_sensors(database.control_points());
+  if (options.sensors) read_sensors(*options.sensors, database.layout(), database.mesh(), list);
+  ReadingsFile blank = blank_file(list, reading_kind(options), options.loads);
+  blank.name = "--load";
+  blank.two_epochs = options.kind == Kind::epochs;
+  ComparisonSettings settings;
+  if (!options.history.empty()) settings.history = options.history;
+  const Comparison comparison = compare(blank, list, database, settings);
+  Random random(options.seed);
+  const Levelling levelling{1e-3 * options.datum_mm, 1e-3 * options.tilt_mm_per_m};
+  const ReadingsFile file =
+      simulate_file(blank, comparison, find_row(database, options.scene), noise, levelling, random);
+  const std::string text = heading(options, comparison, database) + to_csv(file, list);
   if (options.output.empty()) return text;
-  voussoir::write_file(options.output, text);
+  write_file(options.output, text);
   return {};
+}
+
+void add_reading_options(CLI::App& app, Options& options) {
+  add_choice<Kind>(
+      app, "--kind", options.kind,
+      {{"absolute", Kind::absolute}, {"change", Kind::change}, {"epochs", Kind::epochs}},
+      "absolute (default): displacements since the bridge carried nothing, with --load what the load "
+      "adds; change: between two times; epochs: the same as values before and after");
+  add_choice<std::string>(app, "--history", options.history,
+                          {{kBuiltState, kBuiltState}, {kLostState, kLostState}},
+                          "whether the blocks were never there or went later; default: as locate-damage");
+  app.add_option("--load", options.loads, "load cases to read under, such as axle,truck@2")
+      ->delimiter(',')
+      ->option_text("LIST");
+  app.add_option("--sensors", options.sensors,
+                 "sensors to read beside the control points, as for locate-damage")
+      ->option_text("FILE");
+}
+
+void add_error_options(CLI::App& app, Options& options) {
+  CLI::Option* const level = app.add_option("--noise", options.noise_level, "share of the value, default 5%")
+                                 ->check(checked_by(parse_noise_level, "LEVEL"));
+  CLI::Option* const model =
+      app.add_option("--noise-model", options.noise_model, "uniform (default), gaussian, laplace or student")
+          ->check(checked_by(parse_noise_shape, "NAME"));
+  CLI::Option* const floor = app.add_option("--floor", options.floor_mm, "absolute part [mm], default 0")
+                                 ->check(number_in_range(0.0, 1e6, "MM"));
+  app.add_option("--sigma", options.sigma,
+                 "instead of these: standard deviation of every value, such as 0.02mm; written as sigma_mm")
+      ->check(checked_by(parse_sigma, "MM"))
+      ->excludes(level)
+      ->excludes(model)
+      ->excludes(floor)
+      ->option_text("MM");
+  app.add_option("--datum", options.datum_mm, "standard deviation of a shift of all heights [mm], default 0")
+      ->check(number_in_range(0.0, 1e6, "MM"));
+  app.add_option("--tilt", options.tilt_mm_per_m,
+                 "standard deviation of a rotation of all heights [mm per m], default 0")
+      ->check(number_in_range(0.0, 1e6, "MM/M"));
+  app.add_option("--silent-sensors", options.silence, "chance that a sensor gives no reading, default 0%")
+      ->check(checked_by(parse_noise_level, "LEVEL"));
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("Writes a measurements file: a scene's displacements with simulated noise.",
+  CLI::App app("Writes a measurements file: what sensors would read in a scene, with simulated errors.",
                "make-measurements");
-  app.footer("Example: make-measurements 10,4 -d bridge.h5 --noise 5% --seed 1 -o readings.csv");
-  app.set_version_flag("--version", voussoir::version_text("make-measurements"));
+  app.footer("Example: make-measurements 10,4 -d bridge.h5 --kind change --sigma 0.02mm -o readings.csv");
+  app.set_version_flag("--version", version_text("make-measurements"));
   Options options;
   app.add_option("SCENE", options.scene, "missing blocks: intact, 10,4 or 10,4+6,4")
       ->required()
       ->option_text("SCENE");
   app.add_option("-d,--database", options.database, "default: $VOUSSOIR_DATABASE, else ./bridge.h5");
-  app.add_option("--noise", options.noise_level, "share of the displacement, default 5%")
-      ->check(voussoir::checked_by(voussoir::parse_noise_level, "LEVEL"));
-  app.add_option("--noise-model", options.noise_model, "uniform (default), gaussian, laplace or student")
-      ->check(voussoir::checked_by(voussoir::parse_noise_shape, "NAME"));
-  app.add_option("--floor", options.floor_mm, "absolute part [mm], default 0")
-      ->check(voussoir::number_in_range(0.0, 1e6, "MM"));
-  app.add_option("--silent-sensors", options.silence, "chance that a sensor gives no reading, default 0%")
-      ->check(voussoir::checked_by(voussoir::parse_noise_level, "LEVEL"));
+  add_reading_options(app, options);
+  add_error_options(app, options);
   app.add_option("--seed", options.seed, "of the random numbers, default 1");
   app.add_flag("--hide", options.hide, "do not name the scene in the file");
   app.add_option("-o,--output", options.output, "default: the standard output");
-  return voussoir::run_program(app, argc, argv, [&] { return make_measurements(options); });
+  return run_program(app, argc, argv, [&] { return make_measurements(options); });
 }

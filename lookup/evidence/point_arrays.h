@@ -28,8 +28,8 @@ inline PointArrays point_arrays(const Observation& observation, const ErrorScale
 
 /// Some points of a row.
 struct PointLanes {
-  DoubleLanes reading;     ///< NaN: none
-  DoubleLanes predicted;   ///< NaN: the block is gone
+  DoubleLanes reading;    ///< NaN: none
+  DoubleLanes predicted;  ///< NaN: the block is gone
   DoubleLanes origin;
   DoubleLanes instrument;  ///< noise_scale
   DoubleLanes variance;    ///< model_variance

@@ -5,8 +5,8 @@
 /// Readings are y = c m + errors with movements m and c ~ N(1, tau^2). With D the diagonal of the errors'
 /// variances, c is fitted by least squares with its prior,
 ///     c = (m' D^-1 y + 1 / tau^2) v,    v = 1 / (m' D^-1 m + 1 / tau^2),
-/// and the Gaussian marginal over c is, exactly, N(y; c m, D) exp(-(c - 1)^2 / (2 tau^2)) sqrt(v) / tau. Other
-/// shapes take the same fit.
+/// and the Gaussian marginal over c is, exactly, N(y; c m, D) exp(-(c - 1)^2 / (2 tau^2)) sqrt(v) / tau.
+/// Other shapes take the same fit.
 
 #include <vector>
 
@@ -17,10 +17,10 @@ namespace voussoir {
 
 /// Of some rows; without rows if the factor is known.
 struct ScaleFits {
-  std::vector<double> factor;    ///< c
-  std::vector<double> variance;  ///< v
-  std::vector<double> square;    ///< ((c - 1) / tau)^2
-  std::vector<double> log_width; ///< log(tau / sqrt(v))
+  std::vector<double> factor;     ///< c
+  std::vector<double> variance;   ///< v
+  std::vector<double> square;     ///< ((c - 1) / tau)^2
+  std::vector<double> log_width;  ///< log(tau / sqrt(v))
 
   double factor_of(std::size_t i) const { return factor.empty() ? 1.0 : factor[i]; }
   double variance_of(std::size_t i) const { return variance.empty() ? 0.0 : variance[i]; }
@@ -29,7 +29,8 @@ struct ScaleFits {
 /// Variance of an error that is even within a bound of one.
 inline constexpr double kBoundedVariance = 1.0 / 3.0;
 
-/// `instrument_variance`: of an instrument's error in units of its scale squared: 1, or 1/3 of bounded errors.
+/// `instrument_variance`: of an instrument's error in units of its scale squared: 1, or 1/3 of bounded
+/// errors.
 ScaleFits scale_fits(const Observation& observation, const ErrorScales& scales, const SceneTable& table,
                      std::span<const std::size_t> rows, double instrument_variance);
 

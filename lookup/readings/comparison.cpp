@@ -1,9 +1,141 @@
 #include "lookup/readings/comparison.h"
 
+#include <algorithm>
+#include <cmath>
+
+#include "lookup/readings/reading_states.h"
+
 namespace voussoir {
+namespace {
+
+std::vector<Channel> channels_of(const ReadingsFile& file, const SensorList& list,
+                                 const ReadingStates& states) {
+  std::vector<Channel> channels;
+  for (std::size_t i = 0; i < file.readings.size(); ++i) {
+    const Reading& reading = file.readings[i];
+    channels.push_back({&list.sensors[reading.sensor], reading.sensor, reading.load, states.loaded[i]});
+  }
+  return channels;
+}
+
+std::vector<Channel> control_point_channels(const SensorList& list) {
+  std::vector<Channel> channels;
+  for (std::size_t i = 0; i < list.control_points; ++i) channels.push_back({&list.sensors[i], i});
+  return channels;
+}
+
+/// Readings of heights with one load were levelled together; other instruments have no common level.
+std::vector<int> levelling_of(const std::vector<Channel>& channels) {
+  std::vector<int> groups;
+  std::vector<std::string> loads;
+  for (const Channel& channel : channels) {
+    if (channel.sensor->quantity != Quantity::uy) {
+      groups.push_back(kNoLevelling);
+      continue;
+    }
+    const auto found = std::find(loads.begin(), loads.end(), channel.load);
+    groups.push_back(static_cast<int>(found - loads.begin()));
+    if (found == loads.end()) loads.push_back(channel.load);
+  }
+  return groups;
+}
+
+/// Puts the readings into their channels.
+void enter(const ReadingsFile& file, std::optional<double> sigma, Comparison& comparison) {
+  const std::size_t channels = comparison.library.points.size();
+  comparison.measured = no_measurements(channels);
+  if (file.two_epochs) comparison.before = comparison.after = no_measurements(channels).displacement;
+  const std::vector<double> origin = origin_of(comparison);
+  for (std::size_t i = 0; i < file.readings.size(); ++i) {
+    const Reading& reading = file.readings[i];
+    const std::size_t channel = channel_of(comparison, reading, i);
+    comparison.measured.displacement[channel] = origin[channel] + reading.value;
+    comparison.measured.silent[channel] = reading.silent;
+    comparison.measured.sigma[channel] = std::isnan(reading.sigma) && sigma ? *sigma : reading.sigma;
+    if (!file.two_epochs) continue;
+    comparison.before[channel] = reading.before;
+    comparison.after[channel] = reading.after;
+  }
+}
+
+double root_mean_square(std::span<const double> values) {
+  double sum = 0.0;
+  int count = 0;
+  for (const double value : values)
+    if (!std::isnan(value)) sum += value * value, ++count;
+  return count > 0 ? std::sqrt(sum / count) : 0.0;
+}
+
+/// The errors of the states that channels come from. The error of a signal: the largest of any state. That of
+/// the intact bridge: at control points the state's own, of what a load adds the difference (the mesh errs to
+/// one side in both states); elsewhere the share that control points have.
+ModelError model_error_of(const Database& database, std::size_t base, const std::vector<Channel>& channels,
+                          const Library& library) {
+  ModelError result = database.model_errors()[base];
+  const std::vector<double> at_points = result.intact;
+  result.intact.clear();
+  for (const Channel& channel : channels)
+    if (channel.loaded) {
+      const ModelError& loaded = database.model_errors()[*channel.loaded];
+      result.share = std::max(result.share, loaded.share);
+      result.common = std::max(result.common, loaded.common);
+    }
+  if (at_points.empty()) return result;
+  const SceneTable table = database.table(kNominalVariant, base);
+  const double share = root_mean_square(at_points) / root_mean_square(intact_predictions(table));
+  const std::span<const double> intact = intact_predictions(library.table);
+  for (std::size_t i = 0; i < channels.size(); ++i) {
+    const Channel& channel = channels[i];
+    const std::vector<double>* const loaded =
+        channel.loaded ? &database.model_errors()[*channel.loaded].intact : nullptr;
+    const bool at_point = channel.sensor->weights.empty() && (loaded == nullptr || !loaded->empty());
+    const double before = loaded != nullptr ? at_points[channel.point] : 0.0;
+    const double after = loaded != nullptr ? (*loaded)[channel.point] : at_points[channel.point];
+    result.intact.push_back(at_point ? std::abs(after - before) : share * std::abs(intact[i]));
+  }
+  return result;
+}
+
+}  // namespace
 
 Comparison absolute_readings(Library library, Measurements measured) {
   return {.library = std::move(library), .measured = std::move(measured), .model_error = {}};
+}
+
+Comparison compare(const ReadingsFile& file, const SensorList& list, const Database& database,
+                   const ComparisonSettings& settings) {
+  const ReadingStates states = find_reading_states(file, database, settings.history);
+  const bool own_table = std::all_of(file.readings.begin(), file.readings.end(), [&](const Reading& reading) {
+    return reading.load.empty() && reading.sensor < list.control_points;
+  });
+  const std::vector<Channel> channels =
+      own_table ? control_point_channels(list) : channels_of(file, list, states);
+  Comparison result{.kind = file.kind,
+                    .history = states.history,
+                    .library = own_table ? library_of(database, states.base)
+                                         : library_of_channels(database, states.base, channels),
+                    .measured = {},
+                    .model_error = {}};
+  enter(file, settings.sigma, result);
+  result.model_error = model_error_of(database, states.base, channels, result.library);
+  if (own_table) return result;
+  result.levelling = levelling_of(channels);
+  for (const Channel& channel : channels) {
+    result.quantity.push_back(channel.sensor->quantity);
+    result.load.push_back(channel.load);
+  }
+  return result;
+}
+
+/// In the database's own table the channels are control points, else the file's rows.
+std::size_t channel_of(const Comparison& comparison, const Reading& reading, std::size_t position) {
+  return comparison.library.storage == nullptr ? reading.sensor : position;
+}
+
+std::vector<double> origin_of(const Comparison& comparison) {
+  if (!is_change(comparison.kind)) return std::vector<double>(comparison.library.points.size(), 0.0);
+  const std::span<const double> intact = intact_predictions(comparison.library.table);
+  return {intact.begin(), intact.end()};
 }
 
 }  // namespace voussoir

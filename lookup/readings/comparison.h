@@ -1,26 +1,17 @@
 #pragma once
 /// @file Readings beside the predictions that they are compared with.
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "database/records/state_name.h"
 #include "lookup/readings/library.h"
 #include "lookup/readings/measurements.h"
+#include "lookup/readings/reading_kind.h"
+#include "lookup/readings/readings_file.h"
 
 namespace voussoir {
-
-/// What a reading is the difference of.
-enum class ReadingKind {
-  absolute,    ///< displacement since the bridge carried nothing: the paper's
-  change,      ///< between two epochs under the bridge's own weight
-  load,        ///< what a load case adds
-  load_change  ///< how much more it adds in the second of two epochs
-};
-
-constexpr bool is_change(ReadingKind kind) {
-  return kind == ReadingKind::change || kind == ReadingKind::load_change;
-}
 
 inline constexpr int kNoLevelling = -1;
 
@@ -31,9 +22,33 @@ struct Comparison {
   Measurements measured;         ///< by channel; a change is added to the intact bridge's prediction
   ModelError model_error;        ///< of the channels
   std::vector<int> levelling{};  ///< by channel: readings with one number share datum and tilt; empty: all do
+  std::vector<double> before{};  ///< [m] by channel, of two epochs; else empty
+  std::vector<double> after{};
+  std::vector<Quantity> quantity{};  ///< by channel; empty: all displacements upwards
+  std::vector<std::string> load{};   ///< by channel; empty: none
 };
 
 /// Readings of displacements at a database's control points in its first state.
 Comparison absolute_readings(Library library, Measurements measured);
+
+struct ComparisonSettings {
+  std::optional<std::string> history;  ///< "built" or "lost"; nothing: what fits the readings
+  std::optional<double> sigma;         ///< [m] of readings that do not state their own
+};
+
+/// Readings beside the predictions of the database's states. Without a wish absolute readings are compared
+/// with the history `built`, all others with `lost`, or with the other one where the database lacks states.
+/// Changes and absolute readings at control points are compared with the database's own table and its search
+/// index; for all others a library of their own is computed, from the fields where sensors are no control
+/// points. Throws InputError for histories and loads that the database lacks, Failure without the fields.
+Comparison compare(const ReadingsFile& file, const SensorList& list, const Database& database,
+                   const ComparisonSettings& settings);
+
+/// The channel of the file's reading number `position`.
+std::size_t channel_of(const Comparison& comparison, const Reading& reading, std::size_t position);
+
+/// What has been added to the readings of each channel [m]: the intact bridge's prediction to changes, else
+/// zero.
+std::vector<double> origin_of(const Comparison& comparison);
 
 }  // namespace voussoir

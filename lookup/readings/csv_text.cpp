@@ -1,38 +1,176 @@
 #include "lookup/readings/csv_text.h"
 
+#include <algorithm>
+#include <cctype>
+
+#include "core/error.h"
 #include "core/text.h"
 
 namespace voussoir {
 namespace {
 
 constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+constexpr char kQuote = '"';
+constexpr char kComment = '#';
 
-std::string_view unquoted(std::string_view text) {
-  const bool has_quotes = text.size() >= 2 && text.front() == '"' && text.back() == '"';
-  return has_quotes ? trimmed(text.substr(1, text.size() - 2)) : text;
+std::string lower_case(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return text;
 }
 
-std::vector<std::string_view> cut_fields(std::string_view line) {
-  std::vector<std::string_view> fields = split(line, ',');
-  for (std::string_view& field : fields) field = unquoted(field);
-  return fields;
+bool all_empty(const std::vector<std::string>& fields, std::size_t from = 0) {
+  return std::all_of(fields.begin() + static_cast<std::ptrdiff_t>(from), fields.end(),
+                     [](const std::string& field) { return field.empty(); });
+}
+
+/// A line whose first sign, be it within quotation marks, starts a comment.
+bool is_comment(std::string_view line) {
+  line = trimmed(line);
+  if (line.starts_with(kQuote)) line = trimmed(line.substr(1));
+  return line.starts_with(kComment);
+}
+
+class Cutter {
+ public:
+  Cutter(const CsvTable& table, long number, std::string_view line)
+      : table_(table), number_(number), line_(line) {}
+
+  std::vector<std::string> fields() {
+    std::vector<std::string> result;
+    do {
+      result.push_back(next_starts_with_quote() ? quoted_field() : plain_field());
+    } while (at_separator());
+    return result;
+  }
+
+ private:
+  /// Steps over a separator; false at the end of the line and at a comment.
+  bool at_separator() {
+    if (place_ >= line_.size() || line_[place_] != table_.separator) return false;
+    ++place_;
+    return true;
+  }
+
+  bool next_starts_with_quote() {
+    std::size_t place = place_;
+    while (place < line_.size() && line_[place] != table_.separator && is_blank(line_[place])) ++place;
+    if (place >= line_.size() || line_[place] != kQuote) return false;
+    place_ = place + 1;
+    return true;
+  }
+
+  static bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
+  bool at_end() const {
+    return place_ >= line_.size() || line_[place_] == table_.separator || line_[place_] == kComment;
+  }
+
+  std::string plain_field() {
+    const std::size_t start = place_;
+    while (!at_end()) ++place_;
+    return std::string(trimmed(line_.substr(start, place_ - start)));
+  }
+
+  std::string quoted_field() {
+    std::string text;
+    for (; place_ < line_.size(); ++place_) {
+      const bool twice = line_.substr(place_).starts_with("\"\"");
+      if (line_[place_] == kQuote && !twice) break;
+      if (twice) ++place_;
+      text += line_[place_];
+    }
+    if (place_ == line_.size())
+      table_.fail(number_,
+                  fmt::format("the quotation mark before {} is not closed, expected another in this line",
+                              voussoir::quoted(text)));
+    ++place_;
+    const std::string rest = plain_field();
+    if (!rest.empty())
+      table_.fail(number_, fmt::format("{} follows a closing quotation mark, expected the end of the field "
+                                       "(a quotation mark in a field is written twice)",
+                                       voussoir::quoted(rest)));
+    return std::string(trimmed(text));
+  }
+
+  const CsvTable& table_;
+  long number_;
+  std::string_view line_;
+  std::size_t place_ = 0;
+};
+
+void check_encoding(std::string_view text, const CsvTable& table) {
+  if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF"))
+    table.fail(1, "the file is UTF-16, expected UTF-8 (save it as plain CSV)");
+  if (text.find('\0') != std::string_view::npos) table.fail(1, "the file holds binary data, expected CSV");
+}
+
+/// Whether the text has the sign outside quotation marks and comments.
+bool has_outside_quotes(std::string_view line, char sign) {
+  bool inside = false;
+  for (const char c : line) {
+    if (c == kQuote) inside = !inside;
+    if (!inside && c == kComment) return false;
+    if (!inside && c == sign) return true;
+  }
+  return false;
+}
+
+char separator_of(std::string_view header, long number, const CsvTable& table) {
+  const bool comma = has_outside_quotes(header, ',');
+  const bool semicolon = has_outside_quotes(header, ';');
+  if (comma && semicolon) table.fail(number, "the header has commas and semicolons, expected one separator");
+  if (comma || semicolon) return comma ? ',' : ';';
+  return has_outside_quotes(header, '\t') ? '\t' : ',';
+}
+
+CsvLine header_of(std::string_view line, long number, CsvTable& table) {
+  table.separator = separator_of(line, number, table);
+  CsvLine header{number, Cutter(table, number, line).fields()};
+  for (std::string& name : header.fields) name = lower_case(std::move(name));
+  while (header.fields.size() > 1 && header.fields.back().empty()) header.fields.pop_back();
+  return header;
+}
+
+void add_row(std::string_view line, long number, CsvTable& table) {
+  CsvLine row{number, Cutter(table, number, line).fields()};
+  if (all_empty(row.fields)) return;
+  const std::size_t expected = table.header.fields.size();
+  if (row.fields.size() > expected && all_empty(row.fields, expected)) row.fields.resize(expected);
+  if (row.fields.size() != expected)
+    table.fail(
+        number,
+        fmt::format("{} values, expected {} as in the header{}", row.fields.size(), expected,
+                    row.fields.size() > expected && table.separator == ','
+                        ? " (a number with a decimal comma needs quotation marks, or a file with semicolons)"
+                        : ""));
+  table.rows.push_back(std::move(row));
 }
 
 }  // namespace
 
-std::vector<CsvLine> cut_csv(std::string_view text) {
+void CsvTable::fail(long line, const std::string& message) const {
+  throw InputError(at_line(file, line, message));
+}
+
+CsvTable read_csv(std::string_view text, const std::string& file, std::string_view columns) {
+  CsvTable table{file, ',', {}, {}};
+  check_encoding(text, table);
   if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
-  std::vector<CsvLine> lines;
   long number = 0;
   for (std::size_t start = 0; start < text.size();) {
     const std::size_t end = std::min(text.find('\n', start), text.size());
-    const std::string_view whole = text.substr(start, end - start);
-    const std::string_view line = trimmed(whole.substr(0, whole.find('#')));
-    ++number;
-    if (!line.empty()) lines.push_back({number, cut_fields(line)});
+    const std::string_view line = text.substr(start, end - start);
     start = end + 1;
+    ++number;
+    if (trimmed(line).empty() || is_comment(line)) continue;
+    if (table.header.fields.empty())
+      table.header = header_of(line, number, table);
+    else
+      add_row(line, number, table);
   }
-  return lines;
+  if (table.header.fields.empty())
+    table.fail(0, fmt::format("the file is empty, expected a header line ({})", columns));
+  return table;
 }
 
 }  // namespace voussoir

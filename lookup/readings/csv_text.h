@@ -1,21 +1,35 @@
 #pragma once
-/// @file The few rules of a measurements file's CSV: lines, comments, fields. No quoting beyond a
-/// pair of quotation marks round a whole field.
+/// @file Tables as spreadsheets write them: CSV with any of the usual separators.
 
+#include <string>
 #include <string_view>
 #include <vector>
 
 namespace voussoir {
 
-/// The fields of one line that is neither empty nor a comment. Views into the text it was cut from.
+/// The fields of one line, without quotation marks and without blanks around them.
 struct CsvLine {
   long number = 0;  ///< in the file, from 1
-  std::vector<std::string_view> fields;
+  std::vector<std::string> fields;
 };
 
-/// Cuts a text into lines (LF or CRLF, with or without UTF-8 byte order mark), drops what follows '#', drops
-/// empty lines, and cuts the rest at commas; blanks and one pair of quotation marks round a field are
-/// removed.
-std::vector<CsvLine> cut_csv(std::string_view text);
+/// A header and rows with as many fields as the header has names.
+struct CsvTable {
+  std::string file;  ///< its name, for messages
+  char separator = ',';
+  CsvLine header;  ///< names in lower case
+  std::vector<CsvLine> rows;
+
+  /// Throws InputError "file:line: message"; line 0: of the whole file.
+  [[noreturn]] void fail(long line, const std::string& message) const;
+};
+
+/// Reads a table. UTF-8 with or without byte order mark; LF or CRLF; '#' outside quotation marks starts a
+/// comment; lines without text are left out. The separator is the one that the header has: comma, semicolon
+/// or, without these, tab. A field may stand in quotation marks, and a quotation mark in it is written twice.
+/// Columns at the end without name and values are left out, as spreadsheets add them.
+/// Throws InputError for other encodings, for a header with commas and semicolons, for quotation marks that
+/// are not closed and for rows of another length. `columns` says which header was expected.
+CsvTable read_csv(std::string_view text, const std::string& file, std::string_view columns);
 
 }  // namespace voussoir

@@ -1,13 +1,117 @@
 #include "lookup/readings/library.h"
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <thread>
+
+#include "core/error.h"
+#include "core/threads.h"
 #include "database/records/state_name.h"
 
 namespace voussoir {
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+bool is(Outcome outcome, const SceneTable& table, std::size_t row) {
+  return table.outcome[row] == static_cast<std::uint8_t>(outcome);
+}
+
+/// Fills a library row by row; rows are independent of each other.
+class Predictions {
+ public:
+  Predictions(const Database& database, std::size_t base, const std::vector<Channel>& channels)
+      : database_(database), channels_(channels), states_{base} {
+    for (const Channel& channel : channels)
+      if (channel.loaded && std::find(states_.begin(), states_.end(), *channel.loaded) == states_.end())
+        states_.push_back(*channel.loaded);
+    for (const std::size_t state : states_) tables_.push_back(database.table(kNominalVariant, state));
+    with_fields_ = std::any_of(channels.begin(), channels.end(),
+                               [](const Channel& channel) { return !channel.sensor->weights.empty(); });
+  }
+
+  const SceneTable& base() const { return tables_.front(); }
+
+  LibraryStorage compute() const {
+    const std::size_t rows = base().rows;
+    LibraryStorage storage{std::vector<double>(rows * channels_.size()), std::vector<std::uint8_t>(rows)};
+    const int threads = with_fields_ ? static_cast<int>(std::thread::hardware_concurrency()) : 1;
+    for_each_index_on_threads(rows, threads, [&](std::size_t row) {
+      storage.outcome[row] = outcome(row);
+      fill(row, std::span(storage.predictions).subspan(row * channels_.size(), channels_.size()));
+    });
+    return storage;
+  }
+
+ private:
+  std::uint8_t outcome(std::size_t row) const {
+    const bool unresolved = std::any_of(tables_.begin(), tables_.end(), [&](const SceneTable& table) {
+      return is(Outcome::unresolved, table, row);
+    });
+    return unresolved ? static_cast<std::uint8_t>(Outcome::unresolved) : base().outcome[row];
+  }
+
+  void fill(std::size_t row, std::span<double> predictions) const {
+    std::vector<Field> fields;
+    if (with_fields_)
+      for (const std::size_t state : states_)
+        fields.push_back(database_.field(base().first_record + row, state));
+    for (std::size_t i = 0; i < channels_.size(); ++i) {
+      const Channel& channel = channels_[i];
+      predictions[i] = shown(channel, row, 0, fields);
+      if (channel.loaded) predictions[i] = added_by_load(channel, row, predictions[i], fields);
+    }
+  }
+
+  double added_by_load(const Channel& channel, std::size_t row, double unloaded,
+                       const std::vector<Field>& fields) const {
+    const auto found = std::find(states_.begin(), states_.end(), *channel.loaded);
+    const auto state = static_cast<std::size_t>(found - states_.begin());
+    const bool stands = is(Outcome::standing, base(), row) && is(Outcome::standing, tables_[state], row);
+    return stands ? shown(channel, row, state, fields) - unloaded : kNan;
+  }
+
+  double shown(const Channel& channel, std::size_t row, std::size_t state,
+               const std::vector<Field>& fields) const {
+    return channel.sensor->weights.empty() ? tables_[state].row(row)[channel.point]
+                                           : reading_of(*channel.sensor, fields[state]);
+  }
+
+  const Database& database_;
+  const std::vector<Channel>& channels_;
+  std::vector<std::size_t> states_;  // that are looked at, `base` first
+  std::vector<SceneTable> tables_;   // of these states
+  bool with_fields_ = false;
+};
+
+}  // namespace
 
 Library library_of(const Database& database, std::size_t state) {
   return {
       database.table(kNominalVariant, state), database.control_points(), database.layout(),
       state == 0 || is_history(database.states().at(state)) ? database.search_index(state) : SearchIndex{}};
+}
+
+Library library_of_channels(const Database& database, std::size_t base,
+                            const std::vector<Channel>& channels) {
+  const Predictions predictions(database, base, channels);
+  const auto storage = std::make_shared<const LibraryStorage>(predictions.compute());
+  Library library{predictions.base(), {}, database.layout(), {}, storage};
+  library.table.points = channels.size();
+  library.table.vertical = storage->predictions;
+  library.table.outcome = storage->outcome;
+  for (const Channel& channel : channels)
+    library.points.push_back(
+        {channel.load.empty() ? channel.sensor->name : channel.sensor->name + " under " + channel.load,
+         channel.sensor->position, channel.sensor->blocks.front()});
+  return library;
+}
+
+std::span<const double> intact_predictions(const SceneTable& table) {
+  for (std::size_t row = 0; row < table.rows; ++row)
+    if (table.scene(row).removed.empty()) return table.row(row);
+  throw Failure("the database has no intact scene, from which changes count");
 }
 
 }  // namespace voussoir

@@ -1,11 +1,20 @@
 #pragma once
 /// @file What readings are compared with.
 
+#include <memory>
+#include <string>
 #include <vector>
 
 #include "database/records/database.h"
+#include "lookup/readings/sensor.h"
 
 namespace voussoir {
+
+/// The numbers of a library that is no database's own table.
+struct LibraryStorage {
+  std::vector<double> predictions;    ///< rows x channels [m or rad]
+  std::vector<std::uint8_t> outcome;  ///< of each row, values of Outcome
+};
 
 /// Predictions of every scene. A column of the table is a channel: what one sensor shows in one state, or in
 /// one state against another. In a library of a database's own table the channels are the control points.
@@ -14,10 +23,29 @@ struct Library {
   std::vector<StoredPoint>
       points;  ///< the channels: name, place, and the block without which one shows nothing
   const BlockLayout& layout;
-  SearchIndex index{};  ///< of `table`; without clusters if there is none
+  SearchIndex index{};                              ///< of `table`; without clusters if there is none
+  std::shared_ptr<const LibraryStorage> storage{};  ///< what `table` looks into, unless it is the database
 };
 
 /// The control points in one state of the nominal variant; refers to the database.
 Library library_of(const Database& database, std::size_t state = 0);
+
+/// A sensor in a state, or what a load adds to its reading.
+struct Channel {
+  const Sensor* sensor = nullptr;
+  std::size_t point = 0;  ///< of a control point its number
+  std::string load{};     ///< its name; none: the bridge's own weight alone
+  std::optional<std::size_t>
+      loaded{};  ///< the state under the load; nothing: the reading is of the state `base`
+};
+
+/// One column for each channel. `base` is the state without loads. Where a channel is what a load adds and
+/// the scene does not stand in one of the two states, it shows NaN: nobody reads such a difference. A scene
+/// is unresolved if one of its states is. Throws Failure if a sensor needs fields that the database does not
+/// have.
+Library library_of_channels(const Database& database, std::size_t base, const std::vector<Channel>& channels);
+
+/// The row of the intact bridge. Throws Failure if there is none.
+std::span<const double> intact_predictions(const SceneTable& table);
 
 }  // namespace voussoir

@@ -7,18 +7,13 @@
 #include "core/error.h"
 #include "lookup/readings/common_variance.h"
 #include "lookup/readings/noise_scale.h"
+#include "lookup/readings/stated_sigmas.h"
 
 namespace voussoir {
 namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kClamped = 1e-12;  // [m] points that never move more are held by a support
-
-std::span<const double> intact_row(const SceneTable& table) {
-  if (table.rows == 0 || !table.scene(0).removed.empty())
-    throw Failure("the database has no intact scene, which a lookup needs to know what can move");
-  return table.row(0);
-}
 
 /// True if a point moves neither in the intact bridge nor in a single.
 bool is_held(const SceneTable& table, std::size_t point) {
@@ -61,7 +56,7 @@ bool Observation::has_model_error() const {
 }
 
 Observation observe(const Comparison& comparison, const NoiseModel& noise, const Nuisance& nuisance) {
-  const std::span<const double> intact = intact_row(comparison.library.table);
+  const std::span<const double> intact = intact_predictions(comparison.library.table);
   const std::vector<double> zeros(intact.size(), 0.0);
   Observation result;
   result.displacement = comparison.measured.displacement;
@@ -72,13 +67,9 @@ Observation observe(const Comparison& comparison, const NoiseModel& noise, const
   result.origin = zeros;
   result.own_variance = zeros;
   result.silent = comparison.measured.silent;
-  result.noise = noise;
+  result.noise = noise_of(comparison.measured, noise);
   add_readings(comparison, result);
   add_model_error(comparison, result);
-  const bool all_stated =
-      std::none_of(result.share.begin(), result.share.end(), [](double s) { return s > 0.0; });
-  if (noise.shape == NoiseShape::automatic && result.own_sigmas && all_stated)
-    result.noise.shape = NoiseShape::gaussian;
   if ((nuisance.datum > 0.0 || nuisance.tilt > 0.0) && result.noise.shape != NoiseShape::gaussian)
     throw InputError("an unknown datum or tilt needs Gaussian noise, expected --noise-model gaussian");
   const bool is_absolute = !is_change(comparison.kind) && result.has_model_error();

@@ -27,7 +27,7 @@ struct Observation {
   double unknown_scale = 0.0;  ///< standard deviation of the common factor of all movements
   Eigen::MatrixXd levelling;   ///< levelling_columns
   std::vector<bool> silent;    ///< there is a sensor, but it gave no reading
-  NoiseModel noise;            ///< Gaussian in the place of automatic if all sensors state their sigma
+  NoiseModel noise;            ///< noise_of the readings
   std::size_t count = 0;       ///< of `reading`
   bool own_sigmas = false;     ///< some sensor states its own sigma
   bool unknown_level = false;  ///< some sensor does not, and nothing states the noise level

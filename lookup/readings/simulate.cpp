@@ -1,13 +1,15 @@
 #include "lookup/readings/simulate.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "core/error.h"
 #include "lookup/readings/noise_scale.h"
 
 namespace voussoir {
 namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 double draw_laplace(Random& random) {
   const double u = 1.0 - random.uniform();  // in (0, 1]
@@ -24,6 +26,28 @@ double draw_student(double nu, Random& random) {
     const double w = x * x + y * y;
     if (w > 0.0 && w < 1.0)
       return x * std::sqrt(nu * (std::pow(w, -2.0 / nu) - 1.0) / w) * std::sqrt((nu - 2.0) / nu);
+  }
+}
+
+/// Adds to all heights of a levelling a shift and a rotation.
+void add_levelling_errors(const Comparison& comparison, const Levelling& levelling, Random& random,
+                          Measurements& measured) {
+  const std::vector<StoredPoint>& points = comparison.library.points;
+  const auto group_of = [&](std::size_t i) {
+    return comparison.levelling.empty() ? 0 : comparison.levelling[i];
+  };
+  int groups = 0;
+  double mean_x = 0.0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    groups = std::max(groups, group_of(i) + 1);
+    mean_x += points[i].position.x() / static_cast<double>(points.size());
+  }
+  for (int group = 0; group < groups; ++group) {
+    const double shift = levelling.datum * random.gaussian();
+    const double rotation = levelling.tilt * random.gaussian();
+    for (std::size_t i = 0; i < points.size(); ++i)
+      if (group_of(i) == group)
+        measured.displacement[i] += shift + rotation * (points[i].position.x() - mean_x);
   }
 }
 
@@ -50,17 +74,43 @@ Measurements simulate_readings(std::span<const double> displacements, const Nois
     if (std::isnan(value)) continue;
     value += noise_scale(*noise.relative, noise.floor, std::abs(value)) *
              draw_error(noise.shape, noise.degrees_of_freedom, random);
-    if (random.uniform() < noise.silence) value = std::numeric_limits<double>::quiet_NaN();
+    if (random.uniform() < noise.silence) value = kNan;
   }
   return as_measurements(readings);
 }
 
-std::string to_csv(const Measurements& readings, const std::vector<StoredPoint>& points) {
-  std::string text = "point,uy_mm\n";
-  for (std::size_t i = 0; i < points.size(); ++i)
-    text += fmt::format("{},{}\n", points[i].name,
-                        readings.silent[i] ? "" : fmt::format("{:.4f}", 1e3 * readings.displacement[i]));
-  return text;
+ReadingsFile blank_file(const SensorList& list, ReadingKind kind, const std::vector<std::string>& loads) {
+  ReadingsFile file{"", kind, false, {}};
+  const std::vector<std::string> or_none = loads.empty() ? std::vector<std::string>{""} : loads;
+  for (const std::string& load : or_none)
+    for (std::size_t sensor = 0; sensor < list.sensors.size(); ++sensor)
+      file.readings.push_back(
+          {.sensor = sensor, .load = load, .value = kNan, .before = kNan, .after = kNan, .sigma = kNan});
+  return file;
+}
+
+ReadingsFile simulate_file(const ReadingsFile& blank, const Comparison& comparison, std::size_t row,
+                           const NoiseModel& noise, const Levelling& levelling, Random& random) {
+  const std::vector<double> origin = origin_of(comparison);
+  const std::span<const double> prediction = comparison.library.table.row(row);
+  std::vector<double> truth(prediction.size());
+  for (std::size_t i = 0; i < truth.size(); ++i) truth[i] = prediction[i] - origin[i];
+  Measurements measured = simulate_readings(truth, noise, random);
+  if (levelling.datum > 0.0 || levelling.tilt > 0.0)
+    add_levelling_errors(comparison, levelling, random, measured);
+  const bool sigma_says_all =
+      noise.shape == NoiseShape::gaussian && noise.relative == 0.0 && noise.floor > 0.0;
+  ReadingsFile file = blank;
+  for (std::size_t i = 0; i < file.readings.size(); ++i) {
+    Reading& reading = file.readings[i];
+    const std::size_t channel = channel_of(comparison, reading, i);
+    reading.value = measured.displacement[channel];
+    reading.silent = measured.silent[channel];
+    reading.before = origin[channel];
+    reading.after = reading.before + reading.value;
+    if (sigma_says_all) reading.sigma = noise.floor;
+  }
+  return file;
 }
 
 }  // namespace voussoir

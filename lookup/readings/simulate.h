@@ -2,8 +2,10 @@
 /// @file Readings made from a scene, for examples and for tests of the searches.
 
 #include <span>
+#include <string>
+#include <vector>
 
-#include "lookup/readings/measurements.h"
+#include "lookup/readings/comparison.h"
 #include "lookup/readings/noise_model.h"
 #include "lookup/readings/random.h"
 
@@ -15,7 +17,20 @@ namespace voussoir {
 Measurements simulate_readings(std::span<const double> displacements, const NoiseModel& noise,
                                Random& random);
 
-/// The readings as a measurements file, in millimetres; silent sensors without a value.
-std::string to_csv(const Measurements& readings, const std::vector<StoredPoint>& points);
+/// Standard deviations of what all heights of one levelling have in common, of a change that of the change.
+struct Levelling {
+  double datum = 0.0;  ///< [m] of a shift
+  double tilt = 0.0;   ///< [-] of a rotation (metres per metre) about the middle of the levelled points
+};
+
+/// A file that has no readings yet: a row for every sensor of the list, under every load if there are loads.
+ReadingsFile blank_file(const SensorList& list, ReadingKind kind, const std::vector<std::string>& loads);
+
+/// The file's rows as the sensors would read them in a scene, with errors. `blank` is what `comparison` was
+/// made of; of two epochs the first is what the intact bridge shows, and errors are those of the change.
+/// `row` is the scene's in the comparison's library. Gaussian noise without relative part is stated as each
+/// row's sigma.
+ReadingsFile simulate_file(const ReadingsFile& blank, const Comparison& comparison, std::size_t row,
+                           const NoiseModel& noise, const Levelling& levelling, Random& random);
 
 }  // namespace voussoir

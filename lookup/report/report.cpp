@@ -6,15 +6,15 @@
 
 namespace voussoir {
 
-std::string report(const Answer& answer, const LookupSettings& settings, const Library& library,
+std::string report(const Answer& answer, const LookupSettings& settings, const Comparison& comparison,
                    const Source& source, ReportFormat format) {
   switch (format) {
     case ReportFormat::json:
-      return json_report(answer, settings, library, source);
+      return json_report(answer, settings, comparison, source);
     case ReportFormat::csv:
-      return csv_report(answer, library);
+      return csv_report(answer, comparison.library);
     default:
-      return text_report(answer, library, source);
+      return text_report(answer, comparison, source);
   }
 }
 

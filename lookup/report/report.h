@@ -17,14 +17,15 @@ struct Source {
 
 enum class ReportFormat { text, json, csv };
 
-std::string report(const Answer& answer, const LookupSettings& settings, const Library& library,
+std::string report(const Answer& answer, const LookupSettings& settings, const Comparison& comparison,
                    const Source& source, ReportFormat format);
 
-/// What is missing, how sure that is, what else could be, which sensor disagrees.
-std::string text_report(const Answer& answer, const Library& library, const Source& source);
+/// What is missing, how sure that is, what else could be, what moved, which sensor disagrees.
+std::string text_report(const Answer& answer, const Comparison& comparison, const Source& source);
 
 /// {"candidates": [{"scene": "10,4+6,4", "misfit": .., "posterior": ..}, ..], settings, database, judgement}.
-std::string json_report(const Answer& answer, const LookupSettings& settings, const Library& library,
+/// Sensors are in metres (tilts in radians); of changes the change.
+std::string json_report(const Answer& answer, const LookupSettings& settings, const Comparison& comparison,
                         const Source& source);
 
 /// rank,scene,misfit,posterior,outcome,place

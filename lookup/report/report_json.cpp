@@ -1,7 +1,9 @@
 #include <nlohmann/json.hpp>
 
+#include "lookup/report/reading_words.h"
 #include "lookup/report/report.h"
 #include "lookup/report/report_words.h"
+#include "lookup/report/verdict.h"
 #include "lookup/report/words.h"
 
 namespace voussoir {
@@ -65,35 +67,57 @@ ordered_json posterior_json(const Answer& answer, const Library& library) {
           {"credible_set", std::move(credible)}};
 }
 
-ordered_json sensors_json(const Answer& answer, const Library& library) {
+ordered_json sensors_json(const Answer& answer, const Comparison& comparison) {
+  const ShownReadings shown = shown_readings(comparison, answer.candidates.front().row);
   ordered_json result = ordered_json::array();
-  for (const SensorResidual& sensor : answer.residuals)
-    result.push_back({{"point", library.points[sensor.point].name},
-                      {"reading_m", sensor.reading},
-                      {"predicted_m", sensor.predicted},
-                      {"standard_error", sensor.error},
-                      {"disagrees", sensor.disagrees}});
+  for (const SensorResidual& sensor : answer.residuals) {
+    ordered_json entry = {{"point", comparison.library.points[sensor.point].name}};
+    if (!comparison.before.empty()) {
+      entry["before_m"] = comparison.before[sensor.point];
+      entry["after_m"] = comparison.after[sensor.point];
+    }
+    entry.update({{"reading_m", shown.reading[sensor.point]},
+                  {"predicted_m", shown.expected[sensor.point]},
+                  {"standard_error", sensor.error},
+                  {"disagrees", sensor.disagrees}});
+    result.push_back(std::move(entry));
+  }
   return result;
+}
+
+/// What the readings are, what they were compared with, and the answer in one word.
+void add_judgement(const Answer& answer, const Comparison& comparison, ordered_json& result) {
+  result["history"] = comparison.history;
+  result["known_bridge"] = true;  // of all predictions of this version
+  result["intact_probability"] = nullptr;
+  result["verdict"] = nullptr;
+  if (!answer.posterior) return;
+  result["intact_probability"] = intact_probability(*answer.posterior);
+  result["verdict"] = to_string(verdict_of(*answer.posterior, answer.fit && answer.fit->explained));
 }
 
 }  // namespace
 
-std::string json_report(const Answer& answer, const LookupSettings& settings, const Library& library,
+std::string json_report(const Answer& answer, const LookupSettings& settings, const Comparison& comparison,
                         const Source& source) {
+  const Library& library = comparison.library;
   ordered_json candidates = ordered_json::array();
   for (const Candidate& candidate : answer.candidates)
     candidates.push_back(candidate_json(candidate, library.layout));
-  ordered_json result = {{"candidates", std::move(candidates)},
-                         {"first_candidate", nullptr},
-                         {"settings", settings_json(settings)},
-                         {"measurements", {{"file", source.measurements}, {"readings", answer.readings}}},
-                         {"database",
-                          {{"file", source.database},
-                           {"bridge", source.bridge},
-                           {"digest", source.digest},
-                           {"scenes_searched", answer.searched},
-                           {"scenes_unresolved", answer.unresolved}}}};
+  ordered_json result = {
+      {"candidates", std::move(candidates)},
+      {"first_candidate", nullptr},
+      {"settings", settings_json(settings)},
+      {"measurements",
+       {{"file", source.measurements}, {"readings", answer.readings}, {"kind", to_string(comparison.kind)}}},
+      {"database",
+       {{"file", source.database},
+        {"bridge", source.bridge},
+        {"digest", source.digest},
+        {"scenes_searched", answer.searched},
+        {"scenes_unresolved", answer.unresolved}}}};
   if (!answer.candidates.empty()) result["first_candidate"] = standing(answer);
+  add_judgement(answer, comparison, result);
   if (answer.posterior) result["posterior"] = posterior_json(answer, library);
   if (answer.noise)
     result["noise"] = {{"model", to_string(answer.noise->shape)},
@@ -102,7 +126,7 @@ std::string json_report(const Answer& answer, const LookupSettings& settings, co
   if (answer.fit)
     result["fit"] = {
         {"explained", answer.fit->explained}, {"chance", answer.fit->chance}, {"reason", answer.fit->reason}};
-  if (!answer.residuals.empty()) result["sensors"] = sensors_json(answer, library);
+  if (!answer.residuals.empty()) result["sensors"] = sensors_json(answer, comparison);
   for (const GeneticResult& run : answer.genetic)
     result["genetic"].push_back({{"generations", run.generations},
                                  {"converged_in_generation", run.converged},

@@ -7,6 +7,7 @@
 #include "lookup/report/drawing/page.h"
 #include "lookup/report/report.h"
 #include "lookup/report/report_pictures.h"
+#include "lookup/report/report_profiles.h"
 #include "lookup/report/report_words.h"
 #include "lookup/report/words.h"
 
@@ -19,6 +20,8 @@ std::string verdict_html(const Answer& answer, const Library& library) {
   std::string html;
   for (const std::string& sentence : verdict(answer, library))
     html += paragraph(sentence, html.empty() ? "lead" : "");
+  if (answer.posterior)
+    html += paragraph("Verdict: " + verdict_in_words(*answer.posterior, answer.fit && answer.fit->explained));
   if (answer.posterior && !answer.posterior->credible.empty())
     html += paragraph(
         fmt::format("Number of missing blocks: {}. {:.0f} % of the probability is held by {} scene{}.",
@@ -59,6 +62,7 @@ Figure candidates_figure(const Answer& answer, const Library& library) {
 }
 
 std::string level_in_words(const NoiseModel& noise) {
+  if (noise.relative == 0.0) return "nothing relative to the reading";
   return noise.relative ? fmt::format("{:.3g} % of the displacement, as stated", 100.0 * *noise.relative)
                         : "unknown; all levels are weighed";
 }
@@ -97,11 +101,12 @@ std::string search_in_words(const LookupSettings& settings) {
                      genetic.seed);
 }
 
-std::string assumptions_html(const Answer& answer, const LookupSettings& settings, const Library& library,
-                             const Source& source) {
+std::string assumptions_html(const Answer& answer, const LookupSettings& settings,
+                             const Comparison& comparison, const Source& source) {
   Terms terms = {
-      {"Measurements", fmt::format("{}: {} of {} control points have a reading", source.measurements,
-                                   answer.readings, library.points.size())},
+      {"Measurements",
+       fmt::format("{}: {}", source.measurements, readings_in_words(comparison, answer.readings))},
+      {"History", history_in_words(comparison.history)},
       {"Database", fmt::format("{} (bridge '{}')", source.database, source.bridge)},
       {"Database digest", source.digest},
       {"Scenes searched",
@@ -124,14 +129,14 @@ std::string assumptions_html(const Answer& answer, const LookupSettings& setting
 std::string picture_report(const Answer& answer, const Comparison& comparison) {
   if (answer.candidates.empty())
     throw Failure("no scene explains the measurements: there is no picture to draw, only a page");
-  return svg_file(draw_bridge({answer, comparison.library, comparison.measured}));
+  return svg_file(draw_bridge(ReportPictures(answer, comparison)));
 }
 
 std::string page_report(const Answer& answer, const LookupSettings& settings, const Comparison& comparison,
                         const Source& source) {
   const Library& library = comparison.library;
   const std::string assumed =
-      section_html("assumed", "What was assumed", assumptions_html(answer, settings, library, source));
+      section_html("assumed", "What was assumed", assumptions_html(answer, settings, comparison, source));
   const std::string title = fmt::format("Missing blocks of bridge '{}'", source.bridge);
   if (answer.candidates.empty())
     return html_page(title,
@@ -139,7 +144,7 @@ std::string page_report(const Answer& answer, const LookupSettings& settings, co
                                "block that has a reading.",
                                "lead") +
                          assumed);
-  const ReportPictures pictures{answer, library, comparison.measured};
+  const ReportPictures pictures(answer, comparison);
   return html_page(
       title,
       verdict_html(answer, library) + figures_html({bridge_figure(pictures)}) +

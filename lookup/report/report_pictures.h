@@ -1,32 +1,16 @@
 #pragma once
-/// @file The pictures of the report page.
+/// @file The report page's picture of the bridge.
 
-#include <vector>
-
-#include "lookup/lookup.h"
 #include "lookup/report/drawing/page.h"
+#include "lookup/report/report_points.h"
 
 namespace voussoir {
 
-/// What the pictures show. Precondition: the answer has a candidate.
-struct ReportPictures {
-  const Answer& answer;
-  const Library& library;
-  const Measurements& measurements;
-};
-
 /// The bridge: blocks coloured by the probability that they are missing, the first candidate's blocks
-/// outlined, readings hanging from their control points.
+/// outlined, readings hanging from their places: of heights, and where there are several loads of the first.
 Drawing draw_bridge(const ReportPictures& report);
 
 /// The same with its caption and table.
 Figure bridge_figure(const ReportPictures& report);
-
-/// Readings, the first candidate's displacements and the noise band about them: on top and on the arch, as
-/// far as the bridge has such points.
-std::vector<Figure> profile_figures(const ReportPictures& report);
-
-/// How far each reading is from the first candidate, in units of the noise; none without a noise model.
-std::vector<Figure> residual_figures(const ReportPictures& report);
 
 }  // namespace voussoir

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "lookup/report/reading_words.h"
 #include "lookup/report/report.h"
 #include "lookup/report/report_words.h"
 #include "lookup/report/words.h"
@@ -31,18 +32,20 @@ class Text {
   std::string text_;
 };
 
-void write_heading(Text& text, const Answer& answer, const Library& library, const Source& source) {
-  text.line("Measurements: {}, {} of {} control points have a reading", source.measurements, answer.readings,
-            library.points.size());
+void write_heading(Text& text, const Answer& answer, const Comparison& comparison, const Source& source) {
+  text.line("Measurements: {}, {}", source.measurements, readings_in_words(comparison, answer.readings));
   text.line("Database:     {} (bridge '{}', digest {})", source.database, source.bridge,
             source.digest.substr(0, kDigestShown));
   text.line("Searched:     {} scenes{}", answer.searched,
             answer.unresolved == 0
                 ? ""
                 : fmt::format("; {} more have no solution and were left out", answer.unresolved));
+  text.line("History:      {}", history_in_words(comparison.history));
 }
 
 void write_verdict(Text& text, const Answer& answer, const Library& library) {
+  if (answer.posterior)
+    text.line("Verdict:      {}", verdict_in_words(*answer.posterior, answer.fit && answer.fit->explained));
   for (const std::string& sentence : verdict(answer, library)) text.line("{}", sentence);
 }
 
@@ -85,7 +88,36 @@ void write_probabilities(Text& text, const Answer& answer, const Library& librar
             posterior.credible.size(), posterior.credible.size() == 1 ? "" : "s");
 }
 
-void write_sensors(Text& text, const Answer& answer, const Library& library) {
+std::string in_millimetres(double metres) {
+  return std::isnan(metres) ? "-" : fmt::format("{:.3f}", kMillimetres * metres);
+}
+
+/// The largest readings of what is a difference, beside what the first candidate lets expect.
+void write_movements(Text& text, const Answer& answer, const Comparison& comparison) {
+  if (comparison.kind == ReadingKind::absolute) return;
+  const ShownReadings shown = shown_readings(comparison, answer.candidates.front().row);
+  std::vector<std::size_t> channels;
+  for (std::size_t i = 0; i < shown.reading.size(); ++i)
+    if (!std::isnan(shown.reading[i])) channels.push_back(i);
+  std::stable_sort(channels.begin(), channels.end(), [&](std::size_t a, std::size_t b) {
+    return std::abs(shown.reading[a]) > std::abs(shown.reading[b]);
+  });
+  channels.resize(std::min(channels.size(), kMostSensorsListed));
+  const bool epochs = !comparison.before.empty();
+  text.line("Moved most: {} [mm, tilts mm per m]", value_in_words(comparison.kind));
+  text.line("      {:<20}{}  {:>9}  {:>9}", "point", epochs ? "     before       after" : "", "reading",
+            "expected");
+  for (const std::size_t i : channels)
+    text.line("      {:<20}{}  {:>9}  {:>9}", comparison.library.points[i].name,
+              epochs ? fmt::format("{:>11} {:>11}", in_millimetres(comparison.before[i]),
+                                   in_millimetres(comparison.after[i]))
+                     : "",
+              in_millimetres(shown.reading[i]), in_millimetres(shown.expected[i]));
+  text.line("");
+}
+
+void write_sensors(Text& text, const Answer& answer, const Comparison& comparison) {
+  const std::vector<double> origin = origin_of(comparison);
   std::vector<SensorResidual> odd;
   std::copy_if(answer.residuals.begin(), answer.residuals.end(), std::back_inserter(odd),
                [](const SensorResidual& sensor) { return sensor.disagrees; });
@@ -96,8 +128,9 @@ void write_sensors(Text& text, const Answer& answer, const Library& library) {
   odd.resize(std::min(odd.size(), kMostSensorsListed));
   for (const SensorResidual& sensor : odd)
     text.line("Sensor {} disagrees: it reads {:.4g} mm where {:.4g} mm would be expected",
-              library.points[sensor.point].name, kMillimetres * sensor.reading,
-              kMillimetres * sensor.predicted);
+              comparison.library.points[sensor.point].name,
+              kMillimetres * (sensor.reading - origin[sensor.point]),
+              kMillimetres * (sensor.predicted - origin[sensor.point]));
 }
 
 void write_genetic(Text& text, const Answer& answer) {
@@ -108,9 +141,10 @@ void write_genetic(Text& text, const Answer& answer) {
 
 }  // namespace
 
-std::string text_report(const Answer& answer, const Library& library, const Source& source) {
+std::string text_report(const Answer& answer, const Comparison& comparison, const Source& source) {
+  const Library& library = comparison.library;
   Text text;
-  write_heading(text, answer, library, source);
+  write_heading(text, answer, comparison, source);
   write_genetic(text, answer);
   text.line("");
   if (answer.candidates.empty()) {
@@ -124,9 +158,10 @@ std::string text_report(const Answer& answer, const Library& library, const Sour
   text.line("");
   write_table(text, answer, library);
   text.line("");
+  write_movements(text, answer, comparison);
   write_groups(text, answer, library);
   if (answer.posterior && !answer.posterior->credible.empty()) write_probabilities(text, answer, library);
-  if (answer.posterior) write_sensors(text, answer, library);
+  if (answer.posterior) write_sensors(text, answer, comparison);
   return text.take();
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cctype>
 
+#include "lookup/report/verdict.h"
 #include "lookup/report/words.h"
 
 namespace voussoir {
@@ -51,7 +52,30 @@ std::vector<std::string> verdict(const Answer& answer, const Library& library) {
   return sentences;
 }
 
+std::string verdict_in_words(const Posterior& posterior, bool explained) {
+  const Verdict verdict = verdict_of(posterior, explained);
+  const auto meaning = [&]() -> std::string_view {
+    switch (verdict) {
+      case Verdict::located:
+        return "a block is missing and named";
+      case Verdict::damaged_unlocated:
+        return "blocks are missing, but the readings do not name one";
+      case Verdict::intact:
+        return "no block is missing";
+      case Verdict::cannot_tell:
+        return "the readings do not tell whether blocks are missing";
+      default:
+        return "the readings fit no scene; the list below names the closest";
+    }
+  };
+  const bool certain = verdict != Verdict::cannot_tell && verdict != Verdict::unexplained;
+  return fmt::format("{} ({}{})", to_string(verdict), meaning(),
+                     certain ? fmt::format(", at least {:.0f} % sure", 100.0 * kCertain) : "");
+}
+
 std::string noise_in_words(const NoiseEstimate& noise) {
+  if (!noise.estimated && noise.level <= kSmallestLevel)
+    return fmt::format("absolute, as stated for each reading ({} noise)", to_string(noise.shape));
   if (noise.estimated && noise.level <= 2.0 * kSmallestLevel) return "none that could be seen";
   const std::string_view meaning = noise.shape == NoiseShape::uniform ? "at most" : "a standard deviation of";
   return fmt::format("{} {:.2g} % of the displacement ({} noise, {})", meaning, 100.0 * noise.level,

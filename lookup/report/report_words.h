@@ -12,6 +12,9 @@ namespace voussoir {
 /// The answer in a sentence or a few, the most important first. Precondition: there is a candidate.
 std::vector<std::string> verdict(const Answer& answer, const Library& library);
 
+/// "located (a block is missing and named, at least 90 % sure)"
+std::string verdict_in_words(const Posterior& posterior, bool explained);
+
 /// What the first candidate is: "most likely", or only "closest" if nothing explains the readings, "nearest
 /// by misfit" if the search did not find the likeliest scene, "best match" without probabilities.
 std::string_view standing(const Answer& answer);

@@ -72,10 +72,13 @@ TEST_CASE("A scene is called most likely only if no other is likelier, whatever 
       const bool is_best =
           *answer.candidates.front().posterior == *std::max_element(probability.begin(), probability.end());
       (is_best ? likeliest : others) += 1;
-      const std::string text = text_report(answer, library.library(), kSource);
+      const std::string text = text_report(
+          answer, absolute_readings(library.library(), no_measurements(library.points.size())), kSource);
       const std::string page =
           page_report(answer, settings, absolute_readings(library.library(), measured), kSource);
-      const auto json = nlohmann::json::parse(json_report(answer, settings, library.library(), kSource));
+      const auto json = nlohmann::json::parse(
+          json_report(answer, settings,
+                      absolute_readings(library.library(), no_measurements(library.points.size())), kSource));
       for (const std::string& words : {text, page}) {
         CHECK((words.find("Most likely: ") != std::string::npos) == is_best);
         CHECK((words.find("Nearest by misfit: ") != std::string::npos) == !is_best);
@@ -130,8 +133,9 @@ TEST_CASE("A wild sensor is named and does not hide the damage") {
   for (const SensorResidual& sensor : answer.residuals)
     if (sensor.disagrees) odd.push_back(sensor.point);
   CHECK(odd == std::vector<std::size_t>{14});
-  CHECK(text_report(answer, library.library(), kSource).find("Sensor T15 disagrees: it reads") !=
-        std::string::npos);
+  CHECK(text_report(answer, absolute_readings(library.library(), no_measurements(library.points.size())),
+                    kSource)
+            .find("Sensor T15 disagrees: it reads") != std::string::npos);
 }
 
 TEST_CASE(
@@ -152,7 +156,8 @@ TEST_CASE(
   }
   const Answer unknown_level = locate_damage(absolute_readings(library.library(), bent), {});
   CHECK_FALSE(unknown_level.fit->explained);
-  CHECK(text_report(unknown_level, library.library(), kSource)
+  CHECK(text_report(unknown_level,
+                    absolute_readings(library.library(), no_measurements(library.points.size())), kSource)
             .find("No scene in this database explains these measurements") != std::string::npos);
 }
 
@@ -185,8 +190,9 @@ TEST_CASE("Scenes that the sensors cannot tell apart are reported together") {
   REQUIRE(answer.candidates.front().row == a);
   CHECK(answer.candidates.front().same_readings == std::vector<Scene>{{{BlockId{6}}}});
   CHECK(*answer.candidates[0].posterior == Approx(*answer.candidates[1].posterior));
-  CHECK(text_report(answer, library.library(), kSource).find("cannot tell 1,6 from: 1,7\n") !=
-        std::string::npos);
+  CHECK(text_report(answer, absolute_readings(library.library(), no_measurements(library.points.size())),
+                    kSource)
+            .find("cannot tell 1,6 from: 1,7\n") != std::string::npos);
 }
 
 TEST_CASE("A library without the wanted numbers of missing blocks is a failure with a reason") {
@@ -213,8 +219,9 @@ TEST_CASE("If every scene lacks a measured block there is no candidate, and the 
   const Answer answer = locate_damage(
       absolute_readings(all_gone.library(), all_gone.measure(0, 0.1, NoiseShape::uniform, random)), settings);
   CHECK(answer.candidates.empty());
-  CHECK(text_report(answer, all_gone.library(), kSource).find("No scene in this database explains") !=
-        std::string::npos);
+  CHECK(text_report(answer, absolute_readings(all_gone.library(), no_measurements(all_gone.points.size())),
+                    kSource)
+            .find("No scene in this database explains") != std::string::npos);
 }
 
 TEST_CASE("The JSON report has the candidates in order, the settings used and the database's digest") {
@@ -224,7 +231,9 @@ TEST_CASE("The JSON report has the candidates in order, the settings used and th
   settings.noise.relative = 0.02;
   const Answer answer = locate_damage(
       absolute_readings(library.library(), library.measure(40, 0.01, NoiseShape::uniform, random)), settings);
-  const auto json = nlohmann::json::parse(json_report(answer, settings, library.library(), kSource));
+  const auto json = nlohmann::json::parse(
+      json_report(answer, settings,
+                  absolute_readings(library.library(), no_measurements(library.points.size())), kSource));
   REQUIRE(json["candidates"].size() == answer.candidates.size());
   for (std::size_t i = 0; i < answer.candidates.size(); ++i) {
     CHECK(json["candidates"][i]["scene"] == to_string(answer.candidates[i].scene, library.layout));
@@ -237,8 +246,9 @@ TEST_CASE("The JSON report has the candidates in order, the settings used and th
   settings.objective = Objective::paper;
   const Answer paper = locate_damage(
       absolute_readings(library.library(), library.measure(40, 0.01, NoiseShape::uniform, random)), settings);
-  CHECK(nlohmann::json::parse(
-            json_report(paper, settings, library.library(), kSource))["candidates"][0]["posterior"]
+  CHECK(nlohmann::json::parse(json_report(
+      paper, settings, absolute_readings(library.library(), no_measurements(library.points.size())),
+      kSource))["candidates"][0]["posterior"]
             .is_null());
 }
 

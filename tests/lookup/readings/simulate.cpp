@@ -3,7 +3,20 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "tests/lookup/synthetic_library.h"
+
 using namespace voussoir;
+
+namespace {
+
+/// A comparison with a synthetic library's control points.
+Comparison comparison_with(const test::SyntheticLibrary& library, ReadingKind kind) {
+  Comparison comparison = absolute_readings(library.library(), no_measurements(library.points.size()));
+  comparison.kind = kind;
+  return comparison;
+}
+
+}  // namespace
 
 TEST_CASE(
     "Simulated readings have the noise that was asked for, and silent sensors on missing blocks and by "
@@ -29,4 +42,49 @@ TEST_CASE(
     CHECK(sum / n == Approx(0.0).margin(4.0 * sigma / std::sqrt(n)));
     CHECK(std::sqrt(square / n) == Approx(sigma * standard_deviation(shape)).epsilon(0.05));
   }
+}
+
+TEST_CASE(
+    "Simulated changes are the scene less the intact bridge, and two epochs differ by them (closed form)") {
+  const test::SyntheticLibrary library(3, 6);
+  const SensorList list = control_point_sensors(library.points);
+  const Comparison comparison = comparison_with(library, ReadingKind::change);
+  const NoiseModel exact{.shape = NoiseShape::gaussian, .relative = 0.0, .silence = 0.0};
+  Random random(5);
+  const ReadingsFile file =
+      simulate_file(blank_file(list, ReadingKind::change, {}), comparison, 2, exact, {}, random);
+  REQUIRE(file.readings.size() == library.points.size());
+  for (std::size_t i = 0; i < file.readings.size(); ++i) {
+    const double change = library.table.row(2)[i] - library.intact()[i];
+    CHECK(file.readings[i].value == Approx(change).margin(1e-18));
+    CHECK(file.readings[i].before == library.intact()[i]);
+    CHECK(file.readings[i].after == Approx(library.table.row(2)[i]).epsilon(1e-12));
+  }
+}
+
+TEST_CASE(
+    "Datum and tilt of a levelling move all heights by a straight line, drawn with the stated deviations") {
+  const test::SyntheticLibrary library(2, 5);
+  const SensorList list = control_point_sensors(library.points);
+  const Comparison comparison = comparison_with(library, ReadingKind::change);
+  const NoiseModel exact{.shape = NoiseShape::gaussian, .relative = 0.0, .silence = 0.0};
+  const Levelling levelling{2e-4, 1e-4};
+  double shifts = 0.0, tilts = 0.0;
+  constexpr int kDraws = 2000;
+  Random random(6);
+  for (int draw = 0; draw < kDraws; ++draw) {
+    const ReadingsFile file =
+        simulate_file(blank_file(list, ReadingKind::change, {}), comparison, 0, exact, levelling, random);
+    const auto at = [&](std::size_t i) {
+      return file.readings[i].value;
+    };  // the change of the intact bridge is none
+    const double tilt = (at(9) - at(0)) / (library.points[9].position.x() - library.points[0].position.x());
+    CHECK(at(4) - at(0) ==
+          Approx(tilt * (library.points[4].position.x() - library.points[0].position.x())).margin(1e-15));
+    tilts += tilt * tilt / kDraws;
+    shifts += std::pow(0.5 * (at(9) + at(0)), 2) / kDraws;  // in the middle of the points
+  }
+  // The mean of n squares of a Gaussian is off by sqrt(2 / n) of itself: four times that, halved by the root.
+  CHECK(std::sqrt(tilts) == Approx(levelling.tilt).epsilon(2.0 * std::sqrt(2.0 / kDraws)));
+  CHECK(std::sqrt(shifts) == Approx(levelling.datum).epsilon(2.0 * std::sqrt(2.0 / kDraws)));
 }

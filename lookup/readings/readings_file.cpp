@@ -1,0 +1,171 @@
+#include "lookup/readings/readings_file.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+
+#include "core/error.h"
+#include "core/text.h"
+#include "lookup/readings/readings_columns.h"
+#include "lookup/readings/text_input.h"
+
+namespace voussoir {
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kMetresPerMillimetre = 1e-3;
+constexpr double kSamePlace = 1e-6;  // [m] points closer than this share a place
+
+/// Nothing, or what programs write where they have no number.
+bool says_nothing(std::string_view text) {
+  return text.empty() || text == "NaN" || text == "nan" || text == "NAN" || text == "-nan";
+}
+
+class Reader {
+ public:
+  Reader(const CsvTable& table, const SensorList& list)
+      : table_(table),
+        sensors_(list.sensors),
+        control_points_(list.control_points),
+        columns_(find_readings_columns(table)) {}
+
+  ReadingsFile read() {
+    ReadingsFile file{table_.file, columns_.kind(), columns_.two_epochs(), {}};
+    for (const CsvLine& line : table_.rows) file.readings.push_back(read_row(line));
+    const auto has_value = [](const Reading& reading) { return !std::isnan(reading.value); };
+    if (std::none_of(file.readings.begin(), file.readings.end(), has_value))
+      table_.fail(0, columns_.two_epochs()
+                         ? "no usable row, expected at least one point with a value before and after"
+                         : "no usable row, expected at least one point with a displacement");
+    return file;
+  }
+
+ private:
+  Reading read_row(const CsvLine& line) {
+    Reading reading{.line = line.number, .load = load(line), .before = kNan, .after = kNan};
+    reading.sensor = columns_.point != kAbsent ? named_sensor(line) : placed_point(line, reading.load);
+    const auto [first, is_new] = line_of_.try_emplace({reading.sensor, reading.load}, line.number);
+    if (!is_new)
+      table_.fail(line.number,
+                  fmt::format("point {} is given again, expected each point once{} (first in line {})",
+                              sensors_[reading.sensor].name, reading.load.empty() ? "" : " under a load",
+                              first->second));
+    read_value(line, reading);
+    reading.sigma = columns_.sigma != kAbsent ? sigma(line) : kNan;
+    return reading;
+  }
+
+  void read_value(const CsvLine& line, Reading& reading) const {
+    if (!columns_.two_epochs()) {
+      reading.value = displacement(line, columns_.value);
+      reading.silent = std::isnan(reading.value);
+      return;
+    }
+    reading.before = displacement(line, columns_.before);
+    reading.after = displacement(line, columns_.after);
+    reading.value = reading.after - reading.before;
+    reading.silent = std::isnan(reading.after) && !std::isnan(reading.before);
+  }
+
+  std::string load(const CsvLine& line) const {
+    if (columns_.load == kAbsent) return {};
+    const std::string& name = line.fields[columns_.load];
+    if (name.empty())
+      table_.fail(line.number,
+                  "no load in this row, expected one, as all readings of a file are of one kind");
+    return name;
+  }
+
+  std::size_t named_sensor(const CsvLine& line) const {
+    const std::string& name = line.fields[columns_.point];
+    const auto found = std::find_if(sensors_.begin(), sensors_.end(),
+                                    [&](const Sensor& sensor) { return sensor.name == name; });
+    if (found == sensors_.end())
+      table_.fail(line.number,
+                  fmt::format("unknown point {}, expected {} to {}{}", voussoir::quoted(name),
+                              sensors_.front().name, sensors_[control_points_ - 1].name,
+                              sensors_.size() > control_points_ ? ", or a sensor of the list" : ""));
+    if (found->quantity != Quantity::uy && columns_.vertical_only)
+      table_.fail(
+          line.number,
+          fmt::format("sensor {} reads no vertical displacement, expected a column value_mm, change_mm, "
+                      "or before_mm,after_mm",
+                      name));
+    return static_cast<std::size_t>(found - sensors_.begin());
+  }
+
+  /// The nearest control point; of several at the same place the first that has no row yet.
+  std::size_t placed_point(const CsvLine& line, const std::string& load) const {
+    const double x = coordinate(line, columns_.x);
+    const Point place(x, coordinate(line, columns_.y));
+    const auto distance = [&](std::size_t i) { return (sensors_[i].position - place).norm(); };
+    std::size_t nearest = 0;
+    for (std::size_t i = 1; i < control_points_; ++i) {
+      const double gain = distance(nearest) - distance(i);
+      const bool twin =
+          std::abs(gain) <= kSamePlace && line_of_.contains({nearest, load}) && !line_of_.contains({i, load});
+      if (gain > kSamePlace || twin) nearest = i;
+    }
+    if (distance(nearest) > kPointTolerance)
+      table_.fail(
+          line.number,
+          fmt::format("no control point at x = {} m, y = {} m: the nearest, {}, is {:.3g} m away, "
+                      "expected at most {} m",
+                      place.x(), place.y(), sensors_[nearest].name, distance(nearest), kPointTolerance));
+    return nearest;
+  }
+
+  double coordinate(const CsvLine& line, std::size_t column) const {
+    const std::optional<double> number = parse_number(line.fields[column], columns_.mark);
+    if (!number)
+      table_.fail(line.number, fmt::format("{} is no coordinate, expected a number in metres",
+                                           voussoir::quoted(line.fields[column])));
+    return *number;
+  }
+
+  double displacement(const CsvLine& line, std::size_t column) const {
+    const std::string& text = line.fields[column];
+    if (says_nothing(text)) return kNan;
+    const std::optional<double> number = parse_number(text, columns_.mark);
+    if (!number)
+      table_.fail(line.number, fmt::format("{} is no finite number, expected a displacement or nothing",
+                                           voussoir::quoted(text)));
+    const double metres = columns_.factor * *number;
+    if (std::abs(metres) > kLargestDisplacement)
+      table_.fail(line.number,
+                  fmt::format("{} is a displacement of {:.3g} m, expected at most {} m (check the units)",
+                              voussoir::quoted(text), std::abs(metres), kLargestDisplacement));
+    return metres;
+  }
+
+  double sigma(const CsvLine& line) const {
+    const std::string& text = line.fields[columns_.sigma];
+    if (says_nothing(text)) return kNan;
+    const std::optional<double> number = parse_number(text, columns_.mark);
+    if (!number || *number <= 0.0)
+      table_.fail(line.number,
+                  fmt::format("{} is no sigma, expected a positive number of millimetres or nothing",
+                              voussoir::quoted(text)));
+    return kMetresPerMillimetre * *number;
+  }
+
+  const CsvTable& table_;
+  const std::vector<Sensor>& sensors_;
+  std::size_t control_points_;
+  ReadingsColumns columns_;
+  std::map<std::pair<std::size_t, std::string>, long> line_of_;  // of each sensor under each load
+};
+
+}  // namespace
+
+ReadingsFile parse_readings(std::string_view text, const std::string& name, const SensorList& list) {
+  const CsvTable table = read_csv(text, name, kReadingsColumns);
+  return Reader(table, list).read();
+}
+
+ReadingsFile read_readings(const std::filesystem::path& path, const SensorList& list) {
+  return parse_readings(read_text_input(path, "a CSV file of measurements"), input_name(path), list);
+}
+
+}  // namespace voussoir

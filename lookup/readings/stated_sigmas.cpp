@@ -1,0 +1,39 @@
+#include "lookup/readings/stated_sigmas.h"
+
+#include <cmath>
+
+#include "core/error.h"
+#include "core/text.h"
+
+namespace voussoir {
+namespace {
+
+constexpr double kMetresPerMillimetre = 1e-3;
+constexpr double kLargestSigma = 1e6;  // [mm] beyond it nothing is known at all
+
+bool all_state_sigmas(const Measurements& measured) {
+  for (std::size_t i = 0; i < measured.displacement.size(); ++i)
+    if (!std::isnan(measured.displacement[i]) && std::isnan(measured.sigma[i])) return false;
+  return true;
+}
+
+}  // namespace
+
+double parse_sigma(std::string_view text) {
+  std::string_view digits = text;
+  if (digits.ends_with("mm")) digits.remove_suffix(2);
+  const std::optional<double> number = parse_number(trimmed(digits));
+  if (!number || *number <= 0.0 || *number > kLargestSigma)
+    throw InputError(
+        fmt::format("{} given, expected a positive number of millimetres such as 0.02mm", quoted(text)));
+  return kMetresPerMillimetre * *number;
+}
+
+NoiseModel noise_of(const Measurements& measured, NoiseModel wanted) {
+  if (wanted.relative || !all_state_sigmas(measured)) return wanted;
+  wanted.relative = 0.0;
+  if (wanted.shape == NoiseShape::automatic) wanted.shape = NoiseShape::gaussian;
+  return wanted;
+}
+
+}  // namespace voussoir

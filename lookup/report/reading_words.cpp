@@ -1,0 +1,91 @@
+#include "lookup/report/reading_words.h"
+
+#include <fmt/format.h>
+
+namespace voussoir {
+namespace {
+
+std::string_view quantity_in_words(Quantity quantity) {
+  switch (quantity) {
+    case Quantity::ux:
+      return "horizontal displacement";
+    case Quantity::tilt:
+      return "tilt";
+    case Quantity::distance:
+      return "distance";
+    default:
+      return "vertical displacement";
+  }
+}
+
+}  // namespace
+
+std::string_view to_string(ReadingKind kind) {
+  switch (kind) {
+    case ReadingKind::change:
+      return "change";
+    case ReadingKind::load:
+      return "load";
+    case ReadingKind::load_change:
+      return "load-change";
+    default:
+      return "absolute";
+  }
+}
+
+std::string_view value_in_words(ReadingKind kind) {
+  switch (kind) {
+    case ReadingKind::change:
+      return "change between two times";
+    case ReadingKind::load:
+      return "what a load adds";
+    case ReadingKind::load_change:
+      return "change of what a load adds";
+    default:
+      return "displacement";
+  }
+}
+
+std::string_view unit_of(Quantity quantity) {
+  return quantity == Quantity::tilt ? "mm per m" : "mm";
+}
+
+std::string axis_in_words(ReadingKind kind, Quantity quantity) {
+  const std::string_view what = kind == ReadingKind::change        ? "change of "
+                                : kind == ReadingKind::load        ? "added by the load: "
+                                : kind == ReadingKind::load_change ? "more added by the load: "
+                                                                   : "";
+  return fmt::format("{}{} [{}]", what, quantity_in_words(quantity), unit_of(quantity));
+}
+
+std::string readings_in_words(const Comparison& comparison, std::size_t readings) {
+  const bool control_points = comparison.library.storage == nullptr;
+  const std::size_t channels = comparison.library.points.size();
+  return fmt::format("{} of {} {} have a {}", readings, channels, control_points ? "control points" : "rows",
+                     comparison.kind == ReadingKind::absolute
+                         ? "reading"
+                         : fmt::format("reading ({})", value_in_words(comparison.kind)));
+}
+
+std::string history_in_words(const std::string& history) {
+  if (history == kBuiltState) return history + " (missing blocks were never there)";
+  if (history == kLostState) return history + " (missing blocks went while the bridge carried its weight)";
+  return history;
+}
+
+Quantity quantity_of(const Comparison& comparison, std::size_t channel) {
+  return comparison.quantity.empty() ? Quantity::uy : comparison.quantity[channel];
+}
+
+ShownReadings shown_readings(const Comparison& comparison, std::size_t row) {
+  const std::vector<double> origin = origin_of(comparison);
+  const std::span<const double> prediction = comparison.library.table.row(row);
+  ShownReadings shown{comparison.measured.displacement, {prediction.begin(), prediction.end()}};
+  for (std::size_t i = 0; i < origin.size(); ++i) {
+    shown.reading[i] -= origin[i];
+    shown.expected[i] -= origin[i];
+  }
+  return shown;
+}
+
+}  // namespace voussoir

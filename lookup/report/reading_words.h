@@ -1,0 +1,39 @@
+#pragma once
+/// @file What readings are, in words, and how they are shown: a change as a change.
+
+#include <string>
+#include <vector>
+
+#include "lookup/readings/comparison.h"
+
+namespace voussoir {
+
+/// "displacement", "change", "added by the load": for columns and axes.
+std::string_view value_in_words(ReadingKind kind);
+
+/// "absolute", "change", "load", "load-change": for programs.
+std::string_view to_string(ReadingKind kind);
+
+/// "mm" or "mm per m"
+std::string_view unit_of(Quantity quantity);
+
+/// "vertical displacement [mm]", "change of tilt [mm per m]"...: the axis of a quantity.
+std::string axis_in_words(ReadingKind kind, Quantity quantity);
+
+/// "78 of 78 control points have a change between two times"
+std::string readings_in_words(const Comparison& comparison, std::size_t readings);
+
+/// "built: the blocks were never there", "lost: the blocks went while the bridge carried its weight"
+std::string history_in_words(const std::string& history);
+
+/// The quantity of a channel.
+Quantity quantity_of(const Comparison& comparison, std::size_t channel);
+
+/// Readings as they are shown [m]: without what `compare` added to changes.
+struct ShownReadings {
+  std::vector<double> reading;   ///< by channel; NaN where there is none
+  std::vector<double> expected;  ///< by channel, of one scene
+};
+ShownReadings shown_readings(const Comparison& comparison, std::size_t row);
+
+}  // namespace voussoir

@@ -1,0 +1,39 @@
+#pragma once
+/// @file What the pictures of the report page show at a sensor.
+
+#include <string>
+#include <string_view>
+
+#include "lookup/lookup.h"
+#include "lookup/report/reading_words.h"
+
+namespace voussoir {
+
+/// What the pictures show. Precondition: the answer has a candidate.
+struct ReportPictures {
+  ReportPictures(const Answer& of, const Comparison& with);
+
+  const Answer& answer;
+  const Comparison& comparison;
+  const Library& library;
+  ShownReadings shown;  ///< beside what the first candidate lets expect
+};
+
+/// Where a sensor is: on a block of the arch, as high as the highest other sensor, or elsewhere. Control
+/// points that are not on the arch are on top.
+enum class Site { arch, top, elsewhere };
+Site site_of(const ReportPictures& report, std::size_t point);
+
+/// Of the first candidate; nothing where there is no reading, and without a noise model.
+const SensorResidual* residual_of(const ReportPictures& report, std::size_t point);
+
+/// Whether the reading is far outside what the others show.
+bool disagrees(const ReportPictures& report, std::size_t point);
+
+/// "change" of readings that are changes, else "reading".
+std::string_view reading_word(const ReportPictures& report);
+
+/// Name, reading and what the first candidate lets expect, for pointing at it.
+std::string point_tip(const ReportPictures& report, std::size_t point);
+
+}  // namespace voussoir

@@ -1,0 +1,39 @@
+#include "lookup/report/verdict.h"
+
+#include <catch2/catch.hpp>
+
+using namespace voussoir;
+
+namespace {
+
+/// A posterior of a bridge of three blocks.
+Posterior posterior_of(double intact, const std::vector<double>& blocks) {
+  return {{1.0}, blocks, {intact, 1.0 - intact}, {0}};
+}
+
+}  // namespace
+
+TEST_CASE("The verdict changes exactly at nine tenths (its definition, at the limits)") {
+  const double below = 0.8999;
+  CHECK(verdict_of(posterior_of(0.9, {0.1, 0.0, 0.0}), true) == Verdict::intact);
+  CHECK(verdict_of(posterior_of(below, {0.1001, 0.0, 0.0}), true) == Verdict::cannot_tell);
+  CHECK(verdict_of(posterior_of(0.1, {0.9, 0.3, 0.0}), true) == Verdict::located);
+  CHECK(verdict_of(posterior_of(0.1, {below, 0.5, 0.0}), true) == Verdict::damaged_unlocated);
+  CHECK(verdict_of(posterior_of(0.1001, {below, 0.5, 0.0}), true) == Verdict::cannot_tell);
+}
+
+TEST_CASE("Readings that no scene explains have no other verdict") {
+  CHECK(verdict_of(posterior_of(0.0, {1.0, 0.0, 0.0}), false) == Verdict::unexplained);
+  CHECK(verdict_of(posterior_of(1.0, {0.0, 0.0, 0.0}), false) == Verdict::unexplained);
+  Posterior impossible = posterior_of(0.0, {0.0, 0.0, 0.0});
+  impossible.credible.clear();
+  CHECK(verdict_of(impossible, true) == Verdict::unexplained);
+}
+
+TEST_CASE("Every verdict has the name that programs are promised") {
+  CHECK(to_string(Verdict::located) == "located");
+  CHECK(to_string(Verdict::damaged_unlocated) == "damaged-unlocated");
+  CHECK(to_string(Verdict::intact) == "intact");
+  CHECK(to_string(Verdict::cannot_tell) == "cannot-tell");
+  CHECK(to_string(Verdict::unexplained) == "unexplained");
+}
