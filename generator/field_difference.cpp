@@ -18,7 +18,8 @@ double difference(double a, double b) {
 double largest_difference(const Eigen::Ref<const Eigen::VectorXd>& first,
                           const Eigen::Ref<const Eigen::VectorXd>& second) {
   double largest = 0.0;
-  for (Eigen::Index i = 0; i < first.size(); ++i) largest = std::max(largest, difference(first[i], second[i]));
+  for (Eigen::Index i = 0; i < first.size(); ++i)
+    largest = std::max(largest, difference(first[i], second[i]));
   return largest;
 }
 

@@ -24,7 +24,8 @@ std::vector<std::string> chosen_histories(const std::string& text) {
   return histories;
 }
 
-std::vector<LoadDescription> chosen_loads(const std::string& text, const std::vector<LoadDescription>& loads) {
+std::vector<LoadDescription> chosen_loads(const std::string& text,
+                                          const std::vector<LoadDescription>& loads) {
   if (text == "all") return loads;
   if (text == "none") return {};
   std::vector<std::string> known;
@@ -33,9 +34,10 @@ std::vector<LoadDescription> chosen_loads(const std::string& text, const std::ve
   for (const std::string_view name : split(text, ',')) {
     const auto load = std::ranges::find(loads, name, &LoadDescription::name);
     if (load == loads.end())
-      throw InputError(fmt::format("--loads: the bridge has no load case {}: expected all, none or names of its load "
-                                   "cases ({})",
-                                   quoted(name), known.empty() ? "it has none" : fmt::format("{}", fmt::join(known, ", "))));
+      throw InputError(fmt::format(
+          "--loads: the bridge has no load case {}: expected all, none or names of its load "
+          "cases ({})",
+          quoted(name), known.empty() ? "it has none" : fmt::format("{}", fmt::join(known, ", "))));
     if (std::ranges::find(chosen, *load) != chosen.end())
       throw InputError(fmt::format("--loads: names {} twice", quoted(name)));
     chosen.push_back(*load);
@@ -57,8 +59,8 @@ std::size_t place_of(const StatePlan& plan, const std::string& name, const std::
 /// A load is its own mirror image if forces differ by no more than round-off.
 bool is_symmetric(const Field& load, const std::optional<MirrorSymmetry>& symmetry) {
   constexpr double kRoundOff = 1e-9;
-  return symmetry && (mirrored(load, *symmetry) - load).cwiseAbs().maxCoeff() <=
-                         kRoundOff * load.cwiseAbs().maxCoeff();
+  return symmetry &&
+         (mirrored(load, *symmetry) - load).cwiseAbs().maxCoeff() <= kRoundOff * load.cwiseAbs().maxCoeff();
 }
 
 /// The stages of all load cases of a description, found by their names.
@@ -75,9 +77,11 @@ class LoadCases {
     const std::vector<LoadStage>& stages = stages_of(std::string(load_name), name);
     const auto found = std::ranges::find(stages, stage, &LoadStage::name);
     if (found == stages.end()) refuse_state(name, "the load case has no such stage");
-    const std::string before = found == stages.begin() ? history : state_name(history, std::prev(found)->name);
+    const std::string before =
+        found == stages.begin() ? history : state_name(history, std::prev(found)->name);
     const std::size_t place = place_of(plan, before, name);
-    return {name, place, true, found->force, plan[place].mirrors && is_symmetric(found->force, bridge_.symmetry)};
+    return {name, place, true, found->force,
+            plan[place].mirrors && is_symmetric(found->force, bridge_.symmetry)};
   }
 
  private:
@@ -112,7 +116,8 @@ StatePlan plan_states(const std::vector<std::string>& names, const Structure& br
   StatePlan plan = {{.name = kBuiltState, .kept = !names.empty() && names.front() == kBuiltState}};
   for (const std::string& name : names) {
     if (name == kBuiltState && plan.size() == 1 && plan.front().kept) continue;
-    if (std::ranges::find(plan, name, &PlannedState::name) != plan.end()) refuse_state(name, "is out of place");
+    if (std::ranges::find(plan, name, &PlannedState::name) != plan.end())
+      refuse_state(name, "is out of place");
     if (name == kLostState)
       plan.push_back({.name = name, .before = kBuilt});
     else

@@ -10,8 +10,8 @@
 namespace voussoir {
 
 /// The names of a database's states, first each history's own, then the stages of load cases after each.
-/// `histories`: "built", "lost" or both, separated by ','. `loads`: "all", "none" or names of load cases of the
-/// bridge, separated by ','. Throws InputError for other words, naming the option.
+/// `histories`: "built", "lost" or both, separated by ','. `loads`: "all", "none" or names of load cases of
+/// the bridge, separated by ','. Throws InputError for other words, naming the option.
 std::vector<std::string> state_names(const std::string& histories, const std::string& loads,
                                      const std::vector<LoadDescription>& bridge_loads);
 
@@ -22,9 +22,9 @@ struct PlannedState {
   /// `built` of the intact bridge; those of loads are of the scene itself.
   std::optional<std::size_t> before{};
   bool is_load = false;
-  Field load{};             ///< [N] on the nodes; empty for histories' own states
-  bool mirrors = true;      ///< the state of a scene's mirror image is the mirror image of its state
-  bool kept = true;         ///< in the database
+  Field load{};         ///< [N] on the nodes; empty for histories' own states
+  bool mirrors = true;  ///< the state of a scene's mirror image is the mirror image of its state
+  bool kept = true;     ///< in the database
 };
 
 /// Precondition of all that takes one: it comes from plan_states.

@@ -41,11 +41,13 @@ std::vector<JointMemory> StateSolving::memory_of_intact(const Field* intact) con
                            : updated_memory(equations(Scene{}, kBuilt, {}), *intact);
 }
 
-std::vector<JointMemory> StateSolving::memory_before(const Scene& scene, std::size_t state, SceneStates& states,
+std::vector<JointMemory> StateSolving::memory_before(const Scene& scene, std::size_t state,
+                                                     SceneStates& states,
                                                      const std::vector<JointMemory>& of_intact) const {
   if (!plan_[state].before) return {};
   if (!plan_[state].is_load)
-    return scene.removed.empty() && states[kBuilt] ? memory_of_intact(&states[kBuilt]->displacement) : of_intact;
+    return scene.removed.empty() && states[kBuilt] ? memory_of_intact(&states[kBuilt]->displacement)
+                                                   : of_intact;
   Solution& before = *states[*plan_[state].before];
   if (before.memory.empty()) {
     const Field& end = before.displacement;
@@ -122,7 +124,8 @@ void StateSolving::solve(const SceneSolver& solver, const StartingFields& starts
     std::vector<StageTask> tasks;
     for (const Search& search : searches) tasks.push_back(search.task());
     std::vector<Solution> solutions = solve_for_storage(solver, tasks);
-    for (std::size_t i = 0; i < searches.size(); ++i) take(state, std::move(solutions[i]), *searches[i].states);
+    for (std::size_t i = 0; i < searches.size(); ++i)
+      take(state, std::move(solutions[i]), *searches[i].states);
     for (SceneGroup& group : groups)
       if (group.image && plan_[state].mirrors)
         group.image_states[state] = mirrored_solution(*group.states[state], *bridge_.symmetry);

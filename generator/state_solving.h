@@ -1,8 +1,8 @@
 #pragma once
 /// @file Solving the states of scenes one after the other.
 ///
-/// Every state is found from stored fields only: what the joints remember of a state follows from its field in
-/// storage precision and the memory before it. So a record is the same whatever was computed before it,
+/// Every state is found from stored fields only: what the joints remember of a state follows from its field
+/// in storage precision and the memory before it. So a record is the same whatever was computed before it,
 /// interrupted or taken over.
 
 #include "core/statics/equilibrium.h"
@@ -18,8 +18,8 @@ using SceneStates = std::vector<std::optional<Solution>>;
 /// A scene and, if it is wanted, its mirror image, which are solved together.
 struct SceneGroup {
   Scene solved;
-  SceneStates states;                ///< of the scene; what is there already is taken as it is
-  bool needs_all = true;             ///< false: only those states of the scene that the image follows from
+  SceneStates states;     ///< of the scene; what is there already is taken as it is
+  bool needs_all = true;  ///< false: only those states of the scene that the image follows from
   std::optional<Scene> image;
   SceneStates image_states{};
 };
@@ -31,8 +31,8 @@ class StateSolving {
   StateSolving(const Model& bridge, const StatePlan& plan)
       : bridge_(bridge), plan_(plan), system_(bridge), coefficients_(system_, bridge.parameters) {}
 
-  /// Solves all states of the groups, state after state, many scenes side by side. Where `warm_starts` is false
-  /// a search starts from rest, or from the state before.
+  /// Solves all states of the groups, state after state, many scenes side by side. Where `warm_starts` is
+  /// false a search starts from rest, or from the state before.
   ///
   /// `lost` of the intact bridge is its `built`. A scene that does not stand as built and of which no
   /// equilibrium as lost is found has the state that it has as built, and so it has if the intact bridge does
@@ -62,7 +62,8 @@ class StateSolving {
   std::optional<Solution> without_search(const Scene& scene, std::size_t state, const SceneStates& states,
                                          const StartingFields& starts) const;
   Search search_for(const Scene& scene, std::size_t state, SceneStates& states, const Shared& shared) const;
-  std::vector<Search> searches_of(std::size_t state, std::span<SceneGroup> groups, const Shared& shared) const;
+  std::vector<Search> searches_of(std::size_t state, std::span<SceneGroup> groups,
+                                  const Shared& shared) const;
   void take(std::size_t state, Solution&& solution, SceneStates& states) const;
 
   const Model& bridge_;

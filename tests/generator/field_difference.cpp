@@ -5,7 +5,8 @@
 
 namespace voussoir {
 
-TEST_CASE("Fields differ by their largest difference, and without bound where only one has a value (by hand)") {
+TEST_CASE(
+    "Fields differ by their largest difference, and without bound where only one has a value (by hand)") {
   constexpr double kGone = std::numeric_limits<double>::quiet_NaN();
   constexpr double kInfinite = std::numeric_limits<double>::infinity();
   const Eigen::Vector3d field(1.0, kGone, -2.0);
