@@ -13,9 +13,9 @@
 namespace voussoir {
 namespace {
 
-const std::vector<std::string> kAllNames = {"built", "lost", "built:lorry@1", "built:lorry@2", "built:lorry@off",
-                                            "built:crown", "lost:lorry@1", "lost:lorry@2", "lost:lorry@off",
-                                            "lost:crown"};
+const std::vector<std::string> kAllNames = {
+    "built",       "lost",         "built:lorry@1", "built:lorry@2",  "built:lorry@off",
+    "built:crown", "lost:lorry@1", "lost:lorry@2",  "lost:lorry@off", "lost:crown"};
 
 /// A folder to build in and the request for the small bridge with two load cases, one of them one-sided.
 struct Site {
@@ -26,7 +26,8 @@ struct Site {
     request.bridge = test::small_bridge_file();
     request.bridge = parse_bridge_file(
         request.bridge.text +
-            "[[loads]]\nname = \"lorry\"\naxles = [{at_m = 0, force_N = 1e4}]\nfrom_m = 2\nto_m = 4\nsteps = 2\n"
+            "[[loads]]\nname = \"lorry\"\naxles = [{at_m = 0, force_N = 1e4}]\nfrom_m = 2\nto_m = 4\nsteps = "
+            "2\n"
             "unload = true\n[[loads]]\nname = \"crown\"\npoints = [{x_m = 3, force_N = 1e4}]\n",
         "small.toml");
     request.output = folder / "small.h5";
@@ -43,7 +44,8 @@ struct Site {
 
 /// Also what is NaN where there is no block.
 bool same_bits(const Field& first, const Field& second) {
-  return std::memcmp(first.data(), second.data(), static_cast<std::size_t>(first.size()) * sizeof(double)) == 0;
+  return std::memcmp(first.data(), second.data(), static_cast<std::size_t>(first.size()) * sizeof(double)) ==
+         0;
 }
 
 std::string digest_of_all() {
@@ -62,7 +64,8 @@ void check_same_state(const RecordedState& first, const RecordedState& second) {
 
 }  // namespace
 
-TEST_CASE("Histories and loads of real scenes are verified, each state with its own equations, and solved anew") {
+TEST_CASE(
+    "Histories and loads of real scenes are verified, each state with its own equations, and solved anew") {
   for (const char* histories : {"built,lost", "lost"}) {
     Site site(histories);
     site.request.scenes = "intact;4,1..3;0,5;4,1+4,2;4,1+5,3";
@@ -138,7 +141,9 @@ TEST_CASE("Real histories and loads come out the same on one thread and, interru
   CHECK(summary.digest == expected);
 }
 
-TEST_CASE("Mirror images are mirrored as built, as lost and under symmetric loads, bit by bit, and solved under others") {
+TEST_CASE(
+    "Mirror images are mirrored as built, as lost and under symmetric loads, bit by bit, and solved under "
+    "others") {
   const Site site;
   site.build();
   const Database database = site.open();
@@ -149,8 +154,9 @@ TEST_CASE("Mirror images are mirrored as built, as lost and under symmetric load
     REQUIRE(row != image);
     for (std::size_t state = 0; state < database.states().size(); ++state) {
       INFO(text << " " << database.states()[state]);
-      const bool is_mirrored = same_bits(
-          database.field(image, state), to_storage_precision(mirrored(database.field(row, state), *bridge.symmetry)));
+      const bool is_mirrored =
+          same_bits(database.field(image, state),
+                    to_storage_precision(mirrored(database.field(row, state), *bridge.symmetry)));
       const bool stands = database.record(row).states[0].outcome == Outcome::standing;
       const bool one_sided = database.states()[state].find("lorry") != std::string::npos;
       CHECK(is_mirrored == (!one_sided || !stands));
@@ -166,7 +172,8 @@ TEST_CASE("Of a database of built only, built is taken over when lost and loads 
   // Every scene of the plan has one answer less than with nothing known.
   const auto asked = std::make_shared<std::atomic<int>>(0);
   SolverChoice counting = test::made_up_solver();
-  counting.make_solver = [asked, make = counting.make_solver](const Model& bridge, const std::string& settings) {
+  counting.make_solver = [asked, make = counting.make_solver](const Model& bridge,
+                                                              const std::string& settings) {
     return SceneSolver([asked, solver = make(bridge, settings)](std::span<const StageTask> tasks) {
       for (const StageTask& task : tasks) *asked += task.before == nullptr ? 1 : 0;
       return solver(tasks);
@@ -174,8 +181,8 @@ TEST_CASE("Of a database of built only, built is taken over when lost and loads 
   };
   const BuildSummary summary = site.build(counting);
   CHECK(*asked == 0);
-  CHECK(summary.changes == std::vector<std::string>{
-                               fmt::format("other states are wanted ({}, was built)", fmt::join(kAllNames, ","))});
+  CHECK(summary.changes == std::vector<std::string>{fmt::format("other states are wanted ({}, was built)",
+                                                                fmt::join(kAllNames, ","))});
   CHECK(summary.computed == summary.outcomes.scenes);
   CHECK(summary.digest == digest_of_all());
 }
@@ -210,7 +217,9 @@ TEST_CASE("The records of an interrupted build with other states are not mixed i
   CHECK(site.build().resumed == 0);
 }
 
-TEST_CASE("A state that is not what its history makes of it is found, though checksums and other states are right") {
+TEST_CASE(
+    "A state that is not what its history makes of it is found, though checksums and other states are "
+    "right") {
   Site site;
   site.request.scenes = "intact;4,1..2";
   site.build(quasi_static());
@@ -226,12 +235,14 @@ TEST_CASE("A state that is not what its history makes of it is found, though che
                      for (std::size_t state = 0; state < right.states().size(); ++state)
                        states.push_back(right.solution(row, state));
                      if (row == 1) states[wrong] = right.solution(row, wrong == 1 ? 0 : wrong == 6 ? 2 : 1);
-                     return make_record(keys[row], states, bridge.control_points, KeepField::yes, KeepField::yes);
+                     return make_record(keys[row], states, bridge.control_points, KeepField::yes,
+                                        KeepField::yes);
                    });
     const VerifyReport report = verify_database({path});
     INFO(kAllNames[wrong]);
     REQUIRE_FALSE(report.ok());
-    CHECK_THAT(report.problems.front(), Catch::Contains("scene 4,1: as " + kAllNames[wrong] + ": stands, but"));
+    CHECK_THAT(report.problems.front(),
+               Catch::Contains("scene 4,1: as " + kAllNames[wrong] + ": stands, but"));
   }
 }
 

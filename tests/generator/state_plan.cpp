@@ -32,16 +32,18 @@ StatePlan plan(const std::vector<std::string>& state_names) {
 TEST_CASE("States are the histories, then the loads after each (written out)") {
   CHECK(names("built", "none") == std::vector<std::string>{"built"});
   CHECK(names("lost,built", "none") == std::vector<std::string>{"built", "lost"});
-  CHECK(names("built,lost", "all") ==
-        std::vector<std::string>{"built", "lost", "built:lorry@1", "built:lorry@2", "built:lorry@off",
-                                 "built:crown", "lost:lorry@1", "lost:lorry@2", "lost:lorry@off", "lost:crown"});
+  CHECK(names("built,lost", "all") == std::vector<std::string>{"built", "lost", "built:lorry@1",
+                                                               "built:lorry@2", "built:lorry@off",
+                                                               "built:crown", "lost:lorry@1", "lost:lorry@2",
+                                                               "lost:lorry@off", "lost:crown"});
   CHECK(names("lost", "crown") == std::vector<std::string>{"lost", "lost:crown"});
 }
 
 TEST_CASE("Histories and loads that there are not are refused with what was expected") {
   for (const char* histories : {"", "gone", "built,built", "built;lost", "built,"})
     CHECK_THROWS_WITH(names(histories, "none"), Contains("--history") && Contains("built,lost"));
-  CHECK_THROWS_WITH(names("built", "bus"), Contains("--loads") && Contains("'bus'") && Contains("lorry, crown"));
+  CHECK_THROWS_WITH(names("built", "bus"),
+                    Contains("--loads") && Contains("'bus'") && Contains("lorry, crown"));
   CHECK_THROWS_WITH(names("built", "crown,crown"), Contains("--loads") && Contains("twice"));
   CHECK_THROWS_WITH(state_names("built", "bus", {}), Contains("it has none"));
 }

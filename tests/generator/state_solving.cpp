@@ -10,8 +10,8 @@
 namespace voussoir {
 namespace {
 
-// Two searches for one equilibrium end within the solver's tolerance of each other (see kSameDisplacement); what
-// joints remember of a rounded field is off by a storage step.
+// Two searches for one equilibrium end within the solver's tolerance of each other (see kSameDisplacement);
+// what joints remember of a rounded field is off by a storage step.
 constexpr double kSameSearch = 1e-9;
 
 struct Subject {
@@ -47,7 +47,8 @@ double apart(const Field& first, const Field& second) {
 
 }  // namespace
 
-TEST_CASE("The states of a scene are those that its history gives (solved as one history, independent starts)") {
+TEST_CASE(
+    "The states of a scene are those that its history gives (solved as one history, independent starts)") {
   const Subject subject;
   const StatePlan plan = subject.plan("built,lost", "all");
   const StartingFields starts = subject.intact(plan);
@@ -75,7 +76,8 @@ TEST_CASE("The states of a scene are those that its history gives (solved as one
   CHECK(apart(states[0]->displacement, states[1]->displacement) > 1e3 * kSameSearch);
 }
 
-TEST_CASE("Lost of the intact bridge is built, and a load on a scene that falls changes nothing, bit by bit") {
+TEST_CASE(
+    "Lost of the intact bridge is built, and a load on a scene that falls changes nothing, bit by bit") {
   const Subject subject;
   const StatePlan plan = subject.plan("built,lost", "all");
   const StartingFields starts = subject.intact(plan);
@@ -91,7 +93,8 @@ TEST_CASE("Lost of the intact bridge is built, and a load on a scene that falls 
   }
 }
 
-TEST_CASE("States that are known already are taken as they are, and the others come out the same, bit by bit") {
+TEST_CASE(
+    "States that are known already are taken as they are, and the others come out the same, bit by bit") {
   const Subject subject;
   const StatePlan plan = subject.plan("built,lost", "all");
   const StartingFields starts = subject.intact(plan);
