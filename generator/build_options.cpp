@@ -41,7 +41,7 @@ CLI::Validator number_above(double least, bool least_allowed) {
   return {[=](std::string& text) {
             const std::optional<double> number = parse_number(text);
             const bool right = number && (*number > least || (least_allowed && *number == least));
-            return right ? std::string() : fmt::format("is {}: expected a {}", quoted(text), name);
+            return right ? std::string() : fmt::format("is {}: expected a {}", voussoir::quoted(text), name);
           },
           name};
 }

@@ -20,9 +20,10 @@ struct Site {
   std::string database = (folder / "loaded.h5").string();
 
   Site() {
-    std::ofstream(bridge) << test::text_of(test::example_bridge("small"))
-                          << "[[loads]]\nname = \"lorry\"\naxles = [{at_m = 0, force_N = 1e4}]\nfrom_m = 2\nto_m = "
-                             "4\nsteps = 2\n";
+    std::ofstream(bridge)
+        << test::text_of(test::example_bridge("small"))
+        << "[[loads]]\nname = \"lorry\"\naxles = [{at_m = 0, force_N = 1e4}]\nfrom_m = 2\nto_m = "
+           "4\nsteps = 2\n";
   }
   test::ProgramResult build(std::vector<std::string> options) const {
     options.insert(options.begin(), {bridge, "-o", database, "--scenes", "singles;4,1+4,2", "--quiet"});
@@ -34,23 +35,25 @@ struct Site {
 
 TEST_CASE("Programs build, verify and show states, and Python finds their checksums right by itself") {
   const Site site;
-  const test::ProgramResult built = site.build({"--history", "built,lost", "--loads", "all", "--format", "json"});
+  const test::ProgramResult built =
+      site.build({"--history", "built,lost", "--loads", "all", "--format", "json"});
   REQUIRE(built.exit_code == 0);
   const auto summary = nlohmann::json::parse(built.out);
-  const std::vector<std::string> names = {"built", "lost", "built:lorry@1", "built:lorry@2", "lost:lorry@1",
-                                          "lost:lorry@2"};
+  const std::vector<std::string> names = {"built",         "lost",         "built:lorry@1",
+                                          "built:lorry@2", "lost:lorry@1", "lost:lorry@2"};
   REQUIRE(summary["states"].size() == names.size());
   for (std::size_t i = 0; i < names.size(); ++i) CHECK(summary["states"][i]["state"] == names[i]);
   CHECK(summary["standing"] == summary["states"][0]["standing"]);
-  const auto verified =
-      nlohmann::json::parse(test::run("verify-database", {site.database, "--recompute", "5", "--format", "json"}).out);
+  const auto verified = nlohmann::json::parse(
+      test::run("verify-database", {site.database, "--recompute", "5", "--format", "json"}).out);
   CHECK(verified["ok"] == true);
   CHECK(verified["fields"] == 40 * names.size());
   const std::string example = std::string(VOUSSOIR_SOURCE_DIR) + "/examples/h5py/read_database.py";
   const test::ProgramResult python = test::run("/usr/bin/python3", {example, site.database});
   INFO(python.out << python.err);
   CHECK(python.exit_code == 0);
-  CHECK_THAT(python.out, Catch::Contains("40 of 40 right; content digest right") && Catch::Contains("lost:lorry@2: "));
+  CHECK_THAT(python.out,
+             Catch::Contains("40 of 40 right; content digest right") && Catch::Contains("lost:lorry@2: "));
 }
 
 TEST_CASE("query-field shows the field of the state that is asked for (compared with the file)") {
@@ -73,7 +76,8 @@ TEST_CASE("query-field shows the field of the state that is asked for (compared 
   const test::ProgramResult picture =
       test::run("query-field", {"4,2", "-d", site.database, "--history", "lost", "--format", "svg"});
   CHECK_THAT(picture.out, Catch::Contains("without 4,2 as lost, standing"));
-  const test::ProgramResult unknown = test::run("query-field", {"4,2", "-d", site.database, "--load", "lorry"});
+  const test::ProgramResult unknown =
+      test::run("query-field", {"4,2", "-d", site.database, "--load", "lorry"});
   CHECK(unknown.exit_code == 2);
   CHECK_THAT(unknown.err, Catch::Contains("'built:lorry'") && Catch::Contains("built:lorry@1"));
 }
