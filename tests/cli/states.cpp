@@ -97,6 +97,9 @@ TEST_CASE("States and numbers that cannot be are bad usage") {
   for (const char* option : {"--step", "--ramp", "--damping", "--patience", "--rest"})
     for (const char* number : {"nan", "-1", "inf", "fast"}) refused({option, number}, number);
   CHECK_FALSE(std::filesystem::exists(site.database));
+  for (const char* option : {"--recompute", "--seed", "--threads"})
+    for (const char* number : {"nan", "-1", "inf"})
+      CHECK(test::run("verify-database", {site.database, option, number}).exit_code == 2);
 }
 
 }  // namespace voussoir
