@@ -4,6 +4,7 @@
 #include <map>
 
 #include "core/error.h"
+#include "core/text.h"
 #include "database/records/state_name.h"
 #include "generator/build_switches.h"
 
@@ -33,6 +34,18 @@ std::vector<std::string> switch_names() {
   return names;
 }
 
+/// An option's check: a number that is more than `least`, or that if allowed. CLI11's own let NaN pass.
+CLI::Validator number_above(double least, bool least_allowed) {
+  const std::string name =
+      fmt::format("NUMBER {} {:g}", least_allowed ? "of at least" : "greater than", least);
+  return {[=](std::string& text) {
+            const std::optional<double> number = parse_number(text);
+            const bool right = number && (*number > least || (least_allowed && *number == least));
+            return right ? std::string() : fmt::format("is {}: expected a {}", voussoir::quoted(text), name);
+          },
+          name};
+}
+
 void add_motion_options(CLI::App& app, DynamicSettings& motion) {
   const std::map<std::string, Integrator> integrators = {{"implicit", Integrator::implicit_blocks},
                                                          {"explicit", Integrator::central_differences}};
@@ -44,20 +57,20 @@ void add_motion_options(CLI::App& app, DynamicSettings& motion) {
       ->check(CLI::IsMember({"implicit", "explicit"}))
       ->default_str("implicit");
   app.add_option("--step", motion.step, "time step [s] of scenes in motion; default: 0.9 of the critical one")
-      ->check(CLI::PositiveNumber);
+      ->check(number_above(0.0, false));
   app.add_option("--ramp", motion.ramp, "gravity grows over this time [s]; 0: at once")
-      ->check(CLI::NonNegativeNumber)
+      ->check(number_above(0.0, true))
       ->capture_default_str();
   app.add_option("--damping", motion.damping,
                  "force per mass and velocity [1/s]; default: half-critical of the bridge's lowest frequency")
-      ->check(CLI::NonNegativeNumber);
+      ->check(number_above(0.0, true));
   app.add_option("--patience", motion.decision.latest_decision,
                  "a scene that neither rests nor falls within this time [s] is unresolved")
-      ->check(CLI::PositiveNumber)
+      ->check(number_above(0.0, false))
       ->capture_default_str();
   app.add_option("--rest", motion.decision.standing_unbalance,
                  "a scene in motion stands when its unbalanced forces are this share of the bridge's weight")
-      ->check(CLI::PositiveNumber)
+      ->check(number_above(0.0, false))
       ->capture_default_str();
 }
 

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "database/records/state_name.h"
+
 namespace voussoir {
 namespace {
 
@@ -81,11 +83,14 @@ OutcomeCounts count_outcomes(const Database& database) {
 }
 
 std::string to_text(const OutcomeCounts& counts) {
+  if (counts.states.size() == 1) return state_text(counts.states.front());
   std::string text;
-  for (const StateOutcomes& state : counts.states) {
-    if (counts.states.size() > 1) text += fmt::format("  {}\n", state.state);
-    text += state_text(state);
-  }
+  for (const StateOutcomes& state : counts.states)
+    if (is_history(state.state))
+      text += fmt::format("  {}\n", state.state) + state_text(state);
+    else
+      text += fmt::format("  {}: {} standing, {} collapsed, {} unresolved\n", state.state, state.standing,
+                          state.collapsed, state.unresolved.size());
   return text;
 }
 

@@ -38,8 +38,8 @@ struct OutcomeCounts {
 
 OutcomeCounts count_outcomes(const Database& database);
 
-/// Lines for people, indented by two blanks; at most twenty unresolved scenes of a state are listed. States
-/// are named if there are several.
+/// Lines for people, indented by two blanks; at most twenty unresolved scenes of a history are listed.
+/// States are named if there are several; those with loads have a line each.
 std::string to_text(const OutcomeCounts& counts);
 
 /// {"scenes", "standing", "collapsed", "arch_collapses", "local_collapses", "unresolved",

@@ -7,7 +7,7 @@
 
 namespace voussoir {
 
-/// A few lines for people; at most twenty of the unresolved scenes are listed.
+/// A few lines for people; as to_text(OutcomeCounts) has them.
 std::string to_text(const BuildSummary& summary);
 
 /// One line of JSON for programs: {"ok": true, "file", "up_to_date", what OutcomeCounts has, "computed",

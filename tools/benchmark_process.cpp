@@ -18,9 +18,9 @@ namespace {
 constexpr double kLevel = 0.05;  // of the simulated noise
 
 /// Readings of a scene with two missing blocks, in a file that goes when this does.
-class ReadingsFile {
+class TemporaryReadings {
  public:
-  explicit ReadingsFile(const Library& library)
+  explicit TemporaryReadings(const Library& library)
       : path_(std::filesystem::temp_directory_path() / fmt::format("voussoir-{}.csv", ::getpid())) {
     Random random(1);
     const std::size_t row = library.table.rows / 2;
@@ -28,12 +28,12 @@ class ReadingsFile {
     noise.silence = 0.0;
     write_file(path_, to_csv(simulate_readings(library.table.row(row), noise, random), library.points));
   }
-  ~ReadingsFile() {
+  ~TemporaryReadings() {
     std::error_code ignored;
     std::filesystem::remove(path_, ignored);
   }
-  ReadingsFile(const ReadingsFile&) = delete;
-  ReadingsFile& operator=(const ReadingsFile&) = delete;
+  TemporaryReadings(const TemporaryReadings&) = delete;
+  TemporaryReadings& operator=(const TemporaryReadings&) = delete;
 
   std::string name() const { return path_.string(); }
 
@@ -65,7 +65,7 @@ double time_of(const std::vector<std::string>& command) {
 
 std::vector<Timing> time_processes(const std::filesystem::path& locate_damage,
                                    const std::filesystem::path& database, const Library& library, int runs) {
-  const ReadingsFile readings(library);
+  const TemporaryReadings readings(library);
   const std::vector<std::string> locate = {locate_damage.string(), readings.name(), "-d", database.string()};
   const auto with = [&](const std::vector<std::string>& options) {
     std::vector<std::string> command = locate;

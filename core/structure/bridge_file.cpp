@@ -118,7 +118,7 @@ void check_geometry(const BridgeDescription& description, const std::vector<long
 }
 
 /// From where to where there can be blocks.
-Stretch extent_along_x(const BridgeDescription& description) {
+Interval extent_along_x(const BridgeDescription& description) {
   if (description.wall.courses > 0 || description.spans.empty()) return {0.0, description.wall.length};
   const SpanDescription& first = description.spans.front();
   const SpanDescription& last = description.spans.back();

@@ -15,7 +15,7 @@ void read_force(TomlSection& section, const char* key, double& force) {
   section.positive(key, force);
 }
 
-void read_place(TomlSection& section, const char* key, const Stretch& within, double& place) {
+void read_place(TomlSection& section, const char* key, const Interval& within, double& place) {
   section.require(key);
   section.number(key, place, within.left, within.right, true);
 }
@@ -34,7 +34,7 @@ std::vector<Value> read_all(TomlSection& load, const char* key, const char* how,
   return values;
 }
 
-void read_forces(TomlSection& section, const Stretch& bridge, LoadDescription& load) {
+void read_forces(TomlSection& section, const Interval& bridge, LoadDescription& load) {
   load.points = read_all<PointLoad>(section, "points", "points = [{x_m = 1.0, force_N = 1e3}]",
                                     [&](TomlSection& one, PointLoad& point) {
                                       read_place(one, "x_m", bridge, point.x);
@@ -59,15 +59,15 @@ void read_forces(TomlSection& section, const Stretch& bridge, LoadDescription& l
     section.refuse("name", "expected points, lines or axles beside it");
 }
 
-bool stands_on(const Stretch& bridge, const LoadDescription& load, double place) {
+bool stands_on(const Interval& bridge, const LoadDescription& load, double place) {
   return std::ranges::any_of(load.axles, [&](const Axle& axle) {
     return place - axle.at >= bridge.left && place - axle.at <= bridge.right;
   });
 }
 
 /// Where the vehicle stands, if there is one: at one place or at several in turn.
-void read_places(TomlSection& section, const Stretch& bridge, LoadDescription& load) {
-  constexpr Stretch kAnywhere{-2.0 * kLargestLength, 2.0 * kLargestLength};
+void read_places(TomlSection& section, const Interval& bridge, LoadDescription& load) {
+  constexpr Interval kAnywhere{-2.0 * kLargestLength, 2.0 * kLargestLength};
   const bool moves = section.has("from_m") || section.has("to_m") || section.has("steps");
   double from = 0.0, to = 0.0;
   int steps = 1;
@@ -114,7 +114,7 @@ void read_name(TomlSection& section, const std::vector<LoadDescription>& before,
 }  // namespace
 
 std::vector<LoadDescription> read_loads(const toml::array& tables, const std::string& file,
-                                        const Stretch& bridge) {
+                                        const Interval& bridge) {
   std::vector<LoadDescription> loads;
   for (const toml::node& node : tables) {
     TomlSection section(file, node.as_table(), " in [[loads]]");

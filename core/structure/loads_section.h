@@ -7,7 +7,7 @@
 namespace voussoir {
 
 /// From left to right [m].
-struct Stretch {
+struct Interval {
   double left = 0.0;
   double right = 0.0;
 };
@@ -16,6 +16,6 @@ struct Stretch {
 /// places outside the bridge, which reaches over `bridge`. Axles may stand beside the bridge, but not all of
 /// a vehicle's.
 std::vector<LoadDescription> read_loads(const toml::array& tables, const std::string& file,
-                                        const Stretch& bridge);
+                                        const Interval& bridge);
 
 }  // namespace voussoir

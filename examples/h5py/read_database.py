@@ -15,7 +15,7 @@ import sys
 import h5py
 import numpy
 
-STANDING = 0     # scenes/outcome
+STANDING, UNRESOLVED = 0, 2  # scenes/outcome
 LOCAL, ARCH = 1, 2  # scenes/collapse
 
 # What a record's checksum covers, in its order: columns of the record and then, for each state, columns of the state.
@@ -108,6 +108,16 @@ def largest_changes(file, count, variant=0, state=0):
     return sorted(found, reverse=True)[:count]
 
 
+def print_state(file, state, name):
+    extent = file["scenes/collapse"][state]
+    outcome = file["scenes/outcome"][state]
+    print(f"{name}: {numpy.sum(outcome == STANDING)} stand, {numpy.sum(outcome == UNRESOLVED)} are unresolved; "
+          f"collapses: {numpy.sum(extent == ARCH)} of the arch, {numpy.sum(extent == LOCAL)} of wall blocks only")
+    print("  largest change of a vertical displacement when one block is missing:")
+    for change, scene, point in largest_changes(file, 5, state=state):
+        print(f"  {scene:>6}  {1000 * change:8.4f} mm at {point}")
+
+
 def main(path):
     with h5py.File(path, "r") as file:
         rows = len(file["scenes/variant"])
@@ -118,11 +128,8 @@ def main(path):
         wrong = [row for row in range(rows) if (record_checksum(file, row) != file["scenes/checksum"][row]).any()]
         digest_right = content_digest(file) == file.attrs["content_digest"].decode()
         print(f"checksums: {rows - len(wrong)} of {rows} right; content digest {'right' if digest_right else 'WRONG'}")
-        extent = file["scenes/collapse"][0]
-        print(f"collapses: {numpy.sum(extent == ARCH)} of the arch, {numpy.sum(extent == LOCAL)} of wall blocks only")
-        print("largest change of a vertical displacement when one block is missing:")
-        for change, scene, point in largest_changes(file, 5):
-            print(f"  {scene:>6}  {1000 * change:8.4f} mm at {point}")
+        for state, name in enumerate(file["history/states"]):
+            print_state(file, state, name.decode())
     return 0 if digest_right and not wrong else 1
 
 

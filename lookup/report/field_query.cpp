@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "core/text.h"
+#include "database/records/state_name.h"
 
 namespace voussoir {
 namespace {
@@ -23,16 +24,17 @@ NodeId node_of(const StoredPoint& point, const Mesh& mesh) {
   return NodeId{nearest};
 }
 
-std::vector<PlaceDisplacement> at_points(const Database& database, std::size_t row,
+std::vector<PlaceDisplacement> at_points(const Database& database, std::size_t row, std::size_t state,
                                          const std::vector<std::size_t>& points) {
   const bool has_fields = database.has_fields();
-  const Field field = has_fields ? database.field(row) : Field();
+  const SceneTable table = database.table(kNominalVariant, state);
+  const Field field = has_fields ? database.field(row, state) : Field();
   std::vector<PlaceDisplacement> result;
   for (const std::size_t i : points) {
     const StoredPoint& point = database.control_points()[i];
-    const Point displacement =
-        has_fields ? Point(field.col(value(node_of(point, database.mesh()))))
-                   : Point(std::numeric_limits<double>::quiet_NaN(), database.table().row(row)[i]);
+    const Point displacement = has_fields
+                                   ? Point(field.col(value(node_of(point, database.mesh()))))
+                                   : Point(std::numeric_limits<double>::quiet_NaN(), table.row(row)[i]);
     result.push_back({point.name, displacement});
   }
   return result;
@@ -45,7 +47,7 @@ std::size_t find_point(const Database& database, std::string_view name) {
   if (found == points.end())
     throw InputError(fmt::format(
         "--at: unknown point {}, expected control, coordinates X,Y in metres, or names from {} to {}",
-        quoted(name), points.front().name, points.back().name));
+        voussoir::quoted(name), points.front().name, points.back().name));
   return static_cast<std::size_t>(found - points.begin());
 }
 
@@ -61,10 +63,10 @@ std::optional<Eigen::Vector3d> inside(const Point& place, const Triangle& triang
   return weights.minCoeff() >= -kInside ? std::optional(weights) : std::nullopt;
 }
 
-Point displacement_at(const Database& database, std::size_t row, const Point& place) {
+Point displacement_at(const Database& database, std::size_t row, std::size_t state, const Point& place) {
   const Mesh& mesh = database.mesh();
   const Scene scene = database.table().scene(row);
-  const Field field = database.field(row);
+  const Field field = database.field(row, state);
   for (std::size_t block = 0; block < mesh.block_triangles.size(); ++block) {
     if (scene.lacks(BlockId{static_cast<std::int32_t>(block)})) continue;
     for (int t = mesh.block_triangles[block].begin; t < mesh.block_triangles[block].end; ++t) {
@@ -92,6 +94,17 @@ std::optional<Point> parse_place(const std::vector<std::string_view>& parts) {
 
 }  // namespace
 
+std::size_t find_state(const Database& database, const std::optional<std::string>& history,
+                       const std::optional<std::string>& load) {
+  const std::string name =
+      state_name(history ? *history : history_of(database.states().front()), load.value_or(""));
+  const auto state = database.find_state(name);
+  if (!state)
+    throw InputError(fmt::format("{}: has no state {}, expected one of {}", database.path().string(),
+                                 voussoir::quoted(name), fmt::join(database.states(), ", ")));
+  return *state;
+}
+
 std::size_t find_row(const Database& database, std::string_view text) {
   const Scene scene = parse_scene(text, database.layout());
   const std::optional<std::size_t> row = database.find(scene);
@@ -101,17 +114,17 @@ std::size_t find_row(const Database& database, std::string_view text) {
   return *row;
 }
 
-std::vector<PlaceDisplacement> displacements_at(const Database& database, std::size_t row,
+std::vector<PlaceDisplacement> displacements_at(const Database& database, std::size_t row, std::size_t state,
                                                 std::string_view at) {
   const std::vector<std::string_view> parts = split(at, ',');
   if (const std::optional<Point> place = parse_place(parts))
-    return {{fmt::format("{},{}", place->x(), place->y()), displacement_at(database, row, *place)}};
+    return {{fmt::format("{},{}", place->x(), place->y()), displacement_at(database, row, state, *place)}};
   std::vector<std::size_t> points;
   if (at == "control")
     for (std::size_t i = 0; i < database.control_points().size(); ++i) points.push_back(i);
   else
     for (const std::string_view name : parts) points.push_back(find_point(database, name));
-  return at_points(database, row, points);
+  return at_points(database, row, state, points);
 }
 
 }  // namespace voussoir

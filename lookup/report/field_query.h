@@ -1,6 +1,7 @@
 #pragma once
 /// @file The displacement of a scene at chosen places.
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -15,6 +16,12 @@ struct PlaceDisplacement {
   Point displacement;  ///< [m] (u_x, u_y); NaN where the block is gone, and u_x in a database without fields
 };
 
+/// The number of the state of a history ("built", "lost"; nothing: that of the first state) without or with a
+/// load case or its stage ("truck", "truck@2"). Throws InputError for a state that the database lacks, naming
+/// those that it has.
+std::size_t find_state(const Database& database, const std::optional<std::string>& history,
+                       const std::optional<std::string>& load);
+
 /// The row of a scene. Throws InputError for text that is no scene, Failure for a scene that the database
 /// lacks.
 std::size_t find_row(const Database& database, std::string_view scene);
@@ -23,7 +30,7 @@ std::size_t find_row(const Database& database, std::string_view scene);
 /// metres, where the displacement is interpolated within the triangle that holds the place. Throws InputError
 /// for unknown points and places outside the scene's blocks, Failure for coordinates in a database without
 /// fields.
-std::vector<PlaceDisplacement> displacements_at(const Database& database, std::size_t row,
+std::vector<PlaceDisplacement> displacements_at(const Database& database, std::size_t row, std::size_t state,
                                                 std::string_view at);
 
 }  // namespace voussoir

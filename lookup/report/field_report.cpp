@@ -110,12 +110,13 @@ std::string field_vtu(const SceneField& scene) {
       data_array("Int32", "offsets", 1, arrays.offsets), data_array("UInt8", "types", 1, arrays.types));
 }
 
-std::string field_svg(const SceneField& scene, Outcome outcome) {
+std::string field_svg(const SceneField& scene, const std::string& state, Outcome outcome) {
   const BlockLayout& layout = scene.database.layout();
   const std::string name =
       scene.scene.removed.empty() ? "intact" : "without " + to_string(scene.scene, layout);
-  const std::string heading =
-      fmt::format("Bridge '{}' {}, {}", scene.database.bridge_name(), name, to_string(outcome));
+  const bool tells_state = scene.database.states().size() > 1;
+  const std::string heading = fmt::format("Bridge '{}' {}{}, {}", scene.database.bridge_name(), name,
+                                          tells_state ? " as " + state : "", to_string(outcome));
   return svg_file(draw_field({layout, scene.mesh, scene.scene, scene.field, heading}));
 }
 
@@ -144,13 +145,14 @@ std::string places_json(const std::vector<PlaceDisplacement>& places) {
   return list.dump(1) + "\n";
 }
 
-std::string field_report(const Database& database, std::size_t row, FieldFormat format) {
-  const SceneField scene{database, database.mesh(), database.table().scene(row), database.field(row)};
+std::string field_report(const Database& database, std::size_t row, std::size_t state, FieldFormat format) {
+  const SceneTable table = database.table(kNominalVariant, state);
+  const SceneField scene{database, database.mesh(), table.scene(row), database.field(row, state)};
   switch (format) {
     case FieldFormat::vtu:
       return field_vtu(scene);
     case FieldFormat::svg:
-      return field_svg(scene, static_cast<Outcome>(database.table().outcome[row]));
+      return field_svg(scene, database.states()[state], static_cast<Outcome>(table.outcome[row]));
     case FieldFormat::json:
       return field_json(scene);
     default:

@@ -19,6 +19,6 @@ std::string places_json(const std::vector<PlaceDisplacement>& places);
 /// Every node of the blocks that are there. Formats: a CSV or JSON list with block, place [m] and
 /// displacement [m], an unstructured grid for ParaView with the displacement at nodes, and course and
 /// position of the block in triangles, or a picture of the deformed bridge.
-std::string field_report(const Database& database, std::size_t row, FieldFormat format);
+std::string field_report(const Database& database, std::size_t row, std::size_t state, FieldFormat format);
 
 }  // namespace voussoir

@@ -123,12 +123,13 @@ TEST_CASE("A nearest-neighbour index that somebody put into the file is not read
   std::filesystem::copy_file(desk().database, forged);
   {
     const Hdf5Handle file(H5Fopen(forged.c_str(), H5F_ACC_RDWR, H5P_DEFAULT), H5Fclose);
-    REQUIRE(H5Lexists(file.get(), "search/trees", H5P_DEFAULT) == 0);  // what version 0.1 handed to FLANN
+    REQUIRE(H5Lexists(file.get(), "search_built/trees", H5P_DEFAULT) ==
+            0);  // what version 0.1 handed to FLANN
     const std::string bytes = "FLANN_INDEX" + std::string(5000, '\x7f');
     const hsize_t size = bytes.size();
     const Hdf5Handle space(H5Screate_simple(1, &size, nullptr), H5Sclose);
-    const Hdf5Handle trees(H5Dcreate2(file.get(), "search/trees", H5T_STD_U8LE, space.get(), H5P_DEFAULT,
-                                      H5P_DEFAULT, H5P_DEFAULT),
+    const Hdf5Handle trees(H5Dcreate2(file.get(), "search_built/trees", H5T_STD_U8LE, space.get(),
+                                      H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
                            H5Dclose);
     REQUIRE(H5Dwrite(trees.get(), H5T_STD_U8LE, H5S_ALL, H5S_ALL, H5P_DEFAULT, bytes.data()) >= 0);
   }

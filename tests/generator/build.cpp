@@ -46,8 +46,9 @@ TEST_CASE("A build holds all scenes and leaves nothing but the database behind")
   const Site site;
   const BuildSummary summary = site.build();
   CHECK(summary.outcomes.scenes == 1 + 38 + 38 * 37 / 2);
-  const OutcomeCounts& outcomes = summary.outcomes;
-  CHECK(outcomes.standing + outcomes.collapsed + outcomes.unresolved.size() == outcomes.scenes);
+  REQUIRE(summary.outcomes.states.size() == 1);
+  const StateOutcomes& outcomes = summary.outcomes.states.front();
+  CHECK(outcomes.standing + outcomes.collapsed + outcomes.unresolved.size() == summary.outcomes.scenes);
   CHECK(summary.computed == summary.outcomes.scenes);
   CHECK(std::distance(std::filesystem::directory_iterator(site.folder.path()), {}) == 1);
   CHECK(site.open().digest() == summary.digest);
@@ -123,11 +124,9 @@ TEST_CASE("Without mirror images every scene is solved and the digest says so") 
   const Model bridge = make_model(site.request.bridge.description);
   const Scene last = database.table().scene(database.table().rows - 1);
   StartingFields starts;
-  starts.add(Scene{}, Outcome::standing, database.field(0));
-  for (const BlockId block : last.removed) {
-    const std::size_t row = *database.find(Scene{{block}});
-    starts.add(Scene{{block}}, database.solution(row).outcome, database.field(row));
-  }
+  starts.add(Scene{}, 0, database.solution(0));
+  for (const BlockId block : last.removed)
+    starts.add(Scene{{block}}, 0, database.solution(*database.find(Scene{{block}})));
   const Field expected =
       to_storage_precision(test::answer_from(bridge, last, starts.start_for(last)).displacement);
   CHECK(same_bits(database.field(database.table().rows - 1), expected));

@@ -4,6 +4,7 @@
 #include <set>
 
 #include "core/structure/mirror_symmetry.h"
+#include "database/records/state_name.h"
 #include "generator/build_plan.h"
 #include "generator/scene_list.h"
 #include "tests/support/made_up_database.h"
@@ -20,10 +21,16 @@ bool nothing(const RecordKey&) {
   return false;
 }
 
+StatePlan states_of(const std::vector<std::string>& names) {
+  return plan_states(names, small_bridge(), BridgeDescription{});
+}
+
 /// The plan of scenes of one bridge.
 BuildPlan plan_of(const std::vector<Scene>& wanted, const Model& bridge, const PlanRules& rules,
-                  const std::function<bool(const RecordKey&)>& is_known) {
-  return plan_build(keys_of(kNominalVariant, wanted), std::span(&bridge, 1), rules, is_known);
+                  const std::function<bool(const RecordKey&)>& is_known,
+                  const StatePlan& states = states_of({kBuiltState})) {
+  return plan_build(keys_of(kNominalVariant, wanted), {std::span(&bridge, 1), rules, states},
+                    {is_known, is_known});
 }
 
 std::multiset<Scene> recorded(const BuildPlan& plan) {
@@ -89,6 +96,43 @@ TEST_CASE("Without warm starts nothing is solved that nobody asked for") {
   CHECK(solved(plan_of({pair}, small_bridge(), PlanRules{.warm_starts = false}, nothing)) == 1);
 }
 
+TEST_CASE("Where blocks are lost the intact bridge is solved before, even without warm starts") {
+  const Scene pair{{BlockId{0}, BlockId{3}}};
+  const auto plan =
+      plan_of({pair}, small_bridge(), PlanRules{.warm_starts = false}, nothing, states_of({kLostState}));
+  REQUIRE(plan.stages[0].size() == 1);
+  CHECK(plan.stages[0][0].solved == Scene{});
+  CHECK(plan.stages[1].empty());
+}
+
+TEST_CASE("A mirror image under a one-sided load starts from its own singles (written out)") {
+  BridgeDescription description = test::small_bridge_file().description;
+  for (const double x : {3.0, 1.0}) {  // in the middle, and on one side
+    description.loads = {{"p", {{x, 1e3}}, {}, {}, {}, std::nullopt, false}};
+    const StatePlan states = plan_states({kBuiltState, "built:p"}, small_bridge(), description);
+    const Scene pair{{BlockId{0}, BlockId{3}}};
+    const Scene image = mirrored(pair, *small_bridge().symmetry);
+    const auto starts = starting_scenes(pair, image, PlanRules{}, states);
+    CHECK(starts.size() == (x == 3.0 ? 3 : 5));
+    for (const BlockId block : image.removed)
+      CHECK(std::ranges::count(starts, Scene{{block}}) == (x == 3.0 ? 0 : 1));
+  }
+}
+
+TEST_CASE("A scene whose record is known but cannot start others is solved again for those (written out)") {
+  const Scene pair{{BlockId{0}, BlockId{3}}};
+  const std::vector<Scene> wanted = {Scene{}, Scene{{BlockId{0}}}, Scene{{BlockId{3}}}, pair};
+  const StatePlan states = states_of({kLostState});
+  const auto all_but_pair = [&](const RecordKey& key) { return key.scene != pair; };
+  const auto solved_for = [&](const std::vector<Scene>& scenes) {
+    return solved(plan_build(keys_of(kNominalVariant, scenes),
+                             {std::span(&small_bridge(), 1), PlanRules{.mirror_images = false}, states},
+                             {all_but_pair, nothing}));
+  };
+  CHECK(solved_for(wanted) == 4);
+  CHECK(solved_for({wanted.begin(), wanted.end() - 1}) == 0);
+}
+
 TEST_CASE("Which of a scene and its image is solved does not depend on which one is wanted") {
   const Scene scene{{BlockId{0}, BlockId{3}}};
   const Scene image = mirrored(scene, *small_bridge().symmetry);
@@ -110,7 +154,8 @@ TEST_CASE("Every variant is solved for itself, by its own symmetry and from its 
   std::vector<RecordKey> keys = keys_of(0, wanted);
   std::ranges::move(keys_of(1, wanted), std::back_inserter(keys));
   const auto known = [](const RecordKey& key) { return key == RecordKey{0, Scene{}}; };
-  const BuildPlan plan = plan_build(keys, bridges, PlanRules{}, known);
+  const StatePlan states = states_of({kBuiltState});
+  const BuildPlan plan = plan_build(keys, {bridges, PlanRules{}, states}, {known, known});
   const auto count = [&](std::size_t stage, std::int32_t variant) {
     return std::ranges::count(plan.stages[stage], variant, &SolvingTask::variant);
   };

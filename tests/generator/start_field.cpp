@@ -15,6 +15,19 @@ Field row(double a, double b) {
   return field;
 }
 
+Solution standing(const Field& displacement) {
+  Solution solution;
+  solution.displacement = displacement;
+  solution.outcome = Outcome::standing;
+  return solution;
+}
+
+Solution collapsed(const Field& displacement) {
+  Solution solution = standing(displacement);
+  solution.outcome = Outcome::collapsed;
+  return solution;
+}
+
 Scene without(std::initializer_list<int> blocks) {
   Scene scene;
   for (const int block : blocks) scene.removed.push_back(BlockId{block});
@@ -27,39 +40,58 @@ TEST_CASE("The intact bridge starts from zero and a single from the intact field
   StartingFields starts;
   CHECK_FALSE(starts.start_for(Scene{}).has_value());
   CHECK_FALSE(starts.start_for(without({1})).has_value());
-  starts.add(Scene{}, Outcome::standing, row(1.0, 2.0));
+  starts.add(Scene{}, 0, standing(row(1.0, 2.0)));
   CHECK_FALSE(starts.start_for(Scene{}).has_value());
   CHECK(*starts.start_for(without({1})) == row(1.0, 2.0));
 }
 
 TEST_CASE("A pair starts from the superposition of its singles, written out by hand") {
   StartingFields starts;
-  starts.add(Scene{}, Outcome::standing, row(1.0, 2.0));
-  starts.add(without({0}), Outcome::standing, row(1.5, 2.5));
-  starts.add(without({1}), Outcome::standing, row(1.25, 3.0));
+  starts.add(Scene{}, 0, standing(row(1.0, 2.0)));
+  starts.add(without({0}), 0, standing(row(1.5, 2.5)));
+  starts.add(without({1}), 0, standing(row(1.25, 3.0)));
   CHECK(*starts.start_for(without({0, 1})) == row(1.5 + 1.25 - 1.0, 2.5 + 3.0 - 2.0));
 }
 
 TEST_CASE("Where a removed block has no displacement the start is zero") {
   StartingFields starts;
-  starts.add(Scene{}, Outcome::standing, row(1.0, 2.0));
-  starts.add(without({0}), Outcome::standing, row(kGone, 2.5));
+  starts.add(Scene{}, 0, standing(row(1.0, 2.0)));
+  starts.add(without({0}), 0, standing(row(kGone, 2.5)));
   CHECK(*starts.start_for(without({0, 1})) == row(0.0, 2.5));
 }
 
 TEST_CASE("Singles that do not stand take no part in the start") {
   StartingFields starts;
-  starts.add(Scene{}, Outcome::standing, row(1.0, 2.0));
-  starts.add(without({0}), Outcome::collapsed, row(1000.0, 1000.0));
-  starts.add(without({1}), Outcome::standing, row(1.25, 3.0));
+  starts.add(Scene{}, 0, standing(row(1.0, 2.0)));
+  starts.add(without({0}), 0, collapsed(row(1000.0, 1000.0)));
+  starts.add(without({1}), 0, standing(row(1.25, 3.0)));
   CHECK(*starts.start_for(without({0, 1})) == row(1.25, 3.0));
   CHECK(*starts.start_for(without({0, 2})) == row(1.0, 2.0));
 }
 
 TEST_CASE("Nothing starts from an intact bridge that does not stand") {
   StartingFields starts;
-  starts.add(Scene{}, Outcome::collapsed, row(1000.0, 1000.0));
+  starts.add(Scene{}, 0, collapsed(row(1000.0, 1000.0)));
   CHECK_FALSE(starts.start_for(without({1})).has_value());
+}
+
+TEST_CASE(
+    "A later state starts from the scene's own plus what the intact bridge and the singles change (by "
+    "hand)") {
+  StartingFields starts;
+  const Field own = row(10.0, kGone);
+  CHECK(starts.start_after(without({0, 1}), own, 0, 1) == row(10.0, 0.0));
+  starts.add(Scene{}, 0, standing(row(1.0, 2.0)));
+  starts.add(Scene{}, 1, standing(row(1.5, 2.25)));  // changes by 0.5 and 0.25
+  CHECK(starts.start_after(Scene{}, own, 0, 1) == row(10.0, 0.0));
+  CHECK(starts.start_after(without({0}), row(10.0, 20.0), 0, 1) == row(10.5, 20.25));
+  starts.add(without({0}), 0, standing(row(3.0, 4.0)));
+  starts.add(without({0}), 1, standing(row(4.0, 5.0)));  // by 1 and 1
+  CHECK(starts.start_after(without({0}), row(10.0, 20.0), 0, 1) == row(10.5, 20.25));
+  CHECK(starts.start_after(without({0, 1}), row(10.0, 20.0), 0, 1) == row(10.0 + 1.0, 20.0 + 1.0));
+  starts.add(without({1}), 0, standing(row(3.0, 4.0)));
+  starts.add(without({1}), 1, collapsed(row(99.0, 99.0)));
+  CHECK(starts.start_after(without({0, 1}), row(10.0, 20.0), 0, 1) == row(10.0 + 1.0, 20.0 + 1.0));
 }
 
 }  // namespace voussoir
