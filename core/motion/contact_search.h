@@ -32,6 +32,7 @@ class ContactSearch {
   const Parameters* parameters_;
   std::vector<int> edge_block_;                   ///< per edge
   std::vector<double> corner_share_;              ///< per node, see EdgeContact
+  std::vector<double> behind_;                    ///< per edge: how far its block reaches behind it [m]
   std::vector<EdgePair> joined_;                  ///< edges that form a joint at rest, ascending
   std::vector<ContactMaterial> joined_material_;  ///< of `joined_`
 };

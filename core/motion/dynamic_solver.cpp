@@ -126,10 +126,10 @@ class MotionRun {
       const LaneRun& run = runs_[static_cast<std::size_t>(i)];
       set_lane(motion_.load, i,
                load_share(static_cast<double>(run.steps + 1) * model_.step, shared_.settings.ramp));
+      const bool settled = shared_.settings.skips.settled_contacts;
+      if (!settled || lane(motion_.travel, i) > 0.5 * shared_.margin)
+        search_contacts(model_, shared_.margin, i, motion_);
     }
-    const bool settled = shared_.settings.skips.settled_contacts;
-    if (!settled || any(motion_.travel > 0.5 * shared_.margin))
-      search_contacts(model_, shared_.margin, motion_);
   }
 
   void follow(int lane_index) {

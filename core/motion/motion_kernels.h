@@ -17,6 +17,7 @@ struct MotionView {
   BlockFrame<T>* frames;
   const Cell<T>* present;
   const EdgeContact* contacts;
+  const Cell<T>* found;
   ContactShear<T>* shear;
   std::size_t contact_count;
   std::size_t node_count;
@@ -33,6 +34,7 @@ MotionView<T> view_of(Motion<T>& motion) {
           .frames = motion.frames.data(),
           .present = motion.present.data(),
           .contacts = motion.contacts.data(),
+          .found = motion.found.data(),
           .shear = motion.shear.data(),
           .contact_count = motion.contacts.size(),
           .node_count = motion.places.size(),
@@ -44,7 +46,6 @@ template <class T>
 VOUSSOIR_INLINE void add_contact_forces(double ahead, const MotionView<T>& view) {
   for (std::size_t c = 0; c < view.contact_count; ++c) {
     const EdgeContact& contact = view.contacts[c];
-    const T present = view.present[contact.blocks[0]].value * view.present[contact.blocks[1]].value;
     EdgePlaces<T> edges;
     edges.ahead = ahead;
     for (std::size_t i = 0; i < 4; ++i) {
@@ -52,7 +53,7 @@ VOUSSOIR_INLINE void add_contact_forces(double ahead, const MotionView<T>& view)
       edges.now[i] = view.places[contact.nodes[i]] + edges.moved[i] * ahead;
     }
     EdgeForces<T> forces;
-    if (contact_forces<T>(contact, present, edges, view.shear[c], forces))
+    if (contact_forces<T>(contact, view.found[c].value, edges, view.shear[c], forces))
       for (std::size_t i = 0; i < 4; ++i)
         view.forces[contact.nodes[i]] = view.forces[contact.nodes[i]] + forces[i];
   }
