@@ -82,6 +82,10 @@ std::vector<int> edges_by_first_node(const Mesh& mesh) {
 
 }  // namespace
 
+double search_margin(const Structure& structure) {
+  return 0.01 * mean_block_size(structure);
+}
+
 ContactMaterial::ContactMaterial(const JointMaterial& joint, double thickness)
     : normal(joint.normal_stiffness * thickness),
       tangential(joint.tangential_stiffness * thickness),

@@ -12,6 +12,10 @@ namespace voussoir {
 /// A candidate: positions in Mesh::edges, the first in the block with the smaller number.
 using EdgePair = std::pair<int, int>;
 
+/// How far apart edges may be that a search finds [m]: a share of the mean block size. What it found holds
+/// until a node has travelled half of that.
+double search_margin(const Structure& structure);
+
 class ContactSearch {
  public:
   /// The model must outlive the search.

@@ -90,6 +90,12 @@ MotionModel::MotionModel(const Model& model, double step_, double damping_, doub
     per_weight.push_back(gravity > 0.0 ? 1.0 / (body.mass * gravity) : 0.0);
 }
 
+double grown_share(double time, double ramp) {
+  if (time >= ramp) return 1.0;
+  const double x = time / ramp;
+  return x * x * (3.0 - 2.0 * x);
+}
+
 template <class T>
 Motion<T> at_rest(const MotionModel& model) {
   const Mesh& mesh = model.structure->mesh;

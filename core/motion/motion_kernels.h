@@ -16,6 +16,7 @@ struct MotionView {
   Pair<T>* rates;
   BlockFrame<T>* frames;
   const Cell<T>* present;
+  const Pair<T>* pushes;  ///< null: none
   const EdgeContact* contacts;
   const Cell<T>* found;
   ContactShear<T>* shear;
@@ -33,6 +34,7 @@ MotionView<T> view_of(Motion<T>& motion) {
           .rates = motion.rates.data(),
           .frames = motion.frames.data(),
           .present = motion.present.data(),
+          .pushes = motion.pushes.empty() ? nullptr : motion.pushes.data(),
           .contacts = motion.contacts.data(),
           .found = motion.found.data(),
           .shear = motion.shear.data(),
@@ -178,10 +180,11 @@ VOUSSOIR_INLINE void report_balance(const BlockBody& body, const Resultant<T>& s
   motion.largest_unbalanced = larger(motion.largest_unbalanced, left * per_weight);
 }
 
-/// forces = contact.
+/// forces = pushes + contact.
 template <class T>
 VOUSSOIR_INLINE void start_forces(const MotionModel& model, const MotionView<T>& view) {
-  for (std::size_t i = 0; i < view.node_count; ++i) view.forces[i] = {T{}, T{}};
+  for (std::size_t i = 0; i < view.node_count; ++i)
+    view.forces[i] = view.pushes != nullptr ? view.pushes[i] : Pair<T>{T{}, T{}};
   add_contact_forces(model.contact_damping / model.step, view);
 }
 
