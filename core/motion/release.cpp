@@ -61,7 +61,8 @@ struct LoadedBridge::Workspace {
     DynamicSolution result;
     double restless = 0.0;  // the last time at which it did not rest
     long steps = 0;
-    while (result.time < settings.patience && result.time < std::max(earliest, restless) + settings.rest_time) {
+    while (result.time < settings.patience &&
+           result.time < std::max(earliest, restless) + settings.rest_time) {
       result.time = static_cast<double>(++steps) * with.step;
       prepare(result.time);
       if (moving.travel > 0.5 * margin) search_contacts(with, margin, 0, moving);
@@ -74,7 +75,8 @@ struct LoadedBridge::Workspace {
     solution.iterations = static_cast<int>(steps);
     solution.moving = blocks_moved_beyond(far, with.structure->mesh, solution.displacement);
     solution.extent = collapse_extent(with.structure->layout, solution.moving);
-    const bool rests = result.time - restless >= settings.rest_time;
+    const bool rests =
+        result.time - restless >= settings.rest_time || solution.residual <= settings.trembling;
     solution.outcome = rests                     ? Outcome::standing
                        : solution.moving.empty() ? Outcome::unresolved
                                                  : Outcome::collapsed;

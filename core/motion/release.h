@@ -18,9 +18,11 @@ struct Release {
 
 struct LoadingSettings {
   DynamicSettings motion{.ramp = 3.0};  ///< half-critical damping unless stated; scenes one at a time
-  double rest = 1e-7;      ///< the bridge rests when no more of its weight is unbalanced, sum over the blocks,
-  double rest_time = 0.1;  ///< for this long [s]
-  double patience = 20.0;  ///< a bridge that does not rest within this time is unresolved [s]
+  double rest = 1e-7;  ///< the bridge rests when no more of its weight is unbalanced (sum over the blocks) ..
+  double rest_time = 0.1;   ///< .. for this long [s]
+  double patience = 6.0;    ///< for that [s]
+  double trembling = 1e-5;  ///< unbalanced weight up to which a bridge stands at the end of patience, too: a
+                            ///< loose block may tremble on
 };
 
 /// The intact bridge at rest under its weight, out of which blocks are taken. The joints keep their slip. The
@@ -36,7 +38,7 @@ class LoadedBridge {
   const DynamicSolution& intact() const;
 
   /// The bridge at rest again without the scene's blocks: their forces on their neighbours fade and they are
-  /// gone. If it does not rest within the patience, `collapsed` if blocks have moved away by then
+  /// gone. If it does not stand at the end of patience, `collapsed` if blocks have moved away by then
   /// (DecisionRules::moving_sags), otherwise `unresolved`. `time` since the start of the release.
   DynamicSolution without(const Scene& scene, const Release& release = {}) const;
 

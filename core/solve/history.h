@@ -25,10 +25,10 @@ History built(const Scene& scene);
 /// Gravity on the intact bridge, then the blocks go and what they carried is shared out anew.
 History lost(const Scene& scene);
 
-/// Steps in which `lost` lets go what the blocks carried. Of the reference bridge's wall singles all but one
-/// need one step only: their signal is within 0.3 % of that of 64 steps. Where the sliver (10,11) slides on
-/// the way and stops, one step is off by 5 %, two by 4 %, four by 0.3 %.
-inline constexpr int kStepsOfLoss = 4;
+/// Steps in which `lost` lets go what the blocks carried. More matter where a joint slips on the way and
+/// stops (docs/numerics.md): of the reference bridge's wall singles 14 of 193 are off by 1 to 5 % of the
+/// signal in one step, 6 in four, none in sixteen.
+inline constexpr int kStepsOfLoss = 16;
 
 /// The history with one more stage, which has this load on the blocks that the last one has.
 History followed_by(History history, const std::string& load_name, const Field& load);

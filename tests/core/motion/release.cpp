@@ -60,8 +60,9 @@ TEST_CASE("Blocks let go slowly in motion change the bridge as the history lost 
   check_lost_by_motion(test::small_bridge(), {"4,2", "5,4", "2,2"});
 }
 
-TEST_CASE("Blocks of the reference bridge let go slowly: motion and implicit steps agree (independent solver)",
-          "[.long]") {
+TEST_CASE(
+    "Blocks of the reference bridge let go slowly: motion and implicit steps agree (independent solver)",
+    "[.long]") {
   // Every ninth single of the left half's wall from (1,3) on, the sliver (10,12), and pairs of them.
   check_lost_by_motion(test::reference_bridge(),
                        {"1,3", "2,5", "4,2", "5,4", "6,6", "8,1", "9,2", "10,4", "11,3", "10,12", "1,3+10,4",
