@@ -95,7 +95,7 @@ struct LoadedBridge::Workspace {
 LoadedBridge::LoadedBridge(const Model& model, const LoadingSettings& settings)
     : workspace_(std::make_unique<Workspace>(model, settings, DynamicSolver(model, settings.motion))) {
   Workspace& w = *workspace_;
-  const double ramp = settings.motion.ramp;
+  const double ramp = settings.ramp;
   w.intact = w.follow(w.model, ramp, w.motion, [&](double time) { w.motion.load = grown_share(time, ramp); });
 }
 LoadedBridge::~LoadedBridge() = default;

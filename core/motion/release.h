@@ -17,7 +17,8 @@ struct Release {
 };
 
 struct LoadingSettings {
-  DynamicSettings motion{.ramp = 3.0};  ///< half-critical damping unless stated; scenes one at a time
+  DynamicSettings motion{};  ///< step, damping, integration; the ramp is this:
+  double ramp = 3.0;         ///< gravity grows over this time [s]
   double rest = 1e-7;  ///< the bridge rests when no more of its weight is unbalanced (sum over the blocks) ..
   double rest_time = 0.1;   ///< .. for this long [s]
   double patience = 6.0;    ///< for that [s]

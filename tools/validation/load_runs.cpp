@@ -70,14 +70,14 @@ double reciprocity_error(const Model& bridge, const Stage& first, const std::vec
       Field load = Field::Zero(2, bridge.mesh.node_count());
       load.data()[component] = sign * force;
       const History loaded = followed_by({"", {{"", first}}}, "", load);
-      change += 0.5 * sign *
-                solver
-                    .solve({.stage = loaded.stages.back().stage,
-                            .start = &before.displacement,
-                            .before = &before})
-                    .displacement;
+      change +=
+          0.5 * sign *
+          solver
+              .solve({.stage = loaded.stages.back().stage, .start = &before.displacement, .before = &before})
+              .displacement;
     }
-    for (Eigen::Index i = 0; i < n; ++i) answers(i, j) = change.data()[components[static_cast<std::size_t>(i)]];
+    for (Eigen::Index i = 0; i < n; ++i)
+      answers(i, j) = change.data()[components[static_cast<std::size_t>(i)]];
   }
   return (answers - answers.transpose()).cwiseAbs().maxCoeff() / answers.cwiseAbs().maxCoeff();
 }

@@ -63,10 +63,10 @@ Findings column_influence() {
     for (int i = 0; i < 2; ++i)
       expected(i, j) = -2.0 * kForce / joint.normal_stiffness * (1.0 + 12.0 * (i - 0.5) * (x - 0.5));
   }
-  return {.cases = {influence_case(
-              "Point load on a column of two blocks", "two joints in series, 2 F (1 / k + e_i e_j / k_r)",
-              computed, expected, 2e-4,
-              "23.5 kN lean with the blocks, 0.5 m over a joint of 83 MN m / rad: 1.4e-4")}};
+  return {
+      .cases = {influence_case("Point load on a column of two blocks",
+                               "two joints in series, 2 F (1 / k + e_i e_j / k_r)", computed, expected, 2e-4,
+                               "23.5 kN lean with the blocks, 0.5 m over a joint of 83 MN m / rad: 1.4e-4")}};
 }
 
 /// Blocks of 0.5 m x 0.5 m in a row, clamped at the left, pressed together so that all joints stay closed.
@@ -125,11 +125,11 @@ Eigen::MatrixXd beam_settlements(const BlockBeam& beam, double force, double pre
   for (int j = 0; j < kPlaces; ++j) {
     Stage loaded = pressed;
     for (const int top : {0, 1}) loaded.load += point_load(bridge, corner(2 * j + 1, top), 0.5 * force);
-    const Solution after =
-        solver.solve({.stage = loaded, .start = &before.displacement, .before = &before});
+    const Solution after = solver.solve({.stage = loaded, .start = &before.displacement, .before = &before});
     const Field change = after.displacement - before.displacement;
     for (int i = 0; i < kPlaces; ++i)
-      settlements(i, j) = 0.5 * (change(1, value(corner(2 * i + 1, 0))) + change(1, value(corner(2 * i + 1, 1))));
+      settlements(i, j) =
+          0.5 * (change(1, value(corner(2 * i + 1, 0))) + change(1, value(corner(2 * i + 1, 1))));
   }
   return settlements;
 }
@@ -174,12 +174,13 @@ Findings unloading() {
   const Model wall = rough_wall();
   const Stage pressed{.load = side_pressure(wall, 4.0, kPressure)};
   const LoadTrace none = load_trace(wall, pressed, point_load(wall, NodeId{wall.mesh.node_count() - 2}, 1e3));
-  findings.cases.push_back(absolute_case({.name = "Wall that does not slip, 1 kN on and off",
-                                          .quantity = "what is left over what the load did",
-                                          .expected = 0.0,
-                                          .source = "elasticity",
-                                          .computed = none.left / none.under_load},
-                                         1e-5, "Newton stops at 1e-8 of a node's share of the side pressure, 5 kN"));
+  findings.cases.push_back(
+      absolute_case({.name = "Wall that does not slip, 1 kN on and off",
+                     .quantity = "what is left over what the load did",
+                     .expected = 0.0,
+                     .source = "elasticity",
+                     .computed = none.left / none.under_load},
+                    1e-5, "Newton stops at 1e-8 of a node's share of the side pressure, 5 kN"));
   const Model bridge = make_model({});
   for (const std::size_t place : {std::size_t{9}, std::size_t{19}})
     for (const double force : {1e4, 1e5}) {

@@ -75,10 +75,9 @@ Findings against_motion() {
   names.insert(names.end(), kPairs.begin(), kPairs.end());
   for (const std::string& name : names) {
     const Scene scene = losses.scene(name);
-    const Eigen::VectorXd slow =
-        losses.change(loaded.intact().solution, loaded.without(scene).solution);
-    Case known = compared_signals(fmt::format("({}) lost", name), "motion, let go over 1 s",
-                                  losses.lost(scene), slow);
+    const Eigen::VectorXd slow = losses.change(loaded.intact().solution, loaded.without(scene).solution);
+    Case known =
+        compared_signals(fmt::format("({}) lost", name), "motion, let go over 1 s", losses.lost(scene), slow);
     known.tolerance = 0.02;
     known.reason = "set beforehand: a fifth of the 10 % noise that the paper locates blocks under";
     findings.cases.push_back(std::move(known));
@@ -114,9 +113,8 @@ Findings steps_of_loss() {
     const Scene scene = losses.scene(name);
     const Eigen::VectorXd finest = losses.lost(scene, 64);
     for (const int steps : {1, 2, 4, 8, kStepsOfLoss}) {
-      Case known = compared_signals(
-          fmt::format("({}) lost in {} step{}", name, steps, steps > 1 ? "s" : ""), "64 steps",
-          losses.lost(scene, steps), finest);
+      Case known = compared_signals(fmt::format("({}) lost in {} step{}", name, steps, steps > 1 ? "s" : ""),
+                                    "64 steps", losses.lost(scene, steps), finest);
       known.reason = "fewer than the default: says what they cost";
       if (steps == kStepsOfLoss) {
         known.tolerance = 0.01;
