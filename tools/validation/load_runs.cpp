@@ -3,17 +3,13 @@
 #include <stdexcept>
 
 #include "tools/validation/assemblies.h"
+#include "tools/validation/hard_case_runs.h"
 
 namespace voussoir::validation {
 namespace {
 
 constexpr double kWallLength = 4.0;  ///< [m]
 constexpr double kOnLine = 1e-9;     ///< [m]
-
-/// As near to equilibrium as round-off allows.
-QuasiStaticSettings tight() {
-  return {.tolerance = 1e-14, .round_off = 1e-14};
-}
 
 double largest_change(const Solution& from, const Solution& to) {
   return (to.displacement - from.displacement).array().abs().maxCoeff();
@@ -59,7 +55,7 @@ Field point_load(const Model& bridge, NodeId node, double force) {
 
 double reciprocity_error(const Model& bridge, const Stage& first, const std::vector<int>& components,
                          double force) {
-  QuasiStaticSolver solver(bridge, tight());
+  QuasiStaticSolver solver(bridge, tightest());
   const Solution before = solver.solve({.stage = first});
   const auto n = static_cast<Eigen::Index>(components.size());
   Eigen::MatrixXd answers(n, n);
