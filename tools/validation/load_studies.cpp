@@ -162,7 +162,7 @@ Findings reciprocity() {
   for (int node = 0; node < bridge.mesh.node_count(); node += 7) components.push_back(2 * node + 1);
   return {.cases = {absolute_case(
               {.name = "Wall of 14 blocks that do not slip, gravity and side pressure",
-               .quantity = "largest |u_i(F_j) - u_j(F_i)| over the largest u",
+               .quantity = "largest difference of u_i(F_j) and u_j(F_i) over the largest u",
                .expected = 0.0,
                .source = "Maxwell's reciprocity",
                .computed = reciprocity_error(bridge, pressed, components, 100.0)},
