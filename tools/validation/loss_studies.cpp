@@ -16,7 +16,7 @@
 namespace voussoir::validation {
 namespace {
 
-/// Every tenth wall single of the left half, and the sliver (10,12).
+/// Wall singles of all heights, among them those that motion and steps find hardest: (7,7), (11,8), (10,12).
 constexpr std::array<const char*, 10> kSingles = {"1,4", "2,7", "3,7",  "5,3",  "6,5",
                                                   "7,7", "9,1", "10,4", "11,8", "10,12"};
 constexpr std::array<const char*, 5> kPairs = {"10,4+10,12", "4,2+11,3", "4,10+2,6", "6,4+8,1", "5,5+9,9"};
