@@ -58,20 +58,21 @@ TEST_CASE("Blocks let go slowly in motion change the bridge as the history lost 
   }
 }
 
-TEST_CASE("Where nothing slips it makes no difference how suddenly a block goes (elasticity)") {
+TEST_CASE("Where nothing slips a bridge is as if built so, however its block went (elasticity, Newton)") {
   const Model bridge = slab_on_piers();
   const LoadedBridge loaded(bridge);
   const Scene middle{{BlockId{2}}};
   const Field before = loaded.intact().solution.displacement;
-  const DynamicSolution slow = loaded.without(middle);
-  const DynamicSolution sudden = loaded.without(middle, Release::sudden());
-  REQUIRE(slow.solution.outcome == Outcome::standing);
-  REQUIRE(sudden.solution.outcome == Outcome::standing);
-  const Field change = test::without_nan(slow.solution.displacement - before);
-  CHECK(change.cwiseAbs().maxCoeff() > 0.2 * before.cwiseAbs().maxCoeff());
-  // In each a millionth of the weight may be unbalanced.
-  CHECK((test::without_nan(sudden.solution.displacement - before) - change).cwiseAbs().maxCoeff() <
-        1e-5 * change.cwiseAbs().maxCoeff());
+  const Field built = QuasiStaticSolver(bridge).solve(middle).displacement;
+  const double change = test::without_nan(built - before).cwiseAbs().maxCoeff();
+  CHECK(change > 0.2 * before.cwiseAbs().maxCoeff());
+  for (const Release& release : {Release{}, Release::sudden()}) {
+    const DynamicSolution at_rest = loaded.without(middle, release);
+    REQUIRE(at_rest.solution.outcome == Outcome::standing);
+    // Joints turn by 1e-5, which their law takes into account differently; a millionth of the weight may be
+    // unbalanced.
+    CHECK(test::without_nan(at_rest.solution.displacement - built).cwiseAbs().maxCoeff() < 1e-3 * change);
+  }
 }
 
 TEST_CASE("Where joints slip, blocks that go suddenly leave another bridge than those let go slowly") {
