@@ -76,6 +76,15 @@ Triangulation cut_between_corners(const Polygon& polygon) {
   return result;
 }
 
+bool centre_sees_corners(const Polygon& polygon) {
+  const Point centre = centroid(polygon);
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Point& next = polygon[(i + 1) % polygon.size()];
+    if (cross(polygon[i] - centre, next - centre) <= 0.0) return false;
+  }
+  return true;
+}
+
 Triangulation fan_about_centre(const Polygon& polygon) {
   const int n = static_cast<int>(polygon.size());
   Triangulation result{polygon, {}};

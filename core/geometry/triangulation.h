@@ -8,7 +8,7 @@
 
 namespace voussoir {
 
-/// Triangles over points; counter-clockwise corner numbers. The first points are the polygon's corners.
+/// Triangles over points; counter-clockwise corner numbers.
 struct Triangulation {
   std::vector<Point> points;
   std::vector<std::array<int, 3>> triangles;
@@ -17,6 +17,9 @@ struct Triangulation {
 /// As few triangles as the corners allow (n - 2), with the best worst shape among all such triangulations;
 /// ties go to the diagonal from the lowest, then leftmost corner.
 Triangulation cut_between_corners(const Polygon& polygon);
+
+/// Does no edge hide a corner from the centre of gravity?
+bool centre_sees_corners(const Polygon& polygon);
 
 /// Triangles from the centre of gravity to every edge. Precondition: the centre sees all corners.
 Triangulation fan_about_centre(const Polygon& polygon);

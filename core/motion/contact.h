@@ -208,13 +208,13 @@ VOUSSOIR_INLINE void fade(const EdgeContact& contact, const RoughCover<T>& c, co
 }
 
 /// Forces of the contact, and the shear carried over to the next evaluation. False, with the shear forgotten
-/// and no forces, if the edges touch in no lane. Lanes in which `present` is 0 have no contact.
+/// and no forces, if the edges touch in no lane. Lanes in which `found` is 0 have no contact.
 template <class T>
-VOUSSOIR_INLINE bool contact_forces(const EdgeContact& contact, const T& present, const EdgePlaces<T>& edges,
+VOUSSOIR_INLINE bool contact_forces(const EdgeContact& contact, const T& found, const EdgePlaces<T>& edges,
                                     ContactShear<T>& shear, EdgeForces<T>& forces) {
-  const RoughCover<T> cover = rough_cover<T>(contact, present, edges.now);
+  const RoughCover<T> cover = rough_cover<T>(contact, found, edges.now);
   const bool some_cover = any(cover.covering);
-  const Stretch<T> stretch = some_cover ? stretch_of(cover) : Stretch<T>{};
+  const Stretch<T> stretch = some_cover ? stretch_of(contact, cover) : Stretch<T>{};
   if (!some_cover || !any(stretch.touching)) {
     shear = {T{}, T{}};
     return false;

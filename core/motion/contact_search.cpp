@@ -62,6 +62,16 @@ double corner_share(const Point& before, const Point& after) {
   return turn > kStraight ? std::tan(0.5 * turn) : 0.0;
 }
 
+/// How far a block's nodes reach behind one of its edges, at rest [m].
+double reach_behind(const Mesh& mesh, const BoundaryEdge& edge, const IndexRange& nodes) {
+  const Point from = mesh.position(edge.from);
+  const Point along = (mesh.position(edge.to) - from).normalized();
+  double farthest = 0.0;
+  for (int node = nodes.begin; node < nodes.end; ++node)
+    farthest = std::max(farthest, cross(along, mesh.nodes.col(node) - from));
+  return farthest;
+}
+
 /// Per node: the boundary edge that begins there.
 std::vector<int> edges_by_first_node(const Mesh& mesh) {
   std::vector<int> edge_from(static_cast<std::size_t>(mesh.node_count()), -1);
@@ -71,6 +81,10 @@ std::vector<int> edges_by_first_node(const Mesh& mesh) {
 }
 
 }  // namespace
+
+double search_margin(const Structure& structure) {
+  return 0.01 * mean_block_size(structure);
+}
 
 ContactMaterial::ContactMaterial(const JointMaterial& joint, double thickness)
     : normal(joint.normal_stiffness * thickness),
@@ -84,7 +98,8 @@ ContactSearch::ContactSearch(const Model& model)
     : mesh_(&model.mesh),
       parameters_(&model.parameters),
       edge_block_(model.mesh.edges.size()),
-      corner_share_(static_cast<std::size_t>(model.mesh.node_count())) {
+      corner_share_(static_cast<std::size_t>(model.mesh.node_count())),
+      behind_(model.mesh.edges.size()) {
   const Mesh& mesh = model.mesh;
   const auto along = [&](const BoundaryEdge& e) -> Point {
     return mesh.position(e.to) - mesh.position(e.from);
@@ -95,6 +110,8 @@ ContactSearch::ContactSearch(const Model& model)
     std::fill(edge_block_.begin() + mesh.block_edges[block].begin,
               edge_block_.begin() + mesh.block_edges[block].end, static_cast<int>(block));
     for (auto edge = first; edge != last; ++edge) {
+      behind_[static_cast<std::size_t>(edge - mesh.edges.begin())] =
+          reach_behind(mesh, *edge, mesh.block_nodes[block]);
       const auto next = std::find_if(first, last, [&](const BoundaryEdge& e) { return e.from == edge->to; });
       corner_share_[static_cast<std::size_t>(value(edge->to))] = corner_share(along(*edge), along(*next));
     }
@@ -156,9 +173,9 @@ EdgeContact ContactSearch::contact(const EdgePair& pair) const {
     return 1.0 / (mesh_->position(e.to) - mesh_->position(e.from)).norm();
   };
   return {.nodes = {value(edge_a.from), value(edge_a.to), value(edge_b.from), value(edge_b.to)},
-          .blocks = {edge_block_[a], edge_block_[b]},
           .per_length = {per_length(edge_a), per_length(edge_b)},
           .corner_share = {share(edge_a.from), share(edge_a.to), share(edge_b.from), share(edge_b.to)},
+          .deepest = 0.5 * (behind_[a] + behind_[b]),
           .material = joined ? joined_material_[static_cast<std::size_t>(found - joined_.begin())]
                              : ContactMaterial(parameters_->contact, std::min(thickness(edge_block_[a]),
                                                                               thickness(edge_block_[b])))};

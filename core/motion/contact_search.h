@@ -12,6 +12,10 @@ namespace voussoir {
 /// A candidate: positions in Mesh::edges, the first in the block with the smaller number.
 using EdgePair = std::pair<int, int>;
 
+/// How far apart edges may be that a search finds [m]: a share of the mean block size. What it found holds
+/// until a node has travelled half of that.
+double search_margin(const Structure& structure);
+
 class ContactSearch {
  public:
   /// The model must outlive the search.
@@ -32,6 +36,7 @@ class ContactSearch {
   const Parameters* parameters_;
   std::vector<int> edge_block_;                   ///< per edge
   std::vector<double> corner_share_;              ///< per node, see EdgeContact
+  std::vector<double> behind_;                    ///< per edge: how far its block reaches behind it [m]
   std::vector<EdgePair> joined_;                  ///< edges that form a joint at rest, ascending
   std::vector<ContactMaterial> joined_material_;  ///< of `joined_`
 };

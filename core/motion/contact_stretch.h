@@ -31,10 +31,10 @@ struct ContactMaterial {
 /// What the contact of two edges needs to know, the same in all scenes of a variant.
 struct EdgeContact {
   std::array<int, 4> nodes;          ///< a0, a1, b0, b1
-  std::array<int, 2> blocks;         ///< of A and B
   std::array<double, 2> per_length;  ///< 1 / L_A, 1 / L_B [1/m]
   std::array<double, 4>
       corner_share;  ///< 1 / tan(half the angle) at the nodes; 0 where the boundary runs on straight
+  double deepest;    ///< faces that overlap by more are seen from behind and do not touch [m]
   ContactMaterial material;
 };
 
@@ -79,7 +79,7 @@ struct RoughCover {
 };
 
 template <class T>
-VOUSSOIR_INLINE RoughCover<T> rough_cover(const EdgeContact& contact, const T& present,
+VOUSSOIR_INLINE RoughCover<T> rough_cover(const EdgeContact& contact, const T& found,
                                           const std::array<Pair<T>, 4>& places) {
   const auto& [a0, a1, b0, b1] = places;
   RoughCover<T> c;
@@ -93,8 +93,8 @@ VOUSSOIR_INLINE RoughCover<T> rough_cover(const EdgeContact& contact, const T& p
   c.b0 = c.b1 + dot(c.direction, c.along_b);
   c.b_begins = c.b1 > 0.0;
   c.b_ends = c.b0 < c.a1;
-  c.covering = (c.squared > kNotFacing) & (present > 0.0) & (c.a1 > 0.0) & (c.b0 > 0.0) & (c.b1 < c.a1) &
-               (c.b1 < c.b0);
+  c.covering =
+      (c.squared > kNotFacing) & (found > 0.0) & (c.a1 > 0.0) & (c.b0 > 0.0) & (c.b1 < c.a1) & (c.b1 < c.b0);
   return c;
 }
 
@@ -125,7 +125,7 @@ struct Stretch {
 };
 
 template <class T>
-VOUSSOIR_INLINE Stretch<T> stretch_of(const RoughCover<T>& c) {
+VOUSSOIR_INLINE Stretch<T> stretch_of(const EdgeContact& contact, const RoughCover<T>& c) {
   const T one = T{} + 1.0;
   Stretch<T> x;
   x.per_direction = inverse_root_near_four(c.squared);
@@ -150,7 +150,8 @@ VOUSSOIR_INLINE Stretch<T> stretch_of(const RoughCover<T>& c) {
   x.gap_at_a0 = x.h_b1 - x.slope_b * x.s_b1;
   x.gap_0 = x.gap_at_a0 + x.slope * x.s_0;
   x.gap_1 = x.gap_at_a0 + x.slope * x.s_1;
-  x.touching = c.covering & (x.s_1 > x.s_0) & ((x.gap_0 < 0.0) | (x.gap_1 < 0.0));
+  const T least = smaller(x.gap_0, x.gap_1);
+  x.touching = c.covering & (x.s_1 > x.s_0) & (least < 0.0) & (least > -contact.deepest);
   return x;
 }
 

@@ -11,7 +11,6 @@ namespace {
 
 constexpr double kOfCritical = 0.9;         ///< default step; the power iteration comes from below
 constexpr double kDampingShare = 0.5;       ///< of the critical damping
-constexpr double kSearchMargin = 0.01;      ///< of the mean block size: contacts are searched this far
 constexpr double kTimeBetweenLooks = 0.01;  ///< [s] between two looks at a scene
 
 double checked_step(const DynamicSettings& settings, double critical) {
@@ -22,12 +21,6 @@ double checked_step(const DynamicSettings& settings, double critical) {
                     "allows steps up to {:.3g} s",
                     *settings.step, critical));
   return *settings.step;
-}
-
-double load_share(double time, double ramp) {
-  if (time >= ramp) return 1.0;
-  const double x = time / ramp;
-  return x * x * (3.0 - 2.0 * x);
 }
 
 }  // namespace
@@ -41,7 +34,7 @@ struct DynamicSolver::Workspace {
         model(bridge, checked_step(settings, critical),
               settings.damping.value_or(2.0 * kDampingShare * natural.frequency), settings.contact_damping,
               settings.inertia),
-        margin(kSearchMargin * mean_block_size(bridge)) {}
+        margin(search_margin(bridge)) {}
 
   long steps_until(double time) const { return std::lround(std::ceil(time / model.step)); }
 
@@ -125,11 +118,11 @@ class MotionRun {
     for (int i = 0; i < kLaneCount<T>; ++i) {
       const LaneRun& run = runs_[static_cast<std::size_t>(i)];
       set_lane(motion_.load, i,
-               load_share(static_cast<double>(run.steps + 1) * model_.step, shared_.settings.ramp));
+               grown_share(static_cast<double>(run.steps + 1) * model_.step, shared_.settings.ramp));
+      const bool settled = shared_.settings.skips.settled_contacts;
+      if (!settled || lane(motion_.travel, i) > 0.5 * shared_.margin)
+        search_contacts(model_, shared_.margin, i, motion_);
     }
-    const bool settled = shared_.settings.skips.settled_contacts;
-    if (!settled || any(motion_.travel > 0.5 * shared_.margin))
-      search_contacts(model_, shared_.margin, motion_);
   }
 
   void follow(int lane_index) {

@@ -29,6 +29,36 @@ void set_pair(Pair<T>& pair, int i, double x, double y) {
   set_lane(pair.y, i, y);
 }
 
+/// Makes room for these pairs, and forgets those that no lane holds any more.
+template <class T>
+void add_contacts(const MotionModel& model, const std::vector<EdgePair>& added, Motion<T>& motion) {
+  std::vector<EdgePair> pairs;
+  for (std::size_t c = 0; c < motion.pairs.size(); ++c)
+    if (any(motion.found[c].value > 0.0)) pairs.push_back(motion.pairs[c]);
+  const auto kept = static_cast<std::ptrdiff_t>(pairs.size());
+  pairs.insert(pairs.end(), added.begin(), added.end());
+  std::inplace_merge(pairs.begin(), pairs.begin() + kept, pairs.end());
+  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+
+  std::vector<EdgeContact> contacts;
+  std::vector<Cell<T>> found(pairs.size(), Cell<T>{T{}});
+  std::vector<ContactShear<T>> shear(pairs.size(), ContactShear<T>{T{}, T{}});
+  auto old = motion.pairs.begin();
+  for (std::size_t c = 0; c < pairs.size(); ++c) {
+    old = std::lower_bound(old, motion.pairs.end(), pairs[c]);
+    const bool known = old != motion.pairs.end() && *old == pairs[c];
+    const auto at = static_cast<std::size_t>(old - motion.pairs.begin());
+    contacts.push_back(known ? motion.contacts[at] : model.search.contact(pairs[c]));
+    if (!known) continue;
+    found[c] = motion.found[at];
+    shear[c] = motion.shear[at];
+  }
+  motion.pairs = std::move(pairs);
+  motion.contacts = std::move(contacts);
+  motion.found = std::move(found);
+  motion.shear = std::move(shear);
+}
+
 }  // namespace
 
 MotionModel::MotionModel(const Model& model, double step_, double damping_, double contact_damping_,
@@ -58,6 +88,12 @@ MotionModel::MotionModel(const Model& model, double step_, double damping_, doub
   weight = masses.sum() * gravity;
   for (const BlockBody& body : bodies)
     per_weight.push_back(gravity > 0.0 ? 1.0 / (body.mass * gravity) : 0.0);
+}
+
+double grown_share(double time, double ramp) {
+  if (time >= ramp) return 1.0;
+  const double x = time / ramp;
+  return x * x * (3.0 - 2.0 * x);
 }
 
 template <class T>
@@ -99,37 +135,28 @@ void place_scene(const MotionModel& model, const std::vector<bool>& removed, int
     set_lane(frame.spin, i, 0.0);
     set_lane(motion.present[b].value, i, removed[b] ? 0.0 : 1.0);
   }
-  for (ContactShear<T>& shear : motion.shear) {
-    set_lane(shear.at_0, i, 0.0);
-    set_lane(shear.at_1, i, 0.0);
+  for (std::size_t c = 0; c < motion.pairs.size(); ++c) {
+    set_lane(motion.found[c].value, i, 0.0);
+    set_lane(motion.shear[c].at_0, i, 0.0);
+    set_lane(motion.shear[c].at_1, i, 0.0);
   }
   set_lane(motion.load, i, 0.0);
   set_lane(motion.travel, i, std::numeric_limits<double>::infinity());  // no contacts are known
 }
 
 template <class T>
-void search_contacts(const MotionModel& model, double margin, Motion<T>& motion) {
-  std::vector<EdgePair> pairs;
-  for (int i = 0; i < kLaneCount<T>; ++i) {
-    const std::vector<EdgePair> found =
-        model.search.candidates(places_in_lane(motion, i), absent_in_lane(motion, i), margin);
-    std::vector<EdgePair> merged;
-    std::set_union(pairs.begin(), pairs.end(), found.begin(), found.end(), std::back_inserter(merged));
-    pairs = std::move(merged);
+void search_contacts(const MotionModel& model, double margin, int i, Motion<T>& motion) {
+  const std::vector<EdgePair> found =
+      model.search.candidates(places_in_lane(motion, i), absent_in_lane(motion, i), margin);
+  for (Cell<T>& cell : motion.found) set_lane(cell.value, i, 0.0);
+  if (!std::includes(motion.pairs.begin(), motion.pairs.end(), found.begin(), found.end()))
+    add_contacts(model, found, motion);
+  auto pair = motion.pairs.begin();
+  for (const EdgePair& each : found) {
+    pair = std::lower_bound(pair, motion.pairs.end(), each);
+    set_lane(motion.found[static_cast<std::size_t>(pair - motion.pairs.begin())].value, i, 1.0);
   }
-  std::vector<ContactShear<T>> shear(pairs.size(), ContactShear<T>{T{}, T{}});
-  std::vector<EdgeContact> contacts;
-  auto old = motion.pairs.begin();
-  for (std::size_t c = 0; c < pairs.size(); ++c) {
-    contacts.push_back(model.search.contact(pairs[c]));
-    old = std::lower_bound(old, motion.pairs.end(), pairs[c]);
-    if (old != motion.pairs.end() && *old == pairs[c])
-      shear[c] = motion.shear[static_cast<std::size_t>(old - motion.pairs.begin())];
-  }
-  motion.pairs = std::move(pairs);
-  motion.contacts = std::move(contacts);
-  motion.shear = std::move(shear);
-  motion.travel = T{};
+  set_lane(motion.travel, i, 0.0);
 }
 
 template <class T>
@@ -164,7 +191,7 @@ double kinetic_energy(const MotionModel& model, const Motion<T>& motion, int i) 
 #define VOUSSOIR_INSTANTIATE(T)                                                                \
   template Motion<T> at_rest<T>(const MotionModel&);                                           \
   template void place_scene<T>(const MotionModel&, const std::vector<bool>&, int, Motion<T>&); \
-  template void search_contacts<T>(const MotionModel&, double, Motion<T>&);                    \
+  template void search_contacts<T>(const MotionModel&, double, int, Motion<T>&);               \
   template Field displacement<T>(const MotionModel&, const Motion<T>&, int);                   \
   template double kinetic_energy<T>(const MotionModel&, const Motion<T>&, int);
 VOUSSOIR_INSTANTIATE(double)

@@ -53,14 +53,16 @@ struct Motion {
   std::vector<Pair<T>> deformed;  ///< u of the nodes in their block's frame [m]
   std::vector<Pair<T>> rates;     ///< du/dt [m/s]; with explicit steps the nodes' velocities
   std::vector<BlockFrame<T>> frames;
-  std::vector<Cell<T>> present;  ///< per block: 1, or 0 where it is removed
-  std::vector<EdgePair> pairs;
-  std::vector<EdgeContact> contacts;          ///< of `pairs`
-  std::vector<ContactShear<T>> shear;         ///< of `pairs`
-  std::vector<Pair<T>> scratch;               ///< as long as the largest block
-  alignas(sizeof(T)) T load{};                ///< share of gravity that acts
-  alignas(sizeof(T)) T travel{};              ///< bound of any node's way since the last contact search [m]
-  alignas(sizeof(T)) T unbalanced{};          ///< sum over blocks of the resultant forces [N]
+  std::vector<Cell<T>> present;        ///< per block: 1, or 0 where it is removed
+  std::vector<Pair<T>> pushes;         ///< forces on the nodes beside weight and contact [N]; empty: none
+  std::vector<EdgePair> pairs;         ///< that some lane's search has found, ascending
+  std::vector<EdgeContact> contacts;   ///< of `pairs`
+  std::vector<Cell<T>> found;          ///< of `pairs`: 1 where the lane's own search has, otherwise 0
+  std::vector<ContactShear<T>> shear;  ///< of `pairs`
+  std::vector<Pair<T>> scratch;        ///< as long as the largest block
+  alignas(sizeof(T)) T load{};         ///< share of gravity that acts
+  alignas(sizeof(T)) T travel{};       ///< bound of any node's way since the last contact search [m]
+  alignas(sizeof(T)) T unbalanced{};   ///< sum over blocks of the resultant forces [N]
   alignas(sizeof(T)) T largest_unbalanced{};  ///< largest resultant force of a block over its weight
 };
 
@@ -73,9 +75,13 @@ template <class T>
 void place_scene(const MotionModel& model, const std::vector<bool>& removed, int lane_index,
                  Motion<T>& motion);
 
-/// Looks for contacts anew in all lanes; contacts that stay keep their shear.
+/// Share of a load that grows smoothly from 0 to 1 over the time `ramp` [s]; 0: at once.
+double grown_share(double time, double ramp);
+
+/// Looks for contacts anew in one lane; contacts that stay keep their shear. What the other lanes hold makes
+/// no difference to this one, nor this one to them.
 template <class T>
-void search_contacts(const MotionModel& model, double margin, Motion<T>& motion);
+void search_contacts(const MotionModel& model, double margin, int lane_index, Motion<T>& motion);
 
 /// Displacements in one lane [m], NaN at the nodes of removed blocks.
 template <class T>

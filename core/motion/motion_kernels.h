@@ -16,7 +16,9 @@ struct MotionView {
   Pair<T>* rates;
   BlockFrame<T>* frames;
   const Cell<T>* present;
+  const Pair<T>* pushes;  ///< null: none
   const EdgeContact* contacts;
+  const Cell<T>* found;
   ContactShear<T>* shear;
   std::size_t contact_count;
   std::size_t node_count;
@@ -32,7 +34,9 @@ MotionView<T> view_of(Motion<T>& motion) {
           .rates = motion.rates.data(),
           .frames = motion.frames.data(),
           .present = motion.present.data(),
+          .pushes = motion.pushes.empty() ? nullptr : motion.pushes.data(),
           .contacts = motion.contacts.data(),
+          .found = motion.found.data(),
           .shear = motion.shear.data(),
           .contact_count = motion.contacts.size(),
           .node_count = motion.places.size(),
@@ -44,7 +48,6 @@ template <class T>
 VOUSSOIR_INLINE void add_contact_forces(double ahead, const MotionView<T>& view) {
   for (std::size_t c = 0; c < view.contact_count; ++c) {
     const EdgeContact& contact = view.contacts[c];
-    const T present = view.present[contact.blocks[0]].value * view.present[contact.blocks[1]].value;
     EdgePlaces<T> edges;
     edges.ahead = ahead;
     for (std::size_t i = 0; i < 4; ++i) {
@@ -52,7 +55,7 @@ VOUSSOIR_INLINE void add_contact_forces(double ahead, const MotionView<T>& view)
       edges.now[i] = view.places[contact.nodes[i]] + edges.moved[i] * ahead;
     }
     EdgeForces<T> forces;
-    if (contact_forces<T>(contact, present, edges, view.shear[c], forces))
+    if (contact_forces<T>(contact, view.found[c].value, edges, view.shear[c], forces))
       for (std::size_t i = 0; i < 4; ++i)
         view.forces[contact.nodes[i]] = view.forces[contact.nodes[i]] + forces[i];
   }
@@ -177,10 +180,11 @@ VOUSSOIR_INLINE void report_balance(const BlockBody& body, const Resultant<T>& s
   motion.largest_unbalanced = larger(motion.largest_unbalanced, left * per_weight);
 }
 
-/// forces = contact.
+/// forces = pushes + contact.
 template <class T>
 VOUSSOIR_INLINE void start_forces(const MotionModel& model, const MotionView<T>& view) {
-  for (std::size_t i = 0; i < view.node_count; ++i) view.forces[i] = {T{}, T{}};
+  for (std::size_t i = 0; i < view.node_count; ++i)
+    view.forces[i] = view.pushes != nullptr ? view.pushes[i] : Pair<T>{T{}, T{}};
   add_contact_forces(model.contact_damping / model.step, view);
 }
 

@@ -7,7 +7,7 @@ History built(const Scene& scene) {
 }
 
 History lost(const Scene& scene) {
-  return {"lost", {{"built", {}}, {"lost", {.scene = scene}}}};
+  return {"lost", {{"built", {}}, {"lost", {.scene = scene}, kStepsOfLoss}}};
 }
 
 History followed_by(History history, const std::string& load_name, const Field& load) {
@@ -27,7 +27,8 @@ std::vector<Solution> solve_history(QuasiStaticSolver& solver, const History& hi
     solutions.push_back(solver.solve(StageTask{.stage = next.stage,
                                                .start = before != nullptr ? &before->displacement : nullptr,
                                                .before = before,
-                                               .parameters = parameters}));
+                                               .parameters = parameters,
+                                               .steps = next.steps}));
   }
   return solutions;
 }

@@ -52,18 +52,50 @@ namespace {
 
 /// A task under way in a lane.
 struct LaneSearch {
-  std::size_t task = 0;
+  const StageTask* task = nullptr;
+  std::size_t number = 0;
+  int step = 0;                     ///< of the task's steps
   std::optional<Coefficients> own;  ///< of a variant that is not the solver's model
   std::optional<NewtonSearch> search;
+  Solution reached;  ///< at the end of the last step; what all steps have cost
 
   template <class Workspace>
-  void begin(const StageTask& stage_task, std::size_t number, std::size_t lane, Workspace& w) {
-    task = number;
+  void begin(const StageTask& stage_task, std::size_t stage_number, std::size_t lane, Workspace& w) {
+    task = &stage_task;
+    number = stage_number;
+    step = 0;
     own.reset();
-    if (stage_task.parameters != nullptr) own.emplace(w.system, *stage_task.parameters);
-    auto memory = stage_task.before != nullptr ? stage_task.before->memory : std::vector<JointMemory>{};
-    search.emplace(StageEquations(w.system, own ? *own : w.nominal, stage_task.stage, std::move(memory)),
-                   w.settings, stage_task.start, w.lane_of_tangents(lane));
+    if (task->parameters != nullptr) own.emplace(w.system, *task->parameters);
+    reached = Solution{};
+    begin_step(task->before, task->start, lane, w);
+  }
+
+  /// Holds a share of the unbalanced forces back, so that all steps let go equal parts.
+  template <class Workspace>
+  void begin_step(const State* before, const Field* start, std::size_t lane, Workspace& w) {
+    StageEquations equations(w.system, own ? *own : w.nominal, task->stage,
+                             before != nullptr ? before->memory : std::vector<JointMemory>{});
+    const int left = task->steps - ++step;
+    if (left > 0) hold_back(static_cast<double>(left) / (left + 1), before, equations);
+    search.emplace(std::move(equations), w.settings, start, w.lane_of_tangents(lane));
+  }
+
+  /// Takes what the search has found; true if that is the task's answer, otherwise the next step begins.
+  template <class Workspace>
+  bool end_step(std::size_t lane, Workspace& w) {
+    const int before = reached.iterations;
+    reached = search->solution();
+    reached.iterations += before;
+    search.reset();
+    if (step == task->steps || reached.outcome != Outcome::standing) return true;
+    begin_step(&reached, &reached.displacement, lane, w);
+    return false;
+  }
+
+  static void hold_back(double share, const State* before, StageEquations& equations) {
+    Field place = Field::Zero(2, equations.load.cols());
+    if (before != nullptr) place = before->displacement.array().isNaN().select(0.0, before->displacement);
+    equations.load -= share * unbalanced_forces(equations, place);
   }
 };
 
@@ -95,9 +127,8 @@ std::vector<Solution> QuasiStaticSolver::solve(std::span<const StageTask> tasks)
       std::optional<NewtonSearch>& search = lanes[lane].search;
       if (!search) continue;
       search->advance(regular[lane], w.get_step(lane));
-      if (!search->finished()) continue;
-      solutions[lanes[lane].task] = search->solution();
-      search.reset();
+      if (!search->finished() || !lanes[lane].end_step(lane, w)) continue;
+      solutions[lanes[lane].number] = std::move(lanes[lane].reached);
       ++solved;
     }
   }

@@ -37,6 +37,9 @@ struct StageTask {
   const Field* start = nullptr;   ///< 2 x nodes, near the answer, NaN counts as zero; null: from rest
   const State* before = nullptr;  ///< the stage before, whose memory counts; null: nothing has slipped
   const Parameters* parameters = nullptr;  ///< of the variant; null: those of the solver's model
+  /// Implicit steps. Forces that would hold the stage where the one before ended (what lost blocks carried, a
+  /// new load turned round) are let go in so many equal parts, and the joints' memory is updated after each.
+  int steps = 1;
 };
 
 /// Solves stages of the variants of one structure, several side by side in SIMD lanes. Not thread-safe: one
@@ -49,12 +52,13 @@ class QuasiStaticSolver {
   QuasiStaticSolver(QuasiStaticSolver&&) noexcept;
   QuasiStaticSolver& operator=(QuasiStaticSolver&&) noexcept;
 
-  /// Equilibria of the stages, with the scenes' blocks absent; one solution a task, in their order. A lane
-  /// that finishes early takes the next task.
+  /// Equilibria at the stages' ends, with the scenes' blocks absent; one solution a task, in their order. A
+  /// lane that finishes early takes the next task.
   ///
   /// A search from a given start that fails begins again from rest. One without progress goes on as a fall
   /// with bolder steps: `collapsed`, with the field at the moment when a displacement passes the limit. If
-  /// nothing falls either, a patient search from rest has the last word: `standing` or `unresolved`.
+  /// nothing falls either, a patient search from rest has the last word: `standing` or `unresolved`. A stage
+  /// of several steps ends with the first that does not stand; `start` is for the first.
   std::vector<Solution> solve(std::span<const StageTask> tasks);
 
   Solution solve(const StageTask& task);

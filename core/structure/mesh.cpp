@@ -37,13 +37,45 @@ Triangulation cut_as_mirror_image(const Polygon& polygon, double axis) {
   return result;
 }
 
+bool symmetric(const Polygon& polygon, double axis) {
+  return std::all_of(polygon.begin(), polygon.end(), [&](const Point& p) {
+    return distance_to_corner(polygon, {2.0 * axis - p.x(), p.y()}) < kOnAxis;
+  });
+}
+
+/// What lies left of the axis, cut between its corners, and its mirror image.
+Triangulation cut_in_halves(const Polygon& polygon, double axis) {
+  Eigen::AlignedBox2d box;
+  for (const Point& p : polygon) box.extend(p);
+  const Polygon right_side = {{axis, box.min().y() - 1.0},
+                              {box.max().x() + 1.0, box.min().y() - 1.0},
+                              {box.max().x() + 1.0, box.max().y() + 1.0},
+                              {axis, box.max().y() + 1.0}};
+  Triangulation result = cut_between_corners(subtract(polygon, right_side, 0.0).front());
+  std::vector<int> image;
+  for (std::size_t i = 0, n = result.points.size(); i < n; ++i) {
+    const Point p = result.points[i];
+    const bool on_axis = std::abs(p.x() - axis) < kOnAxis;
+    image.push_back(static_cast<int>(on_axis ? i : result.points.size()));
+    if (!on_axis) result.points.emplace_back(2.0 * axis - p.x(), p.y());
+  }
+  const auto image_of = [&](int corner) { return image[static_cast<std::size_t>(corner)]; };
+  for (std::size_t t = 0, n = result.triangles.size(); t < n; ++t) {
+    const auto [a, b, c] = result.triangles[t];
+    result.triangles.push_back({image_of(c), image_of(b), image_of(a)});
+  }
+  return result;
+}
+
 Triangulation cut(const Block& block, double axis) {
-  const double from_axis = centroid(block.polygon).x() - axis;
-  if (block.kind == BlockKind::voussoir) return fan_about_edge(block.polygon, 3);  // the extrados chord
-  const bool quadrangle = block.polygon.size() == 4;
-  if (std::abs(from_axis) < kOnAxis || block.kind == BlockKind::leg || (block.top_course && quadrangle))
-    return fan_about_centre(block.polygon);
-  return from_axis < 0.0 ? cut_between_corners(block.polygon) : cut_as_mirror_image(block.polygon, axis);
+  const Polygon& polygon = block.polygon;
+  const double from_axis = centroid(polygon).x() - axis;
+  if (block.kind == BlockKind::voussoir) return fan_about_edge(polygon, 3);  // the extrados chord
+  const bool round = block.kind == BlockKind::leg || (block.top_course && polygon.size() == 4);
+  if (round || (std::abs(from_axis) < kOnAxis && centre_sees_corners(polygon)))
+    return fan_about_centre(polygon);
+  if (std::abs(from_axis) < kOnAxis && symmetric(polygon, axis)) return cut_in_halves(polygon, axis);
+  return from_axis < 0.0 ? cut_between_corners(polygon) : cut_as_mirror_image(polygon, axis);
 }
 
 Triangulation triangulate(const Block& block, const BlockLayout& layout, const MeshDescription& rule,

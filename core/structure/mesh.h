@@ -51,8 +51,8 @@ struct Mesh {
 
 /// Cuts the blocks into triangles: two to a plain block, three to a voussoir, four about the centre to a leg
 /// and to a block of the top course, and as few as its corners allow to a block cut by the arch; a block
-/// astride `mirror_axis` is fanned about its centre, so that the mesh of a symmetric bridge is its own mirror
-/// image.
+/// astride `mirror_axis` is fanned about its centre, or cut in two halves alike where the centre does not see
+/// all corners, so that the mesh of a symmetric bridge is its own mirror image.
 Mesh make_mesh(const BlockLayout& layout, const MeshDescription& rule, double mirror_axis);
 
 }  // namespace voussoir

@@ -11,13 +11,6 @@ namespace {
 
 constexpr double kUnbalanced = 1e-5;  ///< of a standing field, at most: QuasiStaticSettings::loose_tolerance
 
-QuasiStaticSettings tightest() {
-  QuasiStaticSettings settings;
-  settings.tolerance = 1e-13;
-  settings.round_off = 1e-14;
-  return settings;
-}
-
 Eigen::VectorXd readings(const Model& bridge, const Field& field) {
   return vertical_displacements(field, bridge.control_points);
 }
@@ -57,6 +50,13 @@ bool in_equilibrium(const Model& bridge, const std::string& scene, const Solutio
 }
 
 }  // namespace
+
+QuasiStaticSettings tightest() {
+  QuasiStaticSettings settings;
+  settings.tolerance = 1e-13;
+  settings.round_off = 1e-14;
+  return settings;
+}
 
 BridgeDescription small_bridge() {
   return read_bridge_file(VOUSSOIR_SOURCE_DIR "/examples/bridges/small.toml").description;

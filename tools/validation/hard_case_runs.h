@@ -3,6 +3,7 @@
 
 #include <map>
 
+#include "core/statics/quasi_static_solver.h"
 #include "core/structure/model.h"
 #include "tools/validation/findings.h"
 
@@ -21,6 +22,9 @@ struct Setting {
   Model bridge;
   std::vector<Expectation> scenes;
 };
+
+/// Newton's method as near to equilibrium as round-off allows.
+QuasiStaticSettings tightest();
 
 /// The small example bridge, whose scenes the sweeps use: intact, a wall block missing (stands), an arch
 /// block missing (falls).

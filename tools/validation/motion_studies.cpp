@@ -26,7 +26,7 @@ struct MovingBlocks {
         margin(0.02 * size) {}
 
   void step() {
-    if (motion.travel > 0.4 * margin) search_contacts(model, margin, motion);
+    if (motion.travel > 0.4 * margin) search_contacts(model, margin, 0, motion);
     take_implicit_step(model, motion);
     time += model.step;
   }

@@ -20,6 +20,12 @@ std::vector<Study> arch_studies();
 /// The reference bridge: what its discretisation costs.
 std::vector<Study> bridge_studies();
 
+/// Load cases: influence lines, reciprocity, unloading.
+std::vector<Study> load_studies();
+
+/// Blocks lost under load: implicit steps against motion.
+std::vector<Study> loss_studies();
+
 /// Walls that were tested: comparisons.
 std::vector<Study> wall_studies();
 

@@ -22,9 +22,9 @@ const ContactMaterial kRough(material_with(0.7), 1.0);
 /// Two edges of lengths 1 and 0.8 at rest.
 EdgeContact edges(double share, const ContactMaterial& material = kSmooth) {
   return {.nodes = {0, 1, 2, 3},
-          .blocks = {0, 1},
           .per_length = {1.0, 1.25},
           .corner_share = {share, share, share, share},
+          .deepest = 0.5,
           .material = material};
 }
 
@@ -133,6 +133,14 @@ TEST_CASE(
   CHECK(touching > 200);
 }
 
+TEST_CASE("Faces that overlap by more than they may are seen from behind and do not touch") {
+  EdgeContact contact = edges(0.0);
+  contact.deepest = 0.1;
+  CHECK(forces_of(contact, placed(0.5, -0.099, 0.0))[0].y < 0.0);
+  const EdgeForces<double> behind = forces_of(contact, placed(0.5, -0.101, 0.0));
+  for (const Pair<double>& force : behind) CHECK((force.x == 0.0 && force.y == 0.0));
+}
+
 TEST_CASE("A contact turned and shifted as a whole has forces turned alike (frame invariance)") {
   const double angle = 1.1;
   const auto turned = [&](const Pair<double>& v) {
@@ -158,9 +166,9 @@ TEST_CASE("A contact turned and shifted as a whole has forces turned alike (fram
 
 TEST_CASE("Two facing edges of one length answer as the joint law of the quasi-static equations does") {
   const EdgeContact contact{.nodes = {0, 1, 2, 3},
-                            .blocks = {0, 1},
                             .per_length = {1.0, 1.0},
                             .corner_share = {},
+                            .deepest = 0.5,
                             .material = kRough};
   const JointStiffness joint = joint_stiffness(material_with(0.7), 1.0);
   for (const double gap_1 : {-2e-6, 1e-6})
@@ -184,9 +192,9 @@ TEST_CASE("A block that leans over on its edge does not slip at the end that ope
   // B above A turns about the common corner in small steps; its base and A's face keep their lengths in the
   // frame.
   const EdgeContact contact{.nodes = {0, 1, 2, 3},
-                            .blocks = {0, 1},
                             .per_length = {1.0, 1.0},
                             .corner_share = {},
+                            .deepest = 0.5,
                             .material = kRough};
   constexpr int kSteps = 200;
   constexpr double kLean = 0.2;

@@ -17,7 +17,7 @@ using validation::floating_course;
 
 void run(const MotionModel& model, int steps, Motion<One>& motion) {
   for (int i = 0; i < steps; ++i) {
-    if (motion.travel > 0.005) search_contacts(model, 0.01, motion);
+    if (motion.travel > 0.005) search_contacts(model, 0.01, 0, motion);
     take_implicit_step(model, motion);
   }
 }
@@ -153,7 +153,7 @@ TEST_CASE("The shear of contacts survives a new search (the same run without sea
   for (int i = 1; i <= 500; ++i) {
     once.load = often.load = std::min(1.0, i / 200.0);
     run(model, 1, once);
-    search_contacts(model, 0.02, often);
+    search_contacts(model, 0.02, 0, often);
     take_implicit_step(model, often);
   }
   REQUIRE(once.contacts.size() > 0);
@@ -161,6 +161,27 @@ TEST_CASE("The shear of contacts survives a new search (the same run without sea
     CHECK(often.places[i].x == once.places[i].x);
     CHECK(often.places[i].y == once.places[i].y);
   }
+}
+
+TEST_CASE("A search in one lane leaves the contacts of the others alone (what each lane finds by itself)") {
+  const Model bridge = floating_course(2, kThirtyFive);
+  const MotionModel model(bridge, 3e-4, 0.0, 0.0);
+  Motion<DoubleLanes> motion = at_rest<DoubleLanes>(model);
+  for (std::size_t i = 0; i < motion.places.size(); ++i)
+    if (static_cast<int>(i) >= bridge.mesh.block_nodes[1].begin) set_lane(motion.places[i].x, 2, 5.0);
+  for (int l = 0; l < 4; ++l) search_contacts(model, 0.01, l, motion);
+  const std::vector<bool> all_there(bridge.layout.size(), false);
+  const std::vector<EdgePair> side_by_side = model.search.candidates(bridge.mesh.nodes, all_there, 0.01);
+  REQUIRE(!side_by_side.empty());
+  CHECK(motion.pairs == side_by_side);
+  motion.shear.front() = {DoubleLanes{} + 1e-6, DoubleLanes{} + 2e-6};
+  place_scene(model, {false, true}, 1, motion);
+  search_contacts(model, 0.01, 1, motion);
+  REQUIRE(motion.pairs == side_by_side);
+  for (const Cell<DoubleLanes>& found : motion.found)
+    for (int l = 0; l < 4; ++l) CHECK(lane(found.value, l) == (l == 0 || l == 3 ? 1.0 : 0.0));
+  for (int l = 0; l < 4; ++l) CHECK(lane(motion.shear.front().at_1, l) == (l == 1 ? 0.0 : 2e-6));
+  CHECK(lane(motion.travel, 1) == 0.0);
 }
 
 }  // namespace voussoir

@@ -23,6 +23,28 @@ Eigen::VectorXd control_displacements(const Model& bridge, QuasiStaticSolver& so
   return d.array().isNaN().select(0.0, d);
 }
 
+/// Forces that a block of the bridge, which nothing came before, gives the nodes of its neighbours [N].
+Field carried_by(const Model& bridge, const State& state, BlockId block) {
+  Field forces = Field::Zero(2, bridge.mesh.node_count());
+  for (std::size_t j = 0; j < bridge.joints.size(); ++j) {
+    const Joint& joint = bridge.joints[j];
+    if (joint.first != block && joint.second != block) continue;
+    const std::array<NodeId, 4> nodes = {joint.first_edge.from, joint.first_edge.to, joint.second_edge.from,
+                                         joint.second_edge.to};
+    Vector8d q;
+    for (int i = 0; i < 4; ++i)
+      q.segment<2>(2 * i) = state.displacement.col(value(nodes[static_cast<std::size_t>(i)]));
+    const JointKinematics kinematics = joint_kinematics(make_joint_frame(joint, bridge.mesh), q);
+    const double area = joint.length * joint_thickness(joint, bridge.parameters);
+    const Vector8d nodal =
+        -kinematics.gradient.transpose() *
+        integrate_joint(joint_stiffness(bridge.parameters.joints[j], area), {}, kinematics.state).force;
+    for (int i = joint.first == block ? 2 : 0, last = i + 2; i < last; ++i)
+      forces.col(value(nodes[static_cast<std::size_t>(i)])) += nodal.segment<2>(2 * i);
+  }
+  return forces;
+}
+
 }  // namespace
 
 TEST_CASE("The intact reference bridge has the published displacements within half a per cent", "[solver]") {
@@ -92,6 +114,52 @@ TEST_CASE("A dead load equal to the weight does what twice the gravity does (sup
   const Field heavy =
       test::without_nan(solver.solve({.stage = {.scene = scene}, .parameters = &twice}).displacement);
   CHECK((loaded - heavy).cwiseAbs().maxCoeff() < 1e-9 * heavy.cwiseAbs().maxCoeff());
+}
+
+TEST_CASE("A stage in two steps lets go what a lost block's joints carried, half by half (brute force)",
+          "[solver]") {
+  const Model bridge = test::reference_bridge();
+  QuasiStaticSolver solver(bridge);
+  const Solution intact = solver.solve(Scene{});
+  const Scene scene = parse_scene("10,12", bridge.layout);
+  const Stage whole{.scene = scene};
+  const Solution steps =
+      solver.solve({.stage = whole, .start = &intact.displacement, .before = &intact, .steps = 2});
+
+  const Stage half{.scene = scene, .load = 0.5 * carried_by(bridge, intact, scene.removed.front())};
+  const Solution first = solver.solve({.stage = half, .start = &intact.displacement, .before = &intact});
+  const Solution second = solver.solve({.stage = whole, .start = &first.displacement, .before = &first});
+  REQUIRE(steps.outcome == Outcome::standing);
+  REQUIRE(second.outcome == Outcome::standing);
+  CHECK(steps.iterations == first.iterations + second.iterations);
+  const Field expected = test::without_nan(second.displacement);
+  // Newton leaves 1e-8 of a node's load unbalanced.
+  CHECK((test::without_nan(steps.displacement) - expected).cwiseAbs().maxCoeff() <
+        1e-8 * expected.cwiseAbs().maxCoeff());
+  const Solution once = solver.solve({.stage = whole, .start = &intact.displacement, .before = &intact});
+  CHECK((test::without_nan(once.displacement) - expected).cwiseAbs().maxCoeff() >
+        1e-4 * expected.cwiseAbs().maxCoeff());  // a sliver slides on the way and stops
+}
+
+TEST_CASE("Stages of one, two and more steps side by side have the bits of each alone", "[solver]") {
+  const Model bridge = test::small_bridge();
+  QuasiStaticSolver solver(bridge);
+  const Solution intact = solver.solve(Scene{});
+  std::vector<StageTask> tasks;
+  for (const char* text : {"4,2", "0,5", "5,5", "3,2", "2,1", "4,4"})
+    tasks.push_back({.stage = {.scene = parse_scene(text, bridge.layout)},
+                     .start = &intact.displacement,
+                     .before = &intact,
+                     .steps = 1 + static_cast<int>(tasks.size()) % 3});
+  const std::vector<Solution> together = solver.solve(tasks);
+  for (std::size_t i = 0; i < tasks.size(); ++i) {
+    const Solution alone = solver.solve(tasks[i]);
+    INFO(to_string(tasks[i].stage.scene, bridge.layout));
+    CHECK(alone.outcome == together[i].outcome);
+    CHECK(alone.iterations == together[i].iterations);
+    CHECK(alone.memory == together[i].memory);
+    CHECK(test::without_nan(alone.displacement) == test::without_nan(together[i].displacement));
+  }
 }
 
 TEST_CASE("A mirrored scene has the mirrored field", "[solver]") {

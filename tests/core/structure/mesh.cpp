@@ -41,6 +41,35 @@ TEST_CASE("Triangles are counter-clockwise and fill every block exactly", "[mesh
     }
 }
 
+TEST_CASE(
+    "A block astride the axis that a ring cuts from below is filled, and alike on both sides (symmetry)",
+    "[mesh]") {
+  for (const int voussoirs : {9, 10, 15}) {  // an even number has a corner on the axis
+    BridgeDescription description = test::small_description();
+    description.spans.front() = {.centre_x = 3.0,
+                                 .centre_y = 0.4,
+                                 .intrados_radius = 0.4,
+                                 .ring_thickness = 0.5,
+                                 .voussoirs = voussoirs};
+    const Model bridge = make_model(description);
+    INFO(voussoirs << " voussoirs");
+    CHECK(bridge.symmetry.has_value());
+    int hollow = 0;
+    for (std::size_t block = 0; block < bridge.layout.size(); ++block) {
+      const Polygon& polygon = bridge.layout.blocks[block].polygon;
+      hollow += !centre_sees_corners(polygon);
+      double total = 0.0;
+      const IndexRange& range = bridge.mesh.block_triangles[block];
+      for (auto t = static_cast<std::size_t>(range.begin); t < static_cast<std::size_t>(range.end); ++t) {
+        CHECK(area(corners(bridge.mesh, bridge.mesh.triangles[t])) > 0.0);
+        total += area(corners(bridge.mesh, bridge.mesh.triangles[t]));
+      }
+      CHECK(total == Approx(area(polygon)).epsilon(1e-12));
+    }
+    CHECK(hollow > 0);
+  }
+}
+
 TEST_CASE("Without splitting the reference mesh comes near the paper's 529 triangles", "[mesh]") {
   const Model bridge = bridge_with(false, 0);
   CHECK(bridge.mesh.triangles.size() == 507);
