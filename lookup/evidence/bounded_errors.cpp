@@ -8,6 +8,7 @@
 #include "core/simd/lane_math.h"
 #include "lookup/evidence/point_arrays.h"
 #include "lookup/evidence/scale_fit.h"
+#include "lookup/evidence/wide_product.h"
 #include "lookup/readings/common_variance.h"
 
 namespace voussoir {
@@ -15,8 +16,9 @@ namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kSmallestDeviation = 1e-12;  // [m] a model error below it counts as that
-constexpr double kFarInside = 6.5;  // deviations from the bound inside of which it is not felt: 4e-11
-constexpr double kNarrow = 0.02;    // half-widths below this many deviations are narrow
+constexpr double kFarInside = 6.5;       // deviations from the bound inside of which it is not felt: 4e-11
+constexpr std::size_t kFewProducts = 4;  // of factors that may be as small as 1e-60
+constexpr double kNarrow = 0.02;         // half-widths below this many deviations are narrow
 
 /// Q(x) = exp(exponent) factor, for x >= 0, within 1.2e-7 of it (Numerical Recipes, erfcc: Chebyshev fit).
 template <class T>
@@ -51,23 +53,26 @@ VOUSSOIR_INLINE Tail<DoubleLanes> narrow_density(const DoubleLanes& size, const 
   return {q - 0.5 * z * z, kPeak * sinh_per_q * (1.0 - share * share * (1.0 / 6.0)) / deviation};
 }
 
-/// A density as exp(exponent) factor.
+constexpr double kGone = -40.0;  // exp of it is lost beside 1
+
+/// The density times 2 b as exp(exponent) factor.
 VOUSSOIR_INLINE Tail<DoubleLanes> bounded_density(const DoubleLanes& size, const DoubleLanes& half_width,
                                                   const DoubleLanes& deviation) {
   const DoubleLanes zero{};
   const DoubleLanes from_bound = (size - half_width) / deviation;
   const Tail<DoubleLanes> near = gaussian_tail(magnitude(from_bound));
   const Tail<DoubleLanes> far = gaussian_tail((size + half_width) / deviation);
-  const DoubleLanes ratio = exponential(far.exponent - near.exponent) * (far.factor / near.factor);
-  const DoubleLanes outside = near.factor * (1.0 - ratio);
-  const DoubleLanes inside =
-      1.0 - near.factor * exponential(near.exponent) - far.factor * exponential(far.exponent);
-  const auto is_outside = from_bound >= 0.0;
-  const auto is_narrow = half_width < kNarrow * deviation;
-  const DoubleLanes wide_exponent = is_outside ? near.exponent : zero;
-  const DoubleLanes wide_factor = (is_outside ? outside : inside) / (2.0 * half_width);
+  const DoubleMask is_outside = from_bound >= 0.0, is_narrow = half_width < kNarrow * deviation;
+  DoubleLanes outside = near.factor, inside = 1.0 - near.factor * exponential(near.exponent);
+  if (any(far.exponent - near.exponent > kGone)) {
+    outside -= far.factor * exponential(far.exponent - near.exponent);
+    inside -= far.factor * exponential(far.exponent);
+  }
+  Tail<DoubleLanes> density{is_outside ? near.exponent : zero, is_outside ? outside : inside};
+  if (!any(is_narrow)) return density;
   const Tail<DoubleLanes> narrow = narrow_density(size, half_width, deviation);
-  return {is_narrow ? narrow.exponent : wide_exponent, is_narrow ? narrow.factor : wide_factor};
+  return {is_narrow ? narrow.exponent : density.exponent,
+          is_narrow ? 2.0 * half_width * narrow.factor : density.factor};
 }
 
 /// What a row has of its own: variance of the model that all points share, the common factor of all movements
@@ -76,11 +81,14 @@ struct RowTerms {
   double common, factor, variance;
 };
 
-/// Sum of the logarithms; NaN if a reading has no prediction.
-VOUSSOIR_INLINE double log_likelihood_of_row(const PointArrays& arrays, const RowTerms& row,
-                                             const double* prediction) {
-  DoubleLanes sum{};
-  for (std::size_t i = 0; i < arrays.points; i += kLanes) {
+/// Sum of the densities' exponents; the product of their factors, times the unit each, goes to `factors`. NaN
+/// if a reading has no prediction.
+VOUSSOIR_INLINE double log_likelihood_of_row(const PointArrays& arrays, double inverse_unit,
+                                             const RowTerms& row, const double* prediction,
+                                             WideProduct& factors) {
+  const DoubleLanes one = DoubleLanes{} + 1.0;
+  DoubleLanes exponents{}, product = one;
+  for (std::size_t i = 0, step = 1; i < arrays.points; i += kLanes, ++step) {
     const std::size_t some = arrays.points - i < kLanes ? arrays.points - i : kLanes;
     const PointLanes at = point_lanes(arrays, prediction, i, some, row.common);
     const DoubleMask has_reading = at.reading == at.reading;
@@ -89,26 +97,26 @@ VOUSSOIR_INLINE double log_likelihood_of_row(const PointArrays& arrays, const Ro
     const DoubleLanes deviation = larger(square_root(at.variance + row.variance * movement * movement),
                                          DoubleLanes{} + kSmallestDeviation);
     const DoubleLanes size = magnitude(at.reading - at.origin - row.factor * movement);
-    DoubleLanes log_density = 2.0 * half_width;
+    Tail<DoubleLanes> density{DoubleLanes{}, one};
     const DoubleMask is_felt = has_reading & ~(size + kFarInside * deviation < half_width);
-    make_logarithm(log_density);
-    log_density = -log_density;
     if (any(is_felt)) {
-      const Tail<DoubleLanes> density = bounded_density(size, half_width, deviation);
-      DoubleLanes factor = density.factor;
-      make_logarithm(factor);
-      log_density = is_felt ? density.exponent + factor : log_density;
+      density = bounded_density(size, half_width, deviation);
+      density = {is_felt ? density.exponent : DoubleLanes{}, is_felt ? density.factor : one};
     }
-    sum += has_reading ? (size == size ? log_density : DoubleLanes{} + kNan) : DoubleLanes{};
+    exponents += has_reading ? (size == size ? density.exponent : size) : DoubleLanes{};
+    product *= has_reading ? density.factor / (2.0 * half_width * inverse_unit) : one;
+    if (step % kFewProducts == 0) flush(product, factors);
   }
-  return sum_of(sum);
+  flush(product, factors);
+  return sum_of(exponents);
 }
 
 VOUSSOIR_FOR_EVERY_PROCESSOR
-void collect(const PointArrays& arrays, const double* table, const std::size_t* rows, const RowTerms* terms,
-             std::size_t count, double* results) {
+void collect(const PointArrays& arrays, double inverse_unit, const double* table, const std::size_t* rows,
+             const RowTerms* terms, std::size_t count, double* results, WideProduct* factors) {
   for (std::size_t i = 0; i < count; ++i)
-    results[i] = log_likelihood_of_row(arrays, terms[i], table + rows[i] * arrays.points);
+    results[i] =
+        log_likelihood_of_row(arrays, inverse_unit, terms[i], table + rows[i] * arrays.points, factors[i]);
 }
 
 /// The integral of Q from x to infinity.
@@ -122,7 +130,7 @@ double integral_of_tail(double x) {
 double log_bounded_density(double error, double half_width, double deviation) {
   const Tail<DoubleLanes> density =
       bounded_density(DoubleLanes{} + std::abs(error), DoubleLanes{} + half_width, DoubleLanes{} + deviation);
-  return density.exponent[0] + std::log(density.factor[0]);
+  return density.exponent[0] + std::log(density.factor[0] / (2.0 * half_width));
 }
 
 double chance_of_bounded_error(double error, double half_width, double deviation) {
@@ -143,8 +151,12 @@ std::vector<double> log_bounded_likelihoods(const Observation& observation, cons
   for (std::size_t i = 0; i < rows.size(); ++i)
     terms.push_back({common[i], fits.factor_of(i), fits.variance_of(i)});
   std::vector<double> results(rows.size());
-  collect(point_arrays(observation, scales), table.vertical.data(), rows.data(), terms.data(), rows.size(),
-          results.data());
+  std::vector<WideProduct> factors(rows.size());
+  collect(point_arrays(observation, scales), 1.0 / scales.unit, table.vertical.data(), rows.data(),
+          terms.data(), rows.size(), results.data(), factors.data());
+  const double shift = static_cast<double>(observation.count) * std::log(scales.unit);
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    results[i] += std::log(factors[i].mantissa) + factors[i].exponent * std::numbers::ln2 - shift;
   for (std::size_t i = 0; i < fits.factor.size(); ++i) results[i] -= 0.5 * fits.square[i] + fits.log_width[i];
   return results;
 }

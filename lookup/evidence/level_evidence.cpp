@@ -206,18 +206,23 @@ class BoundedRow {
 
 double likeliest_level(const Observation& observation, NoiseShape shape, const SceneTable& table,
                        std::span<const std::size_t> rows) {
-  double best = kSmallestLevel;
-  double best_log = kImpossible;
-  const int steps = static_cast<int>(std::ceil((kLast - kFirst) / std::log(2.0) * kLevelsPerOctave));
-  for (int i = 0; i <= steps; ++i) {
-    const double level = std::exp(kFirst + (kLast - kFirst) * i / steps);
-    for (const double log : log_likelihoods_at(observation, shape, level, table, rows))
-      if (log > best_log) {
-        best = level;
-        best_log = log;
-      }
+  double best = 0.5 * (kFirst + kLast);
+  for (const double step : {std::log(2.0), std::log(2.0) / kLevelsPerOctave}) {
+    const bool whole_range = step > 0.5;
+    const double from = whole_range ? kFirst : std::max(kFirst, best - std::log(2.0));
+    const double to = whole_range ? kLast : std::min(kLast, best + std::log(2.0));
+    const int steps = static_cast<int>(std::ceil((to - from) / step));
+    double best_log = kImpossible;
+    for (int i = 0; i <= steps; ++i) {
+      const double log_level = from + (to - from) * i / steps;
+      for (const double log : log_likelihoods_at(observation, shape, std::exp(log_level), table, rows))
+        if (log > best_log) {
+          best = log_level;
+          best_log = log;
+        }
+    }
   }
-  return best;
+  return std::exp(best);
 }
 
 std::vector<double> evidence_over_levels(const Observation& observation, NoiseShape shape, double level,

@@ -85,16 +85,16 @@ void require_readings(const Observation& observation) {
 
 ErrorScales scales_at(const Observation& observation, double level) {
   ErrorScales result{observation.share, observation.floor, 1.0};
-  double sum_log_scale = 0.0;
+  double sum = 0.0;
   for (std::size_t i = 0; i < result.slope.size(); ++i) {
     result.slope[i] *= level;
     result.offset[i] += result.slope[i] * kSmallestMovement;
     if (std::isnan(observation.reading[i])) continue;
     const double movement = std::abs(observation.intact[i] - observation.origin[i]);
     const double scale = noise_scale(result.slope[i], result.offset[i], movement);
-    sum_log_scale += 0.5 * std::log(scale * scale + observation.own_variance[i]);
+    sum += scale * scale + observation.own_variance[i];
   }
-  if (observation.count > 0) result.unit = std::exp(sum_log_scale / static_cast<double>(observation.count));
+  if (observation.count > 0) result.unit = std::sqrt(sum / static_cast<double>(observation.count));
   return result;
 }
 
