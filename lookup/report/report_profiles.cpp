@@ -96,9 +96,10 @@ Chart residual_chart(const ReportPictures& report, const std::vector<std::size_t
   return {label, {kAcross}, {"residual in units of the noise"}, {agreeing, odd}};
 }
 
-Table residual_table(const ReportPictures& report, const std::vector<std::size_t>& points) {
-  Table table{{"point", "residual [mm]", "in units of the noise", "verdict"}, {}};
-  for (const std::size_t point : points)
+Table residual_table(const ReportPictures& report, const PointSet& set) {
+  Table table{
+      {"point", fmt::format("residual [{}]", unit_of(set.quantity)), "in units of the noise", "verdict"}, {}};
+  for (const std::size_t point : set.points)
     if (const SensorResidual* const residual = residual_of(report, point))
       table.rows.push_back({report.library.points[point].name,
                             kMillimetres * (residual->reading - residual->predicted), residual->error,
@@ -181,7 +182,7 @@ std::vector<Figure> residual_figures(const ReportPictures& report) {
         {"residual-" + set.id, "Residuals: " + set.title,
          "Reading minus first candidate, in units of the noise at that sensor (the bound of uniform "
          "noise, else the standard deviation).",
-         chart_html(residual_chart(report, set.points, set.title)), residual_table(report, set.points), false,
+         chart_html(residual_chart(report, set.points, set.title)), residual_table(report, set), false,
          TableView::printed});
   return figures;
 }

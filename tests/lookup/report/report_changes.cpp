@@ -126,4 +126,5 @@ TEST_CASE("Sensors of one quantity under one load share a figure") {
   CHECK(figures[0].table.rows.size() == points - 3);
   CHECK(figures[1].table.rows.size() == 2);
   CHECK_THAT(figures[1].pictures, Contains("added by the load: tilt [mm per m]"));
+  CHECK(residual_figures(ReportPictures(answer, comparison))[1].table.columns[1] == "residual [mm per m]");
 }
