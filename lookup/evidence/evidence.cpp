@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <numbers>
 #include <numeric>
@@ -34,13 +35,24 @@ std::vector<double> block_by_block(Rows rows, Function function) {
   return result;
 }
 
+/// The possible shapes in groups that share their sums.
+std::vector<std::vector<NoiseShape>> groups_of(const NoiseModel& noise) {
+  if (noise.shape != NoiseShape::automatic) return {{noise.shape}};
+  return {{NoiseShape::uniform}, {NoiseShape::gaussian, NoiseShape::laplace}};
+}
+
+using Logs = std::vector<std::vector<double>>;  // for each shape, of each row
+
+void append(Logs&& more, Logs& logs) {
+  std::ranges::move(more, std::back_inserter(logs));
+}
+
 std::vector<double> at_level(const Observation& observation, double level, const SceneTable& table,
                              Rows rows) {
-  const std::vector<NoiseShape> shapes = shapes_of(observation.noise);
   return block_by_block(rows, [&](Rows block) {
-    std::vector<std::vector<double>> logs;
-    for (const NoiseShape shape : shapes)
-      logs.push_back(log_likelihoods_at(observation, shape, level, table, block));
+    Logs logs;
+    for (const auto& shapes : groups_of(observation.noise))
+      append(log_likelihoods_at(observation, shapes, level, table, block), logs);
     return log_mean(std::move(logs));
   });
 }
@@ -79,18 +91,26 @@ double log_width(NoiseShape shape, std::size_t count) {
   return 0.5 * std::log(2.0 * std::numbers::pi / (n * power)) - std::log(log_range());
 }
 
-std::vector<double> peaks(const Observation& observation, NoiseShape shape, double level,
-                          const SceneTable& table, Rows rows) {
-  return block_by_block(
-      rows, [&](Rows block) { return log_likelihoods_at_peak(observation, shape, level, table, block); });
+/// The largest estimate of any of the shapes for each row.
+std::vector<double> largest(const Logs& logs) {
+  std::vector<double> result = logs.front();
+  for (const std::vector<double>& values : logs)
+    for (std::size_t row = 0; row < result.size(); ++row) result[row] = std::max(result[row], values[row]);
+  return result;
 }
 
-/// One shape's evidence over all levels; rows that are hopeless beside the best get -infinity.
-std::vector<double> over_levels(const Observation& observation, NoiseShape shape, const SceneTable& table,
-                                Rows rows) {
-  const auto likely = rows_with_largest(peaks(observation, shape, kCommonLevel, table, rows), rows, kLikely);
-  const double level = likeliest_level(observation, shape, table, likely);
-  const std::vector<double> estimates = peaks(observation, shape, level, table, rows);
+std::vector<double> peaks(const Observation& observation, Shapes shapes, double level,
+                          const SceneTable& table, Rows rows) {
+  return block_by_block(rows, [&](Rows block) {
+    return largest(log_likelihoods_at_peak(observation, shapes, level, table, block));
+  });
+}
+
+/// The evidence of shapes over all levels; rows that are hopeless beside the best get -infinity.
+Logs over_levels(const Observation& observation, Shapes shapes, const SceneTable& table, Rows rows) {
+  const auto likely = rows_with_largest(peaks(observation, shapes, kCommonLevel, table, rows), rows, kLikely);
+  const double level = likeliest_level(observation, shapes, table, likely);
+  const std::vector<double> estimates = peaks(observation, shapes, level, table, rows);
   const double least = *std::max_element(estimates.begin(), estimates.end()) - kHopeless;
   std::vector<std::size_t> places, kept;
   for (std::size_t i = 0; i < rows.size(); ++i)
@@ -98,9 +118,10 @@ std::vector<double> over_levels(const Observation& observation, NoiseShape shape
       places.push_back(i);
       kept.push_back(rows[i]);
     }
-  const std::vector<double> values = evidence_over_levels(observation, shape, level, table, kept);
-  std::vector<double> result(rows.size(), kImpossible);
-  for (std::size_t i = 0; i < places.size(); ++i) result[places[i]] = values[i];
+  const Logs values = evidence_over_levels(observation, shapes, level, table, kept);
+  Logs result(shapes.size(), std::vector<double>(rows.size(), kImpossible));
+  for (std::size_t shape = 0; shape < shapes.size(); ++shape)
+    for (std::size_t i = 0; i < places.size(); ++i) result[shape][places[i]] = values[shape][i];
   return result;
 }
 
@@ -110,9 +131,9 @@ std::vector<double> log_evidence(const Observation& observation, const SceneTabl
     return at_level(observation, std::max(observation.noise.relative.value_or(0.0), kSmallestLevel), table,
                     rows);
   if (has_closed_form(observation)) return over_levels_in_closed_form(observation, table, rows);
-  std::vector<std::vector<double>> logs;
-  for (const NoiseShape shape : shapes_of(observation.noise))
-    logs.push_back(over_levels(observation, shape, table, rows));
+  Logs logs;
+  for (const auto& shapes : groups_of(observation.noise))
+    append(over_levels(observation, shapes, table, rows), logs);
   return log_mean(std::move(logs));
 }
 
@@ -166,11 +187,11 @@ std::vector<double> log_evidence_of_rows(const Observation& observation, const S
 std::vector<double> estimated_evidence(const Observation& observation, const SceneTable& table,
                                        std::span<const std::size_t> rows,
                                        std::span<const std::size_t> likely) {
-  std::vector<std::vector<double>> logs;
-  for (const NoiseShape shape : shapes_of(observation.noise)) {
-    const double level = likeliest_level(observation, shape, table, likely);
-    logs.push_back(peaks(observation, shape, level, table, rows));
-    for (double& log : logs.back()) log += log_width(shape, observation.count);
+  Logs logs;
+  for (const auto& shapes : groups_of(observation.noise)) {
+    const double level = likeliest_level(observation, shapes, table, likely);
+    logs.push_back(peaks(observation, shapes, level, table, rows));
+    for (double& log : logs.back()) log += log_width(shapes.back(), observation.count);
   }
   std::vector<double> result = log_mean(std::move(logs));
   const std::vector<double> log_silence = log_chance_of_silence(observation, table, rows);
@@ -196,7 +217,7 @@ NoiseEstimate estimate_noise(const Observation& observation, std::span<const dou
         has_closed_form(observation)
             ? likeliest_level(shape, table_statistics(one, scales_at(one, 1.0), table, kRow).row(0),
                               one.count)
-            : likeliest_level(one, shape, table, kRow);
+            : likeliest_level(one, std::array{shape}, table, kRow);
   }
   return estimate;
 }

@@ -26,6 +26,8 @@ constexpr double kFarInside = 4.0;     // deviations of the model inside of whic
 constexpr double kMostScaleDeviations = 4.0;  // of an unknown common factor, that count
 constexpr double kFarBeyond = 7.0;            // .. and beyond which a reading is all but excluded
 
+constexpr std::array<NoiseShape, 1> kUniform = {NoiseShape::uniform};
+
 const double kFirst = std::log(kSmallestLevel);
 const double kLast = std::log(kLargestLevel);
 
@@ -93,23 +95,26 @@ LevelGrid grid_about(double level, double count) {
 }
 
 /// Sum over the grid, from its end towards small levels until nothing more is added.
-std::vector<double> over_grid(const Observation& observation, NoiseShape shape, double level,
-                              const SceneTable& table, std::span<const std::size_t> rows) {
+std::vector<std::vector<double>> over_grid(const Observation& observation, Shapes shapes, double level,
+                                           const SceneTable& table, std::span<const std::size_t> rows) {
   const LevelGrid grid = grid_about(level, static_cast<double>(observation.count));
-  std::vector<double> result(rows.size(), kImpossible);
+  std::vector<std::vector<double>> results(shapes.size(), std::vector<double>(rows.size(), kImpossible));
   for (std::size_t i = grid.weight.size(); i-- > 0;) {
-    const std::vector<double> logs =
-        log_likelihoods_at(observation, shape, std::exp(grid.log_level[i]), table, rows);
+    const auto logs = log_likelihoods_at(observation, shapes, std::exp(grid.log_level[i]), table, rows);
+    const double log_weight = std::log(grid.weight[i]);
     bool adds = grid.log_level[i] > std::log(level);
-    for (std::size_t row = 0; row < rows.size(); ++row) {
-      const double term = logs[row] + std::log(grid.weight[i]);
-      adds |= term > result[row] - kNegligible;
-      result[row] = log_sum(result[row], term);
-    }
+    for (std::size_t shape = 0; shape < shapes.size(); ++shape)
+      for (std::size_t row = 0; row < rows.size(); ++row) {
+        double& sum = results[shape][row];
+        const double term = logs[shape][row] + log_weight;
+        adds |= term > sum - kNegligible;
+        sum = log_sum(sum, term);
+      }
     if (!adds) break;
   }
-  for (double& value : result) value -= std::log(log_range());
-  return result;
+  for (std::vector<double>& result : results)
+    for (double& value : result) value -= std::log(log_range());
+  return results;
 }
 
 /// One row under bounded errors: its integrand rises steeply where the bound takes in the last reading.
@@ -153,7 +158,7 @@ class BoundedRow {
   static constexpr double kPanelWidth = 6.0;
 
   double log_likelihood(double log_level) const {
-    return log_likelihoods_at(observation_, NoiseShape::uniform, std::exp(log_level), table_, row_).front();
+    return log_likelihoods_at(observation_, kUniform, std::exp(log_level), table_, row_).front().front();
   }
 
   double panel(double from, double to) const {
@@ -204,7 +209,7 @@ class BoundedRow {
 
 }  // namespace
 
-double likeliest_level(const Observation& observation, NoiseShape shape, const SceneTable& table,
+double likeliest_level(const Observation& observation, Shapes shapes, const SceneTable& table,
                        std::span<const std::size_t> rows) {
   double best = 0.5 * (kFirst + kLast);
   for (const double step : {std::log(2.0), std::log(2.0) / kLevelsPerOctave}) {
@@ -215,7 +220,8 @@ double likeliest_level(const Observation& observation, NoiseShape shape, const S
     double best_log = kImpossible;
     for (int i = 0; i <= steps; ++i) {
       const double log_level = from + (to - from) * i / steps;
-      for (const double log : log_likelihoods_at(observation, shape, std::exp(log_level), table, rows))
+      const auto logs = log_likelihoods_at(observation, shapes.first(1), std::exp(log_level), table, rows);
+      for (const double log : logs.front())
         if (log > best_log) {
           best = log_level;
           best_log = log;
@@ -225,13 +231,14 @@ double likeliest_level(const Observation& observation, NoiseShape shape, const S
   return std::exp(best);
 }
 
-std::vector<double> evidence_over_levels(const Observation& observation, NoiseShape shape, double level,
-                                         const SceneTable& table, std::span<const std::size_t> rows) {
-  if (shape != NoiseShape::uniform) return over_grid(observation, shape, level, table, rows);
+std::vector<std::vector<double>> evidence_over_levels(const Observation& observation, Shapes shapes,
+                                                      double level, const SceneTable& table,
+                                                      std::span<const std::size_t> rows) {
+  if (shapes.front() != NoiseShape::uniform) return over_grid(observation, shapes, level, table, rows);
   std::vector<double> result;
   for (const std::size_t row : rows)
     result.push_back(BoundedRow(observation, table, row).log_integral() - std::log(log_range()));
-  return result;
+  return {std::move(result)};
 }
 
 }  // namespace voussoir

@@ -8,16 +8,17 @@
 
 namespace voussoir {
 
-/// The level at which the readings are likeliest for the likeliest of these rows, on a grid of
-/// kLevelsPerOctave. A few rows only: every level is tried with each of them.
-double likeliest_level(const Observation& observation, NoiseShape shape, const SceneTable& table,
+/// The level at which the readings are likeliest, under the first of the shapes, for the likeliest of these
+/// rows, to a quarter of an octave. For a few rows: many levels are tried with each of them.
+double likeliest_level(const Observation& observation, Shapes shapes, const SceneTable& table,
                        std::span<const std::size_t> rows);
 
-/// log of the mean of p(readings | scene, level) over levels with a density uniform in log level between
-/// kSmallestLevel and kLargestLevel, for each of these rows. `level` is where the readings are likeliest for
-/// the best of them; rows that are less likely than that by exp(kHopeless) may have anything less.
-std::vector<double> evidence_over_levels(const Observation& observation, NoiseShape shape, double level,
-                                         const SceneTable& table, std::span<const std::size_t> rows);
+/// For each shape log of the mean of p(readings | scene, level) over levels with a density uniform in log
+/// level between kSmallestLevel and kLargestLevel, for each of these rows. `level` is where the readings are
+/// likeliest for the best of them; rows that are less likely than that by exp(30) may be off.
+std::vector<std::vector<double>> evidence_over_levels(const Observation& observation, Shapes shapes,
+                                                      double level, const SceneTable& table,
+                                                      std::span<const std::size_t> rows);
 
 /// log of the factor beyond which a scene's probability is taken for zero.
 inline constexpr double kHopeless = 50.0;

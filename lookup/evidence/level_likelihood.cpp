@@ -49,37 +49,42 @@ double log_inside(const RowStatistics& statistics, double count) {
   return -count * std::numbers::ln2 - statistics.sum_log_scale - 0.5 * statistics.scale_square;
 }
 
-TableStatistics statistics_at(const Observation& observation, NoiseShape shape, double level,
+TableStatistics statistics_at(const Observation& observation, Shapes shapes, double level,
                               const SceneTable& table, std::span<const std::size_t> rows) {
   const ErrorScales scales = scales_at(observation, level);
   if (observation.has_levelling()) return nuisance_statistics(observation, scales, table, rows);
   return table_statistics(observation, scales, table, rows,
-                          shape == NoiseShape::uniform ? ErrorSum::beyond : ErrorSum::variance);
+                          shapes.front() == NoiseShape::uniform ? ErrorSum::beyond : ErrorSum::variance);
 }
 
-/// A value for each row; -infinity for those that are impossible.
+/// For each shape a value for each row; -infinity for those that are impossible.
 template <typename Value>
-std::vector<double> of_possible_rows(const TableStatistics& statistics, Value value) {
-  std::vector<double> result(statistics.rows(), kImpossible);
-  for (std::size_t row = 0; row < result.size(); ++row)
-    if (!std::isnan(statistics.sum_absolute[row])) result[row] = value(statistics.row(row));
-  return result;
+std::vector<std::vector<double>> of_possible_rows(Shapes shapes, const TableStatistics& statistics,
+                                                  Value value) {
+  std::vector<std::vector<double>> results;
+  for (const NoiseShape shape : shapes) {
+    results.emplace_back(statistics.rows(), kImpossible);
+    for (std::size_t row = 0; row < statistics.rows(); ++row)
+      if (!std::isnan(statistics.sum_absolute[row])) results.back()[row] = value(shape, statistics.row(row));
+  }
+  return results;
 }
 
 }  // namespace
 
-std::vector<double> log_likelihoods_at(const Observation& observation, NoiseShape shape, double level,
-                                       const SceneTable& table, std::span<const std::size_t> rows) {
-  if (shape == NoiseShape::uniform && observation.softens_bounds()) {
+std::vector<std::vector<double>> log_likelihoods_at(const Observation& observation, Shapes shapes,
+                                                    double level, const SceneTable& table,
+                                                    std::span<const std::size_t> rows) {
+  if (shapes.front() == NoiseShape::uniform && observation.softens_bounds()) {
     std::vector<double> logs =
         log_bounded_likelihoods(observation, scales_at(observation, level), table, rows);
     for (double& log : logs)
       if (std::isnan(log)) log = kImpossible;
-    return logs;
+    return {std::move(logs)};
   }
   const auto count = static_cast<double>(observation.count);
-  const TableStatistics statistics = statistics_at(observation, shape, level, table, rows);
-  return of_possible_rows(statistics, [&](const RowStatistics& row) {
+  const TableStatistics statistics = statistics_at(observation, shapes, level, table, rows);
+  return of_possible_rows(shapes, statistics, [&](NoiseShape shape, const RowStatistics& row) {
     if (shape == NoiseShape::uniform)
       return row.largest <= 1.0 + kBoundTolerance ? log_inside(row, count) : kImpossible;
     if (shape == NoiseShape::student)
@@ -89,11 +94,12 @@ std::vector<double> log_likelihoods_at(const Observation& observation, NoiseShap
   });
 }
 
-std::vector<double> log_likelihoods_at_peak(const Observation& observation, NoiseShape shape, double level,
-                                            const SceneTable& table, std::span<const std::size_t> rows) {
+std::vector<std::vector<double>> log_likelihoods_at_peak(const Observation& observation, Shapes shapes,
+                                                         double level, const SceneTable& table,
+                                                         std::span<const std::size_t> rows) {
   const auto count = static_cast<double>(observation.count);
-  const TableStatistics statistics = statistics_at(observation, shape, level, table, rows);
-  return of_possible_rows(statistics, [&](const RowStatistics& row) {
+  const TableStatistics statistics = statistics_at(observation, shapes, level, table, rows);
+  return of_possible_rows(shapes, statistics, [&](NoiseShape shape, const RowStatistics& row) {
     if (shape == NoiseShape::uniform)
       return log_inside(row, count) -
              count * std::log(std::clamp(row.largest, kSmallestLevel / level, kLargestLevel / level));

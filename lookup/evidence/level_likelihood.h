@@ -1,5 +1,5 @@
 #pragma once
-/// @file The probability (density) of the readings given scenes, for one shape of the noise at one level.
+/// @file The probability (density) of the readings given scenes, for shapes of the noise at one level.
 
 #include <vector>
 
@@ -8,15 +8,20 @@
 
 namespace voussoir {
 
-/// log p(readings | scene, level) of these rows of a table, in their order; -infinity for impossible scenes.
-/// Densities are per metre for each reading. Precondition, here and below: the shape is not automatic.
-std::vector<double> log_likelihoods_at(const Observation& observation, NoiseShape shape, double level,
-                                       const SceneTable& table, std::span<const std::size_t> rows);
+/// Shapes whose likelihoods follow from the same sums over a row's errors: uniform alone, or others.
+using Shapes = std::span<const NoiseShape>;
+
+/// For each shape log p(readings | scene, level) of these rows of a table, in their order; -infinity for
+/// impossible scenes. Densities are per metre for each reading.
+std::vector<std::vector<double>> log_likelihoods_at(const Observation& observation, Shapes shapes,
+                                                    double level, const SceneTable& table,
+                                                    std::span<const std::size_t> rows);
 
 /// Estimates of the largest of these over all levels, from statistics at this level: right if all errors grow
 /// with the level alone; of Student's t the likelihood at this level.
-std::vector<double> log_likelihoods_at_peak(const Observation& observation, NoiseShape shape, double level,
-                                            const SceneTable& table, std::span<const std::size_t> rows);
+std::vector<std::vector<double>> log_likelihoods_at_peak(const Observation& observation, Shapes shapes,
+                                                         double level, const SceneTable& table,
+                                                         std::span<const std::size_t> rows);
 
 /// Errors may exceed the bound of uniform noise by this share of it: rounding.
 inline constexpr double kBoundTolerance = 1e-9;
