@@ -59,6 +59,17 @@ VOUSSOIR_INLINE void add_errors(const View& view, std::size_t i, std::size_t cou
   if (view.per_student > 0.0) statistics.student *= 1.0 + z * z * view.per_student;
 }
 
+/// All that Gaussian errors need: without roots, which take longest. The product is that of the variances.
+VOUSSOIR_INLINE void add_squares(const View& view, std::size_t i, std::size_t count, const double* prediction,
+                                 const RowTerms& row, LaneStatistics& statistics) {
+  const PointLanes at = point_lanes(view.arrays, prediction, i, count, row.common);
+  const DoubleLanes error = at.reading - at.origin - row.factor * (at.predicted - at.origin);
+  const DoubleLanes variance = at.instrument * at.instrument + at.variance;
+  const DoubleMask has_reading = at.reading == at.reading;
+  statistics.sum_square += has_reading ? error * error / variance : DoubleLanes{};
+  statistics.scales *= has_reading ? variance * (view.inverse_unit * view.inverse_unit) : DoubleLanes{} + 1.0;
+}
+
 /// Where the statistics go; the logarithms are taken of all rows at once, later.
 struct Columns {
   double *sum_absolute, *sum_square, *largest;
@@ -91,6 +102,22 @@ VOUSSOIR_INLINE void collect_row(const View& view, const double* prediction, con
   columns.student_exponent[row] = student.exponent;
 }
 
+/// Half the exponent of the product of squares, whose mantissa's root is taken.
+VOUSSOIR_INLINE void collect_squares_of_row(const View& view, const double* prediction, const RowTerms& terms,
+                                            std::size_t row, const Columns& columns) {
+  LaneStatistics lanes;
+  WideProduct squares;
+  for (std::size_t i = 0, step = 1; i < view.arrays.points; i += kLanes, ++step) {
+    const std::size_t some = view.arrays.points - i < kLanes ? view.arrays.points - i : kLanes;
+    add_squares(view, i, some, prediction, terms, lanes);
+    if (step % (kSafeProducts / 2) == 0) flush(lanes.scales, squares);
+  }
+  flush(lanes.scales, squares);
+  columns.sum_absolute[row] = columns.sum_square[row] = sum_of(lanes.sum_square);
+  columns.scale_mantissa[row] = square_root(squares.mantissa);
+  columns.scale_exponent[row] = 0.5 * squares.exponent;
+}
+
 using Rows = std::span<const std::size_t>;
 
 VOUSSOIR_FOR_EVERY_PROCESSOR
@@ -104,6 +131,12 @@ void collect_variance(const View& view, const double* table, Rows rows, const Ro
                       const Columns& columns) {
   for (std::size_t i = 0; i < rows.size(); ++i)
     collect_row<true, ErrorSum::variance>(view, table + rows[i] * view.arrays.points, terms[i], i, columns);
+}
+VOUSSOIR_FOR_EVERY_PROCESSOR
+void collect_squares(const View& view, const double* table, Rows rows, const RowTerms* terms,
+                     const Columns& columns) {
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    collect_squares_of_row(view, table + rows[i] * view.arrays.points, terms[i], i, columns);
 }
 VOUSSOIR_FOR_EVERY_PROCESSOR
 void collect_beyond(const View& view, const double* table, Rows rows, const RowTerms* terms,
@@ -149,7 +182,10 @@ TableStatistics table_statistics(const Observation& observation, const ErrorScal
   const ScaleFits fits =
       scale_fits(observation, scales, table, rows, sum == ErrorSum::beyond ? kBoundedVariance : 1.0);
   const bool plain = !observation.has_model_error() && observation.unknown_scale == 0.0;
-  const auto collect = plain ? collect_plain : sum == ErrorSum::variance ? collect_variance : collect_beyond;
+  const auto collect = plain                                             ? collect_plain
+                       : sum == ErrorSum::beyond                         ? collect_beyond
+                       : observation.noise.shape == NoiseShape::gaussian ? collect_squares
+                                                                         : collect_variance;
   collect(view, table.vertical.data(), rows, terms_of(observation, table, rows, fits).data(), columns);
   make_wide_logarithms(result.sum_log_scale, scale_exponent,
                        static_cast<double>(observation.count) * std::log(scales.unit));

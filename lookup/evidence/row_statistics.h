@@ -36,7 +36,9 @@ struct TableStatistics {
   }
 };
 
-/// Of these rows of a table, in their order. Without a model error both sums are the same.
+/// Of these rows of a table, in their order. Without a model error both sums are the same. Of Gaussian noise
+/// with a model error only the squares and the scales are worked out (`sum_absolute` is NaN where it would
+/// be).
 TableStatistics table_statistics(const Observation& observation, const ErrorScales& scales,
                                  const SceneTable& table, std::span<const std::size_t> rows,
                                  ErrorSum sum = ErrorSum::variance);
