@@ -29,7 +29,8 @@ void add_search_options(CLI::App& app, LocateDamageOptions& options) {
       ->delimiter(',')
       ->check(CLI::Range(0, kMostMissing))
       ->option_text("LIST");
-  app.add_option("--prior", settings.prior.weight, "weights of these numbers, default equal")
+  app.add_option("--prior", settings.prior.weight,
+                 "weights of these numbers, default 8 for no block and 1 for the others; equal: 1,1,1")
       ->delimiter(',')
       ->check(number_in_range(0.0, kLargestWeight, "LIST"))
       ->option_text("LIST");

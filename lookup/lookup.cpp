@@ -17,6 +17,7 @@ namespace {
 /// are one scene to these sensors: even a hundred repeated measurements would hardly tell them apart.
 constexpr double kSameReadings = 0.1;
 constexpr double kSolverPrecision = 1e-9;      // [m] predictions are not compared more closely
+constexpr std::size_t kMostChecked = 20;       // scenes whose fit is checked
 constexpr std::size_t kMostComparisons = 500;  // rows looked at for scenes that cannot be told apart
 
 /// The evidence of every scene, or -infinity where it does not matter.
@@ -116,13 +117,22 @@ std::vector<std::size_t> rows_to_compare(const std::vector<ScoredRow>& found, co
   return rows;
 }
 
+/// The predictive check: how likely a fit as bad as this is, on average over the likeliest scenes.
 Fit fit_of(const Library& library, const Observation& observation, const Answer& answer) {
-  const std::size_t best = answer.candidates.front().row;
-  if (answer.posterior->probability[best] > 0.0)
-    return check_fit(observation, *answer.noise, library.table.row(best));
-  return {false, 0.0,
-          answer.posterior->credible.empty() ? "every scene is excluded by at least one reading"
-                                             : "this scene is excluded by at least one reading"};
+  const Posterior& posterior = *answer.posterior;
+  if (posterior.credible.empty()) return {false, 0.0, "every scene is excluded by at least one reading"};
+  Fit fit = check_fit(observation, *answer.noise, library.table.row(posterior.credible.front()));
+  double chance = 0.0, weight = 0.0;
+  for (const std::size_t row :
+       std::span(posterior.credible).first(std::min(posterior.credible.size(), kMostChecked))) {
+    const double share = posterior.probability[row];
+    chance += share * check_fit(observation, *answer.noise, library.table.row(row)).chance;
+    weight += share;
+  }
+  fit.chance = chance / weight;
+  fit.explained = fit.chance >= kSmallestChance;
+  if (fit.explained) fit.reason.clear();
+  return fit;
 }
 
 /// The noise, the fit and the residuals if the best candidate is the truth, and what cannot be told from the

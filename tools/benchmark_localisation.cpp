@@ -10,6 +10,7 @@
 namespace voussoir {
 namespace {
 
+const Prior kEqual{{0, 1, 2}, {1.0, 1.0, 1.0}};  // as scenes are drawn
 constexpr std::size_t kBins = 10;
 constexpr std::size_t kFirstFew = 5;
 constexpr double kLowestLevel = 0.01;  // of the noise in calibration and false alarms
@@ -144,7 +145,7 @@ Calibration calibrate(const Library& library, NoiseShape drawn, NoiseShape assum
     const Measurements measured = simulate_readings(library.table.row(truth), noise, random);
     noise.shape = assumed;
     if (!stated) noise.relative.reset();
-    const Posterior answer = posterior_of(library, measured, all, noise, {});
+    const Posterior answer = posterior_of(library, measured, all, noise, kEqual);
     count_posterior(truth, answer, result.success);
     result.mean_set_size += static_cast<double>(answer.credible.size()) / trials;
     add_to_bins(answer, all, truth, result.bins);
@@ -160,7 +161,7 @@ int false_alarms(const Library& library, bool known_noise, int trials, std::uint
   for (int trial = 0; trial < trials; ++trial) {
     const NoiseModel noise{NoiseShape::uniform, draw_level(random)};
     const Measurements measured = simulate_readings(library.table.row(0), noise, random);
-    const Posterior answer = posterior_of(library, measured, all, known_noise ? noise : NoiseModel{}, {});
+    const Posterior answer = posterior_of(library, measured, all, known_noise ? noise : NoiseModel{}, kEqual);
     alarms += place_of(0, answer) > 0 ? 1 : 0;
   }
   return alarms;

@@ -88,10 +88,9 @@ Rates look_up(const TwoBridges& bridges, const Scene& scene, const Eligible& eli
 
 }  // namespace
 
-Rates find_again(const TwoBridges& bridges, const std::vector<Scene>& scenes, const std::vector<int>& missing,
+Rates find_again(const TwoBridges& bridges, const std::vector<Scene>& scenes, const Prior& prior,
                  const Instrument& instrument, int times, std::uint64_t seed) {
-  const Prior prior{missing, {}};
-  const Eligible eligible = eligible_rows(bridges.library.table, missing);
+  const Eligible eligible = eligible_rows(bridges.library.table, prior.missing);
   std::vector<Rates> parts(scenes.size());
   tbb::parallel_for(std::size_t{0}, scenes.size(), [&](std::size_t i) {
     parts[i] = look_up(bridges, scenes[i], eligible, prior, instrument, times, seed + i);

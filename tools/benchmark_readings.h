@@ -33,7 +33,7 @@ struct Rates {
 
 /// Looks readings of each of these scenes up among the scenes with the given numbers of missing blocks, so
 /// many times each. Scenes that the truth lacks, or that do not stand in it, are left out.
-Rates find_again(const TwoBridges& bridges, const std::vector<Scene>& scenes, const std::vector<int>& missing,
+Rates find_again(const TwoBridges& bridges, const std::vector<Scene>& scenes, const Prior& prior,
                  const Instrument& instrument, int times, std::uint64_t seed);
 
 /// Wall singles that stand in both.

@@ -20,7 +20,7 @@ struct Options {
   std::string state = voussoir::kBuiltState;
   int trials = 100;
   std::optional<double> model_error;
-  double scale_error = 0.0;
+  voussoir::Prior prior;
 };
 
 double share(int count, const Rates& rates) {
@@ -50,7 +50,7 @@ void absolute_noise(const TwoBridges& bridges, const Options& options) {
       const Scene scene = voussoir::parse_scene(each.scene, bridges.library.layout);
       print_rates(fmt::format("{} {:.0f} % uniform, level {}", each.scene, 100.0 * each.noise,
                               told ? "stated" : "unknown"),
-                  voussoir::find_again(bridges, {scene}, {1}, instrument, options.trials, 1));
+                  voussoir::find_again(bridges, {scene}, {{1}, {}}, instrument, options.trials, 1));
     }
 }
 
@@ -60,10 +60,10 @@ void changes(const TwoBridges& bridges, const Options& options) {
   for (const double sigma : {1e-5, 3e-5, 1e-4, 2e-4}) {
     const Instrument gauge{ReadingKind::change, {voussoir::NoiseShape::gaussian, std::nullopt, sigma}};
     const std::string name = fmt::format("change, {} mm,", 1e3 * sigma);
-    print_rates(name + " among singles", find_again(bridges, singles, {1}, gauge, times, 1));
-    print_rates(name + " among all", find_again(bridges, singles, {0, 1, 2}, gauge, times, 2));
+    print_rates(name + " among singles", find_again(bridges, singles, {{1}, {}}, gauge, times, 1));
+    print_rates(name + " among all", find_again(bridges, singles, options.prior, gauge, times, 2));
     print_rates(name + " intact, among all",
-                find_again(bridges, {Scene{}}, {0, 1, 2}, gauge, 10 * options.trials, 3));
+                find_again(bridges, {Scene{}}, options.prior, gauge, 10 * options.trials, 3));
   }
 }
 
@@ -77,8 +77,6 @@ std::string benchmark(const Options& options) {
   };
   const Library library = library_of(database, state(database));
   voussoir::ModelError error = database.model_errors()[state(database)];
-  for (std::size_t i = 0; i < error.intact.size(); ++i)
-    error.intact[i] = std::hypot(error.intact[i], options.scale_error * library.table.row(0)[i]);
   if (options.model_error) error = {*options.model_error, 0.0, {}};
   std::vector<std::string> truths = options.truths;
   truths.insert(truths.begin(), database.path().string());
@@ -107,6 +105,6 @@ int main(int argc, char** argv) {
       ->check(CLI::Range(1, 1000000));
   app.add_option("--model-error", options.model_error,
                  "in the place of the database's: a share of the signal");
-  app.add_option("--scale-error", options.scale_error, "x");
+  app.add_option("--prior", options.prior.weight, "weights of 0, 1 and 2 missing blocks")->delimiter(',');
   return voussoir::run_program(app, argc, argv, [&] { return benchmark(options); });
 }

@@ -17,7 +17,6 @@
 namespace voussoir {
 namespace {
 
-constexpr double kSmallestChance = 1e-4;  // a scene explains readings whose fit is at least this likely
 constexpr double kSuspiciousLevel = 0.3;  // an estimated noise above this share means that nothing fits
 constexpr double kPerfectLevel = 1e-4;    // below it residuals are rounding, and their pattern means nothing
 constexpr std::size_t kFewestForPattern = 10;

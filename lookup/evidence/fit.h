@@ -9,6 +9,9 @@
 
 namespace voussoir {
 
+/// A scene explains readings whose fit is at least this likely.
+inline constexpr double kSmallestChance = 1e-4;
+
 struct Fit {
   bool explained = true;
   double chance = 1.0;  ///< of a fit as bad as this or worse if the scene is the truth: even between 0 and 1

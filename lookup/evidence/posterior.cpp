@@ -49,7 +49,8 @@ std::vector<double> log_prior_by_missing(const SceneTable& table, const Eligible
   std::vector<double> result(table.most_missing + 1, kImpossible);
   for (std::size_t i = 0; i < prior.missing.size(); ++i) {
     const auto missing = static_cast<std::size_t>(prior.missing[i]);
-    const double weight = prior.weight.empty() ? 1.0 : prior.weight[i];
+    const double usual = missing == 0 ? kIntactWeight : 1.0;
+    const double weight = prior.weight.empty() ? usual : prior.weight[i];
     if (missing < result.size() && eligible.scenes[missing] > 0)
       result[missing] = std::log(weight / static_cast<double>(eligible.scenes[missing]));
   }

@@ -87,10 +87,12 @@ void add_noise_terms(const Answer& answer, const LookupSettings& settings, Terms
 
 std::string weights_in_words(const Prior& prior) {
   std::string text;
-  for (std::size_t i = 0; i < prior.missing.size(); ++i)
-    text += fmt::format("{}{}{}", i == 0 ? "" : ", ", prior.missing[i],
-                        prior.weight.empty() ? "" : fmt::format(" (weight {:g})", prior.weight[i]));
-  return text + (prior.weight.empty() ? ", equally likely beforehand" : "");
+  for (std::size_t i = 0; i < prior.missing.size(); ++i) {
+    const double usual = prior.missing[i] == 0 ? kIntactWeight : 1.0;
+    text += fmt::format("{}{} (weight {:g})", i == 0 ? "" : ", ", prior.missing[i],
+                        prior.weight.empty() ? usual : prior.weight[i]);
+  }
+  return text;
 }
 
 std::string search_in_words(const LookupSettings& settings) {
