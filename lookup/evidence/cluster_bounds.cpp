@@ -78,53 +78,64 @@ VOUSSOIR_INLINE double most_common_variance(const View& view, const Box& box) {
   return view.common_square * largest * largest;
 }
 
+/// Running sums, lane by lane, with products in the place of sums of logarithms.
+struct BoxSums {
+  DoubleLanes absolute{}, square{}, largest{}, square_beyond{};
+  DoubleLanes scale = DoubleLanes{} + 1.0, instrument = scale, student = scale;
+  WideProduct scales{}, instruments{}, students{};
+
+  VOUSSOIR_INLINE void flush_products() {
+    flush(scale, scales);
+    flush(instrument, instruments);
+    flush(student, students);
+  }
+};
+
+/// Adds the places from the i-th: errors against the nearest number in the box over the largest scale that
+/// the box allows; the products take the least scale.
+VOUSSOIR_INLINE void add_places(const View& view, const Box& box, std::size_t i, double common,
+                                BoxSums& sums) {
+  const auto at = [&](const std::vector<double>& values) __attribute__((always_inline)) {
+    return load<DoubleLanes>(values.data() + i);
+  };
+  const DoubleLanes zero{}, one = DoubleLanes{} + 1.0;
+  const DoubleLanes reading = at(view.reading), low = box.low(i), high = box.high(i);
+  const DoubleMask has_reading = reading == reading;
+  const DoubleLanes error = distances(reading - high, reading - low).least;
+  const Distances movement = distances(low - at(view.origin), high - at(view.origin));
+  const Distances signal = distances(low - at(view.intact), high - at(view.intact));
+  const DoubleLanes slope = at(view.slope), offset = at(view.offset), own = at(view.own_variance);
+  const DoubleLanes least_instrument = noise_scale(slope, offset, movement.least);
+  const DoubleLanes most_instrument = noise_scale(slope, offset, movement.most);
+  const DoubleLanes least_variance = model_variance(own, view.share_square, signal.least);
+  const DoubleLanes most_variance = model_variance<DoubleLanes>(own + common, view.share_square, signal.most);
+  const DoubleLanes z =
+      has_reading ? error / square_root(most_instrument * most_instrument + most_variance) : zero;
+  const DoubleLanes beyond = larger(error - most_instrument, zero);
+  sums.absolute += z;
+  sums.square += z * z;
+  sums.largest = larger(sums.largest, has_reading ? error / most_instrument : zero);
+  // A bound without model error is felt at once.
+  sums.square_beyond += has_reading && beyond > 0.0 ? beyond * beyond / most_variance : zero;
+  const DoubleLanes least_scale = square_root(least_instrument * least_instrument + least_variance);
+  sums.scale *= has_reading ? least_scale * view.inverse_unit : one;
+  sums.instrument *= has_reading ? least_instrument * view.inverse_unit : one;
+  if (view.per_student > 0.0) sums.student *= 1.0 + z * z * view.per_student;
+}
+
 VOUSSOIR_INLINE BoxStatistics statistics_of(const View& view, const Box& box) {
   const double common = view.common_square > 0.0 ? most_common_variance(view, box) : 0.0;
-  const DoubleLanes zero{}, one = DoubleLanes{} + 1.0;
-  DoubleLanes absolute{}, square{}, largest{}, square_beyond{};
-  DoubleLanes scales = one, instruments = one, student = one;
-  WideProduct wide_scales, wide_instruments, wide_student;
+  BoxSums sums;
   for (std::size_t i = 0, step = 1; i < view.reading.size(); i += kLanes, ++step) {
-    const auto at = [&](const std::vector<double>& values) __attribute__((always_inline)) {
-      return load<DoubleLanes>(values.data() + i);
-    };
-    const DoubleLanes reading = at(view.reading), low = box.low(i), high = box.high(i);
-    const DoubleMask has_reading = reading == reading;
-    const DoubleLanes error = distances(reading - high, reading - low).least;
-    const Distances movement = distances(low - at(view.origin), high - at(view.origin));
-    const Distances signal = distances(low - at(view.intact), high - at(view.intact));
-    const DoubleLanes slope = at(view.slope), offset = at(view.offset), own = at(view.own_variance);
-    const DoubleLanes least_instrument = noise_scale(slope, offset, movement.least);
-    const DoubleLanes most_instrument = noise_scale(slope, offset, movement.most);
-    const DoubleLanes least_variance = model_variance(own, view.share_square, signal.least);
-    const DoubleLanes most_variance =
-        model_variance<DoubleLanes>(own + common, view.share_square, signal.most);
-    const DoubleLanes z =
-        has_reading ? error / square_root(most_instrument * most_instrument + most_variance) : zero;
-    const DoubleLanes beyond = larger(error - most_instrument, zero);
-    absolute += z;
-    square += z * z;
-    largest = larger(largest, has_reading ? error / most_instrument : zero);
-    // A bound without model error is felt at once.
-    square_beyond += has_reading && beyond > 0.0 ? beyond * beyond / most_variance : zero;
-    const DoubleLanes least_scale = square_root(least_instrument * least_instrument + least_variance);
-    scales *= has_reading ? least_scale * view.inverse_unit : one;
-    instruments *= has_reading ? least_instrument * view.inverse_unit : one;
-    if (view.per_student > 0.0) student *= 1.0 + z * z * view.per_student;
-    if (step % kSafeProducts == 0) {
-      flush(scales, wide_scales);
-      flush(instruments, wide_instruments);
-      flush(student, wide_student);
-    }
+    add_places(view, box, i, common, sums);
+    if (step % kSafeProducts == 0) sums.flush_products();
   }
-  flush(scales, wide_scales);
-  flush(instruments, wide_instruments);
-  flush(student, wide_student);
+  sums.flush_products();
   const auto log = [](const WideProduct& product) __attribute__((always_inline)) {
     return std::log(product.mantissa) + product.exponent * std::numbers::ln2;
   };
-  return {sum_of(absolute),  sum_of(square),        largest_of(largest),  log(wide_scales),
-          log(wide_student), sum_of(square_beyond), log(wide_instruments)};
+  return {sum_of(sums.absolute), sum_of(sums.square),        largest_of(sums.largest), log(sums.scales),
+          log(sums.students),    sum_of(sums.square_beyond), log(sums.instruments)};
 }
 
 VOUSSOIR_FOR_EVERY_PROCESSOR

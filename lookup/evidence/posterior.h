@@ -13,7 +13,7 @@ namespace voussoir {
 struct Prior {
   std::vector<int> missing = {0, 1, 2};  ///< numbers of missing blocks that are possible
   std::vector<double> weight = {};       ///< of each of them; empty: kIntactWeight for no block, 1 for other
-                                    ///< numbers. Uniform over the scenes within each number
+                                         ///< numbers. Uniform over the scenes within each number
 };
 
 /// Readings that say nothing leave the prior as it is: with equal weights two blocks in three questions would

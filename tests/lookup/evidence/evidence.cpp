@@ -1,108 +1,18 @@
-/// @file Noise shapes, their evidence, and the posterior, against closed forms and brute force in extended
-/// precision.
+/// @file Noise shapes and their evidence, against closed forms and brute force in extended precision.
 
 #include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
-#include <numeric>
 
 #include "core/error.h"
 #include "lookup/evidence/evidence.h"
-#include "lookup/evidence/posterior.h"
 #include "lookup/evidence/scene_evidence.h"
 #include "lookup/readings/noise_model.h"
-#include "tests/lookup/synthetic_library.h"
+#include "tests/lookup/evidence/textbook_likelihood.h"
 
 using namespace voussoir;
-using voussoir::test::all_rows;
-using voussoir::test::SyntheticLibrary;
-
-namespace {
-
-constexpr std::array<NoiseShape, 4> kShapes = {NoiseShape::uniform, NoiseShape::gaussian, NoiseShape::laplace,
-                                               NoiseShape::student};
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-/// Densities as textbooks write them, with a standard deviation (uniform: a half-width) of sigma.
-long double density(NoiseShape shape, long double error, long double sigma, long double nu) {
-  constexpr long double kPi = std::numbers::pi_v<long double>;
-  if (shape == NoiseShape::uniform) return std::abs(error) <= sigma ? 0.5L / sigma : 0.0L;
-  if (shape == NoiseShape::gaussian)
-    return std::exp(-error * error / (2.0L * sigma * sigma)) / std::sqrt(2.0L * kPi * sigma * sigma);
-  if (shape == NoiseShape::laplace) {
-    const long double b = sigma / std::sqrt(2.0L);
-    return std::exp(-std::abs(error) / b) / (2.0L * b);
-  }
-  const long double s = sigma * std::sqrt((nu - 2.0L) / nu);
-  return std::tgamma((nu + 1) / 2) / (std::tgamma(nu / 2) * std::sqrt(nu * kPi) * s) *
-         std::pow(1.0L + error * error / (nu * s * s), -(nu + 1) / 2);
-}
-
-/// The convolution of the instrument's uniform and the model's Gaussian error, by a fine midpoint rule.
-long double convolution(long double error, long double half_width, long double deviation) {
-  constexpr int kSteps = 20'000;  // far below the smallest deviation
-  long double sum = 0.0L;
-  for (int i = 0; i < kSteps; ++i)
-    sum +=
-        density(NoiseShape::gaussian, error - half_width * (2.0L * (i + 0.5L) / kSteps - 1.0L), deviation, 0);
-  return sum / kSteps;
-}
-
-/// Standard deviation of the model's own error in a change at a point (database/records/model_error.h).
-long double own_error(std::span<const double> prediction, std::span<const double> intact, std::size_t i,
-                      const ModelError& error) {
-  long double square = 0.0L;
-  int count = 0;
-  for (std::size_t k = 0; k < prediction.size(); ++k) {
-    if (std::isnan(prediction[k])) continue;
-    square += std::pow(static_cast<long double>(prediction[k]) - intact[k], 2);
-    ++count;
-  }
-  return std::sqrt(std::pow(error.share * (prediction[i] - intact[i]), 2) +
-                   error.common * error.common * square / count);
-}
-
-/// p(readings | row) for a stated level, the definition in noise_model.h word for word.
-long double likelihood(const Measurements& measured, std::span<const double> prediction,
-                       std::span<const double> intact, const NoiseModel& noise, NoiseShape shape,
-                       long double level, const ModelError& error = {}) {
-  long double product = 1.0L;
-  for (std::size_t i = 0; i < prediction.size(); ++i) {
-    if (std::isnan(measured.displacement[i])) continue;
-    if (std::isnan(prediction[i])) return 0.0L;
-    const long double own = measured.sigma[i];
-    const long double origin = error == ModelError{} ? 0.0L : intact[i];  // changes count from there
-    const long double movement = std::abs(prediction[i] - origin);
-    const long double sigma = std::isnan(own) ? level * (movement + 1e-6L) + noise.floor : own;
-    const long double model = own_error(prediction, intact, i, error);
-    const long double difference = measured.displacement[i] - static_cast<long double>(prediction[i]);
-    product *=
-        shape == NoiseShape::uniform && model > 0.0L
-            ? convolution(difference, sigma, model)
-            : density(shape, difference, std::sqrt(sigma * sigma + model * model), noise.degrees_of_freedom);
-  }
-  return product;
-}
-
-/// Mean over log-uniform levels by a fine midpoint rule.
-long double over_levels(const Measurements& measured, std::span<const double> prediction,
-                        std::span<const double> intact, const NoiseModel& noise, NoiseShape shape,
-                        const ModelError& error = {}, int kSteps = 40'000) {
-  const long double range = std::log(static_cast<long double>(kLargestLevel) / kSmallestLevel);
-  long double sum = 0.0L;
-  for (int i = 0; i < kSteps; ++i)
-    sum += likelihood(measured, prediction, intact, noise, shape,
-                      kSmallestLevel * std::exp(range * (i + 0.5L) / kSteps), error);
-  return sum / kSteps;
-}
-
-Measurements readings_of(const SyntheticLibrary& library, std::size_t row, double level, std::uint64_t seed) {
-  Random random(seed);
-  return library.measure(row, level, NoiseShape::uniform, random);
-}
-
-}  // namespace
+using namespace voussoir::test;
 
 TEST_CASE("Log densities are the logarithms of the textbook densities") {
   for (const NoiseShape shape : kShapes)
@@ -275,120 +185,4 @@ TEST_CASE("The estimated level of a scene is that of the noise that made its rea
   CHECK(sigma.level == Approx(0.08).epsilon(0.5));
   CHECK_FALSE(
       estimate_noise(library.observe(gaussian, {NoiseShape::gaussian, 0.1}), library.table.row(5)).estimated);
-}
-
-TEST_CASE("The posterior is prior times likelihood, normalised by brute force in extended precision") {
-  const SyntheticLibrary library(3, 5);
-  const Eligible eligible = eligible_rows(library.table, {0, 1, 2});
-  REQUIRE(eligible.rows.size() == library.table.rows);
-  for (const NoiseShape shape : kShapes) {
-    const NoiseModel noise{shape, 0.06};
-    const Measurements measured = readings_of(library, 7, 0.05, 7);
-    const Prior prior{{0, 1, 2}, {1.0, 2.0, 1.0}};
-    const auto logs = log_evidence_of_rows(library.observe(measured, noise), library.table, eligible.rows);
-    const Posterior result = posterior(library.table, eligible, logs, prior, library.blocks);
-    const std::vector<long double> in_class = {1.0L, 15.0L, 105.0L};
-    std::vector<long double> weight(library.table.rows);
-    long double total = 0.0L;
-    for (std::size_t row = 0; row < library.table.rows; ++row) {
-      const auto missing = static_cast<std::size_t>(missing_blocks(library.table, row));
-      weight[row] = (missing == 1 ? 2.0L : 1.0L) / in_class[missing] *
-                    likelihood(measured, library.table.row(row), library.intact(), noise, shape, 0.06L);
-      total += weight[row];
-    }
-    std::vector<long double> block(library.blocks, 0.0L), missing(3, 0.0L);
-    for (std::size_t row = 0; row < library.table.rows; ++row) {
-      const long double p = weight[row] / total;
-      REQUIRE(result.probability[row] == Approx(static_cast<double>(p)).margin(1e-12));
-      missing[static_cast<std::size_t>(missing_blocks(library.table, row))] += p;
-      for (const BlockId id : library.table.scene(row).removed) block[static_cast<std::size_t>(id)] += p;
-    }
-    for (std::size_t id = 0; id < library.blocks; ++id)
-      REQUIRE(result.block_probability[id] == Approx(static_cast<double>(block[id])).margin(1e-12));
-    for (std::size_t i = 0; i < 3; ++i)
-      REQUIRE(result.missing_probability[i] == Approx(static_cast<double>(missing[i])).margin(1e-12));
-  }
-}
-
-TEST_CASE("The credible set is the shortest list of likeliest rows that holds 95 % of the probability") {
-  const SyntheticLibrary library(3, 5);
-  const Eligible eligible = eligible_rows(library.table, {1});
-  const Measurements measured = readings_of(library, 7, 0.2, 8);
-  const auto logs = log_evidence_of_rows(library.observe(measured, {NoiseShape::gaussian, 0.3}),
-                                         library.table, eligible.rows);
-  const Posterior result = posterior(library.table, eligible, logs, {{1}, {}}, library.blocks);
-  REQUIRE(result.credible.size() > 2);
-  double share = 0.0;
-  for (std::size_t i = 0; i < result.credible.size(); ++i) {
-    CHECK(share < kCredibleShare);
-    share += result.probability[result.credible[i]];
-    if (i > 0) CHECK(result.probability[result.credible[i]] <= result.probability[result.credible[i - 1]]);
-  }
-  CHECK(share >= kCredibleShare);
-}
-
-TEST_CASE(
-    "Unresolved rows take no part and are counted, and so do rows with other numbers of missing blocks") {
-  SyntheticLibrary library(3, 5);
-  library.outcome[4] = static_cast<std::uint8_t>(Outcome::unresolved);
-  const Eligible eligible = eligible_rows(library.table, {1});
-  CHECK(eligible.unresolved == 1);
-  CHECK(eligible.rows.size() == 14);
-  const Measurements measured = readings_of(library, 4, 0.0, 9);
-  const auto logs = log_evidence_of_rows(library.observe(measured, {NoiseShape::gaussian, 0.1}),
-                                         library.table, eligible.rows);
-  const Posterior result = posterior(library.table, eligible, logs, {{1}, {}}, library.blocks);
-  CHECK(result.probability[4] == 0.0);
-  CHECK(result.probability[0] == 0.0);
-  CHECK(std::accumulate(result.probability.begin(), result.probability.end(), 0.0) == Approx(1.0));
-}
-
-TEST_CASE("If every scene is impossible there is no probability at all") {
-  const SyntheticLibrary library(2, 3);
-  const Eligible eligible = eligible_rows(library.table, {0, 1, 2});
-  Measurements measured = readings_of(library, 2, 0.0, 10);
-  measured.displacement[3] *= 50.0;
-  const auto logs = log_evidence_of_rows(library.observe(measured, {NoiseShape::uniform, 0.05}),
-                                         library.table, eligible.rows);
-  const Posterior result = posterior(library.table, eligible, logs, {}, library.blocks);
-  CHECK(result.credible.empty());
-  CHECK(*std::max_element(result.probability.begin(), result.probability.end()) == 0.0);
-}
-
-TEST_CASE("A prior needs a weight for each number of missing blocks") {
-  const SyntheticLibrary library(2, 3);
-  const Eligible eligible = eligible_rows(library.table, {0, 1});
-  CHECK_THROWS_AS(
-      posterior(library.table, eligible, std::vector<double>(library.table.rows, 0.0), {{0, 1}, {1.0}}, 6),
-      InputError);
-  for (const Prior& nothing_possible : {Prior{{0, 1}, {0.0, 0.0}}, Prior{{0, 2}, {0.0, 1.0}}})
-    CHECK_THROWS_WITH(log_prior_by_missing(library.table, eligible, nothing_possible),
-                      Catch::Contains("leave no scene of the database possible, expected a positive weight"));
-  CHECK(log_prior_by_missing(library.table, eligible, {{0, 1}, {0.0, 1.0}})[1] ==
-        Approx(std::log(1.0 / 6.0)));
-}
-
-TEST_CASE(
-    "A silent sensor counts with its chance of failing where its block stands, and costs nothing where it is "
-    "gone") {
-  const SyntheticLibrary library(2, 4);
-  Measurements measured = readings_of(library, 0, 0.02, 11);
-  const auto rows = all_rows(library.table);
-  const NoiseModel noise{NoiseShape::gaussian, 0.05};
-  for (const std::size_t point : {std::size_t{2}, std::size_t{3}})  // both sensors of the second top block
-    measured.displacement[point] = std::nan("");
-  const auto unlisted = log_evidence_of_rows(library.observe(measured, noise), library.table, rows);
-  for (const std::size_t point : {std::size_t{2}, std::size_t{3}}) measured.silent[point] = true;
-  const auto silent = log_evidence_of_rows(library.observe(measured, noise), library.table, rows);
-  const BlockId block = library.points[2].block;
-  int standing = 0, gone = 0;
-  for (const std::size_t row : rows) {
-    const bool lacks = library.table.scene(row).lacks(block);
-    REQUIRE((silent[row] == -kInfinity) == (unlisted[row] == -kInfinity));
-    if (unlisted[row] == -kInfinity) continue;
-    ++(lacks ? gone : standing);
-    CHECK(silent[row] - unlisted[row] == Approx(lacks ? 0.0 : 2.0 * std::log(noise.silence)).margin(1e-9));
-  }
-  CHECK(standing > 3);
-  CHECK(gone > 3);
 }

@@ -1,0 +1,129 @@
+/// @file The posterior, against brute force in extended precision.
+
+#include "lookup/evidence/posterior.h"
+
+#include <catch2/catch.hpp>
+#include <numeric>
+
+#include "core/error.h"
+#include "lookup/evidence/evidence.h"
+#include "tests/lookup/evidence/textbook_likelihood.h"
+
+using namespace voussoir;
+using namespace voussoir::test;
+
+TEST_CASE("The posterior is prior times likelihood, normalised by brute force in extended precision") {
+  const SyntheticLibrary library(3, 5);
+  const Eligible eligible = eligible_rows(library.table, {0, 1, 2});
+  REQUIRE(eligible.rows.size() == library.table.rows);
+  for (const NoiseShape shape : kShapes) {
+    const NoiseModel noise{shape, 0.06};
+    const Measurements measured = readings_of(library, 7, 0.05, 7);
+    const Prior prior{{0, 1, 2}, {1.0, 2.0, 1.0}};
+    const auto logs = log_evidence_of_rows(library.observe(measured, noise), library.table, eligible.rows);
+    const Posterior result = posterior(library.table, eligible, logs, prior, library.blocks);
+    const std::vector<long double> in_class = {1.0L, 15.0L, 105.0L};
+    std::vector<long double> weight(library.table.rows);
+    long double total = 0.0L;
+    for (std::size_t row = 0; row < library.table.rows; ++row) {
+      const auto missing = static_cast<std::size_t>(missing_blocks(library.table, row));
+      weight[row] = (missing == 1 ? 2.0L : 1.0L) / in_class[missing] *
+                    likelihood(measured, library.table.row(row), library.intact(), noise, shape, 0.06L);
+      total += weight[row];
+    }
+    std::vector<long double> block(library.blocks, 0.0L), missing(3, 0.0L);
+    for (std::size_t row = 0; row < library.table.rows; ++row) {
+      const long double p = weight[row] / total;
+      REQUIRE(result.probability[row] == Approx(static_cast<double>(p)).margin(1e-12));
+      missing[static_cast<std::size_t>(missing_blocks(library.table, row))] += p;
+      for (const BlockId id : library.table.scene(row).removed) block[static_cast<std::size_t>(id)] += p;
+    }
+    for (std::size_t id = 0; id < library.blocks; ++id)
+      REQUIRE(result.block_probability[id] == Approx(static_cast<double>(block[id])).margin(1e-12));
+    for (std::size_t i = 0; i < 3; ++i)
+      REQUIRE(result.missing_probability[i] == Approx(static_cast<double>(missing[i])).margin(1e-12));
+  }
+}
+
+TEST_CASE("The credible set is the shortest list of likeliest rows that holds 95 % of the probability") {
+  const SyntheticLibrary library(3, 5);
+  const Eligible eligible = eligible_rows(library.table, {1});
+  const Measurements measured = readings_of(library, 7, 0.2, 8);
+  const auto logs = log_evidence_of_rows(library.observe(measured, {NoiseShape::gaussian, 0.3}),
+                                         library.table, eligible.rows);
+  const Posterior result = posterior(library.table, eligible, logs, {{1}, {}}, library.blocks);
+  REQUIRE(result.credible.size() > 2);
+  double share = 0.0;
+  for (std::size_t i = 0; i < result.credible.size(); ++i) {
+    CHECK(share < kCredibleShare);
+    share += result.probability[result.credible[i]];
+    if (i > 0) CHECK(result.probability[result.credible[i]] <= result.probability[result.credible[i - 1]]);
+  }
+  CHECK(share >= kCredibleShare);
+}
+
+TEST_CASE(
+    "Unresolved rows take no part and are counted, and so do rows with other numbers of missing blocks") {
+  SyntheticLibrary library(3, 5);
+  library.outcome[4] = static_cast<std::uint8_t>(Outcome::unresolved);
+  const Eligible eligible = eligible_rows(library.table, {1});
+  CHECK(eligible.unresolved == 1);
+  CHECK(eligible.rows.size() == 14);
+  const Measurements measured = readings_of(library, 4, 0.0, 9);
+  const auto logs = log_evidence_of_rows(library.observe(measured, {NoiseShape::gaussian, 0.1}),
+                                         library.table, eligible.rows);
+  const Posterior result = posterior(library.table, eligible, logs, {{1}, {}}, library.blocks);
+  CHECK(result.probability[4] == 0.0);
+  CHECK(result.probability[0] == 0.0);
+  CHECK(std::accumulate(result.probability.begin(), result.probability.end(), 0.0) == Approx(1.0));
+}
+
+TEST_CASE("If every scene is impossible there is no probability at all") {
+  const SyntheticLibrary library(2, 3);
+  const Eligible eligible = eligible_rows(library.table, {0, 1, 2});
+  Measurements measured = readings_of(library, 2, 0.0, 10);
+  measured.displacement[3] *= 50.0;
+  const auto logs = log_evidence_of_rows(library.observe(measured, {NoiseShape::uniform, 0.05}),
+                                         library.table, eligible.rows);
+  const Posterior result = posterior(library.table, eligible, logs, {}, library.blocks);
+  CHECK(result.credible.empty());
+  CHECK(*std::max_element(result.probability.begin(), result.probability.end()) == 0.0);
+}
+
+TEST_CASE("A prior needs a weight for each number of missing blocks") {
+  const SyntheticLibrary library(2, 3);
+  const Eligible eligible = eligible_rows(library.table, {0, 1});
+  CHECK_THROWS_AS(
+      posterior(library.table, eligible, std::vector<double>(library.table.rows, 0.0), {{0, 1}, {1.0}}, 6),
+      InputError);
+  for (const Prior& nothing_possible : {Prior{{0, 1}, {0.0, 0.0}}, Prior{{0, 2}, {0.0, 1.0}}})
+    CHECK_THROWS_WITH(log_prior_by_missing(library.table, eligible, nothing_possible),
+                      Catch::Contains("leave no scene of the database possible, expected a positive weight"));
+  CHECK(log_prior_by_missing(library.table, eligible, {{0, 1}, {0.0, 1.0}})[1] ==
+        Approx(std::log(1.0 / 6.0)));
+}
+
+TEST_CASE(
+    "A silent sensor counts with its chance of failing where its block stands, and costs nothing where it is "
+    "gone") {
+  const SyntheticLibrary library(2, 4);
+  Measurements measured = readings_of(library, 0, 0.02, 11);
+  const auto rows = all_rows(library.table);
+  const NoiseModel noise{NoiseShape::gaussian, 0.05};
+  for (const std::size_t point : {std::size_t{2}, std::size_t{3}})  // both sensors of the second top block
+    measured.displacement[point] = std::nan("");
+  const auto unlisted = log_evidence_of_rows(library.observe(measured, noise), library.table, rows);
+  for (const std::size_t point : {std::size_t{2}, std::size_t{3}}) measured.silent[point] = true;
+  const auto silent = log_evidence_of_rows(library.observe(measured, noise), library.table, rows);
+  const BlockId block = library.points[2].block;
+  int standing = 0, gone = 0;
+  for (const std::size_t row : rows) {
+    const bool lacks = library.table.scene(row).lacks(block);
+    REQUIRE((silent[row] == -kInfinity) == (unlisted[row] == -kInfinity));
+    if (unlisted[row] == -kInfinity) continue;
+    ++(lacks ? gone : standing);
+    CHECK(silent[row] - unlisted[row] == Approx(lacks ? 0.0 : 2.0 * std::log(noise.silence)).margin(1e-9));
+  }
+  CHECK(standing > 3);
+  CHECK(gone > 3);
+}
