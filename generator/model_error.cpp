@@ -37,11 +37,11 @@ std::vector<Settlements> solve_probes(const ErrorProbes& probes, const Model& br
   const SceneSolver solver = probes.solver.make_equilibrium_solver(bridge);
   StartingFields starts;
   SceneGroup intact{.solved = {}, .states = {}, .image = {}};
-  solving.solve(solver, starts, true, std::span(&intact, 1));
+  solving.solve(solver, solving.basis(solver, starts, true), std::span(&intact, 1));
   for (std::size_t state = 0; state < plan.size(); ++state) starts.add({}, state, *intact.states[state]);
   std::vector<SceneGroup> groups;
   for (const Scene& single : singles) groups.push_back({.solved = single, .states = {}, .image = {}});
-  solving.solve(solver, starts, true, groups);
+  solving.solve(solver, solving.basis(solver, std::move(starts), true), groups);
   std::vector<Settlements> result = {settlements_of(intact, plan, bridge)};
   for (const SceneGroup& group : groups) result.push_back(settlements_of(group, plan, bridge));
   return result;
