@@ -41,13 +41,13 @@ struct StateSolving::Search {
             .steps = steps};
   }
 
-  /// Lets what the lost blocks carried go in so many steps from the intact field. The first of several starts
-  /// at that share of the way to where one step would.
+  /// Lets what the lost blocks carried go in so many steps. Several begin at the intact field, where most of
+  /// it is held.
   void lose_in(int count, const Field& intact) {
     if (count == 1) return;
     steps = count;
     before->displacement = intact;
-    start = intact + (*start - intact) / count;
+    start = intact;
   }
 };
 

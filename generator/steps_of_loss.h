@@ -9,8 +9,8 @@
 namespace voussoir {
 
 /// Steps of a scene with several missing blocks, one of which needs many when it goes alone: of 60 random
-/// pairs of the reference bridge 12 are off by more than 1 % of the signal in one step, all with such a block,
-/// and none in eight (docs/numerics.md). A single takes kStepsOfLoss.
+/// pairs of the reference bridge 12 are off by more than 1 % of the signal in one step, all with such a
+/// block, and none in eight (docs/numerics.md). A single takes kStepsOfLoss.
 inline constexpr int kStepsOfSeveral = 8;
 
 /// Signals that differ by less, L1 over the control points over the better signal's, are taken for one [-].

@@ -30,7 +30,8 @@ struct Subject {
   }
   SceneStates states_of(const Scene& scene, const StatePlan& plan, const StartingFields& starts) const {
     SceneGroup group{.solved = scene, .states = {}, .image = {}};
-    StateSolving(bridge, plan).solve(solver, starts, true, std::span(&group, 1));
+    const StateSolving solving(bridge, plan);
+    solving.solve(solver, solving.basis(solver, starts, true), std::span(&group, 1));
     return group.states;
   }
   StartingFields intact(const StatePlan& plan) const {
@@ -102,7 +103,8 @@ TEST_CASE(
   const SceneStates all = subject.states_of(scene, plan, starts);
   SceneGroup group{.solved = scene, .states = all, .image = {}};
   for (const std::size_t state : {1U, 3U, 6U}) group.states[state].reset();
-  StateSolving(subject.bridge, plan).solve(subject.solver, starts, true, std::span(&group, 1));
+  const StateSolving solving(subject.bridge, plan);
+  solving.solve(subject.solver, solving.basis(subject.solver, starts, true), std::span(&group, 1));
   for (std::size_t state = 0; state < plan.size(); ++state)
     CHECK(apart(group.states[state]->displacement, all[state]->displacement) == 0.0);
 }
