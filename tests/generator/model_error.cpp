@@ -6,7 +6,8 @@
 
 namespace voussoir {
 
-TEST_CASE("States after a loss have the mesh's error and that of a sudden release, in squares (written out)") {
+TEST_CASE(
+    "States after a loss have the mesh's error and that of a sudden release, in squares (written out)") {
   BridgeDescription description = test::small_description();
   description.loads = {{"crown", {{3.0, 1e3}}, {}, {}, {}, std::nullopt, false}};
   const Model bridge = make_model(description);

@@ -87,7 +87,8 @@ TEST_CASE("Singles go in many steps, and others if they have a block that needs 
   CHECK(steps.of({{one, other, third}}) == kStepsOfSeveral);
 }
 
-TEST_CASE("Signals differ by their L1 difference over the better signal, points that are gone aside (by hand)") {
+TEST_CASE(
+    "Signals differ by their L1 difference over the better signal, points that are gone aside (by hand)") {
   const double gone = std::numeric_limits<double>::quiet_NaN();
   const std::vector<ControlPoint> points = {
       {"T1", NodeId{0}, {}, {}}, {"T2", NodeId{1}, {}, {}}, {"T3", NodeId{2}, {}, {}}};
@@ -102,8 +103,9 @@ TEST_CASE("Signals differ by their L1 difference over the better signal, points 
   }
 }
 
-TEST_CASE("The generator loses (10,12), alone and in a pair, in many steps, and a pair without it in one "
-          "(histories of their own)") {
+TEST_CASE(
+    "The generator loses (10,12), alone and in a pair, in many steps, and a pair without it in one "
+    "(histories of their own)") {
   // Two searches for one equilibrium differ by less than a nanometre (kSameDisplacement) at each point; the
   // signals are 1e-3 m and more in sum, over 78 points.
   constexpr double kSameSearch = 1e-4;
@@ -120,8 +122,9 @@ TEST_CASE("The generator loses (10,12), alone and in a pair, in many steps, and 
   CHECK(difference(without, subject.expected("2,6+4,10", 1)) < kSameSearch);
 }
 
-TEST_CASE("Scenes of many steps come out the same from a build that goes on with another's singles, and "
-          "solved anew, bit by bit") {
+TEST_CASE(
+    "Scenes of many steps come out the same from a build that goes on with another's singles, and "
+    "solved anew, bit by bit") {
   const test::TemporaryFolder folder, other;
   const std::string scenes = "intact;10,12;10,14;4,10;4,10+10,12;10,12..14;10,12+10,14";
   const std::string expected = build(request_of(folder, scenes)).digest;
