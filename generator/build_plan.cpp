@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <map>
-#include <set>
 
 #include "core/structure/mirror_symmetry.h"
 
@@ -51,13 +50,13 @@ Scene representative(const Scene& scene, const Model& bridge, const PlanRules& r
   return mirrors ? std::min(scene, mirrored(scene, *bridge.symmetry)) : scene;
 }
 
-std::vector<Scene> starting_scenes(const Scene& solved, const std::optional<Scene>& image,
-                                   const PlanRules& rules, const StatePlan& states) {
+std::set<Scene> starting_scenes(const Scene& solved, const std::optional<Scene>& image,
+                                const PlanRules& rules, const StatePlan& states) {
   std::set<Scene> scenes;
-  if (place_of_lost(states) && !solved.removed.empty()) scenes.insert(Scene{});
-  if (rules.warm_starts) add_starts(solved, scenes);
-  if (rules.warm_starts && image && has_one_sided_loads(states)) add_starts(*image, scenes);
-  return {scenes.begin(), scenes.end()};
+  const bool are_needed = rules.warm_starts || place_of_lost(states);
+  if (are_needed) add_starts(solved, scenes);
+  if (are_needed && image && has_one_sided_loads(states)) add_starts(*image, scenes);
+  return scenes;
 }
 
 std::size_t BuildPlan::records() const {

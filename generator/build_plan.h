@@ -2,6 +2,7 @@
 /// @file Which scenes of which variants are solved, in which order.
 
 #include <functional>
+#include <set>
 #include <span>
 #include <vector>
 
@@ -45,9 +46,10 @@ struct PlanBasis {
 };
 
 /// The scenes whose states the solving of this one, and of its mirror image if that is wanted, needs: those
-/// that its searches start from (see StartingFields), and the intact bridge if blocks are lost.
-std::vector<Scene> starting_scenes(const Scene& solved, const std::optional<Scene>& image,
-                                   const PlanRules& rules, const StatePlan& states);
+/// that its searches start from (see StartingFields), and if blocks are lost those that say in how many steps
+/// (see StepsOfLoss).
+std::set<Scene> starting_scenes(const Scene& solved, const std::optional<Scene>& image,
+                                const PlanRules& rules, const StatePlan& states);
 
 /// What need not be computed.
 struct KnownKeys {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/structure/block_layout.h"
+#include "database/records/state_name.h"
 #include "generator/state_solving.h"
 
 namespace voussoir {
@@ -37,11 +38,11 @@ std::vector<Settlements> solve_probes(const ErrorProbes& probes, const Model& br
   const SceneSolver solver = probes.solver.make_equilibrium_solver(bridge);
   StartingFields starts;
   SceneGroup intact{.solved = {}, .states = {}, .image = {}};
-  solving.solve(solver, starts, true, std::span(&intact, 1));
+  solving.solve(solver, solving.basis(solver, starts, true), std::span(&intact, 1));
   for (std::size_t state = 0; state < plan.size(); ++state) starts.add({}, state, *intact.states[state]);
   std::vector<SceneGroup> groups;
   for (const Scene& single : singles) groups.push_back({.solved = single, .states = {}, .image = {}});
-  solving.solve(solver, starts, true, groups);
+  solving.solve(solver, solving.basis(solver, std::move(starts), true), groups);
   std::vector<Settlements> result = {settlements_of(intact, plan, bridge)};
   for (const SceneGroup& group : groups) result.push_back(settlements_of(group, plan, bridge));
   return result;
@@ -113,20 +114,33 @@ ModelError error_of_state(const std::vector<Settlements>& coarse, const std::vec
   return {std::sqrt(squares[0]), std::sqrt(squares[1]), {error.begin(), error.end()}};
 }
 
-}  // namespace
-
-std::vector<ModelError> estimate_model_errors(const ErrorProbes& probes) {
-  const std::size_t states = kept_states(probes.states).size();
-  const bool is_fine = 4.0 * static_cast<double>(probes.bridge.mesh.triangles.size()) > kFinestPieces;
-  if (!probes.solver.make_equilibrium_solver || is_fine) return std::vector<ModelError>(states);
+/// Of each kept state: how far the mesh puts it off.
+std::vector<ModelError> errors_of_mesh(const ErrorProbes& probes) {
   BridgeDescription finer = probes.description;
   ++finer.mesh.refinement;
   const std::vector<Scene> singles = probed_singles(probes.bridge.layout);
   const auto coarse = solve_probes(probes, probes.bridge, probes.description, singles);
   const auto fine = solve_probes(probes, make_model(finer), finer, singles);
-  std::vector<ModelError> result;
-  for (std::size_t state = 0; state < states; ++state) result.push_back(error_of_state(coarse, fine, state));
-  return result;
+  std::vector<ModelError> errors;
+  for (std::size_t state = 0; state < coarse.front().size(); ++state)
+    errors.push_back(error_of_state(coarse, fine, state));
+  return errors;
+}
+
+}  // namespace
+
+std::vector<ModelError> estimate_model_errors(const ErrorProbes& probes) {
+  const std::vector<std::size_t> kept = kept_states(probes.states);
+  std::vector<ModelError> errors(kept.size());
+  if (!probes.solver.make_equilibrium_solver) return errors;
+  if (4.0 * static_cast<double>(probes.bridge.mesh.triangles.size()) <= kFinestPieces)
+    errors = errors_of_mesh(probes);
+  for (std::size_t i = 0; i < kept.size(); ++i) {
+    if (history_of(probes.states[kept[i]].name) != kLostState) continue;
+    errors[i].share = std::hypot(errors[i].share, kShareOfSuddenRelease);
+    errors[i].common = std::hypot(errors[i].common, kCommonOfSuddenRelease);
+  }
+  return errors;
 }
 
 }  // namespace voussoir

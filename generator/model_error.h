@@ -1,5 +1,6 @@
 #pragma once
-/// @file How far a bridge's own signals are off: what a finer mesh changes of them.
+/// @file How far a bridge's own signals are off: what a finer mesh changes of them, and that nobody knows how
+/// suddenly blocks were lost.
 
 #include "database/records/model_error.h"
 #include "database/records/record.h"
@@ -13,6 +14,12 @@ namespace voussoir {
 /// program's finest mesh by 1.45 % (docs/numerics.md).
 inline constexpr double kErrorPerLevel = 3.0;
 
+/// What losing a block suddenly instead of slowly changes of its signal [-], as in ModelError. Measured on 23
+/// wall singles of the reference bridge, each in units of its own mean square (`tools/validate loss-sudden`,
+/// docs/numerics.md).
+inline constexpr double kShareOfSuddenRelease = 0.071;
+inline constexpr double kCommonOfSuddenRelease = 0.117;
+
 struct ErrorProbes {
   const BridgeDescription& description;
   const Model& bridge;      ///< of that description
@@ -21,8 +28,9 @@ struct ErrorProbes {
 };
 
 /// Solves the intact bridge and some standing singles, evenly spread, on a mesh one level finer and compares
-/// their signals with those of this mesh. One value for each kept state; zero where nothing can be compared
-/// because the bridge does not stand.
+/// their signals with those of this mesh; for states that blocks were lost before, adds the squares of what a
+/// sudden release changes. One value for each kept state; the mesh's is zero where nothing can be compared
+/// because the bridge does not stand or is large.
 std::vector<ModelError> estimate_model_errors(const ErrorProbes& probes);
 
 }  // namespace voussoir

@@ -46,13 +46,13 @@ void keep_records(const PlanRun& run, const SolvingTask& task, const SceneGroup&
 }
 
 /// Solves some tasks of one variant side by side and keeps their records.
-void run_batch(const PlanRun& run, Tasks batch, const VariantSolver& solver, const StartingFields& starts,
+void run_batch(const PlanRun& run, Tasks batch, const VariantSolver& solver, const SearchBasis& basis,
                KnownRecords& known) {
   std::vector<SceneGroup> groups;
   for (const SolvingTask& task : batch)
     groups.push_back(
         {task.solved, known.old_states({task.variant, task.solved}), task.records_solved, task.image});
-  solver.states->solve(solver.solver, starts, run.rules.warm_starts, groups);
+  solver.states->solve(solver.solver, basis, groups);
   for (std::size_t i = 0; i < batch.size(); ++i) keep_records(run, batch[i], groups[i], known);
 }
 
@@ -117,13 +117,18 @@ void run_plan(const BuildPlan& plan, const PlanRun& run, KnownRecords& known) {
   for (const auto& stage : plan.stages)
     for (Tasks left = stage; !left.empty();) {
       const Tasks tasks = first_variants(left);
-      const auto starts = read_starts(run, tasks, known);
+      std::map<std::int32_t, SearchBasis> bases;
+      for (auto& [variant, starts] : read_starts(run, tasks, known)) {
+        VariantSolver& solver = solvers.local();
+        solver.prepare(variant, run);
+        bases[variant] = solver.states->basis(solver.solver, std::move(starts), run.rules.warm_starts);
+      }
       const auto batches = split_into_batches(tasks, batch_size(tasks.size(), crew.size()));
       crew.for_each_index(batches.size(), [&](std::size_t i) {
         const std::int32_t variant = batches[i].front().variant;
         VariantSolver& solver = solvers.local();
         solver.prepare(variant, run);
-        run_batch(run, batches[i], solver, starts.at(variant), known);
+        run_batch(run, batches[i], solver, bases.at(variant), known);
       });
       left = left.subspan(tasks.size());
     }

@@ -19,23 +19,30 @@ std::vector<std::size_t> choose_rows(std::size_t rows, std::size_t count, std::u
   return chosen;
 }
 
-std::vector<Solution> recompute(const RecordKey& key, const RecomputedVariant& variant,
-                                const SceneSolver& solver) {
+SearchBasis basis_of(const std::set<Scene>& starting, std::int32_t number, const RecomputedVariant& variant,
+                     const SceneSolver& solver) {
   const bool is_stored =
       variant.database.has_fields() && kept_states(variant.plan).size() == variant.plan.size();
+  StartingFields starts;
+  for (const Scene& start : starting) {
+    const RecordKey key{number, start};
+    const auto row = is_stored ? variant.database.find(number, start) : std::nullopt;
+    const std::vector<Solution> anew = row ? std::vector<Solution>{} : recompute(key, variant, solver);
+    for (std::size_t state = 0; state < variant.plan.size(); ++state)
+      starts.add(start, state, row ? variant.database.solution(*row, state) : anew[state]);
+  }
+  return variant.equations.basis(solver, std::move(starts), variant.rules.warm_starts);
+}
+
+std::vector<Solution> recompute(const RecordKey& key, const RecomputedVariant& variant,
+                                const SceneSolver& solver) {
   SceneGroup group{
       .solved = representative(key.scene, variant.bridge, variant.rules), .states = {}, .image = {}};
   if (group.solved != key.scene) group.image = key.scene;
   group.needs_all = !group.image;
-  StartingFields starts;
-  for (const Scene& start : starting_scenes(group.solved, group.image, variant.rules, variant.plan)) {
-    const RecordKey start_key{key.variant, start};
-    const auto row = is_stored ? variant.database.find(key.variant, start) : std::nullopt;
-    const std::vector<Solution> anew = row ? std::vector<Solution>{} : recompute(start_key, variant, solver);
-    for (std::size_t state = 0; state < variant.plan.size(); ++state)
-      starts.add(start, state, row ? variant.database.solution(*row, state) : anew[state]);
-  }
-  variant.equations.solve(solver, starts, variant.rules.warm_starts, std::span(&group, 1));
+  const auto starting = starting_scenes(group.solved, group.image, variant.rules, variant.plan);
+  const SearchBasis basis = basis_of(starting, key.variant, variant, solver);
+  variant.equations.solve(solver, basis, std::span(&group, 1));
   std::vector<Solution> solutions;
   for (std::optional<Solution>& state : group.image ? group.image_states : group.states)
     solutions.push_back(std::move(state.value()));

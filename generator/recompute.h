@@ -1,6 +1,8 @@
 #pragma once
 /// @file Solving scenes of a database anew.
 
+#include <set>
+
 #include "database/records/database.h"
 #include "generator/build_plan.h"
 #include "generator/state_solving.h"
@@ -19,9 +21,14 @@ struct RecomputedVariant {
   PlanRules rules;
 };
 
+/// What searches of a variant begin with whose scenes start from these: the stored fields of the intact
+/// bridge and singles, or those solved anew where the database has not all of them. `solver` is the
+/// variant's.
+SearchBasis basis_of(const std::set<Scene>& starting, std::int32_t number, const RecomputedVariant& variant,
+                     const SceneSolver& solver);
+
 /// Solves all states of the plan by the rule that build-database follows: those of the scene's mirror image
-/// if that is the one solved, from the stored fields of the variant's intact bridge and singles, or from
-/// those solved anew where the database has not all of them. `solver` is the variant's.
+/// if that is the one solved, with the basis of its own starting scenes.
 std::vector<Solution> recompute(const RecordKey& key, const RecomputedVariant& variant,
                                 const SceneSolver& solver);
 

@@ -16,8 +16,8 @@ namespace {
 /// One scene of one variant under examination.
 class Examination {
  public:
-  Examination(const CheckedVariant& checked, std::size_t row)
-      : checked_(checked), row_(row), key_(checked.database.key(row)) {}
+  Examination(const CheckedVariant& checked, std::size_t row, const SceneSolver& solver)
+      : checked_(checked), row_(row), solver_(solver), key_(checked.database.key(row)) {}
 
   SceneCheck run() {
     try {
@@ -121,8 +121,22 @@ class Examination {
       report_state("its control displacements are not those of its field");
   }
 
+  /// What the joints remember of the state under examination if its blocks go in many steps, which have to be
+  /// solved again: fields do not tell it. Forces at its end are the same with the memory before that and
+  /// after.
+  std::vector<JointMemory> memory_of_many_steps() {
+    if (checked_.basis.steps.of(key_.scene) == 1) return {};
+    SceneGroup group{.solved = key_.scene, .states = states_, .image = {}};
+    group.states[planned_].reset();
+    checked_.equations.solve(solver_, checked_.basis, std::span(&group, 1));
+    return states_[planned_]->memory = group.states[planned_]->memory;
+  }
+
   void check_equilibrium(const Field& field) {
-    auto memory = checked_.equations.memory_before(key_.scene, planned_, states_, checked_.of_intact);
+    std::vector<JointMemory> memory;
+    if (planned_ == place_of_lost(checked_.plan)) memory = memory_of_many_steps();
+    if (memory.empty())
+      memory = checked_.equations.memory_before(key_.scene, planned_, states_, checked_.basis.of_intact);
     const double unbalance =
         unbalanced_force(checked_.equations.equations(key_.scene, planned_, std::move(memory)), field);
     check_.unbalance = std::max(check_.unbalance, unbalance);
@@ -152,6 +166,7 @@ class Examination {
 
   const CheckedVariant& checked_;
   std::size_t row_;
+  const SceneSolver& solver_;
   SceneStates states_;       ///< as stored, in the order of the plan
   std::size_t place_ = 0;    ///< of the state under examination, in the database
   std::size_t planned_ = 0;  ///< the same in the plan
@@ -178,8 +193,8 @@ double most_stored_unbalance(const Model& bridge, std::string_view settings) {
          0.5 * kStorageStep * row_sums.maxCoeff() / equations.largest_load;
 }
 
-SceneCheck check_scene(const CheckedVariant& checked, std::size_t row) {
-  return Examination(checked, row).run();
+SceneCheck check_scene(const CheckedVariant& checked, std::size_t row, const SceneSolver& solver) {
+  return Examination(checked, row, solver).run();
 }
 
 }  // namespace voussoir

@@ -11,12 +11,12 @@ namespace voussoir {
 /// What the checks of a scene need to know of its database and its variant.
 struct CheckedVariant {
   const Database& database;
-  const Model& bridge;                 ///< bridge_of(database), the variant
-  const StatePlan& plan;               ///< of the database's states
-  const StateSolving& equations;       ///< of that bridge and that plan
-  std::vector<JointMemory> of_intact;  ///< what joints remember of the intact bridge as built
-  double most_unbalance = 0.0;         ///< most_stored_unbalance(bridge)
-  bool mirror_images_used = false;     ///< images are then equal bit by bit
+  const Model& bridge;              ///< bridge_of(database), the variant
+  const StatePlan& plan;            ///< of the database's states
+  const StateSolving& equations;    ///< of that bridge and that plan
+  SearchBasis basis;                ///< of all that any scene as lost starts from
+  double most_unbalance = 0.0;      ///< most_stored_unbalance(bridge)
+  bool mirror_images_used = false;  ///< images are then equal bit by bit
 };
 
 struct SceneCheck {
@@ -32,7 +32,8 @@ struct SceneCheck {
 /// (the largest sum of absolute values in a row of the tangent). From a motion: what is taken for rest.
 double most_stored_unbalance(const Model& bridge, std::string_view settings);
 
-/// Never throws for what is wrong with the scene's data.
-SceneCheck check_scene(const CheckedVariant& checked, std::size_t row);
+/// `solver` is the variant's: where blocks went in many steps, these are solved again. Never throws for what
+/// is wrong with the scene's data.
+SceneCheck check_scene(const CheckedVariant& checked, std::size_t row, const SceneSolver& solver);
 
 }  // namespace voussoir

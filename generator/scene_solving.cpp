@@ -6,9 +6,9 @@ namespace voussoir {
 
 std::vector<Solution> solve_for_storage(const SceneSolver& solver, std::span<const StageTask> scenes) {
   std::vector<Solution> solutions = solver(scenes);
-  for (Solution& solution : solutions) {
-    solution.displacement = to_storage_precision(solution.displacement);
-    solution.memory.clear();  // it is that of the field before rounding
+  for (std::size_t i = 0; i < solutions.size(); ++i) {
+    solutions[i].displacement = to_storage_precision(solutions[i].displacement);
+    if (scenes[i].steps == 1) solutions[i].memory.clear();  // it is that of the field before rounding
   }
   return solutions;
 }

@@ -34,7 +34,8 @@ SceneSolver stated_solver(const Model& model, const std::string& settings);
 SolverChoice quasi_static(const DynamicSettings& motion = {});
 SolverChoice dynamic(const DynamicSettings& motion = {});
 
-/// Solves the scenes and rounds their fields to the storage precision. What the joints remember is left out.
+/// Solves the scenes and rounds their fields to the storage precision. What the joints remember is left
+/// out where it follows from the field: after one step.
 std::vector<Solution> solve_for_storage(const SceneSolver& solver, std::span<const StageTask> scenes);
 
 /// The mirror image of a solution, in the same storage precision and without memory.

@@ -19,6 +19,13 @@ const Field* StartingFields::find(const Scene& scene, std::size_t state) const {
   return found == standing_.end() ? nullptr : &found->second;
 }
 
+std::vector<Scene> StartingFields::standing_singles(std::size_t state) const {
+  std::vector<Scene> singles;
+  for (const auto& [place, field] : standing_)
+    if (place.first.missing() == 1 && place.second == state) singles.push_back(place.first);
+  return singles;
+}
+
 std::optional<Field> StartingFields::start_for(const Scene& scene, std::size_t state) const {
   const Field* intact_field = intact(state);
   if (scene.removed.empty() || intact_field == nullptr) return std::nullopt;

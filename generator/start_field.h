@@ -37,8 +37,13 @@ class StartingFields {
   /// The field of the intact bridge in a state, if it stands.
   const Field* intact(std::size_t state) const { return find(Scene{}, state); }
 
- private:
+  /// The field of the intact bridge or a single in a state, if it is there and stands.
   const Field* find(const Scene& scene, std::size_t state) const;
+
+  /// The singles that stand in a state, in ascending order.
+  std::vector<Scene> standing_singles(std::size_t state) const;
+
+ private:
   std::optional<Field> change(const Scene& scene, std::size_t before, std::size_t after) const;
 
   std::map<std::pair<Scene, std::size_t>, Field> standing_;  ///< by scene and state

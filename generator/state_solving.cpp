@@ -11,6 +11,13 @@ bool stands(const Solution& solution) {
   return solution.outcome == Outcome::standing;
 }
 
+template <class Search>
+std::vector<Solution> solve_searches(const SceneSolver& solver, const std::vector<Search>& searches) {
+  std::vector<StageTask> tasks;
+  for (const Search& search : searches) tasks.push_back(search.task());
+  return solve_for_storage(solver, tasks);
+}
+
 /// A state that is another one's, too. What is remembered of it depends on its own stage.
 Solution without_memory(Solution solution) {
   solution.memory.clear();
@@ -25,9 +32,22 @@ struct StateSolving::Search {
   Stage stage;
   std::optional<Field> start;
   std::optional<State> before;
+  int steps = 1;
 
   StageTask task() const {
-    return {.stage = stage, .start = start ? &*start : nullptr, .before = before ? &*before : nullptr};
+    return {.stage = stage,
+            .start = start ? &*start : nullptr,
+            .before = before ? &*before : nullptr,
+            .steps = steps};
+  }
+
+  /// Lets what the lost blocks carried go in so many steps. Several begin at the intact field, where most of
+  /// it is held.
+  void lose_in(int count, const Field& intact) {
+    if (count == 1) return;
+    steps = count;
+    before->displacement = intact;
+    start = intact;
   }
 };
 
@@ -71,33 +91,40 @@ std::optional<Solution> StateSolving::without_search(const Scene& scene, std::si
   return loses_nothing ? std::optional(without_memory(*states[kBuilt])) : std::nullopt;
 }
 
-StateSolving::Search StateSolving::search_for(const Scene& scene, std::size_t state, SceneStates& states,
-                                              const Shared& shared) const {
+StateSolving::Search StateSolving::one_step_search(const Scene& scene, std::size_t state, SceneStates& states,
+                                                   const SearchBasis& basis) const {
   const PlannedState& planned = plan_[state];
   Search search{&states, {.scene = scene, .load = planned.load}, {}, {}};
   if (!planned.before) {
-    if (shared.warm_starts) search.start = shared.starts.start_for(scene, state);
+    if (basis.warm_starts) search.start = basis.starts.start_for(scene, state);
     return search;
   }
-  search.before.emplace(State{{}, memory_before(scene, state, states, shared.of_intact)});
+  search.before.emplace(State{{}, memory_before(scene, state, states, basis.of_intact)});
   const Solution& own = *states[*planned.before];
-  if (!shared.warm_starts)
-    search.start = planned.is_load ? own.displacement : *shared.starts.intact(kBuilt);
+  if (!basis.warm_starts)
+    search.start = planned.is_load ? own.displacement : *basis.starts.intact(kBuilt);
   else if (stands(own))
-    search.start = shared.starts.start_after(scene, own.displacement, *planned.before, state);
+    search.start = basis.starts.start_after(scene, own.displacement, *planned.before, state);
   else
-    search.start = shared.starts.start_for(scene, state);
+    search.start = basis.starts.start_for(scene, state);
+  return search;
+}
+
+StateSolving::Search StateSolving::search_for(const Scene& scene, std::size_t state, SceneStates& states,
+                                              const SearchBasis& basis) const {
+  Search search = one_step_search(scene, state, states, basis);
+  if (is_loss(state)) search.lose_in(basis.steps.of(scene), *basis.starts.intact(kBuilt));
   return search;
 }
 
 /// The searches that a state needs; states that need none are filled in.
 std::vector<StateSolving::Search> StateSolving::searches_of(std::size_t state, std::span<SceneGroup> groups,
-                                                            const Shared& shared) const {
+                                                            const SearchBasis& basis) const {
   std::vector<Search> searches;
   const auto find = [&](const Scene& scene, SceneStates& states) {
     if (states[state]) return;
-    states[state] = without_search(scene, state, states, shared.starts);
-    if (!states[state]) searches.push_back(search_for(scene, state, states, shared));
+    states[state] = without_search(scene, state, states, basis.starts);
+    if (!states[state]) searches.push_back(search_for(scene, state, states, basis));
   };
   for (SceneGroup& group : groups) {
     if (group.needs_all || plan_[state].mirrors) find(group.solved, group.states);
@@ -107,29 +134,85 @@ std::vector<StateSolving::Search> StateSolving::searches_of(std::size_t state, s
 }
 
 void StateSolving::take(std::size_t state, Solution&& solution, SceneStates& states) const {
-  const bool is_lost = plan_[state].before && !plan_[state].is_load;
-  const bool falls_as_built = is_lost && !stands(solution) && !stands(*states[kBuilt]);
+  const bool falls_as_built = is_loss(state) && !stands(solution) && !stands(*states[kBuilt]);
   states[state] = falls_as_built ? without_memory(*states[kBuilt]) : std::move(solution);
 }
 
-void StateSolving::solve(const SceneSolver& solver, const StartingFields& starts, bool warm_starts,
+/// The state of the history, without loads, that a state begins with.
+std::size_t StateSolving::history_of(std::size_t state) const {
+  while (plan_[state].is_load) state = *plan_[state].before;
+  return state;
+}
+
+/// Where a load follows on blocks that went in many steps, and only the state's end is known.
+bool StateSolving::lacks_memory(const SceneGroup& group, bool is_image, std::size_t loss,
+                                const SearchBasis& basis) const {
+  const Scene& scene = is_image ? *group.image : group.solved;
+  const SceneStates& states = is_image ? group.image_states : group.states;
+  const Solution& lost = *states[loss];
+  if (!stands(lost) || !lost.memory.empty() || basis.steps.of(scene) == 1) return false;
+  if (without_search(scene, loss, states, basis.starts)) return false;
+  for (std::size_t state = loss + 1; state < plan_.size(); ++state) {
+    const bool is_searched = is_image ? !plan_[state].mirrors : group.needs_all || plan_[state].mirrors;
+    if (history_of(state) == loss && is_searched && !states[state]) return true;
+  }
+  return false;
+}
+
+void StateSolving::find_lacking_memory(const SceneSolver& solver, std::size_t loss,
+                                       std::span<SceneGroup> groups, const SearchBasis& basis) const {
+  std::vector<Search> searches;
+  for (SceneGroup& group : groups) {
+    if (lacks_memory(group, false, loss, basis))
+      searches.push_back(search_for(group.solved, loss, group.states, basis));
+    if (group.image && lacks_memory(group, true, loss, basis))
+      searches.push_back(search_for(*group.image, loss, group.image_states, basis));
+  }
+  std::vector<Solution> solutions = solve_searches(solver, searches);
+  for (std::size_t i = 0; i < searches.size(); ++i)
+    if (stands(solutions[i])) (*searches[i].states)[loss]->memory = std::move(solutions[i].memory);
+}
+
+void StateSolving::solve(const SceneSolver& solver, const SearchBasis& basis,
                          std::span<SceneGroup> groups) const {
-  const Shared shared{starts, warm_starts, memory_of_intact(starts.intact(kBuilt))};
   for (SceneGroup& group : groups) {
     group.states.resize(plan_.size());
     group.image_states.resize(plan_.size());
   }
   for (std::size_t state = 0; state < plan_.size(); ++state) {
-    const std::vector<Search> searches = searches_of(state, groups, shared);
-    std::vector<StageTask> tasks;
-    for (const Search& search : searches) tasks.push_back(search.task());
-    std::vector<Solution> solutions = solve_for_storage(solver, tasks);
+    const std::vector<Search> searches = searches_of(state, groups, basis);
+    std::vector<Solution> solutions = solve_searches(solver, searches);
     for (std::size_t i = 0; i < searches.size(); ++i)
       take(state, std::move(solutions[i]), *searches[i].states);
     for (SceneGroup& group : groups)
       if (group.image && plan_[state].mirrors)
         group.image_states[state] = mirrored_solution(*group.states[state], *bridge_.symmetry);
+    if (is_loss(state)) find_lacking_memory(solver, state, groups, basis);
   }
+}
+
+SearchBasis StateSolving::basis(const SceneSolver& solver, StartingFields starts, bool warm_starts) const {
+  SearchBasis basis{std::move(starts), warm_starts, {}, {}};
+  const Field* intact = basis.starts.intact(kBuilt);
+  basis.of_intact = memory_of_intact(intact);
+  const auto lost = place_of_lost(plan_);
+  if (!lost || intact == nullptr) return basis;
+  const std::vector<Scene> singles = basis.starts.standing_singles(*lost);
+  std::vector<Search> searches;
+  for (const Scene& single : singles) {
+    SceneStates states(plan_.size());
+    states[kBuilt].emplace();
+    if (const Field* built = basis.starts.find(single, kBuilt))
+      states[kBuilt] = Solution{{*built, {}}, Outcome::standing};
+    searches.push_back(one_step_search(single, *lost, states, basis));
+  }
+  const std::vector<Solution> in_one_step = solve_searches(solver, searches);
+  for (std::size_t i = 0; i < singles.size(); ++i)
+    if (stands(in_one_step[i]) &&
+        differ_in_signal(in_one_step[i].displacement, *basis.starts.find(singles[i], *lost), *intact,
+                         bridge_.control_points))
+      basis.steps.add(singles[i].removed.front());
+  return basis;
 }
 
 }  // namespace voussoir

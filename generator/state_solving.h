@@ -1,14 +1,15 @@
 #pragma once
 /// @file Solving the states of scenes one after the other.
 ///
-/// Every state is found from stored fields only: what the joints remember of a state follows from its field
-/// in storage precision and the memory before it. So a record is the same whatever was computed before it,
-/// interrupted or taken over.
+/// Every state is found from stored fields only. What the joints remember of a state follows from its field
+/// in storage precision and the memory before it, and where blocks went in many steps from solving these
+/// again. So a record is the same whatever was computed before it, interrupted or taken over.
 
 #include "core/statics/equilibrium.h"
 #include "generator/scene_solving.h"
 #include "generator/start_field.h"
 #include "generator/state_plan.h"
+#include "generator/steps_of_loss.h"
 
 namespace voussoir {
 
@@ -24,6 +25,14 @@ struct SceneGroup {
   SceneStates image_states{};
 };
 
+/// What searches for the states of a variant's scenes begin with: StateSolving::basis makes it.
+struct SearchBasis {
+  StartingFields starts;
+  bool warm_starts = true;             ///< false: a search starts from rest, or from the state before
+  std::vector<JointMemory> of_intact;  ///< what joints remember of the intact bridge as built
+  StepsOfLoss steps;
+};
+
 /// The equations of a variant, and what the joints remember.
 class StateSolving {
  public:
@@ -31,20 +40,21 @@ class StateSolving {
   StateSolving(const Model& bridge, const StatePlan& plan)
       : bridge_(bridge), plan_(plan), system_(bridge), coefficients_(system_, bridge.parameters) {}
 
-  /// Solves all states of the groups, state after state, many scenes side by side. Where `warm_starts` is
-  /// false a search starts from rest, or from the state before.
+  /// Solves those of the singles that stand as lost among the starts again, in one step.
+  SearchBasis basis(const SceneSolver& solver, StartingFields starts, bool warm_starts) const;
+
+  /// Solves all states of the groups, state after state, many scenes side by side. `basis` has the states of
+  /// the groups' starting_scenes.
   ///
   /// `lost` of the intact bridge is its `built`. A scene that does not stand as built and of which no
   /// equilibrium as lost is found has the state that it has as built, and so it has if the intact bridge does
   /// not stand. A load that acts on a scene which does not stand leaves its state as it is.
-  void solve(const SceneSolver& solver, const StartingFields& starts, bool warm_starts,
-             std::span<SceneGroup> groups) const;
+  ///
+  /// States of many steps come with what the joints remember of them.
+  void solve(const SceneSolver& solver, const SearchBasis& basis, std::span<SceneGroup> groups) const;
 
-  /// What the joints remember of the intact bridge as built, given its field; nothing for null.
-  std::vector<JointMemory> memory_of_intact(const Field* intact) const;
-
-  /// What the joints remember when a state of a scene begins. Precondition: the states before it are there,
-  /// which then keep what is remembered of them.
+  /// What the joints remember when a state of a scene begins; of a stage of many steps, when its first step
+  /// does. Precondition: the states before it are there, which then keep what is remembered of them.
   std::vector<JointMemory> memory_before(const Scene& scene, std::size_t state, SceneStates& states,
                                          const std::vector<JointMemory>& of_intact) const;
 
@@ -53,17 +63,21 @@ class StateSolving {
 
  private:
   struct Search;
-  /// What all scenes that are solved side by side share.
-  struct Shared {
-    const StartingFields& starts;
-    bool warm_starts;
-    std::vector<JointMemory> of_intact;
-  };
+  /// What the joints remember of the intact bridge as built, given its field; nothing for null.
+  std::vector<JointMemory> memory_of_intact(const Field* intact) const;
   std::optional<Solution> without_search(const Scene& scene, std::size_t state, const SceneStates& states,
                                          const StartingFields& starts) const;
-  Search search_for(const Scene& scene, std::size_t state, SceneStates& states, const Shared& shared) const;
+  bool is_loss(std::size_t state) const { return plan_[state].before && !plan_[state].is_load; }
+  Search one_step_search(const Scene& scene, std::size_t state, SceneStates& states,
+                         const SearchBasis& basis) const;
+  Search search_for(const Scene& scene, std::size_t state, SceneStates& states,
+                    const SearchBasis& basis) const;
+  std::size_t history_of(std::size_t state) const;
   std::vector<Search> searches_of(std::size_t state, std::span<SceneGroup> groups,
-                                  const Shared& shared) const;
+                                  const SearchBasis& basis) const;
+  bool lacks_memory(const SceneGroup& group, bool is_image, std::size_t loss, const SearchBasis& basis) const;
+  void find_lacking_memory(const SceneSolver& solver, std::size_t loss, std::span<SceneGroup> groups,
+                           const SearchBasis& basis) const;
   void take(std::size_t state, Solution&& solution, SceneStates& states) const;
 
   const Model& bridge_;

@@ -50,10 +50,21 @@ void check_geometry(const Database& database, const Model& stored, VerifyReport&
   check_digest(database, expected, report);
 }
 
+/// A solver of the variant for each thread, made when it is asked for.
+using ThreadSolvers = oneapi::tbb::enumerable_thread_specific<SceneSolver>;
+
+ThreadSolvers thread_solvers(const Database& database, const Model& bridge) {
+  return ThreadSolvers([&bridge, settings = database.provenance().solver_settings] {
+    return stated_solver(bridge, settings);
+  });
+}
+
 void check_scenes(const CheckedVariant& checked, const SceneTable& table, int threads, VerifyReport& report) {
   std::vector<SceneCheck> checks(table.rows);
-  Crew(threads).for_each_index(
-      checks.size(), [&](std::size_t i) { checks[i] = check_scene(checked, table.first_record + i); });
+  ThreadSolvers solvers = thread_solvers(checked.database, checked.bridge);
+  Crew(threads).for_each_index(checks.size(), [&](std::size_t i) {
+    checks[i] = check_scene(checked, table.first_record + i, solvers.local());
+  });
   for (const SceneCheck& check : checks) {
     report.fields += check.fields;
     report.mirror_pairs += check.mirror_compared ? 1 : 0;
@@ -106,10 +117,8 @@ Recomputed recompute_row(const RecomputedVariant& variant, std::size_t row, cons
 /// Solves those of the rows anew that are of the variant whose bridge this is.
 void check_recomputed(const VerifyRequest& request, const RecomputedVariant& variant,
                       std::span<const std::size_t> rows, VerifyReport& report) {
-  const std::string settings = variant.database.provenance().solver_settings;
   std::vector<Recomputed> results(rows.size());
-  oneapi::tbb::enumerable_thread_specific<SceneSolver> solvers(
-      [&] { return stated_solver(variant.bridge, settings); });
+  ThreadSolvers solvers = thread_solvers(variant.database, variant.bridge);
   Crew(request.threads).for_each_index(rows.size(), [&](std::size_t i) {
     results[i] = recompute_row(variant, rows[i], solvers.local());
   });
@@ -127,19 +136,15 @@ std::span<const std::size_t> rows_in(const SceneTable& table, std::span<const st
   return {begin, end};
 }
 
-/// What the joints remember of the variant's intact bridge as built, which all that is lost begins with.
-std::vector<JointMemory> memory_of_intact(const RecomputedVariant& variant, std::int32_t number) {
-  if (!place_of_lost(variant.plan)) return {};
-  const Database& database = variant.database;
-  const auto row = database.has_fields() ? database.find(number, Scene{}) : std::nullopt;
-  // In the intact bridge nothing is lost: its first history's state is that as built.
-  const Solution intact =
-      row ? database.solution(*row, 0)
-          : recompute({number, Scene{}}, variant,
-                      stated_solver(variant.bridge, database.provenance().solver_settings))
-                .front();
-  return variant.equations.memory_of_intact(intact.outcome == Outcome::standing ? &intact.displacement
-                                                                                : nullptr);
+/// What searches of any of the variant's scenes as lost begin with.
+SearchBasis basis_of_all(const RecomputedVariant& variant, std::int32_t number) {
+  if (!place_of_lost(variant.plan) || !variant.database.has_fields()) return {};
+  std::set<Scene> starting;
+  const SceneTable table = variant.database.table(number, 0);
+  for (std::size_t row = 0; row < table.rows; ++row)
+    starting.merge(starting_scenes(table.scene(row), std::nullopt, variant.rules, variant.plan));
+  return basis_of(starting, number, variant,
+                  stated_solver(variant.bridge, variant.database.provenance().solver_settings));
 }
 
 void check_variant(const VerifyRequest& request, const Database& database, const Model& bridge,
@@ -152,7 +157,7 @@ void check_variant(const VerifyRequest& request, const Database& database, const
                                bridge,
                                plan,
                                equations,
-                               memory_of_intact(variant, number),
+                               basis_of_all(variant, number),
                                most_stored_unbalance(bridge, settings),
                                variant.rules.mirror_images};
   report.most_unbalance = std::max(report.most_unbalance, checked.most_unbalance);

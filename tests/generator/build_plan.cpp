@@ -96,13 +96,15 @@ TEST_CASE("Without warm starts nothing is solved that nobody asked for") {
   CHECK(solved(plan_of({pair}, small_bridge(), PlanRules{.warm_starts = false}, nothing)) == 1);
 }
 
-TEST_CASE("Where blocks are lost the intact bridge is solved before, even without warm starts") {
+TEST_CASE("Where blocks are lost the intact bridge and singles are solved before, even without warm starts") {
   const Scene pair{{BlockId{0}, BlockId{3}}};
   const auto plan =
       plan_of({pair}, small_bridge(), PlanRules{.warm_starts = false}, nothing, states_of({kLostState}));
   REQUIRE(plan.stages[0].size() == 1);
   CHECK(plan.stages[0][0].solved == Scene{});
-  CHECK(plan.stages[1].empty());
+  REQUIRE(plan.stages[1].size() == 2);  // they say in how many steps the pair goes
+  CHECK(plan.stages[1][0].solved == Scene{{BlockId{0}}});
+  CHECK(plan.stages[1][1].solved == Scene{{BlockId{3}}});
 }
 
 TEST_CASE("A mirror image under a one-sided load starts from its own singles (written out)") {

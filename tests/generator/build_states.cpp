@@ -80,7 +80,7 @@ TEST_CASE(
     REQUIRE(summary.outcomes.states.size() == database.states().size());
     for (const StateOutcomes& outcomes : summary.outcomes.states)
       CHECK(outcomes.standing + outcomes.collapsed + outcomes.unresolved.size() == database.rows());
-    const std::size_t standing = *database.find(parse_scene("4,1", database.layout()));
+    const std::size_t standing = *database.find(parse_scene("4,2", database.layout()));
     for (std::size_t state = 1; state < database.states().size(); ++state)  // each is another one
       CHECK_FALSE(same_bits(database.field(standing, state), database.field(standing, 0)));
   }
@@ -234,7 +234,7 @@ TEST_CASE(
                      std::vector<Solution> states;
                      for (std::size_t state = 0; state < right.states().size(); ++state)
                        states.push_back(right.solution(row, state));
-                     if (row == 1) states[wrong] = right.solution(row, wrong == 1 ? 0 : wrong == 6 ? 2 : 1);
+                     if (row == 2) states[wrong] = right.solution(row, wrong == 1 ? 0 : wrong == 6 ? 2 : 1);
                      return make_record(keys[row], states, bridge.control_points, KeepField::yes,
                                         KeepField::yes);
                    });
@@ -242,7 +242,7 @@ TEST_CASE(
     INFO(kAllNames[wrong]);
     REQUIRE_FALSE(report.ok());
     CHECK_THAT(report.problems.front(),
-               Catch::Contains("scene 4,1: as " + kAllNames[wrong] + ": stands, but"));
+               Catch::Contains("scene 4,2: as " + kAllNames[wrong] + ": stands, but"));
   }
 }
 

@@ -104,12 +104,12 @@ std::vector<Scene> sampled_singles(const Model& bridge) {
   return sample;
 }
 
-/// What sudden releases change, over the control points of several scenes: squares, point by point.
+/// What sudden releases change, over the control points of several scenes: squares, point by point, over the
+/// mean square of the scene's signal.
 struct SuddenErrors {
   std::vector<double> error;
   std::vector<double> signal;
-  std::vector<double> mean_signal;  ///< of the point's scene
-  std::vector<double> ratios;       ///< rms of the error over rms of the signal, scene by scene
+  std::vector<double> ratios;  ///< rms of the error over rms of the signal, scene by scene
 
   void add(const Eigen::VectorXd& sudden, const Eigen::VectorXd& expected) {
     const Eigen::ArrayXd known = (!(sudden + expected).array().isNaN()).cast<double>();
@@ -118,20 +118,21 @@ struct SuddenErrors {
     };
     const Eigen::ArrayXd errors = squares(sudden - expected);
     const Eigen::ArrayXd signals = squares(expected);
+    const double mean_square = signals.sum() / known.sum();
     for (Eigen::Index i = 0; i < known.size(); ++i) {
       if (known[i] == 0.0) continue;
-      error.push_back(errors[i]);
-      signal.push_back(signals[i]);
-      mean_signal.push_back(signals.sum() / known.sum());
+      error.push_back(errors[i] / mean_square);
+      signal.push_back(signals[i] / mean_square);
     }
     ratios.push_back(std::sqrt(errors.sum() / signals.sum()));
   }
 
-  /// (share, common), none below zero: error^2 ~ share^2 signal^2 + common^2 rms(signal)^2 by least squares.
+  /// (share, common), none below zero: error^2 ~ share^2 signal^2 + common^2 rms(signal)^2 by least squares,
+  /// every scene counting alike.
   Eigen::Vector2d fit() const {
     const auto n = static_cast<Eigen::Index>(error.size());
     Eigen::MatrixX2d terms(n, 2);
-    terms << Eigen::VectorXd::Map(signal.data(), n), Eigen::VectorXd::Map(mean_signal.data(), n);
+    terms << Eigen::VectorXd::Map(signal.data(), n), Eigen::VectorXd::Ones(n);
     const auto errors = Eigen::VectorXd::Map(error.data(), n);
     Eigen::Vector2d squares = (terms.transpose() * terms).ldlt().solve(terms.transpose() * errors);
     for (const int k : {0, 1})

@@ -1,0 +1,27 @@
+#include "generator/steps_of_loss.h"
+
+#include <algorithm>
+
+#include "core/solve/history.h"
+
+namespace voussoir {
+
+int StepsOfLoss::of(const Scene& scene) const {
+  if (scene.missing() <= 1) return kStepsOfLoss;
+  const bool needs_many =
+      std::ranges::any_of(scene.removed, [&](BlockId block) { return needing_many_.contains(block); });
+  return needs_many ? kStepsOfSeveral : 1;
+}
+
+bool differ_in_signal(const Field& one_step, const Field& many_steps, const Field& intact,
+                      const std::vector<ControlPoint>& points) {
+  const Eigen::VectorXd one = vertical_displacements(one_step, points);
+  const Eigen::VectorXd many = vertical_displacements(many_steps, points);
+  const Eigen::VectorXd unmoved = vertical_displacements(intact, points);
+  const auto l1 = [](const auto& values) {
+    return values.array().isNaN().select(0.0, values.array()).abs().sum();
+  };
+  return l1(Eigen::VectorXd(one - many)) > kSameSignal * l1(Eigen::VectorXd(many - unmoved));
+}
+
+}  // namespace voussoir
