@@ -50,12 +50,16 @@ void check_geometry(const Database& database, const Model& stored, VerifyReport&
   check_digest(database, expected, report);
 }
 
-/// A solver of the variant for each thread, made when it is asked for.
+/// A solver of the variant for each thread.
 using ThreadSolvers = oneapi::tbb::enumerable_thread_specific<SceneSolver>;
 
+/// They are made when something is solved: most checks need none.
 ThreadSolvers thread_solvers(const Database& database, const Model& bridge) {
   return ThreadSolvers([&bridge, settings = database.provenance().solver_settings] {
-    return stated_solver(bridge, settings);
+    return SceneSolver([&bridge, settings, solver = SceneSolver()](std::span<const StageTask> tasks) mutable {
+      if (!solver) solver = stated_solver(bridge, settings);
+      return solver(tasks);
+    });
   });
 }
 
