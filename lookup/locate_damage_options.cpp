@@ -157,8 +157,6 @@ LookupSettings finish(const LocateDamageOptions& options) {
   settings.noise.shape = parse_noise_shape(options.noise_model);
   if (!options.noise_level.empty()) settings.noise.relative = parse_noise_level(options.noise_level);
   settings.noise.floor = kMetresPerMillimetre * options.floor_mm;
-  if (!options.model_error.empty())
-    settings.model_error = ModelError{parse_noise_level(options.model_error), 0.0, {}};
   settings.noise.silence = parse_noise_level(options.silence);
   settings.nuisance = {parse_noise_level(options.unknown_scale),
                        kMetresPerMillimetre * options.unknown_datum_mm,
@@ -170,6 +168,7 @@ ComparisonSettings comparison_settings(const LocateDamageOptions& options) {
   ComparisonSettings settings;
   if (!options.history.empty()) settings.history = options.history;
   if (!options.sigma.empty()) settings.sigma = parse_sigma(options.sigma);
+  if (!options.model_error.empty()) settings.model_error = parse_noise_level(options.model_error);
   return settings;
 }
 

@@ -176,8 +176,7 @@ Candidate candidate_of(const Library& library, const ScoredRow& found,
 
 }  // namespace
 
-Answer locate_damage(Comparison comparison, const LookupSettings& settings) {
-  if (settings.model_error) comparison.model_error = *settings.model_error;
+Answer locate_damage(const Comparison& comparison, const LookupSettings& settings) {
   const Library& library = comparison.library;
   const Eligible eligible = eligible_rows(library.table, settings.prior.missing);
   if (eligible.rows.empty())

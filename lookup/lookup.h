@@ -26,7 +26,6 @@ struct LookupSettings {
   Search search = Search::exhaustive;
   Prior prior;
   NoiseModel noise;
-  std::optional<ModelError> model_error;  ///< in the place of the database's
   Nuisance nuisance;
   std::size_t top = 10;  ///< candidates wanted
   GeneticSettings genetic;
@@ -57,6 +56,6 @@ struct Answer {
 /// Scores the scenes of the library and ranks the best.
 /// Throws Failure if the library has no scene with the wanted numbers of missing blocks, InputError if no
 /// reading can tell scenes apart.
-Answer locate_damage(Comparison comparison, const LookupSettings& settings);
+Answer locate_damage(const Comparison& comparison, const LookupSettings& settings);
 
 }  // namespace voussoir

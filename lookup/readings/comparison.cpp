@@ -117,7 +117,8 @@ Comparison compare(const ReadingsFile& file, const SensorList& list, const Datab
                     .measured = {},
                     .model_error = {}};
   enter(file, settings.sigma, result);
-  result.model_error = model_error_of(database, states.base, channels, result.library);
+  result.model_error = settings.model_error ? ModelError{*settings.model_error, 0.0, {}}
+                                            : model_error_of(database, states.base, channels, result.library);
   if (own_table) return result;
   result.levelling = levelling_of(channels);
   for (const Channel& channel : channels) {

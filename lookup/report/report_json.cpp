@@ -89,6 +89,8 @@ ordered_json sensors_json(const Answer& answer, const Comparison& comparison) {
 void add_judgement(const Answer& answer, const Comparison& comparison, ordered_json& result) {
   result["history"] = comparison.history;
   result["known_bridge"] = true;  // of all predictions of this version
+  result["model_error"] = {{"share", comparison.model_error.share},
+                           {"common", comparison.model_error.common}};
   result["intact_probability"] = nullptr;
   result["verdict"] = nullptr;
   if (!answer.posterior) return;

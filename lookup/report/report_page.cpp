@@ -117,7 +117,11 @@ std::string assumptions_html(const Answer& answer, const LookupSettings& setting
                         ? "the misfit log(sum |measured - scene|) alone, which gives no probabilities"
                         : "posterior probability of each scene"},
       {"Search", search_in_words(settings)},
-      {"Numbers of missing blocks considered", weights_in_words(settings.prior)}};
+      {"Numbers of missing blocks considered", weights_in_words(settings.prior)},
+      {"The model's own error",
+       fmt::format("{:.2g} % of the change that a scene makes at a point, and {:.2g} % of "
+                   "that change's root mean square",
+                   100.0 * comparison.model_error.share, 100.0 * comparison.model_error.common)}};
   if (settings.objective == Objective::posterior) add_noise_terms(answer, settings, terms);
   return terms_html(terms) +
          paragraph(

@@ -11,8 +11,8 @@
 
 namespace voussoir::test {
 
-inline constexpr std::array<NoiseShape, 4> kShapes = {NoiseShape::uniform, NoiseShape::gaussian, NoiseShape::laplace,
-                                               NoiseShape::student};
+inline constexpr std::array<NoiseShape, 4> kShapes = {NoiseShape::uniform, NoiseShape::gaussian,
+                                                      NoiseShape::laplace, NoiseShape::student};
 inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Densities as textbooks write them, with a standard deviation (uniform: a half-width) of sigma.
@@ -41,8 +41,8 @@ inline long double convolution(long double error, long double half_width, long d
 }
 
 /// Standard deviation of the model's own error in a change at a point (database/records/model_error.h).
-inline long double own_error(std::span<const double> prediction, std::span<const double> intact, std::size_t i,
-                      const ModelError& error) {
+inline long double own_error(std::span<const double> prediction, std::span<const double> intact,
+                             std::size_t i, const ModelError& error) {
   long double square = 0.0L;
   int count = 0;
   for (std::size_t k = 0; k < prediction.size(); ++k) {
@@ -56,8 +56,8 @@ inline long double own_error(std::span<const double> prediction, std::span<const
 
 /// p(readings | row) for a stated level, the definition in noise_model.h word for word.
 inline long double likelihood(const Measurements& measured, std::span<const double> prediction,
-                       std::span<const double> intact, const NoiseModel& noise, NoiseShape shape,
-                       long double level, const ModelError& error = {}) {
+                              std::span<const double> intact, const NoiseModel& noise, NoiseShape shape,
+                              long double level, const ModelError& error = {}) {
   long double product = 1.0L;
   for (std::size_t i = 0; i < prediction.size(); ++i) {
     if (std::isnan(measured.displacement[i])) continue;
@@ -78,8 +78,8 @@ inline long double likelihood(const Measurements& measured, std::span<const doub
 
 /// Mean over log-uniform levels by a fine midpoint rule.
 inline long double over_levels(const Measurements& measured, std::span<const double> prediction,
-                        std::span<const double> intact, const NoiseModel& noise, NoiseShape shape,
-                        const ModelError& error = {}, int kSteps = 40'000) {
+                               std::span<const double> intact, const NoiseModel& noise, NoiseShape shape,
+                               const ModelError& error = {}, int kSteps = 40'000) {
   const long double range = std::log(static_cast<long double>(kLargestLevel) / kSmallestLevel);
   long double sum = 0.0L;
   for (int i = 0; i < kSteps; ++i)
@@ -88,7 +88,8 @@ inline long double over_levels(const Measurements& measured, std::span<const dou
   return sum / kSteps;
 }
 
-inline Measurements readings_of(const SyntheticLibrary& library, std::size_t row, double level, std::uint64_t seed) {
+inline Measurements readings_of(const SyntheticLibrary& library, std::size_t row, double level,
+                                std::uint64_t seed) {
   Random random(seed);
   return library.measure(row, level, NoiseShape::uniform, random);
 }
