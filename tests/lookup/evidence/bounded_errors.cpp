@@ -22,7 +22,7 @@ long double log_convolution(long double error, long double half_width, long doub
   const long double from = std::max(-half_width, std::abs(error) - (nearest + 12.0L) * deviation);
   const long double to = std::min(half_width, std::abs(error) + 12.0L * deviation);
   const long double integral =
-      boost::math::quadrature::gauss_kronrod<long double, 61>::integrate(relative, from, to, 15, 1e-12L);
+      boost::math::quadrature::gauss_kronrod<long double, 61>::integrate(relative, from, to, 8, 1e-9L);
   return std::log(integral) - 0.5L * nearest * nearest -
          std::log(2.0L * half_width * deviation * std::sqrt(2.0L * std::numbers::pi_v<long double>));
 }

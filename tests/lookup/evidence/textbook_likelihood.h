@@ -30,14 +30,12 @@ inline long double density(NoiseShape shape, long double error, long double sigm
          std::pow(1.0L + error * error / (nu * s * s), -(nu + 1) / 2);
 }
 
-/// The convolution of the instrument's uniform and the model's Gaussian error, by a fine midpoint rule.
+/// The convolution of the instrument's uniform and the model's Gaussian error.
 inline long double convolution(long double error, long double half_width, long double deviation) {
-  constexpr int kSteps = 20'000;  // far below the smallest deviation
-  long double sum = 0.0L;
-  for (int i = 0; i < kSteps; ++i)
-    sum +=
-        density(NoiseShape::gaussian, error - half_width * (2.0L * (i + 0.5L) / kSteps - 1.0L), deviation, 0);
-  return sum / kSteps;
+  const long double root = std::numbers::sqrt2_v<long double> * deviation;
+  return (std::erfc((std::abs(error) - half_width) / root) -
+          std::erfc((std::abs(error) + half_width) / root)) /
+         (4.0L * half_width);
 }
 
 /// Standard deviation of the model's own error in a change at a point (database/records/model_error.h).
