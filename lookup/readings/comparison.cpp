@@ -86,12 +86,14 @@ ModelError model_error_of(const Database& database, std::size_t base, const std:
   const std::span<const double> intact = intact_predictions(library.table);
   for (std::size_t i = 0; i < channels.size(); ++i) {
     const Channel& channel = channels[i];
-    const std::vector<double>* const loaded =
-        channel.loaded ? &database.model_errors()[*channel.loaded].intact : nullptr;
-    const bool at_point = channel.sensor->weights.empty() && (loaded == nullptr || !loaded->empty());
-    const double before = loaded != nullptr ? at_points[channel.point] : 0.0;
-    const double after = loaded != nullptr ? (*loaded)[channel.point] : at_points[channel.point];
-    result.intact.push_back(at_point ? std::abs(after - before) : share * std::abs(intact[i]));
+    if (!channel.sensor->weights.empty()) {  // no control point
+      result.intact.push_back(share * std::abs(intact[i]));
+      continue;
+    }
+    const double own = at_points[channel.point];
+    result.intact.push_back(
+        channel.loaded ? std::abs(database.model_errors()[*channel.loaded].intact[channel.point] - own)
+                       : own);
   }
   return result;
 }
