@@ -82,7 +82,8 @@ ModelError model_error_of(const Database& database, std::size_t base, const std:
     }
   if (at_points.empty()) return result;
   const SceneTable table = database.table(kNominalVariant, base);
-  const double share = root_mean_square(at_points) / root_mean_square(intact_predictions(table));
+  const double size = root_mean_square(intact_predictions(table));
+  const double share = size > 0.0 ? root_mean_square(at_points) / size : 0.0;
   const std::span<const double> intact = intact_predictions(library.table);
   for (std::size_t i = 0; i < channels.size(); ++i) {
     const Channel& channel = channels[i];
