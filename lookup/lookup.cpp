@@ -96,17 +96,32 @@ void order_by_posterior(std::vector<ScoredRow>& rows, const Posterior& posterior
   });
 }
 
-bool same_readings(const Observation& observation, const ErrorScales& scales, std::span<const double> a,
-                   std::span<const double> b) {
-  const ExpectedErrors expected = expected_errors(observation, scales, a);
+/// What the readings' errors are expected to be if a scene is the truth, and what it predicts.
+struct Expectation {
+  std::span<const double> prediction;
+  std::vector<double> inverse_scale;  ///< zero where there is no reading
+};
+
+Expectation expectation_of(const Observation& observation, const ErrorScales& scales,
+                           std::span<const double> prediction) {
+  const ExpectedErrors expected = expected_errors(observation, scales, prediction);
+  Expectation result{prediction, std::vector<double>(prediction.size(), 0.0)};
+  for (std::size_t i = 0; i < prediction.size(); ++i)
+    if (!std::isnan(observation.reading[i]))
+      result.inverse_scale[i] =
+          1.0 / std::max(std::hypot(expected.instrument[i], expected.model[i]), kSolverPrecision);
+  return result;
+}
+
+bool same_readings(const Expectation& one, std::span<const double> other) {
   double sum = 0.0;
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    if (std::isnan(observation.reading[i])) continue;
-    const double scale = std::hypot(expected.instrument[i], expected.model[i]);
-    const double difference = (a[i] - b[i]) / std::max(scale, kSolverPrecision);
+  for (std::size_t i = 0; i < other.size(); ++i) {
+    if (one.inverse_scale[i] == 0.0) continue;
+    const double difference = (one.prediction[i] - other[i]) * one.inverse_scale[i];
     sum += difference * difference;
+    if (sum > kSameReadings * kSameReadings) return false;
   }
-  return sum <= kSameReadings * kSameReadings;
+  return !std::isnan(sum);
 }
 
 std::vector<std::size_t> rows_to_compare(const std::vector<ScoredRow>& found, const Posterior& posterior) {
@@ -121,14 +136,17 @@ std::vector<std::size_t> rows_to_compare(const std::vector<ScoredRow>& found, co
 Fit fit_of(const Library& library, const Observation& observation, const Answer& answer) {
   const Posterior& posterior = *answer.posterior;
   if (posterior.credible.empty()) return {false, 0.0, "every scene is excluded by at least one reading"};
-  Fit fit = check_fit(observation, *answer.noise, library.table.row(posterior.credible.front()));
+  std::optional<Fit> likeliest;
   double chance = 0.0, weight = 0.0;
   for (const std::size_t row :
        std::span(posterior.credible).first(std::min(posterior.credible.size(), kMostChecked))) {
+    const Fit checked = check_fit(observation, *answer.noise, library.table.row(row));
     const double share = posterior.probability[row];
-    chance += share * check_fit(observation, *answer.noise, library.table.row(row)).chance;
+    chance += share * checked.chance;
     weight += share;
+    if (!likeliest) likeliest = checked;
   }
+  Fit fit = *likeliest;
   fit.chance = chance / weight;
   fit.explained = fit.chance >= kSmallestChance;
   if (fit.explained) fit.reason.clear();
@@ -145,11 +163,12 @@ void judge_best(const Library& library, const Observation& observation, const st
   answer.residuals = sensor_residuals(observation, scales, best);
   answer.fit = fit_of(library, observation, answer);
   const std::vector<std::size_t> others = rows_to_compare(found, *answer.posterior);
-  for (Candidate& candidate : answer.candidates)
+  for (Candidate& candidate : answer.candidates) {
+    const Expectation expected = expectation_of(observation, scales, library.table.row(candidate.row));
     for (const std::size_t other : others)
-      if (other != candidate.row &&
-          same_readings(observation, scales, library.table.row(candidate.row), library.table.row(other)))
+      if (other != candidate.row && same_readings(expected, library.table.row(other)))
         candidate.same_readings.push_back(library.table.scene(other));
+  }
 }
 
 /// The candidates' rows, best first.

@@ -78,9 +78,7 @@ void finish_bins(std::vector<ReliabilityBin>& bins) {
 }  // namespace
 
 std::size_t row_of(const Library& library, const std::string& text) {
-  const Scene scene = parse_scene(text, library.layout);
-  for (std::size_t row = 0; row < library.table.rows; ++row)
-    if (library.table.scene(row) == scene) return row;
+  if (const auto row = library.table.find(parse_scene(text, library.layout))) return *row;
   throw Failure(fmt::format("the database has no scene {}", text));
 }
 

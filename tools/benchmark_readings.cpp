@@ -16,11 +16,9 @@ namespace {
 constexpr double kCalledDamaged = 0.5;
 
 std::optional<std::size_t> standing_row(const Library& library, const Scene& scene) {
-  for (std::size_t row = 0; row < library.table.rows; ++row)
-    if (library.table.scene(row) == scene)
-      return library.table.outcome[row] == static_cast<std::uint8_t>(Outcome::standing) ? std::optional(row)
-                                                                                        : std::nullopt;
-  return std::nullopt;
+  const auto row = library.table.find(scene);
+  const bool stands = row && library.table.outcome[*row] == static_cast<std::uint8_t>(Outcome::standing);
+  return stands ? row : std::nullopt;
 }
 
 Comparison take_readings(const TwoBridges& bridges, std::size_t true_row, const Instrument& instrument,

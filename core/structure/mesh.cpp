@@ -107,6 +107,16 @@ void append(const Triangulation& part, std::vector<Point>& points, Mesh& mesh) {
 
 }  // namespace
 
+Eigen::Vector3d barycentric_coordinates(const Mesh& mesh, const Triangle& triangle, const Point& place) {
+  const Point a = mesh.position(triangle.nodes[0]);
+  const Point ab = mesh.position(triangle.nodes[1]) - a;
+  const Point ac = mesh.position(triangle.nodes[2]) - a;
+  const double twice_area = cross(ab, ac);
+  const double b = cross(place - a, ac) / twice_area;
+  const double c = cross(ab, place - a) / twice_area;
+  return {1.0 - b - c, b, c};
+}
+
 Mesh make_mesh(const BlockLayout& layout, const MeshDescription& rule, double mirror_axis) {
   Mesh mesh;
   std::vector<Point> points;

@@ -49,6 +49,9 @@ struct Mesh {
   Point position(NodeId id) const { return nodes.col(value(id)); }
 };
 
+/// Shares of a triangle's corners in a place; none is negative within the triangle.
+Eigen::Vector3d barycentric_coordinates(const Mesh& mesh, const Triangle& triangle, const Point& place);
+
 /// Cuts the blocks into triangles: two to a plain block, three to a voussoir, four about the centre to a leg
 /// and to a block of the top course, and as few as its corners allow to a block cut by the arch; a block
 /// astride `mirror_axis` is fanned about its centre, or cut in two halves alike where the centre does not see

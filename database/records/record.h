@@ -7,7 +7,6 @@
 #include "core/structure/control_point.h"
 #include "database/format/sha256.h"
 #include "database/records/record_key.h"
-#include "database/records/state_name.h"
 
 namespace voussoir {
 

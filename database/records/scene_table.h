@@ -2,6 +2,7 @@
 /// @file What searches look at: one row of numbers for each scene.
 
 #include <cstdint>
+#include <optional>
 #include <span>
 
 #include "core/structure/scene.h"
@@ -23,6 +24,16 @@ struct SceneTable {
 
   std::span<const double> row(std::size_t scene) const { return vertical.subspan(scene * points, points); }
   Scene scene(std::size_t row) const;
+  std::optional<std::size_t> find(const Scene& scene) const;  ///< its row
 };
+
+/// A table of nothing but one row of numbers.
+inline SceneTable table_of_one_row(std::span<const double> row) {
+  SceneTable table;
+  table.rows = 1;
+  table.points = row.size();
+  table.vertical = row;
+  return table;
+}
 
 }  // namespace voussoir

@@ -43,6 +43,12 @@ Scene SceneTable::scene(std::size_t row) const {
   return scene;
 }
 
+std::optional<std::size_t> SceneTable::find(const Scene& wanted) const {
+  for (std::size_t row = 0; row < rows; ++row)
+    if (scene(row) == wanted) return row;
+  return std::nullopt;
+}
+
 ByteView read_column(const Hdf5File& file, const Column& column, const Sizes& sizes) {
   return file.array(column.path, column.type, shape_of(column, sizes));
 }

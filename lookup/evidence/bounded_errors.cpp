@@ -75,12 +75,6 @@ VOUSSOIR_INLINE Tail<DoubleLanes> bounded_density(const DoubleLanes& size, const
           is_narrow ? 2.0 * half_width * narrow.factor : density.factor};
 }
 
-/// What a row has of its own: variance of the model that all points share, the common factor of all movements
-/// and its variance.
-struct RowTerms {
-  double common, factor, variance;
-};
-
 /// Sum of the densities' exponents; the product of their factors, times the unit each, goes to `factors`. NaN
 /// if a reading has no prediction.
 VOUSSOIR_INLINE double log_likelihood_of_row(const PointArrays& arrays, double inverse_unit,
@@ -146,10 +140,8 @@ std::vector<double> log_bounded_likelihoods(const Observation& observation, cons
                                             const SceneTable& table, std::span<const std::size_t> rows) {
   const std::vector<double> common =
       common_variances(observation.intact, observation.error_common, table, rows);
-  const ScaleFits fits = scale_fits(observation, scales, table, rows, kBoundedVariance);
-  std::vector<RowTerms> terms;
-  for (std::size_t i = 0; i < rows.size(); ++i)
-    terms.push_back({common[i], fits.factor_of(i), fits.variance_of(i)});
+  const ScaleFits fits = scale_fits(observation, scales, table, rows, common, kBoundedVariance);
+  const std::vector<RowTerms> terms = row_terms(common, fits);
   std::vector<double> results(rows.size());
   std::vector<WideProduct> factors(rows.size());
   collect(point_arrays(observation, scales), 1.0 / scales.unit, table.vertical.data(), rows.data(),

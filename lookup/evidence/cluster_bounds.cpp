@@ -7,6 +7,7 @@
 
 #include "core/simd/lane_math.h"
 #include "lookup/evidence/evidence.h"
+#include "lookup/evidence/scene_evidence.h"
 #include "lookup/evidence/table_evidence.h"
 #include "lookup/evidence/wide_product.h"
 #include "lookup/readings/noise_scale.h"
@@ -19,8 +20,7 @@ constexpr double kRoundOff = 1e-6;  // of a bound: it is compared with evidence 
 constexpr double kLeastSum = 1e-30;
 
 /// The least sums of RowStatistics that a scene in the box can have, and the least of its scales.
-struct BoxStatistics {
-  double sum_absolute, sum_square, largest, sum_log_scale, sum_log_student;
+struct BoxStatistics : RowStatistics {
   double sum_square_beyond;   ///< of what lies beyond the instruments' bounds, over the model's deviation
   double sum_log_instrument;  ///< of the instruments' scales
 };
@@ -134,8 +134,10 @@ VOUSSOIR_INLINE BoxStatistics statistics_of(const View& view, const Box& box) {
   const auto log = [](const WideProduct& product) __attribute__((always_inline)) {
     return std::log(product.mantissa) + product.exponent * std::numbers::ln2;
   };
-  return {sum_of(sums.absolute), sum_of(sums.square),        largest_of(sums.largest), log(sums.scales),
-          log(sums.students),    sum_of(sums.square_beyond), log(sums.instruments)};
+  return {{sum_of(sums.absolute), sum_of(sums.square), largest_of(sums.largest), log(sums.scales),
+           log(sums.students)},
+          sum_of(sums.square_beyond),
+          log(sums.instruments)};
 }
 
 VOUSSOIR_FOR_EVERY_PROCESSOR
@@ -153,18 +155,12 @@ double sum_for(NoiseShape shape, const BoxStatistics& box) {
 }
 
 /// The largest that one shape's evidence can be, for the level that the statistics were taken at.
-double bound_at_level(NoiseShape shape, const BoxStatistics& box, double count, double nu) {
-  const double density = shape == NoiseShape::uniform ? 0.0 : count * log_density(shape, 0.0, nu);
-  switch (shape) {
-    case NoiseShape::uniform:
-      return -count * std::numbers::ln2 - box.sum_log_instrument - 0.5 * box.sum_square_beyond;
-    case NoiseShape::laplace:
-      return density - box.sum_log_scale - std::numbers::sqrt2 * box.sum_absolute;
-    case NoiseShape::student:
-      return density - box.sum_log_scale - 0.5 * (nu + 1.0) * box.sum_log_student;
-    default:
-      return density - box.sum_log_scale - 0.5 * box.sum_square;
-  }
+double bound_at_level(NoiseShape shape, const BoxStatistics& box, std::size_t count, double nu) {
+  if (shape == NoiseShape::uniform)
+    return -static_cast<double>(count) * std::numbers::ln2 - box.sum_log_instrument -
+           0.5 * box.sum_square_beyond;
+  if (shape == NoiseShape::student) return student_log_likelihood(box, count, nu);
+  return log_likelihood(shape, box, count);
 }
 
 }  // namespace
@@ -180,8 +176,7 @@ std::vector<double> cluster_bounds(const Observation& observation, const SearchI
   const ErrorScales scales = scales_at(observation, level);
   std::vector<BoxStatistics> boxes(index.clusters());
   collect(View(observation, scales, index.places), index, boxes.data());
-  const auto count = static_cast<double>(observation.count);
-  const double shift = count * std::log(scales.unit);
+  const double shift = static_cast<double>(observation.count) * std::log(scales.unit);
   std::vector<double> result(boxes.size(), -kInfinity);
   for (const NoiseShape shape : shapes_of(observation.noise)) {
     const LevelIntegral integral =
@@ -190,11 +185,11 @@ std::vector<double> cluster_bounds(const Observation& observation, const SearchI
       BoxStatistics box = boxes[i];
       box.sum_log_scale += shift;
       box.sum_log_instrument += shift;
-      const double bound = observation.unknown_level
-                               ? integral.constant -
-                                     integral.order * std::log(std::max(sum_for(shape, box), kLeastSum)) -
-                                     box.sum_log_scale
-                               : bound_at_level(shape, box, count, observation.noise.degrees_of_freedom);
+      const double bound =
+          observation.unknown_level
+              ? integral.constant - integral.order * std::log(std::max(sum_for(shape, box), kLeastSum)) -
+                    box.sum_log_scale
+              : bound_at_level(shape, box, observation.count, observation.noise.degrees_of_freedom);
       result[i] = std::max(result[i], bound + kRoundOff * (1.0 + std::abs(bound)));
     }
   }

@@ -137,14 +137,6 @@ std::vector<double> log_evidence(const Observation& observation, const SceneTabl
   return log_mean(std::move(logs));
 }
 
-SceneTable table_of_one_row(std::span<const double> prediction) {
-  SceneTable table;
-  table.rows = 1;
-  table.points = prediction.size();
-  table.vertical = prediction;
-  return table;
-}
-
 }  // namespace
 
 std::vector<NoiseShape> shapes_of(const NoiseModel& noise) {

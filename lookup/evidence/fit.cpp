@@ -10,9 +10,11 @@
 #include <numbers>
 
 #include "lookup/evidence/bounded_errors.h"
-#include "lookup/evidence/level_likelihood.h"
 #include "lookup/evidence/nuisance_likelihood.h"
+#include "lookup/evidence/row_statistics.h"
 #include "lookup/evidence/scale_fit.h"
+#include "lookup/evidence/scene_evidence.h"
+#include "lookup/readings/common_variance.h"
 
 namespace voussoir {
 namespace {
@@ -57,13 +59,13 @@ double chance_of_error(NoiseShape shape, double error, double instrument, double
 
 /// Fisher's method: -2 sum log p_i has a chi square distribution if all p_i are even between 0 and 1.
 double fisher_chance(const Observation& observation, NoiseShape shape, const ExpectedErrors& expected,
-                     std::span<const double> prediction, const ScaleFits& fits) {
+                     std::span<const double> prediction, const RowTerms& row) {
   double sum = 0.0;
   for (std::size_t i = 0; i < prediction.size(); ++i) {
     if (std::isnan(observation.reading[i])) continue;
     const double movement = prediction[i] - observation.origin[i];
-    const double error = observation.reading[i] - observation.origin[i] - fits.factor_of(0) * movement;
-    const double model = std::hypot(expected.model[i], std::sqrt(fits.variance_of(0)) * movement);
+    const double error = observation.reading[i] - observation.origin[i] - row.factor * movement;
+    const double model = std::hypot(expected.model[i], std::sqrt(row.variance) * movement);
     sum -= std::log(
         chance_of_error(shape, error, expected.instrument[i], model, observation.noise.degrees_of_freedom));
   }
@@ -73,10 +75,7 @@ double fisher_chance(const Observation& observation, NoiseShape shape, const Exp
 double chance_at_stated_level(const Observation& observation, const NoiseEstimate& noise,
                               std::span<const double> prediction) {
   constexpr std::array<std::size_t, 1> kRow = {0};
-  SceneTable table;
-  table.rows = 1;
-  table.points = prediction.size();
-  table.vertical = prediction;
+  const SceneTable table = table_of_one_row(prediction);
   const auto n = static_cast<double>(observation.count);
   const ErrorScales scales = scales_at(observation, std::max(noise.level, kSmallestLevel));
   if (observation.has_levelling()) {
@@ -90,8 +89,11 @@ double chance_at_stated_level(const Observation& observation, const NoiseEstimat
   if (noise.shape == NoiseShape::laplace)
     return boost::math::gamma_q(n, std::numbers::sqrt2 * row.sum_absolute);
   const double instrument_variance = noise.shape == NoiseShape::uniform ? kBoundedVariance : 1.0;
+  const std::vector<double> common =
+      common_variances(observation.intact, observation.error_common, table, kRow);
+  const ScaleFits fits = scale_fits(observation, scales, table, kRow, common, instrument_variance);
   return fisher_chance(observation, noise.shape, expected_errors(observation, scales, prediction), prediction,
-                       scale_fits(observation, scales, table, kRow, instrument_variance));
+                       row_terms(common, fits).front());
 }
 
 /// Chance that independent errors follow their neighbours as closely as these: von Neumann's ratio, normal

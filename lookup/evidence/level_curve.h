@@ -16,6 +16,7 @@ struct LevelCurve {
 
   double at(double u) const;
   double peak() const;  ///< the u of the maximum over all u; precondition: a > 0
+  double peak_between(double first, double last) const;  ///< the u of the maximum between these
 };
 
 LevelCurve level_curve(NoiseShape shape, const RowStatistics& statistics, std::size_t count);

@@ -1,53 +1,17 @@
 #include "lookup/evidence/level_likelihood.h"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "lookup/evidence/bounded_errors.h"
 #include "lookup/evidence/nuisance_likelihood.h"
 #include "lookup/evidence/row_statistics.h"
+#include "lookup/evidence/scene_evidence.h"
 
 namespace voussoir {
 namespace {
 
 constexpr double kImpossible = -std::numeric_limits<double>::infinity();
-
-/// A log likelihood as a function of the level, relative to the one that the statistics were taken at:
-/// constant - count log(r) - sum / r^power, where the errors grow with r alone.
-struct ScaledLikelihood {
-  double constant;
-  double count;
-  double sum;
-  double power;
-
-  double at_peak(double level) const {
-    const double share = power * sum / count;
-    const double fitting = power == 2.0 ? std::sqrt(share) : share;
-    const double r = std::clamp(fitting, kSmallestLevel / level, kLargestLevel / level);
-    return constant - count * std::log(r) - sum / (power == 2.0 ? r * r : r);
-  }
-};
-
-/// Of Gaussian and Laplace shapes.
-ScaledLikelihood scaled_likelihood(NoiseShape shape, const RowStatistics& statistics, double count) {
-  const double constant =
-      count * log_density(shape, 0.0, 0.0) - statistics.sum_log_scale - 0.5 * statistics.scale_square;
-  if (shape == NoiseShape::laplace)
-    return {constant, count, std::numbers::sqrt2 * statistics.sum_absolute, 1.0};
-  return {constant, count, 0.5 * statistics.sum_square, 2.0};
-}
-
-double student_log_likelihood(const RowStatistics& statistics, double count, double nu) {
-  return count * log_density(NoiseShape::student, 0.0, nu) - statistics.sum_log_scale -
-         0.5 * (nu + 1.0) * statistics.sum_log_student - 0.5 * statistics.scale_square;
-}
-
-/// The logarithm of the density of errors within the bound.
-double log_inside(const RowStatistics& statistics, double count) {
-  return -count * std::numbers::ln2 - statistics.sum_log_scale - 0.5 * statistics.scale_square;
-}
 
 TableStatistics statistics_at(const Observation& observation, Shapes shapes, double level,
                               const SceneTable& table, std::span<const std::size_t> rows) {
@@ -82,30 +46,24 @@ std::vector<std::vector<double>> log_likelihoods_at(const Observation& observati
       if (std::isnan(log)) log = kImpossible;
     return {std::move(logs)};
   }
-  const auto count = static_cast<double>(observation.count);
   const TableStatistics statistics = statistics_at(observation, shapes, level, table, rows);
   return of_possible_rows(shapes, statistics, [&](NoiseShape shape, const RowStatistics& row) {
-    if (shape == NoiseShape::uniform)
-      return row.largest <= 1.0 + kBoundTolerance ? log_inside(row, count) : kImpossible;
     if (shape == NoiseShape::student)
-      return student_log_likelihood(row, count, observation.noise.degrees_of_freedom);
-    const ScaledLikelihood scaled = scaled_likelihood(shape, row, count);
-    return scaled.constant - scaled.sum;
+      return student_log_likelihood(row, observation.count, observation.noise.degrees_of_freedom);
+    return log_likelihood(shape, row, observation.count);
   });
 }
 
 std::vector<std::vector<double>> log_likelihoods_at_peak(const Observation& observation, Shapes shapes,
                                                          double level, const SceneTable& table,
                                                          std::span<const std::size_t> rows) {
-  const auto count = static_cast<double>(observation.count);
   const TableStatistics statistics = statistics_at(observation, shapes, level, table, rows);
   return of_possible_rows(shapes, statistics, [&](NoiseShape shape, const RowStatistics& row) {
-    if (shape == NoiseShape::uniform)
-      return log_inside(row, count) -
-             count * std::log(std::clamp(row.largest, kSmallestLevel / level, kLargestLevel / level));
     if (shape == NoiseShape::student)
-      return student_log_likelihood(row, count, observation.noise.degrees_of_freedom);
-    return scaled_likelihood(shape, row, count).at_peak(level);
+      return student_log_likelihood(row, observation.count, observation.noise.degrees_of_freedom);
+    const double peak = likeliest_level(shape, row, observation.count, level);
+    if (shape == NoiseShape::uniform) return log_within_bound(row, observation.count, peak);
+    return log_likelihood(shape, row, observation.count, peak);
   });
 }
 

@@ -23,7 +23,4 @@ std::vector<std::vector<double>> log_likelihoods_at_peak(const Observation& obse
                                                          double level, const SceneTable& table,
                                                          std::span<const std::size_t> rows);
 
-/// Errors may exceed the bound of uniform noise by this share of it: rounding.
-inline constexpr double kBoundTolerance = 1e-9;
-
 }  // namespace voussoir

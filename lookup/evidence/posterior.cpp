@@ -41,24 +41,30 @@ std::vector<std::size_t> credible_set(const std::vector<double>& probability) {
 
 }  // namespace
 
-std::vector<double> log_prior_by_missing(const SceneTable& table, const Eligible& eligible,
-                                         const Prior& prior) {
+std::vector<double> weights_of(const Prior& prior) {
   if (!prior.weight.empty() && prior.weight.size() != prior.missing.size())
     throw InputError(fmt::format("{} prior weights, expected {}: one for each number of missing blocks",
                                  prior.weight.size(), prior.missing.size()));
+  if (!prior.weight.empty()) return prior.weight;
+  std::vector<double> usual;
+  for (const int missing : prior.missing) usual.push_back(missing == 0 ? kIntactWeight : 1.0);
+  return usual;
+}
+
+std::vector<double> log_prior_by_missing(const SceneTable& table, const Eligible& eligible,
+                                         const Prior& prior) {
+  const std::vector<double> weight = weights_of(prior);
   std::vector<double> result(table.most_missing + 1, kImpossible);
   for (std::size_t i = 0; i < prior.missing.size(); ++i) {
     const auto missing = static_cast<std::size_t>(prior.missing[i]);
-    const double usual = missing == 0 ? kIntactWeight : 1.0;
-    const double weight = prior.weight.empty() ? usual : prior.weight[i];
     if (missing < result.size() && eligible.scenes[missing] > 0)
-      result[missing] = std::log(weight / static_cast<double>(eligible.scenes[missing]));
+      result[missing] = std::log(weight[i] / static_cast<double>(eligible.scenes[missing]));
   }
   if (std::all_of(result.begin(), result.end(), [](double log) { return !std::isfinite(log); }))
     throw InputError(fmt::format(
         "prior weights {} for {} missing blocks leave no scene of the database possible, expected a "
         "positive weight for one of these numbers",
-        fmt::join(prior.weight, ", "), fmt::join(prior.missing, ", ")));
+        fmt::join(weight, ", "), fmt::join(prior.missing, ", ")));
   return result;
 }
 

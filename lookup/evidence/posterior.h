@@ -21,6 +21,10 @@ struct Prior {
 /// damaged, these 0.4 and 0.6 % (docs/results.md).
 inline constexpr double kIntactWeight = 8.0;
 
+/// The weight of each of the prior's numbers of missing blocks. Throws InputError if the prior has not as
+/// many weights as numbers.
+std::vector<double> weights_of(const Prior& prior);
+
 struct Posterior {
   std::vector<double> probability;          ///< of each row of the table; all zero if no scene is possible
   std::vector<double> block_probability;    ///< that a block is missing: sum over the scenes that lack it
@@ -32,8 +36,7 @@ struct Posterior {
 inline constexpr double kCredibleShare = 0.95;
 
 /// log prior of one scene with 0, 1, 2... missing blocks: its number's weight over how many eligible scenes
-/// have it. Throws InputError if the prior has not as many weights as numbers, and if its weights leave no
-/// eligible scene possible.
+/// have it. Throws as weights_of, and InputError if the weights leave no eligible scene possible.
 std::vector<double> log_prior_by_missing(const SceneTable& table, const Eligible& eligible,
                                          const Prior& prior);
 

@@ -27,13 +27,6 @@ struct View {
   double per_student;  ///< 1 / (nu - 2), or 0 if nobody asks
 };
 
-/// What a row has of its own.
-struct RowTerms {
-  double common;    ///< variance of the model that all points share [m2]
-  double factor;    ///< of all movements
-  double variance;  ///< of that factor
-};
-
 template <bool kModelError, ErrorSum kSum>
 VOUSSOIR_INLINE void add_errors(const View& view, std::size_t i, std::size_t count, const double* prediction,
                                 const RowTerms& row, LaneStatistics& statistics) {
@@ -151,17 +144,6 @@ View view_of(const Observation& observation, const ErrorScales& scales) {
           observation.noise.shape == NoiseShape::student ? 1.0 / (nu - 2.0) : 0.0};
 }
 
-std::vector<RowTerms> terms_of(const Observation& observation, const SceneTable& table, Rows rows,
-                               const ScaleFits& fits) {
-  const std::vector<double> common =
-      common_variances(observation.intact, observation.error_common, table, rows);
-  std::vector<RowTerms> terms;
-  terms.reserve(rows.size());
-  for (std::size_t i = 0; i < rows.size(); ++i)
-    terms.push_back({common[i], fits.factor_of(i), fits.variance_of(i)});
-  return terms;
-}
-
 /// Mantissas become logarithms of mantissa times two to the exponent, plus a shift.
 void make_wide_logarithms(std::vector<double>& mantissa, const std::vector<double>& exponent, double shift) {
   make_logarithms(mantissa);
@@ -179,14 +161,16 @@ TableStatistics table_statistics(const Observation& observation, const ErrorScal
   const Columns columns{result.sum_absolute.data(),  result.sum_square.data(), result.largest.data(),
                         result.sum_log_scale.data(), scale_exponent.data(),    result.sum_log_student.data(),
                         student_exponent.data()};
+  const std::vector<double> common =
+      common_variances(observation.intact, observation.error_common, table, rows);
   const ScaleFits fits =
-      scale_fits(observation, scales, table, rows, sum == ErrorSum::beyond ? kBoundedVariance : 1.0);
+      scale_fits(observation, scales, table, rows, common, sum == ErrorSum::beyond ? kBoundedVariance : 1.0);
   const bool plain = !observation.has_model_error() && observation.unknown_scale == 0.0;
   const auto collect = plain                                             ? collect_plain
                        : sum == ErrorSum::beyond                         ? collect_beyond
                        : observation.noise.shape == NoiseShape::gaussian ? collect_squares
                                                                          : collect_variance;
-  collect(view, table.vertical.data(), rows, terms_of(observation, table, rows, fits).data(), columns);
+  collect(view, table.vertical.data(), rows, row_terms(common, fits).data(), columns);
   make_wide_logarithms(result.sum_log_scale, scale_exponent,
                        static_cast<double>(observation.count) * std::log(scales.unit));
   if (view.per_student > 0.0) make_wide_logarithms(result.sum_log_student, student_exponent, 0.0);

@@ -4,7 +4,6 @@
 #include <limits>
 
 #include "lookup/evidence/point_arrays.h"
-#include "lookup/readings/common_variance.h"
 
 namespace voussoir {
 namespace {
@@ -39,11 +38,10 @@ void collect(const PointArrays& arrays, const double* table, const std::size_t* 
 }  // namespace
 
 ScaleFits scale_fits(const Observation& observation, const ErrorScales& scales, const SceneTable& table,
-                     std::span<const std::size_t> rows, double instrument_variance) {
+                     std::span<const std::size_t> rows, std::span<const double> common,
+                     double instrument_variance) {
   ScaleFits fits;
   if (observation.unknown_scale == 0.0) return fits;
-  const std::vector<double> common =
-      common_variances(observation.intact, observation.error_common, table, rows);
   std::vector<Products> sums(rows.size());
   collect(point_arrays(observation, scales), table.vertical.data(), rows.data(), rows.size(), common.data(),
           instrument_variance, sums.data());
@@ -58,6 +56,17 @@ ScaleFits scale_fits(const Observation& observation, const ErrorScales& scales, 
     fits.log_width.push_back(-0.5 * std::log(variance * prior));
   }
   return fits;
+}
+
+std::vector<RowTerms> row_terms(std::span<const double> common, const ScaleFits& fits) {
+  std::vector<RowTerms> terms;
+  terms.reserve(common.size());
+  for (const double variance : common) terms.push_back({.common = variance});
+  for (std::size_t i = 0; i < fits.factor.size(); ++i) {
+    terms[i].factor = fits.factor[i];
+    terms[i].variance = fits.variance[i];
+  }
+  return terms;
 }
 
 }  // namespace voussoir

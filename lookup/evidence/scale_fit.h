@@ -21,17 +21,25 @@ struct ScaleFits {
   std::vector<double> variance;   ///< v
   std::vector<double> square;     ///< ((c - 1) / tau)^2
   std::vector<double> log_width;  ///< log(tau / sqrt(v))
-
-  double factor_of(std::size_t i) const { return factor.empty() ? 1.0 : factor[i]; }
-  double variance_of(std::size_t i) const { return variance.empty() ? 0.0 : variance[i]; }
 };
 
 /// Variance of an error that is even within a bound of one.
 inline constexpr double kBoundedVariance = 1.0 / 3.0;
 
-/// `instrument_variance`: of an instrument's error in units of its scale squared: 1, or 1/3 of bounded
-/// errors.
+/// `common` are the rows' common_variances; `instrument_variance` is that of an instrument's error in units
+/// of its scale squared: 1, or kBoundedVariance.
 ScaleFits scale_fits(const Observation& observation, const ErrorScales& scales, const SceneTable& table,
-                     std::span<const std::size_t> rows, double instrument_variance);
+                     std::span<const std::size_t> rows, std::span<const double> common,
+                     double instrument_variance);
+
+/// What the likelihood of a row needs of its own.
+struct RowTerms {
+  double common = 0.0;    ///< variance of the model that all points share [m2]
+  double factor = 1.0;    ///< of all movements
+  double variance = 0.0;  ///< of that factor
+};
+
+/// One for each row.
+std::vector<RowTerms> row_terms(std::span<const double> common, const ScaleFits& fits);
 
 }  // namespace voussoir

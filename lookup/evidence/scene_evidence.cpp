@@ -27,7 +27,7 @@ double reach_right(const LevelCurve& curve) {
 double log_integral(const LevelCurve& curve) {
   const double first = std::log(kSmallestLevel);
   const double last = std::log(kLargestLevel);
-  const double peak = std::clamp(curve.a > 0.0 ? curve.peak() : first, first, last);
+  const double peak = curve.peak_between(first, last);
   const double from = std::max(first, peak - reach_left(curve));
   const double to = std::min(last, peak + reach_right(curve));
   const double top = curve.at(peak);
@@ -52,7 +52,18 @@ double log_likelihood(NoiseShape shape, const RowStatistics& statistics, std::si
   if (std::isnan(statistics.sum_absolute)) return kImpossible;
   if (shape != NoiseShape::uniform) return level_curve(shape, statistics, count).at(std::log(level));
   if (statistics.largest > level * (1.0 + kBoundTolerance)) return kImpossible;
-  return -static_cast<double>(count) * std::log(2.0 * level) - statistics.sum_log_scale;
+  return log_within_bound(statistics, count, level);
+}
+
+double log_within_bound(const RowStatistics& statistics, std::size_t count, double level) {
+  return -static_cast<double>(count) * std::log(2.0 * level) - statistics.sum_log_scale -
+         0.5 * statistics.scale_square;
+}
+
+double student_log_likelihood(const RowStatistics& statistics, std::size_t count, double degrees_of_freedom) {
+  return static_cast<double>(count) * log_density(NoiseShape::student, 0.0, degrees_of_freedom) -
+         statistics.sum_log_scale - 0.5 * (degrees_of_freedom + 1.0) * statistics.sum_log_student -
+         0.5 * statistics.scale_square;
 }
 
 double log_evidence(NoiseShape shape, const RowStatistics& statistics, std::size_t count) {
@@ -62,10 +73,12 @@ double log_evidence(NoiseShape shape, const RowStatistics& statistics, std::size
   return integral - std::log(log_range());
 }
 
-double likeliest_level(NoiseShape shape, const RowStatistics& statistics, std::size_t count) {
-  if (shape == NoiseShape::uniform) return std::clamp(statistics.largest, kSmallestLevel, kLargestLevel);
-  const LevelCurve curve = level_curve(shape, statistics, count);
-  return curve.a > 0.0 ? std::clamp(std::exp(curve.peak()), kSmallestLevel, kLargestLevel) : kSmallestLevel;
+double likeliest_level(NoiseShape shape, const RowStatistics& statistics, std::size_t count,
+                       double taken_at) {
+  const double least = kSmallestLevel / taken_at;
+  const double most = kLargestLevel / taken_at;
+  if (shape == NoiseShape::uniform) return std::clamp(statistics.largest, least, most);
+  return std::exp(level_curve(shape, statistics, count).peak_between(std::log(least), std::log(most)));
 }
 
 double log_sum(double a, double b) {

@@ -42,12 +42,8 @@ std::vector<double> common_variances(std::span<const double> intact, double comm
 }
 
 double common_variance(std::span<const double> intact, double common, std::span<const double> row) {
-  SceneTable table;
-  table.rows = 1;
-  table.points = row.size();
-  table.vertical = row;
   constexpr std::array<std::size_t, 1> kFirst = {0};
-  return common_variances(intact, common, table, kFirst).front();
+  return common_variances(intact, common, table_of_one_row(row), kFirst).front();
 }
 
 }  // namespace voussoir

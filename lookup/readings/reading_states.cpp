@@ -10,13 +10,6 @@
 namespace voussoir {
 namespace {
 
-std::optional<std::size_t> find_state(const Database& database, const std::string& name) {
-  const auto& states = database.states();
-  const auto found = std::find(states.begin(), states.end(), name);
-  return found == states.end() ? std::nullopt
-                               : std::optional(static_cast<std::size_t>(found - states.begin()));
-}
-
 /// The load cases after a history, for messages.
 std::string loads_of(const Database& database, const std::string& history) {
   std::string names;
@@ -29,7 +22,7 @@ std::string loads_of(const Database& database, const std::string& history) {
 /// The states of one history; a message instead of what is missing.
 std::variant<ReadingStates, std::string> states_of(const ReadingsFile& file, const Database& database,
                                                    const std::string& history) {
-  const std::optional<std::size_t> base = find_state(database, history);
+  const std::optional<std::size_t> base = database.find_state(history);
   if (!base)
     return at_line(database.path().string(), 0,
                    fmt::format("has no history '{}' but the states {}; expected one built with --history {}",
@@ -38,7 +31,7 @@ std::variant<ReadingStates, std::string> states_of(const ReadingsFile& file, con
   for (const Reading& reading : file.readings) {
     states.loaded.push_back(std::nullopt);
     if (reading.load.empty()) continue;
-    states.loaded.back() = find_state(database, state_name(history, reading.load));
+    states.loaded.back() = database.find_state(state_name(history, reading.load));
     if (!states.loaded.back())
       return at_line(file.name, reading.line,
                      fmt::format("the database has no load {} after the history '{}', expected {}",
@@ -56,8 +49,7 @@ ReadingStates find_reading_states(const ReadingsFile& file, const Database& data
   auto found = states_of(file, database, usual);
   if (!history && std::holds_alternative<std::string>(found)) {
     auto other = states_of(file, database, absolute ? kLostState : kBuiltState);
-    if (std::holds_alternative<ReadingStates>(other) || find_state(database, usual) == std::nullopt)
-      found = std::move(other);
+    if (std::holds_alternative<ReadingStates>(other) || !database.find_state(usual)) found = std::move(other);
   }
   if (const auto* const message = std::get_if<std::string>(&found)) throw InputError(*message);
   return std::get<ReadingStates>(std::move(found));

@@ -3,21 +3,6 @@
 #include <limits>
 
 namespace voussoir {
-namespace {
-
-/// Barycentric coordinates: shares of the triangle's corners in a place.
-Eigen::Vector3d shares_of(const Triangle& triangle, const Point& place, const Mesh& mesh) {
-  const Point a = mesh.position(triangle.nodes[0]);
-  const Point ab = mesh.position(triangle.nodes[1]) - a;
-  const Point ac = mesh.position(triangle.nodes[2]) - a;
-  const double twice_area = cross(ab, ac);
-  const double b = cross(place - a, ac) / twice_area;
-  const double c = cross(ab, place - a) / twice_area;
-  return {1.0 - b - c, b, c};
-}
-
-}  // namespace
-
 SensorList control_point_sensors(const std::vector<StoredPoint>& points) {
   SensorList list{{}, points.size()};
   for (const StoredPoint& point : points)
@@ -32,7 +17,7 @@ std::vector<NodeWeight> displacement_weights(const Place& place, const Point& di
       -std::numeric_limits<double>::infinity();  // the triangle about the place has no negative share
   for (int t = range.begin; t < range.end; ++t) {
     const Triangle& triangle = mesh.triangles[static_cast<std::size_t>(t)];
-    const Eigen::Vector3d shares = shares_of(triangle, place.position, mesh);
+    const Eigen::Vector3d shares = barycentric_coordinates(mesh, triangle, place.position);
     if (shares.minCoeff() <= best) continue;
     best = shares.minCoeff();
     weights.clear();

@@ -51,18 +51,6 @@ std::size_t find_point(const Database& database, std::string_view name) {
   return static_cast<std::size_t>(found - points.begin());
 }
 
-/// Barycentric coordinates of a place in a triangle; nothing if it lies outside.
-std::optional<Eigen::Vector3d> inside(const Point& place, const Triangle& triangle, const Mesh& mesh) {
-  const Point a = mesh.position(triangle.nodes[0]);
-  const Point ab = mesh.position(triangle.nodes[1]) - a;
-  const Point ac = mesh.position(triangle.nodes[2]) - a;
-  const double twice_area = cross(ab, ac);
-  const double b = cross(place - a, ac) / twice_area;
-  const double c = cross(ab, place - a) / twice_area;
-  const Eigen::Vector3d weights(1.0 - b - c, b, c);
-  return weights.minCoeff() >= -kInside ? std::optional(weights) : std::nullopt;
-}
-
 Point displacement_at(const Database& database, std::size_t row, std::size_t state, const Point& place) {
   const Mesh& mesh = database.mesh();
   const Scene scene = database.table().scene(row);
@@ -71,11 +59,11 @@ Point displacement_at(const Database& database, std::size_t row, std::size_t sta
     if (scene.lacks(BlockId{static_cast<std::int32_t>(block)})) continue;
     for (int t = mesh.block_triangles[block].begin; t < mesh.block_triangles[block].end; ++t) {
       const Triangle& triangle = mesh.triangles[static_cast<std::size_t>(t)];
-      const auto weights = inside(place, triangle, mesh);
-      if (!weights) continue;
+      const Eigen::Vector3d weights = barycentric_coordinates(mesh, triangle, place);
+      if (weights.minCoeff() < -kInside) continue;
       Point result = Point::Zero();
       for (int corner = 0; corner < 3; ++corner)
-        result += (*weights)[corner] * field.col(value(triangle.nodes.at(static_cast<std::size_t>(corner))));
+        result += weights[corner] * field.col(value(triangle.nodes.at(static_cast<std::size_t>(corner))));
       return result;
     }
   }

@@ -86,12 +86,10 @@ void add_noise_terms(const Answer& answer, const LookupSettings& settings, Terms
 }
 
 std::string weights_in_words(const Prior& prior) {
+  const std::vector<double> weight = weights_of(prior);
   std::string text;
-  for (std::size_t i = 0; i < prior.missing.size(); ++i) {
-    const double usual = prior.missing[i] == 0 ? kIntactWeight : 1.0;
-    text += fmt::format("{}{} (weight {:g})", i == 0 ? "" : ", ", prior.missing[i],
-                        prior.weight.empty() ? usual : prior.weight[i]);
-  }
+  for (std::size_t i = 0; i < prior.missing.size(); ++i)
+    text += fmt::format("{}{} (weight {:g})", i == 0 ? "" : ", ", prior.missing[i], weight[i]);
   return text;
 }
 

@@ -53,11 +53,7 @@ struct SyntheticLibrary {
     comparison.model_error = error;
     return voussoir::observe(comparison, noise, nuisance);
   }
-  std::size_t row_of(const Scene& scene) const {
-    for (std::size_t row = 0; row < table.rows; ++row)
-      if (table.scene(row) == scene) return row;
-    return table.rows;
-  }
+  std::size_t row_of(const Scene& scene) const { return table.find(scene).value_or(table.rows); }
 
   /// Readings of a row with noise of the given level and shape, everywhere that the scene has a point.
   Measurements measure(std::size_t row, double level, NoiseShape shape, Random& random) const {
