@@ -55,7 +55,7 @@ TEST_CASE("A build holds all scenes and leaves nothing but the database behind")
   CHECK(site.open().table().rows == summary.outcomes.scenes);
 }
 
-TEST_CASE("The digest is the same for 1, 2 and 5 threads") {
+TEST_CASE("The digest is the same for 1, 2 and 5 threads", "[threads]") {
   for (const int threads : {1, 2, 5}) {
     Site site;
     site.request.threads = threads;
@@ -63,7 +63,7 @@ TEST_CASE("The digest is the same for 1, 2 and 5 threads") {
   }
 }
 
-TEST_CASE("The digest of real scenes is the same for 1 and for 4 threads") {
+TEST_CASE("The digest of real scenes is the same for 1 and for 4 threads", "[threads]") {
   std::string expected;
   for (const int threads : {1, 4}) {
     Site site;
@@ -75,7 +75,8 @@ TEST_CASE("The digest of real scenes is the same for 1 and for 4 threads") {
   }
 }
 
-TEST_CASE("A build interrupted at any scene goes on where it stopped and ends with the same digest") {
+TEST_CASE("A build interrupted at any scene goes on where it stopped and ends with the same digest",
+          "[threads]") {
   for (const int scenes : {1, 2, 5, 20, 40, 100, 350}) {
     const Site site;
     REQUIRE_THROWS_AS(site.build(test::failing_solver(scenes)), Failure);

@@ -87,7 +87,7 @@ TEST_CASE("Two variants in one file are verified, and each is what is built of i
   }
 }
 
-TEST_CASE("A build of variants that is interrupted goes on and ends with the same digest") {
+TEST_CASE("A build of variants that is interrupted goes on and ends with the same digest", "[threads]") {
   const std::string expected = Site({1.2, 0.5}).build().digest;
   for (const int scenes : {1, 3, 50, 400, 1000}) {
     const Site site({1.2, 0.5});

@@ -38,7 +38,7 @@ TEST_CASE("A crew of no stated size has a thread for each core (as the system sa
   CHECK(working_threads(crew).size() <= static_cast<std::size_t>(CPU_COUNT(&cores)));
 }
 
-TEST_CASE("A crew of a stated size has it and does every piece of work once (counted)") {
+TEST_CASE("A crew of a stated size has it and does every piece of work once (counted)", "[threads]") {
   for (const int threads : {1, 2, 3}) {
     Crew crew(threads);
     CHECK(crew.size() == threads);

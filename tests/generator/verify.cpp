@@ -139,7 +139,8 @@ void flip_bits_and_verify(int trials) {
 
 }  // namespace
 
-TEST_CASE("A database just built is in order and its scenes come out the same when solved anew") {
+TEST_CASE("A database just built is in order and its scenes come out the same when solved anew",
+          "[threads]") {
   const FewScenes few;
   const VerifyReport report = few.verify_with(few.bytes, 6);
   CHECK(report.problems == std::vector<std::string>{});
