@@ -4,6 +4,7 @@
 #include "lookup/command_line.h"
 #include "tools/benchmark_lookup.h"
 #include "tools/benchmark_process.h"
+#include "tools/benchmark_questions.h"
 
 namespace {
 
@@ -29,6 +30,8 @@ std::string benchmark(const Options& options) {
                                  database.table().rows, database.table().points);
   text += table("Ten best under Eq. 1", timings.searches);
   text += table("Posterior over all scenes", timings.posteriors);
+  text += table("Whole answers, with the model's own error",
+                voussoir::time_questions(database, options.queries, options.seed));
   text += table("Genetic search, the paper's settings", timings.genetic);
   const auto own_folder = std::filesystem::read_symlink("/proc/self/exe").parent_path();
   text +=

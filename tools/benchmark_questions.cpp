@@ -1,0 +1,83 @@
+#include "tools/benchmark_questions.h"
+
+#include <chrono>
+
+#include "lookup/lookup.h"
+#include "lookup/readings/simulate.h"
+
+namespace voussoir {
+namespace {
+
+constexpr double kLevel = 0.05;    // of relative noise
+constexpr double kSigma = 2e-5;    // [m] of changes
+constexpr Nuisance kLevelled = {.scale = 0.0, .datum = 1e-3, .tilt = 1e-4};
+
+/// What is measured, and what the lookup is told of it.
+struct Question {
+  std::string name;
+  ReadingKind kind;
+  NoiseModel told;
+  Nuisance nuisance{};
+};
+
+const std::vector<Question>& questions() {
+  using enum NoiseShape;
+  using enum ReadingKind;
+  static const std::vector<Question> all = {
+      {"changes, sigma stated", change, {}},
+      {"changes, sigma, datum and tilt", change, {}, kLevelled},
+      {"absolute, bounded, stated", absolute, {uniform, kLevel}},
+      {"absolute, nothing stated (default)", absolute, {}},
+      {"absolute, nothing stated, floor", absolute, {.floor = 1e-6}},
+      {"absolute, bounded, unknown level", absolute, {uniform}},
+      {"absolute, gaussian, stated", absolute, {gaussian, kLevel}},
+      {"absolute, gaussian, unknown level", absolute, {gaussian}},
+      {"absolute, gaussian, unknown level, datum and tilt", absolute, {gaussian}, kLevelled},
+      {"absolute, laplace, unknown level", absolute, {laplace}},
+      {"absolute, student, stated", absolute, {student, kLevel}},
+      {"absolute, student, unknown level", absolute, {student}},
+  };
+  return all;
+}
+
+Comparison readings_of(const Library& library, const ModelError& error, std::size_t row,
+                       const Question& question, Random& random) {
+  const bool is_change = question.kind == ReadingKind::change;
+  NoiseModel noise = question.told;
+  if (noise.shape == NoiseShape::automatic) noise.shape = NoiseShape::gaussian;
+  noise.relative = is_change ? 0.0 : kLevel;
+  noise.floor = is_change ? kSigma : 0.0;
+  noise.silence = 0.0;
+  Measurements measured = simulate_readings(library.table.row(row), noise, random);
+  if (is_change) measured.sigma.assign(measured.displacement.size(), kSigma);
+  return {.kind = question.kind, .library = library, .measured = std::move(measured), .model_error = error};
+}
+
+Timing time_question(const Library& library, const ModelError& error, const Question& question, int queries,
+                     std::uint64_t seed) {
+  Random random(seed);
+  std::vector<double> milliseconds;
+  for (int i = 0; i < queries; ++i) {
+    const Eligible rows = eligible_rows(library.table, {i % 3});
+    const std::size_t truth = rows.rows[random.below(static_cast<std::uint32_t>(rows.rows.size()))];
+    const Comparison comparison = readings_of(library, error, truth, question, random);
+    const LookupSettings settings{.noise = question.told, .nuisance = question.nuisance};
+    const auto start = std::chrono::steady_clock::now();
+    locate_damage(comparison, settings);
+    milliseconds.push_back(
+        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
+  }
+  return timing_of(question.name, std::move(milliseconds));
+}
+
+}  // namespace
+
+std::vector<Timing> time_questions(const Database& database, int queries, std::uint64_t seed) {
+  const Library library = library_of(database);
+  std::vector<Timing> timings;
+  for (const Question& question : questions())
+    timings.push_back(time_question(library, database.model_errors().front(), question, queries, seed));
+  return timings;
+}
+
+}  // namespace voussoir

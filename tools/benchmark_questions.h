@@ -1,0 +1,17 @@
+#pragma once
+/// @file How long the questions take that locate-damage's options ask, in process, on one core.
+
+#include <cstdint>
+#include <vector>
+
+#include "database/records/database.h"
+#include "tools/timing.h"
+
+namespace voussoir {
+
+/// Whole answers (observation, evidence of all scenes, posterior, noise, fit), with the model's own error as
+/// the database states it, one row for each kind of question. Readings are those of random scenes with 0, 1
+/// or 2 missing blocks, the same for every question of a kind.
+std::vector<Timing> time_questions(const Database& database, int queries, std::uint64_t seed);
+
+}  // namespace voussoir
