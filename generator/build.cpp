@@ -179,6 +179,8 @@ BuildSummary build_database(const BuildRequest& request, const SolverChoice& sol
   const Build build = prepare(request, solver, progress);
   BuildSummary summary;
   summary.output = request.output;
+  summary.blocks = build.bridge().layout.size();
+  summary.small_pieces = build.bridge().layout.small_pieces;
   ExistingDatabase existing = examine_existing(
       request.output,
       {build.provenance, build.variants, build.wanted, kept_names(build.states), request.fields},

@@ -29,7 +29,9 @@ struct BuildRequest {
 
 struct BuildSummary {
   std::filesystem::path output;
-  bool up_to_date = false;  ///< nothing had to be done
+  bool up_to_date = false;   ///< nothing had to be done
+  std::size_t blocks = 0;    ///< of the bridge
+  SmallPieces small_pieces;  ///< what the wall's smallest block made of them
   OutcomeCounts outcomes;
   std::size_t computed = 0;          ///< records made by this run (with those that only start others)
   std::size_t resumed = 0;           ///< records kept from an interrupted build

@@ -19,8 +19,8 @@ std::string row(const char* name, const Numbers&... numbers) {
 }
 
 std::string wall_text(const WallDescription& wall) {
-  const auto& [length, courses, course_height, block_length, bond, smallest_piece] = wall;
-  return row("wall", length, courses, course_height, block_length, bond, smallest_piece);
+  const auto& [length, courses, course_height, block_length, bond, smallest_piece, smallest_block] = wall;
+  return row("wall", length, courses, course_height, block_length, bond, smallest_piece, smallest_block);
 }
 
 std::string span_text(const SpanDescription& span) {

@@ -15,12 +15,24 @@ std::string origin_text(const BuildSummary& summary) {
   return text;
 }
 
+std::string blocks_text(const BuildSummary& summary) {
+  std::string text = fmt::format("  blocks      {}\n", summary.blocks);
+  const SmallPieces& small = summary.small_pieces;
+  if (small.joined > 0)
+    text += fmt::format(
+        "  joined      {} pieces below the smallest block (key smallest_block), to their neighbours\n",
+        small.joined);
+  if (small.left > 0)
+    text += fmt::format("  left small  {} pieces without a neighbour in the wall\n", small.left);
+  return text;
+}
+
 }  // namespace
 
 std::string to_text(const BuildSummary& summary) {
   return fmt::format("{}: {} scenes ({})\n", summary.output.string(), summary.outcomes.scenes,
                      origin_text(summary)) +
-         to_text(summary.outcomes) +
+         blocks_text(summary) + to_text(summary.outcomes) +
          fmt::format("  time        {:.1f} s\n  size        {:.1f} MB\n  digest      {}\n", summary.seconds,
                      static_cast<double>(summary.bytes) * 1e-6, summary.digest);
 }
@@ -28,6 +40,9 @@ std::string to_text(const BuildSummary& summary) {
 std::string to_json(const BuildSummary& summary) {
   nlohmann::ordered_json json = {
       {"ok", true}, {"file", summary.output.string()}, {"up_to_date", summary.up_to_date}};
+  json.update({{"blocks", summary.blocks},
+               {"joined_pieces", summary.small_pieces.joined},
+               {"small_pieces", summary.small_pieces.left}});
   json.update(to_json(summary.outcomes));
   json.update({{"computed", summary.computed},
                {"resumed", summary.resumed},

@@ -10,7 +10,8 @@ namespace voussoir {
 /// A few lines for people; as to_text(OutcomeCounts) has them.
 std::string to_text(const BuildSummary& summary);
 
-/// One line of JSON for programs: {"ok": true, "file", "up_to_date", what OutcomeCounts has, "computed",
+/// One line of JSON for programs: {"ok": true, "file", "up_to_date", "blocks",
+/// "joined_pieces", "small_pieces", what OutcomeCounts has, "computed",
 /// "resumed", "reused", "changes", "seconds", "bytes", "digest"}.
 std::string to_json(const BuildSummary& summary);
 

@@ -8,8 +8,8 @@
 namespace voussoir {
 namespace {
 
-constexpr double kLevel = 0.05;    // of relative noise
-constexpr double kSigma = 2e-5;    // [m] of changes
+constexpr double kLevel = 0.05;  // of relative noise
+constexpr double kSigma = 2e-5;  // [m] of changes
 constexpr Nuisance kLevelled = {.scale = 0.0, .datum = 1e-3, .tilt = 1e-4};
 
 /// What is measured, and what the lookup is told of it.

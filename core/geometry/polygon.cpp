@@ -10,6 +10,8 @@
 #include <boost/geometry/geometries/polygon.hpp>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <utility>
 
 namespace voussoir {
 namespace {
@@ -45,6 +47,38 @@ Polygon without_idle_corners(const Polygon& polygon) {
     if (off_line > kMergeDistance) corners.push_back(distinct[i]);
   }
   return corners;
+}
+
+/// The number of a corner among those that are known; a new one if none is near.
+int number_of(const Point& point, std::vector<Point>& corners) {
+  const auto known = static_cast<int>(corners.size());
+  for (int i = 0; i < known; ++i)
+    if ((corners[static_cast<std::size_t>(i)] - point).norm() <= kMergeDistance) return i;
+  corners.push_back(point);
+  return known;
+}
+
+/// The polygon's outline by the numbers of its corners, with those corners of the other that lie on it.
+std::vector<int> with_corners_of(const Polygon& polygon, const Polygon& other, std::vector<Point>& corners) {
+  std::vector<int> outline;
+  const auto append = [&](const Point& point) {
+    const int number = number_of(point, corners);
+    if (outline.empty() || outline.back() != number) outline.push_back(number);
+  };
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Point& from = polygon[i];
+    const Point& to = polygon[(i + 1) % polygon.size()];
+    Polygon between;
+    for (const Point& corner : other)
+      if (distance_to_segment(from, to, corner) <= kMergeDistance) between.push_back(corner);
+    std::sort(between.begin(), between.end(), [&](const Point& a, const Point& b) {
+      return (a - from).squaredNorm() < (b - from).squaredNorm();
+    });
+    append(from);
+    for (const Point& corner : between) append(corner);
+  }
+  while (outline.size() > 1 && outline.back() == outline.front()) outline.pop_back();
+  return outline;
 }
 
 }  // namespace
@@ -102,6 +136,37 @@ std::vector<Polygon> subtract(const Polygon& subject, const Polygon& hole, doubl
   std::sort(parts.begin(), parts.end(),
             [](const Polygon& a, const Polygon& b) { return centroid(a).x() < centroid(b).x(); });
   return parts;
+}
+
+std::optional<Polygon> joined(const Polygon& first, const Polygon& second) {
+  // A place where the two have an edge in opposite directions lies inside the union: both edges go.
+  std::vector<Point> corners;
+  std::map<std::pair<int, int>, int> edges;
+  bool touch = false;
+  for (const auto& [polygon, other] : {std::pair(&first, &second), std::pair(&second, &first)}) {
+    const std::vector<int> outline = with_corners_of(*polygon, *other, corners);
+    for (std::size_t i = 0; i < outline.size(); ++i) {
+      const std::pair edge(outline[i], outline[(i + 1) % outline.size()]);
+      if (edges.erase({edge.second, edge.first}) > 0)
+        touch = true;
+      else
+        ++edges[edge];
+    }
+  }
+  std::map<int, int> next;
+  for (const auto& [edge, times] : edges)
+    if (times > 1 || !next.emplace(edge).second) return std::nullopt;
+  if (!touch || next.empty()) return std::nullopt;
+  Polygon outline;
+  int corner = next.begin()->first;
+  do {
+    outline.push_back(corners[static_cast<std::size_t>(corner)]);
+    const auto found = next.find(corner);
+    if (found == next.end()) return std::nullopt;
+    corner = found->second;
+  } while (corner != next.begin()->first && outline.size() <= next.size());
+  if (outline.size() != next.size()) return std::nullopt;
+  return without_idle_corners(outline);
 }
 
 Polygon mirrored(const Polygon& polygon, double axis_x) {

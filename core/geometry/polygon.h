@@ -2,6 +2,7 @@
 /// @file Points and polygons in the plane, x to the right and y up, in metres.
 
 #include <Eigen/Core>
+#include <optional>
 #include <vector>
 
 namespace voussoir {
@@ -33,6 +34,11 @@ double distance_to_corner(const Polygon& polygon, const Point& point);
 /// at most `smallest_area` [m2] are dropped, corners closer than a micrometre are merged and corners that lie
 /// on the straight line between their neighbours are removed.
 std::vector<Polygon> subtract(const Polygon& subject, const Polygon& hole, double smallest_area);
+
+/// The union of two polygons that touch along edges: nothing unless it is one polygon without holes that
+/// passes through no corner twice. Corners within a micrometre of each other, or of the other's edges, count
+/// as lying there.
+std::optional<Polygon> joined(const Polygon& first, const Polygon& second);
 
 /// Mirror image across the vertical line at `axis_x`, counter-clockwise again.
 Polygon mirrored(const Polygon& polygon, double axis_x);

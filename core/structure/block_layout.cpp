@@ -86,17 +86,26 @@ void add_course(const BridgeDescription& description, int course, std::vector<Bl
   const double bottom = (course - 1) * description.wall.course_height;
   const double top = course * description.wall.course_height;
   const std::vector<double> x = joints_of_course(description.wall, course);
-  int position = 0;
   for (std::size_t i = 0; i + 1 < x.size(); ++i) {
     const Polygon rectangle = {{x[i], bottom}, {x[i + 1], bottom}, {x[i + 1], top}, {x[i], top}};
     for (const Polygon& part : cut_by_spans(rectangle, description)) {
       const bool whole = std::abs(area(part) - area(rectangle)) <= 1e-9 * area(rectangle);
       Block& block = blocks.emplace_back();
-      block.index = {course, ++position};
+      block.index = {course, static_cast<int>(blocks.size())};  // numbered course by course in the end
       block.kind = whole ? BlockKind::plain : BlockKind::cut;
       block.top_course = course == description.wall.courses;
       block.polygon = whole ? rectangle : part;
     }
+  }
+}
+
+/// Numbers the blocks of every course from the left, and calls them by that.
+void number(std::vector<Block>& blocks) {
+  BlockIndex last;
+  for (Block& block : blocks) {
+    last = {block.index.course, block.index.course == last.course ? last.position + 1 : 1};
+    block.index = last;
+    block.label = to_string(last);
   }
 }
 
@@ -138,11 +147,14 @@ BlockLayout lay_blocks(const BridgeDescription& description) {
   std::stable_sort(layout.blocks.begin(), layout.blocks.end(), [](const Block& a, const Block& b) {
     return centroid(a.polygon).x() < centroid(b.polygon).x();
   });
-  for (std::size_t i = 0; i < layout.blocks.size(); ++i)
-    layout.blocks[i].index = {0, static_cast<int>(i) + 1};
+  for (Block& block : layout.blocks) block.index.course = 0;
   for (int course = 1; course <= description.wall.courses; ++course)
     add_course(description, course, layout.blocks);
-  for (Block& block : layout.blocks) block.label = to_string(block.index);
+  const WallDescription& wall = description.wall;
+  layout.small_pieces =
+      join_small_pieces(layout.blocks, wall.smallest_block * wall.course_height * wall.block_length,
+                        description.joint_tolerance);
+  number(layout.blocks);
   if (layout.blocks.empty()) throw InputError("the bridge has no blocks: give it courses or spans");
   return layout;
 }

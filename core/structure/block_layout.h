@@ -7,6 +7,7 @@
 
 #include "core/structure/block.h"
 #include "core/structure/bridge_description.h"
+#include "core/structure/small_pieces.h"
 
 namespace voussoir {
 
@@ -14,6 +15,7 @@ namespace voussoir {
 /// left to right.
 struct BlockLayout {
   std::vector<Block> blocks;
+  SmallPieces small_pieces{};  ///< what became of them
 
   std::size_t size() const { return blocks.size(); }
   const Block& operator[](BlockId id) const { return blocks[static_cast<std::size_t>(id)]; }
@@ -30,8 +32,8 @@ struct BlockLayout {
 };
 
 /// Lays the bridge's blocks (paper, Fig. 1): ring blocks of every span, and the course rectangles minus what
-/// the rings' extrados chords and legs enclose. A rectangle cut in two gives two blocks. Throws InputError if
-/// no block is left.
+/// the rings' extrados chords and legs enclose. A rectangle cut in two gives two blocks; pieces below the
+/// wall's smallest block are joined to a neighbour. Throws InputError if no block is left.
 BlockLayout lay_blocks(const BridgeDescription& description);
 
 }  // namespace voussoir

@@ -18,6 +18,9 @@ enum class Bond {
   stack     ///< all courses start with a whole block
 };
 
+/// A tenth of a block: what a mason would rather leave at the stone beside it.
+inline constexpr double kSmallestBlock = 0.1;
+
 /// The spandrel wall: courses of rectangular blocks, laid from x = 0, y = 0.
 struct WallDescription {
   double length = 20.0;        ///< [m]
@@ -26,6 +29,8 @@ struct WallDescription {
   double block_length = 1.0;   ///< [m]
   Bond bond = Bond::running;
   double smallest_piece = 1e-9;  ///< [m2] smaller remains of blocks cut by a ring vanish
+  double smallest_block = 0.0;   ///< [-] share of a whole block; smaller pieces are joined to a neighbour. A
+                                 ///< bridge file that says nothing means kSmallestBlock
 };
 
 /// A stilted semicircular arch ring; below its centre it goes straight down to the ground (y = 0).

@@ -26,6 +26,8 @@ void read_wall(TomlSection section, WallDescription& wall) {
   section.length("block_length_m", wall.block_length);
   section.choice("bond", wall.bond, {{"running", Bond::running}, {"stack", Bond::stack}});
   section.positive("smallest_piece_m2", wall.smallest_piece);
+  wall.smallest_block = kSmallestBlock;
+  section.number("smallest_block", wall.smallest_block, 0.0, 0.5, true);
   section.refuse_unknown_keys();
 }
 

@@ -1,8 +1,9 @@
 #include "core/structure/joint.h"
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
+
+#include "core/geometry/facing_edges.h"
 
 namespace voussoir {
 namespace {
@@ -29,31 +30,16 @@ std::vector<PlacedEdge> edges_by_left_end(const Mesh& mesh) {
   return edges;
 }
 
-/// The stretch in which two edges run against each other, or nothing.
-std::optional<Joint> facing_stretch(const PlacedEdge& a, const PlacedEdge& b, double tolerance) {
-  const Point along = a.to - a.from;
-  const double length = along.norm();
-  const Point back = b.to - b.from;
-  if (along.dot(back) >= 0.0) return std::nullopt;
-  const auto place = [&](const Point& p) { return (p - a.from).dot(along) / (length * length); };
-  const auto distance = [&](const Point& p) { return cross(along, p - a.from) / length; };
-
-  // b runs backwards: its end comes first along a.
-  const double b_begin = place(b.to);
-  const double b_end = place(b.from);
-  const double begin = std::max(0.0, b_begin);
-  const double end = std::min(1.0, b_end);
-  if ((end - begin) * length < tolerance) return std::nullopt;
-  const auto on_b = [&](double s) { return (b_end - s) / (b_end - b_begin); };  // weight of b.to
-  for (const double s : {begin, end})
-    if (std::abs(distance(b.from + on_b(s) * back)) > tolerance) return std::nullopt;
+std::optional<Joint> joint_between(const PlacedEdge& a, const PlacedEdge& b, double tolerance) {
+  const auto stretch = facing_stretch({a.from, a.to}, {b.from, b.to}, tolerance);
+  if (!stretch) return std::nullopt;
   return Joint{.first = a.block,
                .second = b.block,
                .first_edge = a.edge,
                .second_edge = b.edge,
-               .first_at = {begin, end},
-               .second_at = {on_b(begin), on_b(end)},
-               .length = (end - begin) * length};
+               .first_at = stretch->on_first,
+               .second_at = stretch->on_second,
+               .length = stretch->length};
 }
 
 }  // namespace
@@ -65,8 +51,8 @@ std::vector<Joint> find_joints(const Mesh& mesh, double tolerance) {
     for (std::size_t j = i + 1; j < edges.size() && edges[j].left() <= edges[i].right() + tolerance; ++j) {
       if (edges[i].block == edges[j].block) continue;
       const bool in_order = edges[i].block < edges[j].block;
-      const auto stretch = in_order ? facing_stretch(edges[i], edges[j], tolerance)
-                                    : facing_stretch(edges[j], edges[i], tolerance);
+      const auto stretch = in_order ? joint_between(edges[i], edges[j], tolerance)
+                                    : joint_between(edges[j], edges[i], tolerance);
       if (stretch) joints.push_back(*stretch);
     }
   std::stable_sort(joints.begin(), joints.end(), [](const Joint& a, const Joint& b) {

@@ -43,3 +43,27 @@ TEST_CASE("Subtracting keeps coordinates to round-off", "[geometry]") {
   REQUIRE(parts.size() == 1);
   CHECK(std::abs(area(parts[0]) - 0.3) < 1e-15);
 }
+
+TEST_CASE("Polygons that share an edge, or a part of one, are joined to the outline of both (by hand)",
+          "[geometry]") {
+  const Polygon square = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+  const auto flush = joined(square, {{1, 0}, {2, 0}, {2, 1}, {1, 1}});
+  REQUIRE(flush);
+  CHECK(flush->size() == 4);  // corners on a straight line are gone
+  CHECK(area(*flush) == Approx(2.0));
+  const auto stepped = joined(square, {{1, 0.25}, {2, 0.25}, {2, 0.75}, {1, 0.75}});
+  REQUIRE(stepped);
+  CHECK(stepped->size() == 8);
+  CHECK(area(*stepped) == Approx(1.5));
+  const auto nearly = joined(square, {{1 + 1e-9, 0}, {2, 0}, {2, 1}, {1 - 1e-9, 1}});
+  REQUIRE(nearly);
+  CHECK(nearly->size() == 4);
+}
+
+TEST_CASE("Polygons that lie apart, touch at a corner or enclose a hole are not joined", "[geometry]") {
+  const Polygon square = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+  CHECK_FALSE(joined(square, {{2, 0}, {3, 0}, {3, 1}, {2, 1}}));
+  CHECK_FALSE(joined(square, {{1, 1}, {2, 1}, {2, 2}, {1, 2}}));
+  const Polygon horseshoe = {{0, 0}, {3, 0}, {3, 3}, {0, 3}, {0, 2}, {2, 2}, {2, 1}, {0, 1}};
+  CHECK_FALSE(joined(horseshoe, {{-1, 0}, {0, 0}, {0, 3}, {-1, 3}}));
+}

@@ -23,6 +23,7 @@ std::vector<double> numbers_of(const BridgeDescription& d) {
                                  d.wall.block_length,
                                  double(d.wall.bond),
                                  d.wall.smallest_piece,
+                                 d.wall.smallest_block,
                                  d.material.young_modulus,
                                  d.material.poisson_ratio,
                                  d.material.density,
@@ -47,13 +48,16 @@ std::vector<double> numbers_of(const BridgeDescription& d) {
 
 }  // namespace
 
-TEST_CASE("The reference bridge file says what the defaults say, and so does an empty file",
-          "[bridge-file]") {
-  const std::vector<double> defaults = numbers_of({});
-  for (const BridgeDescription& file :
-       {reference_bridge_file().description, parse_bridge_file("", "empty.toml").description}) {
-    CHECK(file.name == BridgeDescription{}.name);
-    CHECK(numbers_of(file) == defaults);
+TEST_CASE(
+    "The reference bridge file says what the defaults say, and so does an empty file but for small pieces",
+    "[bridge-file]") {
+  BridgeDescription expected;
+  for (const auto& [file, smallest_block] :
+       {std::pair(reference_bridge_file().description, 0.0),
+        std::pair(parse_bridge_file("", "empty.toml").description, 0.1)}) {
+    expected.wall.smallest_block = smallest_block;
+    CHECK(file.name == expected.name);
+    CHECK(numbers_of(file) == numbers_of(expected));
   }
 }
 
@@ -71,33 +75,34 @@ const std::vector<Key> kKeys = {{"[wall]\nlength_m = 30.0", 0, 30.0},
                                 {"[wall]\nblock_length_m = 0.8", 3, 0.8},
                                 {"[wall]\nbond = \"stack\"", 4, double(Bond::stack)},
                                 {"[wall]\nsmallest_piece_m2 = 1e-4", 5, 1e-4},
-                                {"[material]\nyoung_modulus_Pa = 1e10", 6, 1e10},
-                                {"[material]\npoisson_ratio = 0.3", 7, 0.3},
-                                {"[material]\ndensity_kg_m3 = 2000", 8, 2000.0},
-                                {"[material]\nthickness_m = 2.5", 9, 2.5},
-                                {"[material]\nplane = \"strain\"", 10, double(PlaneState::strain)},
-                                {"[joints]\nnormal_stiffness_Pa_per_m = 2e9", 11, 2e9},
-                                {"[joints]\ntangential_stiffness_Pa_per_m = 2e8", 12, 2e8},
-                                {"[joints]\nfriction_angle_deg = 30", 13, std::numbers::pi / 6.0},
-                                {"[supports]\nbase = \"roller\"", 14, double(SupportKind::roller)},
-                                {"[supports]\nsides = \"free\"", 15, double(SupportKind::free)},
-                                {"[control_points]\ntop = false", 16, 0.0},
-                                {"[control_points]\narch = false", 17, 0.0},
-                                {"[mesh]\nrefinement = 2", 18, 2.0},
-                                {"[mesh]\nsplit_at_corners = false", 19, 0.0},
-                                {"gravity_m_s2 = 1.62", 20, 1.62},
-                                {"[joints]\ntolerance_m = 1e-4", 21, 1e-4},
-                                {"[[spans]]\ncentre_x_m = 9.0", 22, 9.0},
-                                {"[[spans]]\ncentre_y_m = 1.5", 23, 1.5},
-                                {"[[spans]]\nintrados_radius_m = 3.0", 24, 3.0},
-                                {"[[spans]]\nring_thickness_m = 0.4", 25, 0.4},
-                                {"[[spans]]\nvoussoirs = 21", 26, 21.0}};
+                                {"[wall]\nsmallest_block = 0.2", 6, 0.2},
+                                {"[material]\nyoung_modulus_Pa = 1e10", 7, 1e10},
+                                {"[material]\npoisson_ratio = 0.3", 8, 0.3},
+                                {"[material]\ndensity_kg_m3 = 2000", 9, 2000.0},
+                                {"[material]\nthickness_m = 2.5", 10, 2.5},
+                                {"[material]\nplane = \"strain\"", 11, double(PlaneState::strain)},
+                                {"[joints]\nnormal_stiffness_Pa_per_m = 2e9", 12, 2e9},
+                                {"[joints]\ntangential_stiffness_Pa_per_m = 2e8", 13, 2e8},
+                                {"[joints]\nfriction_angle_deg = 30", 14, std::numbers::pi / 6.0},
+                                {"[supports]\nbase = \"roller\"", 15, double(SupportKind::roller)},
+                                {"[supports]\nsides = \"free\"", 16, double(SupportKind::free)},
+                                {"[control_points]\ntop = false", 17, 0.0},
+                                {"[control_points]\narch = false", 18, 0.0},
+                                {"[mesh]\nrefinement = 2", 19, 2.0},
+                                {"[mesh]\nsplit_at_corners = false", 20, 0.0},
+                                {"gravity_m_s2 = 1.62", 21, 1.62},
+                                {"[joints]\ntolerance_m = 1e-4", 22, 1e-4},
+                                {"[[spans]]\ncentre_x_m = 9.0", 23, 9.0},
+                                {"[[spans]]\ncentre_y_m = 1.5", 24, 1.5},
+                                {"[[spans]]\nintrados_radius_m = 3.0", 25, 3.0},
+                                {"[[spans]]\nring_thickness_m = 0.4", 26, 0.4},
+                                {"[[spans]]\nvoussoirs = 21", 27, 21.0}};
 
 }  // namespace
 
 TEST_CASE("Every key of a bridge file sets its own value, in the unit of its name (written out)",
           "[bridge-file]") {
-  std::vector<double> defaults = numbers_of({});
+  std::vector<double> defaults = numbers_of(parse_bridge_file("", "empty.toml").description);
   REQUIRE(kKeys.size() == defaults.size());
   for (const Key& key : kKeys) {
     const std::vector<double> found = numbers_of(parse_bridge_file(key.text, "one-key.toml").description);
@@ -170,6 +175,7 @@ const std::vector<Limits> kLimits = {{"[wall]\nlength_m = ", 1e-3, 1e5, true},
                                      {"[wall]\ncourse_height_m = ", 1e-3, 1e5, true},
                                      {"[wall]\nblock_length_m = ", 1e-3, 1e5, true},
                                      {"[wall]\nsmallest_piece_m2 = ", 0.0, 1e15, false},
+                                     {"[wall]\nsmallest_block = ", 0.0, 0.5, true},
                                      {"[material]\nyoung_modulus_Pa = ", 0.0, 1e15, false},
                                      {"[material]\npoisson_ratio = ", 0.0, 0.49, true},
                                      {"[material]\ndensity_kg_m3 = ", 0.0, 1e15, false},
