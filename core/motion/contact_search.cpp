@@ -163,9 +163,6 @@ EdgeContact ContactSearch::contact(const EdgePair& pair) const {
   const BoundaryEdge& edge_b = mesh_->edges[b];
   const auto found = std::lower_bound(joined_.begin(), joined_.end(), pair);
   const bool joined = found != joined_.end() && *found == pair;
-  const auto thickness = [&](int block) {
-    return parameters_->blocks[static_cast<std::size_t>(block)].thickness;
-  };
   const auto share = [&](NodeId node) {
     return joined ? 0.0 : corner_share_[static_cast<std::size_t>(value(node))];
   };
@@ -177,8 +174,19 @@ EdgeContact ContactSearch::contact(const EdgePair& pair) const {
           .corner_share = {share(edge_a.from), share(edge_a.to), share(edge_b.from), share(edge_b.to)},
           .deepest = 0.5 * (behind_[a] + behind_[b]),
           .material = joined ? joined_material_[static_cast<std::size_t>(found - joined_.begin())]
-                             : ContactMaterial(parameters_->contact, std::min(thickness(edge_block_[a]),
-                                                                              thickness(edge_block_[b])))};
+                             : new_contact(edge_block_[a], edge_block_[b])};
+}
+
+ContactMaterial ContactSearch::new_contact(int block_a, int block_b) const {
+  const auto a = static_cast<std::size_t>(block_a);
+  const auto b = static_cast<std::size_t>(block_b);
+  JointMaterial material = parameters_->contact;
+  if (const std::vector<double>& share = parameters_->contact_share; !share.empty()) {
+    material.normal_stiffness *= std::min(share[a], share[b]);
+    material.tangential_stiffness *= std::min(share[a], share[b]);
+  }
+  return ContactMaterial(material,
+                         std::min(parameters_->blocks[a].thickness, parameters_->blocks[b].thickness));
 }
 
 }  // namespace voussoir

@@ -32,6 +32,8 @@ class ContactSearch {
   EdgeContact contact(const EdgePair& pair) const;
 
  private:
+  ContactMaterial new_contact(int block_a, int block_b) const;
+
   const Mesh* mesh_;
   const Parameters* parameters_;
   std::vector<int> edge_block_;                   ///< per edge

@@ -1,5 +1,6 @@
 #include "core/motion/critical_step.h"
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <cmath>
@@ -124,6 +125,30 @@ double critical_step(const Model& model, const std::vector<BlockBody>& bodies, I
   for (int i = 0; i < kStepIterations; ++i)  // the joints add little to the blocks' own frequencies
     step = 2.0 / highest_frequency(model, bodies, integrator, 0.0, 1.0 + 2.0 * contact_damping / step);
   return step;
+}
+
+std::vector<double> block_frequencies(const Model& model, const std::vector<BlockBody>& bodies, double step) {
+  std::vector<Eigen::MatrixXd> stiffness;
+  for (const BlockBody& body : bodies)
+    stiffness.emplace_back(Eigen::MatrixXd::Zero(2 * body.nodes.size(), 2 * body.nodes.size()));
+  const std::vector<JointSpring> springs = joint_springs(model);
+  for (std::size_t j = 0; j < springs.size(); ++j)
+    for (const int side : {0, 1}) {
+      const BlockId block = side == 0 ? model.joints[j].first : model.joints[j].second;
+      const int begin = bodies[static_cast<std::size_t>(block)].nodes.begin;
+      for (int row = 2 * side; row < 2 * side + 2; ++row)
+        for (int column = 2 * side; column < 2 * side + 2; ++column)
+          stiffness[static_cast<std::size_t>(block)].block<2, 2>(
+              2 * (springs[j].nodes[static_cast<std::size_t>(row)] - begin),
+              2 * (springs[j].nodes[static_cast<std::size_t>(column)] - begin)) +=
+              springs[j].stiffness.block<2, 2>(2 * row, 2 * column);
+    }
+  std::vector<double> frequencies;
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    const Eigen::MatrixXd rates = motion_response(bodies[b], step) * stiffness[b];
+    frequencies.push_back(std::sqrt(rates.eigenvalues().cwiseAbs().maxCoeff()));
+  }
+  return frequencies;
 }
 
 NaturalMotion natural_motion(const Model& model, const EquilibriumSystem& system) {

@@ -19,6 +19,10 @@ enum class Integrator {
 double critical_step(const Model& model, const std::vector<BlockBody>& bodies, Integrator integrator,
                      double contact_damping);
 
+/// The highest frequency of each block alone [rad/s], its joints closed and sticking and its neighbours
+/// standing still; block elasticity as implicit steps of this length [s] make it.
+std::vector<double> block_frequencies(const Model& model, const std::vector<BlockBody>& bodies, double step);
+
 /// The linear bridge, all joints closed and sticking, under its weight.
 struct NaturalMotion {
   double frequency;  ///< the lowest, by inverse iteration [rad/s]

@@ -5,6 +5,7 @@
 
 #include "core/error.h"
 #include "core/motion/motion_step.h"
+#include "core/motion/softening.h"
 
 namespace voussoir {
 namespace {
@@ -23,15 +24,23 @@ double checked_step(const DynamicSettings& settings, double critical) {
   return *settings.step;
 }
 
+/// The bridge with joints that steps of the settings can follow.
+Model bridge_to_follow(const Model& bridge, const DynamicSettings& settings) {
+  if (settings.integrator != Integrator::implicit_blocks || settings.least_step == 0.0) return bridge;
+  return softened(bridge, softening(bridge, make_block_bodies(bridge, settings.inertia),
+                                    settings.contact_damping, settings.least_step));
+}
+
 }  // namespace
 
 struct DynamicSolver::Workspace {
   Workspace(const Model& bridge, const EquilibriumSystem& system, const DynamicSettings& settings_)
       : settings(settings_),
-        natural(natural_motion(bridge, system)),
-        critical(voussoir::critical_step(bridge, make_block_bodies(bridge, settings.inertia),
+        followed(bridge_to_follow(bridge, settings)),
+        natural(natural_motion(followed, system)),
+        critical(voussoir::critical_step(followed, make_block_bodies(followed, settings.inertia),
                                          settings.integrator, settings.contact_damping)),
-        model(bridge, checked_step(settings, critical),
+        model(followed, checked_step(settings, critical),
               settings.damping.value_or(2.0 * kDampingShare * natural.frequency), settings.contact_damping,
               settings.inertia),
         margin(search_margin(bridge)) {}
@@ -39,6 +48,7 @@ struct DynamicSolver::Workspace {
   long steps_until(double time) const { return std::lround(std::ceil(time / model.step)); }
 
   DynamicSettings settings;
+  Model followed;
   NaturalMotion natural;
   double critical;
   MotionModel model;

@@ -38,7 +38,9 @@ struct DynamicSettings {
   Integrator integrator = Integrator::implicit_blocks;
   RotationalInertia inertia = RotationalInertia::lumped;
   std::optional<double> step;  ///< empty: 0.9 times the critical step
-  double ramp = 0.3;           ///< gravity grows from 0 as 3 x^2 - 2 x^3, x = time / ramp; 0: at once
+  double least_step = 2e-4;  ///< joints of a block that alone would need shorter implicit steps are softened
+                             ///< until it does not (softening.h); 0: none are
+  double ramp = 0.3;         ///< gravity grows from 0 as 3 x^2 - 2 x^3, x = time / ramp; 0: at once
   std::optional<double>
       damping;  ///< force per mass and velocity [1/s]; empty: half-critical of the lowest frequency
   double contact_damping = 1e-4;  ///< joints resist what they will see this much later

@@ -103,12 +103,13 @@ void visit_rules(const std::string& phase, Rules& rules, const Visit& visit) {
 
 template <class Settings, class Visit>
 void visit_motion(Settings& settings, const Visit& visit) {
-  auto& [integrator, inertia, step, ramp, damping, contact_damping, moment, decision, skips, side_by_side] =
-      settings;
+  auto& [integrator, inertia, step, least_step, ramp, damping, contact_damping, moment, decision, skips,
+         side_by_side] = settings;
   static_cast<void>(side_by_side);
   visit("motion.integrator", integrator);
   visit("motion.inertia", inertia);
   visit("motion.step_s", step);
+  if (integrator == Integrator::implicit_blocks) visit("motion.least_step_s", least_step);
   visit("motion.ramp_s", ramp);
   visit("motion.damping_per_s", damping);
   visit("motion.contact_damping_s", contact_damping);
@@ -152,15 +153,21 @@ SolverSettings SolverSettings::of(SolverKind kind, const DynamicSettings& motion
 }
 
 SolverSettings acting_settings(SolverSettings settings, const Model& model) {
-  // That three steps show whether there is a way was measured on joints that are softer than blocks; stiffer
-  // ones take some ten steps. How stiff they are: p_n b / E with a mean block's size b.
+  // That three steps show whether there is a way was measured on joints much softer than blocks (0.03 in p_n
+  // b / E with a mean block's size b). From 0.1 on bridges that stand take up to fifty, and a motion that is
+  // not needed takes a hundred times as long as those.
+  constexpr double kStiffJoints = 0.1;
+  constexpr int kMostOfStiffJoints = 60;
   double stiffest = model.parameters.contact.normal_stiffness;
   for (const JointMaterial& joint : model.parameters.joints)
     stiffest = std::max(stiffest, joint.normal_stiffness);
   double softest = model.parameters.blocks.front().young_modulus;
   for (const Material& material : model.parameters.blocks)
     softest = std::min(softest, material.young_modulus);
-  if (stiffest * mean_block_size(model) / softest > 1.0) settings.newton.skips.early_outcome = false;
+  if (stiffest * mean_block_size(model) / softest > kStiffJoints) {
+    settings.newton.skips.early_outcome = false;
+    settings.newton.most_iterations = std::max(settings.newton.most_iterations, kMostOfStiffJoints);
+  }
   return settings;
 }
 

@@ -13,6 +13,8 @@ struct Parameters {
   std::vector<Material> blocks;       ///< of each block of the structure
   std::vector<JointMaterial> joints;  ///< of each joint of the structure
   JointMaterial contact;              ///< where blocks meet that did not touch at rest
+  std::vector<double> contact_share;  ///< [-] of each block: where it meets another newly, stiffness is the
+                                      ///< smaller share of the two of `contact`; empty: all of it
 };
 
 /// The same material everywhere, as a bridge file states it.

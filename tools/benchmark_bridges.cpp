@@ -1,0 +1,174 @@
+#include "tools/benchmark_bridges.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <ctime>
+#include <numbers>
+
+#include "lookup/readings/random.h"
+
+namespace voussoir {
+namespace {
+
+constexpr std::size_t kTogether = 16;  // scenes handed over at a time
+constexpr std::size_t kMostNamed = 5;  // unresolved scenes in the table
+
+/// Uniform numbers from a seed.
+class Draw {
+ public:
+  explicit Draw(std::uint64_t seed) : random_(seed) {}
+  double between(double least, double most) { return least + (most - least) * random_.uniform(); }
+  double even_in_logarithm(double least, double most) {
+    return std::exp(between(std::log(least), std::log(most)));
+  }
+  int whole(int least, int most) {
+    return least + static_cast<int>(random_.below(static_cast<std::uint32_t>(most - least + 1)));
+  }
+
+ private:
+  Random random_;
+};
+
+double processor_seconds() {
+  return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
+}
+
+std::vector<Scene> drawn_scenes(const Model& model, int count, std::uint64_t seed) {
+  std::vector<Scene> scenes = all_scenes(static_cast<std::size_t>(model.block_count()), 1);
+  if (count == 0) return scenes;
+  Random random(seed);
+  for (std::size_t i = 1; i + 1 < scenes.size(); ++i)  // a shuffle that leaves the intact bridge first
+    std::swap(scenes[i], scenes[i + random.below(static_cast<std::uint32_t>(scenes.size() - i))]);
+  scenes.resize(std::min(scenes.size(), static_cast<std::size_t>(count) + 1));
+  return scenes;
+}
+
+std::vector<Solution> solve(CombinedSolver& solver, std::span<const Scene> scenes) {
+  std::vector<StageTask> tasks;
+  for (const Scene& scene : scenes) tasks.push_back({.stage = {.scene = scene}});
+  return solver.solve(tasks);
+}
+
+void count(const std::vector<Solution>& solutions, std::span<const Scene> scenes, const BlockLayout& layout,
+           BridgeRow& row) {
+  for (std::size_t i = 0; i < solutions.size(); ++i) {
+    const Outcome outcome = solutions[i].outcome;
+    (outcome == Outcome::standing    ? row.standing
+     : outcome == Outcome::collapsed ? row.collapsed
+                                     : row.unresolved) += 1;
+    if (outcome == Outcome::unresolved) row.unresolved_scenes.push_back(to_string(scenes[i], layout));
+  }
+}
+
+/// The scene of a group that takes longest is looked for in the slowest group alone.
+void find_worst(CombinedSolver& solver, std::span<const Scene> scenes, const BlockLayout& layout,
+                BridgeRow& row) {
+  for (const Scene& scene : scenes) {
+    const double start = processor_seconds();
+    solve(solver, std::span(&scene, 1));
+    const double seconds = processor_seconds() - start;
+    if (seconds <= row.worst) continue;
+    row.worst = seconds;
+    row.worst_scene = to_string(scene, layout);
+  }
+}
+
+BridgeRow measure(const BridgeDescription& description, const BridgeOptions& options, std::uint64_t seed) {
+  const Model model = make_model(description);
+  CombinedSolver solver(model);
+  const std::vector<Scene> scenes = drawn_scenes(model, options.scenes, seed);
+  BridgeRow row{.name = description.name,
+                .blocks = model.block_count(),
+                .scenes = static_cast<int>(scenes.size())};
+  std::span<const Scene> slowest;
+  double longest = -1.0;
+  for (std::size_t first = 0; first < scenes.size(); first += kTogether) {
+    const auto group = std::span(scenes).subspan(first, std::min(kTogether, scenes.size() - first));
+    const double start = processor_seconds();
+    const std::vector<Solution> solutions = solve(solver, group);
+    const double seconds = processor_seconds() - start;
+    row.seconds += seconds;
+    count(solutions, group, model.layout, row);
+    if (seconds > longest) {
+      longest = seconds;
+      slowest = group;
+    }
+  }
+  find_worst(solver, slowest, model.layout, row);
+  return row;
+}
+
+}  // namespace
+
+BridgeDescription random_bridge(std::uint64_t seed) {
+  Draw draw(seed);
+  BridgeDescription bridge;
+  bridge.name = fmt::format("random {}", seed);
+  const int spans = draw.whole(1, 3);
+  SpanDescription span;
+  span.intrados_radius = draw.between(1.0, 5.0);
+  span.ring_thickness = draw.between(0.08, 0.25) * span.intrados_radius;
+  span.centre_y = draw.between(0.0, 1.5);
+  span.voussoirs = draw.whole(9, 41);
+  WallDescription& wall = bridge.wall;
+  wall.course_height = draw.between(0.2, 0.6);
+  wall.block_length = draw.between(0.4, 1.5);
+  wall.bond = draw.whole(0, 1) == 0 ? Bond::running : Bond::stack;
+  wall.smallest_block = kSmallestBlock;
+  const double abutment = draw.between(0.5, 2.0) * span.intrados_radius;
+  const double pier = draw.between(0.0, 0.5) * span.intrados_radius;
+  const double cover = draw.between(0.2, 1.0) * span.intrados_radius;
+  const double pitch = 2.0 * span.extrados_radius() + pier;
+  wall.length = 2.0 * abutment + spans * pitch - pier;
+  wall.courses = static_cast<int>(
+      std::ceil((span.centre_y + span.extrados_radius() + cover) / wall.course_height));
+  bridge.spans.clear();
+  for (int i = 0; i < spans; ++i) {
+    span.centre_x = abutment + span.extrados_radius() + i * pitch;
+    bridge.spans.push_back(span);
+  }
+  bridge.material.young_modulus = draw.even_in_logarithm(2e9, 6e10);
+  bridge.joints.normal_stiffness = draw.even_in_logarithm(1e8, 3e10);
+  bridge.joints.tangential_stiffness = draw.even_in_logarithm(2e7, 3e9);
+  bridge.joints.friction_angle = draw.between(25.0, 45.0) * std::numbers::pi / 180.0;
+  return bridge;
+}
+
+std::vector<BridgeRow> measure_bridges(const BridgeOptions& options,
+                                       const std::function<void(const BridgeRow&)>& progress) {
+  std::vector<BridgeRow> rows;
+  const auto add = [&](const BridgeDescription& bridge, std::uint64_t seed) {
+    rows.push_back(measure(bridge, options, seed));
+    progress(rows.back());
+  };
+  add(BridgeDescription{}, options.seed);
+  for (int i = 0; i < options.bridges; ++i) {
+    const std::uint64_t seed = options.seed + static_cast<std::uint64_t>(i);
+    add(random_bridge(seed), seed);
+  }
+  return rows;
+}
+
+std::string to_markdown(const std::vector<BridgeRow>& rows) {
+  std::string text =
+      "| bridge | blocks | scenes | standing | collapsed | unresolved | ms a scene | us a scene and block | "
+      "times the reference | worst scene [ms] | unresolved scenes |\n|---|---|---|---|---|---|---|---|---|---|---|\n";
+  for (const BridgeRow& row : rows) {
+    std::vector<std::string> named = row.unresolved_scenes;
+    if (named.size() > kMostNamed) {
+      named.resize(kMostNamed);
+      named.emplace_back("..");
+    }
+    text += fmt::format("| {} | {} | {} | {} | {} | {} | {:.1f} | {:.1f} | {:.2f} | {}: {:.0f} | {} |\n", row.name,
+                        row.blocks, row.scenes, row.standing, row.collapsed, row.unresolved,
+                        1e3 * row.seconds / row.scenes, 1e6 * row.per_scene_and_block(),
+                        row.per_scene_and_block() / rows.front().per_scene_and_block(), row.worst_scene,
+                        1e3 * row.worst, fmt::join(named, " "));
+  }
+  return text;
+}
+
+}  // namespace voussoir

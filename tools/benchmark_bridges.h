@@ -1,0 +1,46 @@
+#pragma once
+/// @file How fast random plausible bridges are solved beside the reference bridge.
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "core/solve/combined_solver.h"
+
+namespace voussoir {
+
+/// A bridge of 1 to 3 equal arches as masons may have built it: radius 1 to 5 m, ring 0.08 to 0.25 of it, springing
+/// 0 to 1.5 m, courses 0.2 to 0.6 m, blocks 0.4 to 1.5 m, running or stack bond, 9 to 41 voussoirs, E 2e9 to 6e10 Pa,
+/// p_n 1e8 to 3e10 Pa/m, p_t 2e7 to 3e9 Pa/m, friction 25 to 45 degrees; stiffnesses even in their logarithm.
+BridgeDescription random_bridge(std::uint64_t seed);
+
+struct BridgeOptions {
+  int bridges = 10;
+  std::uint64_t seed = 1;
+  int scenes = 40;  ///< singles drawn of each bridge, with the intact bridge; 0: all singles
+};
+
+/// What a bridge's scenes took, in processor time of one thread.
+struct BridgeRow {
+  std::string name;
+  int blocks = 0;
+  int scenes = 0;
+  int standing = 0, collapsed = 0, unresolved = 0;
+  double seconds = 0.0;  ///< of all scenes, without making the solver
+  double worst = 0.0;    ///< [s] of one scene, solved alone
+  std::string worst_scene;
+  std::vector<std::string> unresolved_scenes;
+
+  double per_scene_and_block() const { return seconds / (scenes * static_cast<double>(blocks)); }
+};
+
+/// The reference bridge first. Scenes are solved as build-database solves them, four side by side; `progress` is told
+/// each row.
+std::vector<BridgeRow> measure_bridges(const BridgeOptions& options,
+                                       const std::function<void(const BridgeRow&)>& progress);
+
+/// A table (Markdown); times a scene and block as multiples of the reference's.
+std::string to_markdown(const std::vector<BridgeRow>& rows);
+
+}  // namespace voussoir
