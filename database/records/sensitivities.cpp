@@ -56,8 +56,8 @@ void append_parameters(const Sensitivities& from, std::vector<DatasetValue>& dat
   }
   datasets.push_back(name_dataset(dataset::kUncertainName, names, kParameterNameWidth,
                                   "uncertain parameters: those of the bridge, then those of an epoch"));
-  datasets.push_back(name_dataset(dataset::kUncertainUnit, units, kUnitWidth,
-                                  "unit of each parameter; 1: of a logarithm"));
+  datasets.push_back(
+      name_dataset(dataset::kUncertainUnit, units, kUnitWidth, "unit of each parameter; 1: of a logarithm"));
   sigma.finish({names.size()}, datasets);
   of_epoch.finish({names.size()}, datasets);
 }
@@ -78,8 +78,9 @@ void append_scenes(const Sensitivities& from, std::vector<DatasetValue>& dataset
 void append_factors(const Sensitivities& from, std::uint64_t points, std::vector<DatasetValue>& datasets) {
   Filling<std::uint8_t> known{dataset::kSensitivityKnown, ElementType::uint8, "1",
                               "1: the scene has sensitivities in the state, 0: it does not stand"};
-  Filling<double> bridge{dataset::kBridgeFactors, ElementType::float64, "m",
-                         "change of the control points' vertical displacements with each column of the basis"};
+  Filling<double> bridge{
+      dataset::kBridgeFactors, ElementType::float64, "m",
+      "change of the control points' vertical displacements with each column of the basis"};
   Filling<double> epoch{dataset::kEpochFactors, ElementType::float64, "m",
                         "and with each parameter of an epoch, by one standard deviation"};
   const auto rows = static_cast<Eigen::Index>(points);
@@ -188,7 +189,8 @@ std::vector<Scene> read_scenes(const Hdf5File& file, std::size_t blocks) {
   const ByteView bytes = file.array(dataset::kSensitivityRemoved, ElementType::int32, found.shape);
   file.require(found.shape.size() == 2,
                fmt::format("dataset '{}' has not the expected type and shape", found.path));
-  const std::span ids(reinterpret_cast<const std::int32_t*>(bytes.data()), bytes.size() / sizeof(std::int32_t));
+  const std::span ids(reinterpret_cast<const std::int32_t*>(bytes.data()),
+                      bytes.size() / sizeof(std::int32_t));
   const std::size_t width = found.shape[1];
   std::vector<Scene> scenes;
   for (std::size_t i = 0; i < ids.size(); ++i) {
@@ -204,9 +206,9 @@ std::vector<Scene> read_scenes(const Hdf5File& file, std::size_t blocks) {
   }
   const auto unordered = std::ranges::adjacent_find(
       scenes, [](const Scene& first, const Scene& second) { return !precedes(first, second); });
-  file.require(scenes.front().removed.empty() && unordered == scenes.end(),
-               fmt::format("dataset '{}': expected the intact bridge and then scenes in ascending order",
-                           found.path));
+  file.require(
+      scenes.front().removed.empty() && unordered == scenes.end(),
+      fmt::format("dataset '{}': expected the intact bridge and then scenes in ascending order", found.path));
   return scenes;
 }
 
@@ -219,10 +221,10 @@ void read_states(const Hdf5File& file, const SensitivitySizes& sizes, Sensitivit
   auto left_of_epoch = read_matrices(file, dataset::kResidualEpoch, {sizes.states}, sizes.points);
   const auto share = finite_numbers(file, dataset::kResidualShare, {sizes.states});
   const auto common = finite_numbers(file, dataset::kResidualCommon, {sizes.states});
-  file.require(bridge.front().cols() == into.basis.cols() && epoch.front().cols() == into.of_epoch(),
-               fmt::format("datasets '{}' and '{}' have not the columns of '{}' and '{}'",
-                           dataset::kBridgeFactors, dataset::kEpochFactors, dataset::kSensitivityBasis,
-                           dataset::kUncertainName));
+  file.require(
+      bridge.front().cols() == into.basis.cols() && epoch.front().cols() == into.of_epoch(),
+      fmt::format("datasets '{}' and '{}' have not the columns of '{}' and '{}'", dataset::kBridgeFactors,
+                  dataset::kEpochFactors, dataset::kSensitivityBasis, dataset::kUncertainName));
   for (std::size_t state = 0; state < sizes.states; ++state) {
     StateSensitivities& one = into.states.emplace_back();
     for (std::size_t i = state * scenes; i < (state + 1) * scenes; ++i)
@@ -274,8 +276,7 @@ std::optional<Sensitivities> read_sensitivities(const Hdf5File& file, const Sens
   if (!file.has(dataset::kUncertainName)) return std::nullopt;
   Sensitivities result;
   result.parameters = read_parameters(file);
-  const auto of_bridge =
-      std::ranges::count(result.parameters, false, &UncertainParameter::of_epoch);
+  const auto of_bridge = std::ranges::count(result.parameters, false, &UncertainParameter::of_epoch);
   result.basis =
       read_matrices(file, dataset::kSensitivityBasis, {}, static_cast<std::size_t>(of_bridge)).front();
   result.scenes = read_scenes(file, sizes.blocks);

@@ -2,7 +2,8 @@
 /// @file How much a database's settlements change with what nobody knows exactly of the bridge, to first
 /// order, and what the first order leaves.
 ///
-///   d(theta) = d + A z + E epsilon + residual,   z = V^T (theta of the bridge),   epsilon = theta of the epoch
+///   d(theta) = d + A z + E epsilon + residual,   z = V^T (theta of the bridge),   epsilon = theta of the
+///   epoch
 ///
 /// d: vertical displacements of the control points [m], up is positive, as they are stored. All theta are
 /// standardised, so z and epsilon have independent entries of variance 1. What readings say of z they say of
@@ -51,8 +52,8 @@ struct StateSensitivities {
 struct Sensitivities {
   std::vector<UncertainParameter> parameters;  ///< those of the bridge, then those of an epoch
   Eigen::MatrixXd basis;                       ///< V: parameters of the bridge x columns, orthonormal
-  std::vector<Scene> scenes;                   ///< ascending by missing blocks, then lexicographic: intact first
-  std::vector<StateSensitivities> states;      ///< of each state of the database
+  std::vector<Scene> scenes;               ///< ascending by missing blocks, then lexicographic: intact first
+  std::vector<StateSensitivities> states;  ///< of each state of the database
 
   Eigen::Index of_bridge() const { return basis.rows(); }  ///< parameters of the bridge
   Eigen::Index of_epoch() const { return static_cast<Eigen::Index>(parameters.size()) - basis.rows(); }

@@ -125,13 +125,15 @@ TEST_CASE("Sensitivities that do not fit together are refused and named") {
   Sensitivities wrong = small.made;
   wrong.parameters[2].of_epoch = true;
   wrong.parameters[3].of_epoch = false;
-  CHECK_THAT(small.refusal(wrong), Catch::Contains("parameter_of_epoch': expected those of the bridge first"));
+  CHECK_THAT(small.refusal(wrong),
+             Catch::Contains("parameter_of_epoch': expected those of the bridge first"));
   wrong = small.made;
   wrong.parameters[1].sigma = 0.0;
   CHECK_THAT(small.refusal(wrong), Catch::Contains("parameter_sigma': expected positive numbers"));
   wrong = small.made;
   wrong.parameters[2].of_epoch = true;
-  CHECK_THAT(small.refusal(wrong), Catch::Contains("'sensitivity/basis' has not the expected type and shape"));
+  CHECK_THAT(small.refusal(wrong),
+             Catch::Contains("'sensitivity/basis' has not the expected type and shape"));
   wrong = small.made;
   std::swap(wrong.scenes[3], wrong.scenes[4]);
   CHECK_THAT(small.refusal(wrong), Catch::Contains("removed': expected the intact bridge and then scenes"));
@@ -145,22 +147,23 @@ TEST_CASE("Sensitivities that do not fit together are refused and named") {
 
 TEST_CASE("Datasets of sensitivities of another type or shape are refused and named") {
   for (const char* path :
-       {dataset::kUncertainName, dataset::kUncertainUnit, dataset::kUncertainSigma, dataset::kUncertainOfEpoch,
-        dataset::kSensitivityBasis, dataset::kSensitivityRemoved, dataset::kSensitivityKnown,
-        dataset::kBridgeFactors, dataset::kEpochFactors, dataset::kResidualBridge, dataset::kResidualEpoch,
-        dataset::kResidualShare, dataset::kResidualCommon}) {
+       {dataset::kUncertainName, dataset::kUncertainUnit, dataset::kUncertainSigma,
+        dataset::kUncertainOfEpoch, dataset::kSensitivityBasis, dataset::kSensitivityRemoved,
+        dataset::kSensitivityKnown, dataset::kBridgeFactors, dataset::kEpochFactors, dataset::kResidualBridge,
+        dataset::kResidualEpoch, dataset::kResidualShare, dataset::kResidualCommon}) {
     INFO(path);
     SmallDatabase small;
     static_cast<void>(small.write(small.made));
     {
       const auto lock = lock_hdf5();
-      const Hdf5Handle file(H5Fopen((small.folder / "small.h5").c_str(), H5F_ACC_RDWR, H5P_DEFAULT), H5Fclose);
+      const Hdf5Handle file(H5Fopen((small.folder / "small.h5").c_str(), H5F_ACC_RDWR, H5P_DEFAULT),
+                            H5Fclose);
       REQUIRE(H5Ldelete(file.get(), path, H5P_DEFAULT) >= 0);
       const hsize_t extents[] = {7, 2};
       const Hdf5Handle space(H5Screate_simple(2, extents, nullptr), H5Sclose);
-      const Hdf5Handle made(H5Dcreate2(file.get(), path, H5T_IEEE_F32LE, space.get(), H5P_DEFAULT, H5P_DEFAULT,
-                                       H5P_DEFAULT),
-                            H5Dclose);
+      const Hdf5Handle made(
+          H5Dcreate2(file.get(), path, H5T_IEEE_F32LE, space.get(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+          H5Dclose);
       REQUIRE(made);
     }
     const Database database = Database::open(small.folder / "small.h5");
