@@ -7,6 +7,7 @@
 
 #include "core/solve/history.h"
 #include "core/statics/sensitivity.h"
+#include "generator/first_order_residual.h"
 #include "generator/parallel.h"
 
 namespace voussoir {
@@ -41,9 +42,8 @@ std::vector<SceneStates> states_of(const SensitivityStudy& study, const std::vec
   for (const Scene& scene : scenes) {
     const RecordKey key{kNominalVariant, scene};
     const bool is_known = known.can_start(key);
-    groups.push_back({.solved = scene,
-                      .states = is_known ? known.states(key) : known.old_states(key),
-                      .image = {}});
+    groups.push_back(
+        {.solved = scene, .states = is_known ? known.states(key) : known.old_states(key), .image = {}});
     all_known = all_known && is_known;
   }
   if (!all_known) {
@@ -107,7 +107,8 @@ class SceneDerivatives {
               SolvedHistory& history) {
     const Stage stage{.scene = scene, .load = planned.load};
     append_stage(equations_.system, equations_.coefficients, stage, solution, 1, history);
-    if (!is_loss || unbalanced_force(history.back().equations, history.back().displacement) <= kSameEquilibrium)
+    if (!is_loss ||
+        unbalanced_force(history.back().equations, history.back().displacement) <= kSameEquilibrium)
       return;
     history.pop_back();
     const State before{history.back().displacement,
@@ -132,13 +133,10 @@ class SceneDerivatives {
 };
 
 /// Of each kept state and each scene.
-std::vector<std::vector<Eigen::MatrixXd>> derivatives_of(const SensitivityStudy& study,
-                                                         const Equations& equations,
-                                                         const std::vector<Scene>& scenes,
-                                                         const std::vector<SceneStates>& states) {
+Derivatives derivatives_of(const SensitivityStudy& study, const Equations& equations,
+                           const std::vector<Scene>& scenes, const std::vector<SceneStates>& states) {
   const std::vector<std::size_t> kept = kept_states(study.states);
-  std::vector<std::vector<Eigen::MatrixXd>> derivatives(kept.size(),
-                                                        std::vector<Eigen::MatrixXd>(scenes.size()));
+  Derivatives derivatives(kept.size(), std::vector<Eigen::MatrixXd>(scenes.size()));
   oneapi::tbb::enumerable_thread_specific<SceneDerivatives> workers(
       [&] { return SceneDerivatives(study, equations); });
   Crew(study.threads).for_each_index(scenes.size(), [&](std::size_t i) {
@@ -168,14 +166,13 @@ Eigen::MatrixXd leading_directions(const Eigen::MatrixXd& gram, const Enough& en
 
 }  // namespace
 
-Eigen::MatrixXd sensitivity_basis(const std::vector<std::vector<Eigen::MatrixXd>>& derivatives,
-                                  Eigen::Index of_bridge) {
+Eigen::MatrixXd sensitivity_basis(const Derivatives& derivatives, Eigen::Index of_bridge) {
   Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(of_bridge, of_bridge);
   for (const auto& state : derivatives)
     if (state.front().size() > 0)
       gram += state.front().leftCols(of_bridge).transpose() * state.front().leftCols(of_bridge);
-  const Eigen::MatrixXd of_intact = leading_directions(
-      gram, [](double, double next) { return next < kLeastDeviation * kLeastDeviation; });
+  const Eigen::MatrixXd of_intact =
+      leading_directions(gram, [](double, double next) { return next < kLeastDeviation * kLeastDeviation; });
 
   gram.setZero();
   double count = 0.0;
@@ -195,8 +192,8 @@ Eigen::MatrixXd sensitivity_basis(const std::vector<std::vector<Eigen::MatrixXd>
   return basis;
 }
 
-std::optional<Sensitivities> find_sensitivities(const SensitivityStudy& study, const std::vector<Scene>& scenes,
-                                                const KnownRecords& known) {
+std::optional<Sensitivities> find_sensitivities(const SensitivityStudy& study,
+                                                const std::vector<Scene>& scenes, const KnownRecords& known) {
   // Sums are ordered by the sizes of caches: the same ones everywhere give the same bits.
   Eigen::setCpuCacheSizes(32 * 1024, 256 * 1024, 2 * 1024 * 1024);
   const Equations equations(study.bridge, study.uncertainty);
@@ -209,15 +206,15 @@ std::optional<Sensitivities> find_sensitivities(const SensitivityStudy& study, c
   auto derivatives = derivatives_of(study, equations, result.scenes, states);
   const auto of_bridge = static_cast<Eigen::Index>(equations.uncertain.of_bridge.size());
   result.basis = sensitivity_basis(derivatives, of_bridge);
-  const auto points = static_cast<Eigen::Index>(study.bridge.control_points.size());
-  for (auto& state : derivatives) {
+  const auto residuals =
+      first_order_residuals(study, equations.uncertain, {result.scenes, states, derivatives});
+  for (std::size_t state = 0; state < derivatives.size(); ++state) {
     StateSensitivities& one = result.states.emplace_back();
-    for (Eigen::MatrixXd& scene : state)
-      one.scenes.push_back(scene.size() == 0
-                               ? SceneFactors{}
-                               : SceneFactors{scene.leftCols(of_bridge) * result.basis,
-                                              scene.rightCols(scene.cols() - of_bridge)});
-    one.residual = {Eigen::MatrixXd(points, 0), Eigen::MatrixXd(points, 0), 0.0, 0.0};
+    for (const Eigen::MatrixXd& scene : derivatives[state])
+      one.scenes.push_back(scene.size() == 0 ? SceneFactors{}
+                                             : SceneFactors{scene.leftCols(of_bridge) * result.basis,
+                                                            scene.rightCols(scene.cols() - of_bridge)});
+    one.residual = residuals[state];
   }
   return result;
 }
