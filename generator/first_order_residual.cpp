@@ -19,6 +19,7 @@ constexpr std::size_t kBridgesAtOnce = 8;
 /// A bridge drawn at random, in an epoch.
 struct SampledBridge {
   Eigen::VectorXd theta;  ///< of the bridge, then of the epoch
+  Eigen::Index of_bridge = 0;
   Parameters parameters;
   Stage epoch;
 };
@@ -34,9 +35,11 @@ SampledBridge draw(const Model& bridge, const UncertainParameters& uncertain, st
                    bool has_epoch) {
   const std::size_t of_bridge = uncertain.of_bridge.size();
   const std::size_t of_epoch = uncertain.of_epoch.size();
-  SampledBridge sample{sampled_theta(of_bridge + of_epoch, seed), {}, {}};
+  SampledBridge sample{
+      sampled_theta(of_bridge + of_epoch, seed), static_cast<Eigen::Index>(of_bridge), {}, {}};
   if (!has_epoch) sample.theta.tail(static_cast<Eigen::Index>(of_epoch)).setZero();
-  sample.parameters = parameters_at(bridge, uncertain, sample.theta.head(static_cast<Eigen::Index>(of_bridge)));
+  sample.parameters =
+      parameters_at(bridge, uncertain, sample.theta.head(static_cast<Eigen::Index>(of_bridge)));
   sample.epoch = in_epoch({}, bridge, uncertain, sample.theta.tail(static_cast<Eigen::Index>(of_epoch)));
   return sample;
 }
@@ -47,7 +50,9 @@ using Moved = std::vector<std::vector<Eigen::VectorXd>>;
 class CaseSolving {
  public:
   CaseSolving(const SensitivityStudy& study, const FirstOrder& first_order)
-      : study_(study), first_order_(first_order), solver_(study.solver.make_equilibrium_solver(study.bridge)) {}
+      : study_(study),
+        first_order_(first_order),
+        solver_(study.solver.make_equilibrium_solver(study.bridge)) {}
 
   /// Intact cases come before the others of their bridge.
   Moved solve(const std::vector<Case>& cases) const {
@@ -109,10 +114,12 @@ Moved solve_cases(const SensitivityStudy& study, const FirstOrder& first_order,
                   std::span<const SampledBridge> bridges, const std::vector<std::size_t>& scenes) {
   const std::size_t groups = (bridges.size() + kBridgesAtOnce - 1) / kBridgesAtOnce;
   std::vector<Moved> of_group(groups);
-  oneapi::tbb::enumerable_thread_specific<CaseSolving> solvers([&] { return CaseSolving(study, first_order); });
+  oneapi::tbb::enumerable_thread_specific<CaseSolving> solvers(
+      [&] { return CaseSolving(study, first_order); });
   Crew(study.threads).for_each_index(groups, [&](std::size_t group) {
     std::vector<Case> cases;
-    for (std::size_t i = group * kBridgesAtOnce; i < std::min(bridges.size(), (group + 1) * kBridgesAtOnce); ++i) {
+    for (std::size_t i = group * kBridgesAtOnce; i < std::min(bridges.size(), (group + 1) * kBridgesAtOnce);
+         ++i) {
       const std::size_t intact = cases.size();
       for (const std::size_t scene : scenes) cases.push_back({&bridges[i], scene, intact});
     }
@@ -136,7 +143,8 @@ Eigen::MatrixXd factor_of(const std::vector<Eigen::VectorXd>& errors, Eigen::Ind
 std::vector<std::size_t> sampled_scenes(const FirstOrder& first_order) {
   std::vector<std::size_t> standing;
   for (std::size_t scene = 1; scene < first_order.scenes.size(); ++scene)
-    if (std::ranges::all_of(first_order.derivatives, [&](const auto& state) { return state[scene].size() > 0; }))
+    if (std::ranges::all_of(first_order.derivatives,
+                            [&](const auto& state) { return state[scene].size() > 0; }))
       standing.push_back(scene);
   std::vector<std::size_t> scenes = {kIntact};
   const std::size_t count = std::min(kSampledSingles, standing.size());
@@ -150,7 +158,8 @@ struct Samples {
   std::vector<SampledBridge> still;   ///< at the temperature and with the supports of the file
   std::vector<SampledBridge> moving;  ///< the same bridges in an epoch
   std::vector<std::size_t> scenes;    ///< that are solved of the first kBridgesWithSingles
-  Moved at_rest, moved, singles;      ///< intact, intact, `scenes` of each
+  Moved at_rest, moved;               ///< the intact scene of each
+  Moved few_at_rest, few_moved;       ///< `scenes` of the first
 };
 
 Samples solve_samples(const SensitivityStudy& study, const UncertainParameters& uncertain,
@@ -163,8 +172,11 @@ Samples solve_samples(const SensitivityStudy& study, const UncertainParameters& 
   samples.scenes = sampled_scenes(first_order);
   samples.at_rest = solve_cases(study, first_order, samples.still, {kIntact});
   samples.moved = solve_cases(study, first_order, samples.moving, {kIntact});
-  const std::span few(samples.moving.data(), kBridgesWithSingles);
-  samples.singles = solve_cases(study, first_order, few, samples.scenes);
+  const auto few = [](const std::vector<SampledBridge>& bridges) {
+    return std::span(bridges.data(), kBridgesWithSingles);
+  };
+  samples.few_at_rest = solve_cases(study, first_order, few(samples.still), samples.scenes);
+  samples.few_moved = solve_cases(study, first_order, few(samples.moving), samples.scenes);
   return samples;
 }
 
@@ -187,9 +199,10 @@ class StateResidual {
       of_bridge.push_back(at_rest - intact - slope * theta);
       of_epoch.push_back(moved - at_rest - slope * (samples_.moving[i].theta - theta));
     }
-    const Eigen::Vector2d shares = shares_of_signals();
-    return {factor_of(of_bridge, intact.size()), factor_of(of_epoch, intact.size()), std::sqrt(shares[0]),
-            std::sqrt(shares[1])};
+    const SignalFits fits = fits_of_signals();
+    return {
+        factor_of(of_bridge, intact.size()), factor_of(of_epoch, intact.size()), std::sqrt(fits.bridge[0]),
+        std::sqrt(fits.bridge[1]),           std::sqrt(fits.epoch[0]),           std::sqrt(fits.epoch[1])};
   }
 
  private:
@@ -199,20 +212,38 @@ class StateResidual {
   }
 
   /// Squares, as ErrorFit finds them.
-  Eigen::Vector2d shares_of_signals() const {
-    ErrorFit fit;
+  struct SignalFits {
+    Eigen::Vector2d bridge, epoch;
+  };
+
+  SignalFits fits_of_signals() const {
+    ErrorFit of_bridge, of_epoch;
+    const Eigen::Index parameters = samples_.still.front().of_bridge;
     const std::size_t scenes = samples_.scenes.size();
     for (std::size_t i = 0; i < kBridgesWithSingles; ++i)
       for (std::size_t j = 1; j < scenes; ++j) {
-        const Eigen::VectorXd& own = samples_.singles[i * scenes + j][state_];
-        const Eigen::VectorXd& intact = samples_.singles[i * scenes][state_];
-        if (own.size() == 0 || intact.size() == 0) continue;
+        const auto at_rest = signal_of(samples_.few_at_rest, i * scenes, j);
+        const auto moved = signal_of(samples_.few_moved, i * scenes, j);
+        if (!at_rest || !moved) continue;
         const Eigen::MatrixXd slope = slopes_[samples_.scenes[j]] - slopes_[kIntact];
+        const Eigen::VectorXd& theta = samples_.still[i].theta;
         const Eigen::VectorXd signal = nominal(samples_.scenes[j]) - nominal(kIntact);
-        const Eigen::VectorXd error = own - intact - signal - slope * samples_.moving[i].theta;
-        fit.add(error.array().isNaN().select(error, slope.rowwise().norm()), error);
+        add(slope.leftCols(parameters), *at_rest - signal - slope * theta, of_bridge);
+        add(slope.rightCols(slope.cols() - parameters),
+            *moved - *at_rest - slope * (samples_.moving[i].theta - theta), of_epoch);
       }
-    return fit.squares();
+    return {of_bridge.squares(), of_epoch.squares()};
+  }
+
+  std::optional<Eigen::VectorXd> signal_of(const Moved& moved, std::size_t intact, std::size_t scene) const {
+    const Eigen::VectorXd& own = moved[intact + scene][state_];
+    const Eigen::VectorXd& without_loss = moved[intact][state_];
+    if (own.size() == 0 || without_loss.size() == 0) return std::nullopt;
+    return own - without_loss;
+  }
+
+  static void add(const Eigen::MatrixXd& slope, const Eigen::VectorXd& error, ErrorFit& fit) {
+    fit.add(error.array().isNaN().select(error, slope.rowwise().norm()), error);
   }
 
   const SensitivityStudy& study_;
@@ -230,13 +261,12 @@ std::vector<FirstOrderResidual> first_order_residuals(const SensitivityStudy& st
   const std::vector<std::size_t> kept = kept_states(study.states);
   const auto points = static_cast<Eigen::Index>(study.bridge.control_points.size());
   std::vector<FirstOrderResidual> residuals(
-      kept.size(), {Eigen::MatrixXd::Zero(points, points), Eigen::MatrixXd::Zero(points, points), 0.0, 0.0});
+      kept.size(), {Eigen::MatrixXd::Zero(points, points), Eigen::MatrixXd::Zero(points, points)});
   if (!study.solver.make_equilibrium_solver) return residuals;
   const Samples samples = solve_samples(study, uncertain, first_order);
   for (std::size_t k = 0; k < kept.size(); ++k)
     if (first_order.derivatives[k][kIntact].size() > 0)
-      residuals[k] =
-          StateResidual(study, first_order, samples, kept[k], first_order.derivatives[k]).find();
+      residuals[k] = StateResidual(study, first_order, samples, kept[k], first_order.derivatives[k]).find();
   return residuals;
 }
 

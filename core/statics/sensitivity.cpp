@@ -148,8 +148,7 @@ bool SensitivitySolver::step_back(const SolvedStep& step, Adjoint& adjoint) {
 
 std::optional<Eigen::MatrixXd> SensitivitySolver::solve(const SolvedHistory& history,
                                                         const Eigen::MatrixXd& readings) {
-  const auto parameters =
-      static_cast<Eigen::Index>(uncertain_.of_bridge.size() + uncertain_.of_epoch.size());
+  const auto parameters = static_cast<Eigen::Index>(uncertain_.of_bridge.size() + uncertain_.of_epoch.size());
   Adjoint adjoint{
       readings, Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(2 * system_.joints.size()), readings.cols()),
       Eigen::MatrixXd::Zero(parameters, readings.cols())};
