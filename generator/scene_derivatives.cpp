@@ -7,9 +7,9 @@ namespace {
 
 constexpr std::size_t kBuilt = 0;
 
-/// A stored field solves a step if no more of the forces is unbalanced than rounding and another path of no
-/// account leave [largest nodal weight].
-constexpr double kSameEquilibrium = 1e-3;
+/// A stored field solves a step if no more of the forces is unbalanced [largest nodal weight]: that moves a
+/// joint by a fraction of a micrometre.
+constexpr double kSameEquilibrium = 1e-2;
 
 bool stands(const std::optional<Solution>& solution) {
   return solution && solution->outcome == Outcome::standing;
