@@ -55,7 +55,8 @@ void SceneDerivatives::append(const Scene& scene, const PlannedState& planned, c
                        .steps = kStepsOfLoss,
                        .keeps_steps = true};
   const std::vector<Solution> anew = solver({&task, 1});
-  if (anew.front().outcome == Outcome::standing)
+  const bool has_steps = anew.front().steps.size() + 1 == kStepsOfLoss;  // not every solver keeps them
+  if (anew.front().outcome == Outcome::standing && has_steps)
     append_stage(equations_.system, equations_.coefficients, stage, anew.front(), kStepsOfLoss, history);
   else
     append_stage(equations_.system, equations_.coefficients, stage, solution, 1, history);
