@@ -13,6 +13,7 @@
 #include "generator/parallel.h"
 #include "generator/recompute.h"
 #include "generator/scene_check.h"
+#include "generator/sensitivity_check.h"
 #include "generator/stored_bridge.h"
 #include "generator/variants.h"
 
@@ -39,8 +40,8 @@ void check_geometry(const Database& database, const Model& stored, VerifyReport&
   const Model bridge = same_program ? make_model(description) : stored;
   std::vector<VariantParameters> variants = database.variants();
   variants.front() = parameters_of(bridge);  // of the others nothing else says what they should be
-  const auto expected =
-      shared_datasets(provenance, bridge, variants, database.states(), database.model_errors());
+  const auto expected = shared_datasets(provenance, bridge, variants, database.states(),
+                                        database.model_errors(), database.sensitivities());
   for (const DatasetValue& value : expected)
     if (!std::ranges::equal(value.bytes, database.dataset_bytes(value.path.c_str())))
       report.problems.push_back(fmt::format("dataset '{}': is not what the bridge text gives", value.path));
@@ -190,6 +191,10 @@ void check_content(const VerifyRequest& request, VerifyReport& report) {
   const StatePlan plan = plan_of(database, nominal);
   for (std::int32_t variant = 0; static_cast<std::size_t>(variant) < database.variant_count(); ++variant)
     check_variant(request, database, bridge_of(database, nominal, variant), variant, plan, report);
+  if (!report.ok()) return;  // of damaged fields nothing can be said
+  const SensitivityCheck sensitivities =
+      check_sensitivities(database, nominal, description_of(database).uncertainty, plan);
+  std::ranges::copy(sensitivities.problems, std::back_inserter(report.problems));
 }
 
 }  // namespace

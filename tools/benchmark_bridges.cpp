@@ -80,9 +80,8 @@ BridgeRow measure(const BridgeDescription& description, const BridgeOptions& opt
   const Model model = make_model(description);
   CombinedSolver solver(model);
   const std::vector<Scene> scenes = drawn_scenes(model, options.scenes, seed);
-  BridgeRow row{.name = description.name,
-                .blocks = model.block_count(),
-                .scenes = static_cast<int>(scenes.size())};
+  BridgeRow row{
+      .name = description.name, .blocks = model.block_count(), .scenes = static_cast<int>(scenes.size())};
   std::span<const Scene> slowest;
   double longest = -1.0;
   for (std::size_t first = 0; first < scenes.size(); first += kTogether) {
@@ -123,8 +122,8 @@ BridgeDescription random_bridge(std::uint64_t seed) {
   const double cover = draw.between(0.2, 1.0) * span.intrados_radius;
   const double pitch = 2.0 * span.extrados_radius() + pier;
   wall.length = 2.0 * abutment + spans * pitch - pier;
-  wall.courses = static_cast<int>(
-      std::ceil((span.centre_y + span.extrados_radius() + cover) / wall.course_height));
+  wall.courses =
+      static_cast<int>(std::ceil((span.centre_y + span.extrados_radius() + cover) / wall.course_height));
   bridge.spans.clear();
   for (int i = 0; i < spans; ++i) {
     span.centre_x = abutment + span.extrados_radius() + i * pitch;
@@ -155,15 +154,16 @@ std::vector<BridgeRow> measure_bridges(const BridgeOptions& options,
 std::string to_markdown(const std::vector<BridgeRow>& rows) {
   std::string text =
       "| bridge | blocks | scenes | standing | collapsed | unresolved | ms a scene | us a scene and block | "
-      "times the reference | worst scene [ms] | unresolved scenes |\n|---|---|---|---|---|---|---|---|---|---|---|\n";
+      "times the reference | worst scene [ms] | unresolved scenes "
+      "|\n|---|---|---|---|---|---|---|---|---|---|---|\n";
   for (const BridgeRow& row : rows) {
     std::vector<std::string> named = row.unresolved_scenes;
     if (named.size() > kMostNamed) {
       named.resize(kMostNamed);
       named.emplace_back("..");
     }
-    text += fmt::format("| {} | {} | {} | {} | {} | {} | {:.1f} | {:.1f} | {:.2f} | {}: {:.0f} | {} |\n", row.name,
-                        row.blocks, row.scenes, row.standing, row.collapsed, row.unresolved,
+    text += fmt::format("| {} | {} | {} | {} | {} | {} | {:.1f} | {:.1f} | {:.2f} | {}: {:.0f} | {} |\n",
+                        row.name, row.blocks, row.scenes, row.standing, row.collapsed, row.unresolved,
                         1e3 * row.seconds / row.scenes, 1e6 * row.per_scene_and_block(),
                         row.per_scene_and_block() / rows.front().per_scene_and_block(), row.worst_scene,
                         1e3 * row.worst, fmt::join(named, " "));

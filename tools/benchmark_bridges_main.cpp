@@ -6,9 +6,10 @@
 #include "tools/benchmark_bridges.h"
 
 int main(int argc, char** argv) {
-  CLI::App app("Solves intact and singles of random plausible bridges on one thread, and tables their outcomes and "
-               "the processor time beside the reference bridge's (Markdown).",
-               "benchmark-bridges");
+  CLI::App app(
+      "Solves intact and singles of random plausible bridges on one thread, and tables their outcomes and "
+      "the processor time beside the reference bridge's (Markdown).",
+      "benchmark-bridges");
   app.footer("Example: benchmark-bridges --bridges 20 --seed 100");
   voussoir::BridgeOptions options;
   app.add_option("--bridges", options.bridges, "default 10")->check(CLI::Range(0, 100000));

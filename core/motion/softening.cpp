@@ -14,8 +14,8 @@ void soften(JointMaterial& joint, double share) {
 
 }  // namespace
 
-std::vector<double> softening(const Model& model, const std::vector<BlockBody>& bodies, double contact_damping,
-                              double step) {
+std::vector<double> softening(const Model& model, const std::vector<BlockBody>& bodies,
+                              double contact_damping, double step) {
   // stable_step solved for the square of the frequency.
   const double allowed = 4.0 / (step * (step + 2.0 * contact_damping));
   std::vector<double> shares;

@@ -34,6 +34,7 @@ struct Site {
     request.histories = histories;
     request.loads = loads;
     request.threads = 2;
+    request.known_bridge = true;  // records are looked at here
   }
   BuildSummary build(const SolverChoice& solver = test::made_up_solver()) const {
     Progress quiet(Progress::Mode::quiet);

@@ -24,7 +24,8 @@ Model column(double normal_stiffness) {
 
 }  // namespace
 
-TEST_CASE("Joints are softened until a block alone allows the step (its critical step, and none longer)", "[motion]") {
+TEST_CASE("Joints are softened until a block alone allows the step (its critical step, and none longer)",
+          "[motion]") {
   const DynamicSettings settings;
   const auto step_of = [&](const Model& model) {
     DynamicSettings as_they_are = settings;
@@ -42,19 +43,21 @@ TEST_CASE("Joints are softened until a block alone allows the step (its critical
     CHECK(step < 1.01 * settings.least_step);
   }
   CHECK(soft.parameters.joints[0].normal_stiffness / stiff.parameters.joints[0].normal_stiffness ==
-        Approx(soft.parameters.joints[0].tangential_stiffness / stiff.parameters.joints[0].tangential_stiffness));
+        Approx(soft.parameters.joints[0].tangential_stiffness /
+               stiff.parameters.joints[0].tangential_stiffness));
   CHECK(soft.parameters.joints[0].friction_angle == stiff.parameters.joints[0].friction_angle);
 }
 
 TEST_CASE("The reference bridge's joints are soft enough for every step (bit by bit)", "[motion]") {
   const Model model = make_model({});
   const DynamicSettings settings;
-  for (const double share : softening(model, make_block_bodies(model, settings.inertia), settings.contact_damping,
-                                      settings.least_step))
+  for (const double share : softening(model, make_block_bodies(model, settings.inertia),
+                                      settings.contact_damping, settings.least_step))
     CHECK(share == 1.0);
 }
 
-TEST_CASE("What falls from softened joints falls as from the joints as they are (motion in short steps)", "[motion]") {
+TEST_CASE("What falls from softened joints falls as from the joints as they are (motion in short steps)",
+          "[motion]") {
   BridgeDescription description = read_bridge_file(test::example_bridge("small")).description;
   description.joints.normal_stiffness *= 30.0;
   description.joints.tangential_stiffness *= 30.0;
@@ -73,7 +76,8 @@ TEST_CASE("What falls from softened joints falls as from the joints as they are 
     CHECK(soft.extent == stiff.extent);
     const auto known = [](const Field& field) { return field.array().isNaN().select(0.0, field.array()); };
     const double difference = (known(soft.displacement) - known(stiff.displacement)).abs().sum();
-    // The small bridge has moved by 2 mm at the moment of the field; softened joints sag a tenth of that more.
+    // The small bridge has moved by 2 mm at the moment of the field; softened joints sag a tenth of that
+    // more.
     CHECK(difference < 0.25 * known(stiff.displacement).abs().sum());
   }
 }

@@ -39,7 +39,18 @@ std::vector<double> numbers_of(const BridgeDescription& d) {
                                  double(d.mesh.refinement),
                                  double(d.mesh.split_at_corners),
                                  d.gravity,
-                                 d.joint_tolerance};
+                                 d.joint_tolerance,
+                                 d.material.thermal_expansion,
+                                 d.uncertainty.joint_stiffness,
+                                 d.uncertainty.common_stiffness,
+                                 d.uncertainty.stiffness_ratio,
+                                 d.uncertainty.friction,
+                                 d.uncertainty.young_modulus,
+                                 d.uncertainty.density,
+                                 d.uncertainty.temperature,
+                                 d.uncertainty.foot_movement,
+                                 d.uncertainty.foot_rotation,
+                                 d.uncertainty.side_movement};
   for (const SpanDescription& span : d.spans)
     numbers.insert(numbers.end(), {span.centre_x, span.centre_y, span.intrados_radius, span.ring_thickness,
                                    double(span.voussoirs)});
@@ -92,11 +103,22 @@ const std::vector<Key> kKeys = {{"[wall]\nlength_m = 30.0", 0, 30.0},
                                 {"[mesh]\nsplit_at_corners = false", 20, 0.0},
                                 {"gravity_m_s2 = 1.62", 21, 1.62},
                                 {"[joints]\ntolerance_m = 1e-4", 22, 1e-4},
-                                {"[[spans]]\ncentre_x_m = 9.0", 23, 9.0},
-                                {"[[spans]]\ncentre_y_m = 1.5", 24, 1.5},
-                                {"[[spans]]\nintrados_radius_m = 3.0", 25, 3.0},
-                                {"[[spans]]\nring_thickness_m = 0.4", 26, 0.4},
-                                {"[[spans]]\nvoussoirs = 21", 27, 21.0}};
+                                {"[material]\nthermal_expansion_per_K = 1e-5", 23, 1e-5},
+                                {"[uncertainty]\njoint_stiffness_cv = 0.1", 24, 0.1},
+                                {"[uncertainty]\ncommon_stiffness_cv = 0.15", 25, 0.15},
+                                {"[uncertainty]\nstiffness_ratio_cv = 0.35", 26, 0.35},
+                                {"[uncertainty]\nfriction_cv = 0.12", 27, 0.12},
+                                {"[uncertainty]\nyoung_modulus_cv = 0.2", 28, 0.2},
+                                {"[uncertainty]\ndensity_cv = 0.0", 29, 0.0},
+                                {"[uncertainty]\ntemperature_K = 15", 30, 15.0},
+                                {"[uncertainty]\nfoot_movement_m = 0.002", 31, 2e-3},
+                                {"[uncertainty]\nfoot_rotation_rad = 2e-4", 32, 2e-4},
+                                {"[uncertainty]\nside_movement_m = 1e-3", 33, 1e-3},
+                                {"[[spans]]\ncentre_x_m = 9.0", 34, 9.0},
+                                {"[[spans]]\ncentre_y_m = 1.5", 35, 1.5},
+                                {"[[spans]]\nintrados_radius_m = 3.0", 36, 3.0},
+                                {"[[spans]]\nring_thickness_m = 0.4", 37, 0.4},
+                                {"[[spans]]\nvoussoirs = 21", 38, 21.0}};
 
 }  // namespace
 
@@ -190,7 +212,18 @@ const std::vector<Limits> kLimits = {{"[wall]\nlength_m = ", 1e-3, 1e5, true},
                                      {"[[spans]]\ncentre_y_m = ", 0.0, 1e5, true},
                                      {"[[spans]]\nintrados_radius_m = ", 1e-3, 1e5, true},
                                      {"[[spans]]\nring_thickness_m = ", 1e-3, 1e5, true},
-                                     {"[[spans]]\nvoussoirs = ", 3.0, 1000.0, true, true}};
+                                     {"[[spans]]\nvoussoirs = ", 3.0, 1000.0, true, true},
+                                     {"[material]\nthermal_expansion_per_K = ", 0.0, 1e-3, true},
+                                     {"[uncertainty]\njoint_stiffness_cv = ", 0.0, 1.0, true},
+                                     {"[uncertainty]\ncommon_stiffness_cv = ", 0.0, 1.0, true},
+                                     {"[uncertainty]\nstiffness_ratio_cv = ", 0.0, 1.0, true},
+                                     {"[uncertainty]\nfriction_cv = ", 0.0, 1.0, true},
+                                     {"[uncertainty]\nyoung_modulus_cv = ", 0.0, 1.0, true},
+                                     {"[uncertainty]\ndensity_cv = ", 0.0, 1.0, true},
+                                     {"[uncertainty]\ntemperature_K = ", 0.0, 100.0, true},
+                                     {"[uncertainty]\nfoot_movement_m = ", 0.0, 1.0, true},
+                                     {"[uncertainty]\nfoot_rotation_rad = ", 0.0, 0.1, true},
+                                     {"[uncertainty]\nside_movement_m = ", 0.0, 1.0, true}};
 
 /// Does the key take this value? The bridge may still be refused for a ring that its wall cannot hold or for
 /// too many blocks, which are other checks.

@@ -1,0 +1,145 @@
+#include "generator/sensitivities.h"
+
+#include <oneapi/tbb/enumerable_thread_specific.h>
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+
+#include "generator/first_order_residual.h"
+#include "generator/parallel.h"
+#include "generator/scene_derivatives.h"
+
+namespace voussoir {
+namespace {
+
+constexpr std::size_t kBuilt = 0;
+
+bool stands(const std::optional<Solution>& solution) {
+  return solution && solution->outcome == Outcome::standing;
+}
+
+/// Intact, and the singles of the list, in their order.
+std::vector<Scene> studied_scenes(const std::vector<Scene>& scenes) {
+  std::vector<Scene> studied = {Scene{}};
+  std::ranges::copy_if(scenes, std::back_inserter(studied),
+                       [](const Scene& scene) { return scene.missing() == 1; });
+  std::ranges::sort(studied);
+  const auto twice = std::ranges::unique(studied);
+  studied.erase(twice.begin(), twice.end());
+  return studied;
+}
+
+/// The states of the scenes, solved where they are not known.
+std::vector<SceneStates> states_of(const SensitivityStudy& study, const std::vector<Scene>& scenes,
+                                   const KnownRecords& known) {
+  std::vector<SceneGroup> groups;
+  bool all_known = true;
+  for (const Scene& scene : scenes) {
+    const RecordKey key{kNominalVariant, scene};
+    const bool is_known = known.can_start(key);
+    groups.push_back(
+        {.solved = scene, .states = is_known ? known.states(key) : known.old_states(key), .image = {}});
+    all_known = all_known && is_known;
+  }
+  if (!all_known) {
+    const StateSolving solving(study.bridge, study.states);
+    const SceneSolver solver = study.solver.make_solver(study.bridge, study.settings);
+    StartingFields starts;
+    solving.solve(solver, solving.basis(solver, starts, true), std::span(groups).first(1));
+    for (std::size_t state = 0; state < study.states.size(); ++state)
+      starts.add({}, state, *groups.front().states[state]);
+    solving.solve(solver, solving.basis(solver, std::move(starts), true), std::span(groups).subspan(1));
+  }
+  std::vector<SceneStates> states;
+  for (SceneGroup& group : groups) states.push_back(std::move(group.states));
+  return states;
+}
+
+/// Of each kept state and each scene.
+Derivatives derivatives_of(const SensitivityStudy& study, const SensitivityEquations& equations,
+                           const std::vector<Scene>& scenes, const std::vector<SceneStates>& states) {
+  const std::vector<std::size_t> kept = kept_states(study.states);
+  Derivatives derivatives(kept.size(), std::vector<Eigen::MatrixXd>(scenes.size()));
+  oneapi::tbb::enumerable_thread_specific<SceneDerivatives> workers(
+      [&] { return SceneDerivatives(study, equations); });
+  Crew(study.threads).for_each_index(scenes.size(), [&](std::size_t i) {
+    SceneDerivatives& worker = workers.local();
+    for (std::size_t state = 0; state < kept.size(); ++state)
+      derivatives[state][i] = worker.of(scenes[i], kept[state], states[i], states.front());
+  });
+  return derivatives;
+}
+
+using Directions = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>;
+
+/// The directions of largest eigenvalues, largest first, until `enough` holds of what is left: the sum of the
+/// other eigenvalues and the next one.
+template <class Enough>
+Eigen::MatrixXd leading_directions(const Eigen::MatrixXd& gram, const Enough& enough) {
+  const Directions directions(gram);
+  double left = directions.eigenvalues().cwiseMax(0.0).sum();
+  Eigen::Index count = 0;
+  const Eigen::Index size = gram.rows();
+  while (count < size && !enough(left, directions.eigenvalues()[size - 1 - count])) {
+    left -= std::max(0.0, directions.eigenvalues()[size - 1 - count]);
+    ++count;
+  }
+  return directions.eigenvectors().rightCols(count).rowwise().reverse();
+}
+
+}  // namespace
+
+Eigen::MatrixXd sensitivity_basis(const Derivatives& derivatives, Eigen::Index of_bridge) {
+  Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(of_bridge, of_bridge);
+  for (const auto& state : derivatives)
+    if (state.front().size() > 0)
+      gram += state.front().leftCols(of_bridge).transpose() * state.front().leftCols(of_bridge);
+  const Eigen::MatrixXd of_intact =
+      leading_directions(gram, [](double, double next) { return next < kLeastDeviation * kLeastDeviation; });
+
+  gram.setZero();
+  double count = 0.0;
+  for (const auto& state : derivatives)
+    for (std::size_t i = 1; i < state.size(); ++i) {
+      if (state[i].size() == 0 || state.front().size() == 0) continue;
+      const Eigen::MatrixXd signal = (state[i] - state.front()).leftCols(of_bridge);
+      if (signal.squaredNorm() == 0.0) continue;
+      const Eigen::MatrixXd left = signal - (signal * of_intact) * of_intact.transpose();
+      gram += left.transpose() * left / signal.squaredNorm();
+      count += 1.0;
+    }
+  const Eigen::MatrixXd of_signals =
+      leading_directions(gram, [&](double left, double) { return left <= kLeftOfSignals * count; });
+  Eigen::MatrixXd basis(of_bridge, of_intact.cols() + of_signals.cols());
+  basis << of_intact, of_signals;
+  return basis;
+}
+
+std::optional<Sensitivities> find_sensitivities(const SensitivityStudy& study,
+                                                const std::vector<Scene>& scenes, const KnownRecords& known) {
+  // Sums are ordered by the sizes of caches: the same ones everywhere give the same bits.
+  Eigen::setCpuCacheSizes(32 * 1024, 256 * 1024, 2 * 1024 * 1024);
+  const SensitivityEquations equations(study.bridge, study.uncertainty);
+  Sensitivities result;
+  result.parameters = equations.uncertain.all();
+  if (result.parameters.empty()) return std::nullopt;
+  result.scenes = studied_scenes(scenes);
+  const std::vector<SceneStates> states = states_of(study, result.scenes, known);
+  if (!stands(states.front()[kBuilt])) return std::nullopt;
+  auto derivatives = derivatives_of(study, equations, result.scenes, states);
+  const auto of_bridge = static_cast<Eigen::Index>(equations.uncertain.of_bridge.size());
+  result.basis = sensitivity_basis(derivatives, of_bridge);
+  const auto residuals =
+      first_order_residuals(study, equations.uncertain, {result.scenes, states, derivatives});
+  for (std::size_t state = 0; state < derivatives.size(); ++state) {
+    StateSensitivities& one = result.states.emplace_back();
+    for (const Eigen::MatrixXd& scene : derivatives[state])
+      one.scenes.push_back(scene.size() == 0 ? SceneFactors{}
+                                             : SceneFactors{scene.leftCols(of_bridge) * result.basis,
+                                                            scene.rightCols(scene.cols() - of_bridge)});
+    one.residual = residuals[state];
+  }
+  return result;
+}
+
+}  // namespace voussoir
