@@ -101,6 +101,8 @@ void add_judgement(const Answer& answer, const Comparison& comparison, ordered_j
   result["verdict"] = to_string(verdict_of(*answer.posterior, answer.fit && answer.fit->explained));
 }
 
+constexpr std::size_t kMostJoints = 50;
+
 ordered_json parameter_json(const KnownParameter& parameter) {
   return {{"name", parameter.name},
           {"unit", parameter.unit},
@@ -117,7 +119,7 @@ ordered_json bridge_json(const BridgeAnswer& bridge, const ReadingFactors& facto
   for (std::size_t k = 0; k < kScatterFactors.size(); ++k)
     scatter.push_back({{"deviation_factor", std::sqrt(kScatterFactors[k])},
                        {"probability", bridge.posterior.scatter[k]}});
-  for (const KnownParameter& parameter : known_of_bridge(bridge, factors))
+  for (const KnownParameter& parameter : known_of_bridge(bridge, factors, kMostJoints))
     parameters.push_back(parameter_json(parameter));
   for (const KnownParameter& parameter : known_of_epochs(bridge, factors))
     epochs.push_back(parameter_json(parameter));

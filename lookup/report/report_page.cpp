@@ -15,7 +15,7 @@
 namespace voussoir {
 namespace {
 
-constexpr std::size_t kMostParametersShown = 12;
+constexpr std::size_t kMostJointsShown = 12;
 
 using Terms = std::vector<std::pair<std::string, std::string>>;
 
@@ -81,10 +81,7 @@ Figure causes_figure(const Answer& answer, const ReadingFactors& factors) {
 }
 
 Figure parameters_figure(const Answer& answer, const ReadingFactors& factors) {
-  std::vector<KnownParameter> parameters = known_of_bridge(*answer.bridge, factors);
-  std::stable_sort(parameters.begin(), parameters.end(),
-                   [](const auto& a, const auto& b) { return a.news() > b.news(); });
-  parameters.resize(std::min(parameters.size(), kMostParametersShown));
+  std::vector<KnownParameter> parameters = known_of_bridge(*answer.bridge, factors, kMostJointsShown);
   for (const KnownParameter& parameter : known_of_epochs(*answer.bridge, factors))
     parameters.push_back(parameter);
   Table table{{"parameter", "unit", "before", "after: mean", "after: spread"}, {}};
@@ -93,8 +90,8 @@ Figure parameters_figure(const Answer& answer, const ReadingFactors& factors) {
                           one.deviation});
   return {"parameters",
           "What the readings say of the bridge",
-          "Standard deviations before and after, and the mean after; before it is zero. The parameters of which "
-          "the readings say most, then those of temperature and supports.",
+          "Standard deviations before and after, and the mean after; before it is zero. What the whole bridge "
+          "shares, the joints that the readings move farthest, then temperature and supports.",
           "",
           table,
           false,
