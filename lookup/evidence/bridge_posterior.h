@@ -16,8 +16,8 @@ struct WeightedScene {
   double probability = 0.0;
 };
 
-/// One scene with one kappa. With the covariance C = L L^T of y: E[z] = kappa A^T C^-1 r, and a combination v of
-/// the basis's columns has the variance kappa |v|^2 - |kappa L^-1 A v|^2.
+/// One scene with one kappa. With the covariance C = L L^T of y: E[z] = kappa A^T C^-1 r, and a combination v
+/// of the basis's columns has the variance kappa |v|^2 - |kappa L^-1 A v|^2.
 struct BridgePart {
   double weight = 0.0;
   double kappa = 1.0;

@@ -86,12 +86,14 @@ MatrixXd common_noise(const Comparison& comparison, const Observation& observati
         std::pow(rows[k].of_bridge() * own[rows[k].channel], 2);
   const FirstOrderResidual& residual = comparison.factors->residual;
   // Levelling columns of changes stand for both epochs.
-  const MatrixXd levelling =
-      is_change(comparison.kind) ? MatrixXd(observation.levelling / std::numbers::sqrt2) : observation.levelling;
-  for (const MatrixXd& columns :
-       {of_bridge(rows, residual.bridge), of_epochs(rows, bridge.epochs, residual.epoch, residual.epoch),
-        of_epochs(rows, bridge.epochs, levelling, levelling)})
-    noise.noalias() += columns * columns.transpose();
+  const MatrixXd levelling = is_change(comparison.kind)
+                                 ? MatrixXd(observation.levelling / std::numbers::sqrt2)
+                                 : observation.levelling;
+  const auto add = [&](const MatrixXd& columns) { noise.noalias() += columns * columns.transpose(); };
+  add(of_bridge(rows, residual.bridge));
+  add(of_epochs(rows, bridge.epochs, levelling, levelling));
+  if (bridge.conditions == Conditions::uncertain)
+    add(of_epochs(rows, bridge.epochs, residual.epoch, residual.epoch));
   return noise;
 }
 
@@ -119,26 +121,37 @@ VectorXd signal_of(const UnknownBridge& bridge, const Observation& observation,
   return signal;
 }
 
-/// Variance that parameters give each channel.
-VectorXd spread_of(const LossFactors& factors) {
-  return factors.lead.rowwise().squaredNorm() + factors.epoch.rowwise().squaredNorm() + factors.own.diagonal();
+/// Variance that parameters of the bridge give each channel, and that of an epoch's.
+VectorXd bridge_spread(const LossFactors& factors) {
+  return factors.lead.rowwise().squaredNorm() + factors.own.diagonal();
+}
+VectorXd epoch_spread(const UnknownBridge& bridge, const LossFactors& factors) {
+  const VectorXd spread = factors.epoch.rowwise().squaredNorm();
+  return bridge.conditions == Conditions::uncertain ? spread : VectorXd::Zero(spread.size());
+}
+
+/// What the first order leaves of a signal, by channel.
+VectorXd left_by_first_order(const UnknownBridge& bridge, const LossFactors& factors) {
+  const FirstOrderResidual& residual = bridge.factors->residual;
+  const VectorXd own = bridge_spread(factors), epoch = epoch_spread(bridge, factors);
+  const double alike =
+      std::pow(residual.common, 2) * own.mean() + std::pow(residual.epoch_common, 2) * epoch.mean();
+  return (std::pow(residual.share, 2) * own + std::pow(residual.epoch_share, 2) * epoch).array() + alike;
 }
 
 /// The loss that makes a row of the comparison's table.
 Loss loss_of(const Comparison& comparison, const Observation& observation, const UnknownBridge& bridge,
              std::size_t row, const LossFactors& factors) {
   const std::span<const double> prediction = comparison.library.table.row(row);
-  const FirstOrderResidual& residual = comparison.factors->residual;
   Loss loss{&factors, signal_of(bridge, observation, prediction), {}};
   const double common = common_variance(observation.intact, observation.error_common, prediction);
   loss.variance = (observation.error_share * loss.signal).array().square() + common;
-  const VectorXd spread = factors.known() ? spread_of(factors) : VectorXd();
-  const double alike = factors.known() ? residual.common * residual.common * spread.mean() : 0.0;
+  const VectorXd left = factors.known() ? left_by_first_order(bridge, factors)
+                                        : VectorXd(VectorXd::Zero(comparison.factors->intact.bridge.rows()));
   for (Index k = 0; k < loss.variance.size(); ++k) {
     const ReadingRow& at = bridge.rows[static_cast<std::size_t>(k)];
     if (at.after == 0.0) loss.variance[k] = 0.0;
-    if (at.after != 0.0 && factors.known())
-      loss.variance[k] += residual.share * residual.share * spread[static_cast<Index>(at.channel)] + alike;
+    if (at.after != 0.0) loss.variance[k] += left[static_cast<Index>(at.channel)];
   }
   return loss;
 }
@@ -159,17 +172,20 @@ void add_losses(const Comparison& comparison, const Observation& observation, Un
     }
     const Scene scene = table.scene(row);
     for (const auto& [own, change] : factors.pairs)
-      if (own == scene) bridge.pairs.emplace_back(scene, loss_of(comparison, observation, bridge, row, change));
+      if (own == scene)
+        bridge.pairs.emplace_back(scene, loss_of(comparison, observation, bridge, row, change));
   }
 }
 
 /// The median over the known losses; 1 if there are none.
-double typical_spread(const std::vector<Loss>& losses) {
+double typical_spread(const UnknownBridge& bridge) {
   std::vector<double> shares;
-  for (const Loss& loss : losses) {
+  for (const Loss& loss : bridge.blocks) {
     if (!loss.known()) continue;
     const double size = loss.signal.array().isNaN().select(0.0, loss.signal).norm();
-    if (size > 0.0) shares.push_back(std::sqrt(spread_of(*loss.factors).sum()) / size);
+    if (size > 0.0)
+      shares.push_back(std::sqrt((bridge_spread(*loss.factors) + epoch_spread(bridge, *loss.factors)).sum()) /
+                       size);
   }
   if (shares.empty()) return 1.0;
   const auto middle = shares.begin() + static_cast<std::ptrdiff_t>(shares.size() / 2);
@@ -181,8 +197,9 @@ double typical_spread(const std::vector<Loss>& losses) {
 std::vector<const Loss*> known_losses(const UnknownBridge& bridge, const SceneTable& table, std::size_t row) {
   if (!bridge.pairs.empty()) {
     const Scene scene = table.scene(row);
-    const auto own = std::lower_bound(bridge.pairs.begin(), bridge.pairs.end(), scene,
-                                      [](const auto& pair, const Scene& wanted) { return pair.first < wanted; });
+    const auto own =
+        std::lower_bound(bridge.pairs.begin(), bridge.pairs.end(), scene,
+                         [](const auto& pair, const Scene& wanted) { return pair.first < wanted; });
     if (own != bridge.pairs.end() && own->first == scene) return {&own->second};
   }
   std::vector<const Loss*> losses;
@@ -195,16 +212,17 @@ std::vector<const Loss*> known_losses(const UnknownBridge& bridge, const SceneTa
 }  // namespace
 
 UnknownBridge unknown_bridge(const Comparison& comparison, const Observation& observation, double level,
-                             double scale, Epochs epochs) {
+                             const UnknownSettings& settings) {
   UnknownBridge bridge;
   bridge.factors = comparison.factors.get();
-  bridge.rows = rows_of(comparison, observation, epochs);
+  bridge.rows = rows_of(comparison, observation, settings.epochs);
   bridge.epochs = bridge.rows.back().before != 0.0 ? 2 : 1;
-  bridge.scale = scale;
+  bridge.conditions = settings.conditions;
+  bridge.scale = settings.scale;
   add_readings(comparison, observation, bridge);
   bridge.noise = common_noise(comparison, observation, level, bridge);
   add_losses(comparison, observation, bridge);
-  bridge.spread = typical_spread(bridge.blocks);
+  bridge.spread = typical_spread(bridge);
   return bridge;
 }
 
@@ -224,6 +242,8 @@ std::optional<SceneLoss> scene_loss(const UnknownBridge& bridge, const Observati
 
 MatrixXd epoch_columns(const UnknownBridge& bridge, const SceneLoss& loss) {
   const MatrixXd& intact = bridge.factors->intact.epoch;
+  if (bridge.conditions == Conditions::known)
+    return MatrixXd::Zero(static_cast<Index>(bridge.rows.size()), bridge.epochs * intact.cols());
   MatrixXd after = intact;
   for (const Loss* one : loss.known) after += one->factors->epoch;
   return of_epochs(bridge.rows, bridge.epochs, intact, after);

@@ -4,14 +4,14 @@
 ///   y | scene, kappa ~ N(mean, kappa A A^T + E E^T + noise)
 ///
 /// A, E: what a standard deviation of the bridge's and of each epoch's parameters changes (ReadingFactors);
-/// kappa: by how much the bridge's scatter differs from what the bridge file states (scatter_factor.h); noise:
-/// instruments, levellings, the model's own error, and what the first order leaves.
+/// kappa: by how much the bridge's scatter differs from what the bridge file states (scatter_factor.h);
+/// noise: instruments, levellings, the model's own error, and what the first order leaves.
 ///
 /// A pair's factors are those of the intact bridge and what its two blocks change alone, unless the database
 /// has its own; what the model's error and the first order leave of both adds up. Of what a scene's signal is
-/// beyond that of its blocks with known factors, the whole counts as uncertain as signals typically are: by one
-/// factor, and once more at each point by itself. So scenes without factors (that collapse, or with a block
-/// whose loss alone makes a collapse) are told less sharply, not excluded.
+/// beyond that of its blocks with known factors, the whole counts as uncertain as signals typically are: by
+/// one factor, and once more at each point by itself. So scenes without factors (that collapse, or with a
+/// block whose loss alone makes a collapse) are told less sharply, not excluded.
 
 #include <Eigen/Core>
 #include <optional>
@@ -37,6 +37,18 @@ enum class Epochs {
   both     ///< the first's are displacements since the bridge carried nothing, and teach what it is like
 };
 
+/// Temperature and movements of supports, which every epoch has of its own.
+enum class Conditions {
+  uncertain,  ///< as the bridge file states
+  known       ///< they are those of the model, or readings have been corrected for them
+};
+
+struct UnknownSettings {
+  Epochs epochs = Epochs::change;
+  Conditions conditions = Conditions::uncertain;
+  double scale = 0.0;  ///< Nuisance::scale
+};
+
 /// The loss of a block, or of a pair with factors of its own, in rows of y.
 struct Loss {
   const LossFactors* factors = nullptr;
@@ -48,22 +60,23 @@ struct Loss {
 struct UnknownBridge {
   const ReadingFactors* factors = nullptr;
   std::vector<ReadingRow> rows;
-  Eigen::VectorXd reading;   ///< [m] less what the intact bridge shows
-  Eigen::VectorXd movement;  ///< [m] of the intact bridge, as a common factor counts it
-  Eigen::MatrixXd noise;     ///< [m2] of all scenes
-  std::vector<Loss> blocks;  ///< by block
+  Eigen::VectorXd reading;                    ///< [m] less what the intact bridge shows
+  Eigen::VectorXd movement;                   ///< [m] of the intact bridge, as a common factor counts it
+  Eigen::MatrixXd noise;                      ///< [m2] of all scenes
+  std::vector<Loss> blocks;                   ///< by block
   std::vector<std::pair<Scene, Loss>> pairs;  ///< with factors of their own, in ascending order
   Eigen::Index epochs = 1;                    ///< in y, each with its own columns of E
   double spread = 0.0;  ///< [-] standard deviation of a signal as a share of it, where it is not known better
   double scale = 0.0;   ///< [-] of a factor on all movements, as far as it was asked for
+  Conditions conditions = Conditions::uncertain;
 
   bool has_first_epoch() const { return rows.front().after == 0.0; }  ///< before the rows of changes
 };
 
-/// The instruments' errors are those of a noise level, in shares of what was read; `scale`: Nuisance::scale.
+/// The instruments' errors are those of a noise level, in shares of what was read.
 /// Preconditions: the comparison has factors, the observation Gaussian noise and at least one reading.
 UnknownBridge unknown_bridge(const Comparison& comparison, const Observation& observation, double level,
-                             double scale, Epochs epochs);
+                             const UnknownSettings& settings);
 
 /// What one scene lacks, in rows of y.
 struct SceneLoss {

@@ -47,9 +47,14 @@ LossFactors loss_factors(const ReadingFactors& factors, const Scene& scene) {
   subtract(factors.intact, change);
   const Index lead = std::min(kLeadingColumns, change.bridge.cols());
   const auto others = change.bridge.rightCols(change.bridge.cols() - lead);
-  LossFactors loss{change.bridge.leftCols(lead), std::move(change.epoch), {}, {}};
+  LossFactors loss{change.bridge.leftCols(lead), std::move(change.epoch), {}, {}, {}, {}};
   loss.own.noalias() = others * others.transpose();
   loss.cross.noalias() = factors.intact.bridge.rightCols(others.cols()) * others.transpose();
+  const Index middle = lead - std::min(kFirstColumns, lead);
+  const auto between = loss.lead.rightCols(middle);
+  loss.own_beyond_first = loss.own + between * between.transpose();
+  loss.cross_beyond_first =
+      loss.cross + factors.intact.bridge.middleCols(lead - middle, middle) * between.transpose();
   return loss;
 }
 
@@ -75,6 +80,8 @@ FirstOrderResidual residual_of(const ReadingFactors& factors) {
     if (channel.loaded) {
       result.share = std::max(result.share, states[*channel.loaded].residual.share);
       result.common = std::max(result.common, states[*channel.loaded].residual.common);
+      result.epoch_share = std::max(result.epoch_share, states[*channel.loaded].residual.epoch_share);
+      result.epoch_common = std::max(result.epoch_common, states[*channel.loaded].residual.epoch_common);
     }
   return result;
 }
@@ -98,8 +105,8 @@ std::shared_ptr<const ReadingFactors> reading_factors(const Sensitivities& sensi
   ReadingFactors result{&sensitivities, base, std::move(channels), {}, {}, {}, {}, {}};
   result.intact = factors_of(result, {});
   if (!result.intact.known()) return nullptr;
-  const auto others = result.intact.bridge.rightCols(
-      result.of_bridge() - std::min(kLeadingColumns, result.of_bridge()));
+  const auto others =
+      result.intact.bridge.rightCols(result.of_bridge() - std::min(kLeadingColumns, result.of_bridge()));
   result.intact_own = others * others.transpose();
   result.residual = residual_of(result);
   result.blocks.resize(blocks);

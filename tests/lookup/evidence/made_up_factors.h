@@ -9,8 +9,8 @@
 
 namespace voussoir::test {
 
-/// `columns` of the basis of `columns` + 2 parameters of the bridge, two parameters of an epoch. Block 1's loss,
-/// which makes scenes collapse, has no factors; the pair of blocks 2 and 4 has its own.
+/// `columns` of the basis of `columns` + 2 parameters of the bridge, two parameters of an epoch. Block 1's
+/// loss, which makes scenes collapse, has no factors; the pair of blocks 2 and 4 has its own.
 inline Sensitivities made_up_sensitivities_of(const SyntheticLibrary& library, Eigen::Index columns = 5,
                                               double size = 1e-4) {
   std::mt19937_64 random(7);
@@ -42,7 +42,7 @@ inline Sensitivities made_up_sensitivities_of(const SyntheticLibrary& library, E
       }
     state.scenes.push_back(scene == Scene{{BlockId{1}}} ? SceneFactors{} : own);
   }
-  state.residual = {numbers(points, 2, 0.05 * size), numbers(points, 1, 0.05 * size), 0.1, 0.05};
+  state.residual = {numbers(points, 2, 0.05 * size), numbers(points, 1, 0.05 * size), 0.1, 0.05, 0.2, 0.07};
   result.states = {state};
   return result;
 }

@@ -1,5 +1,5 @@
-/// @file Evidence under an unknown bridge. Oracle: the dense multivariate normal, written down once more from the
-/// definition of the model and factorised by Eigen (LDLT); for kappa its sum.
+/// @file Evidence under an unknown bridge. Oracle: the dense multivariate normal, written down once more from
+/// the definition of the model and factorised by Eigen (LDLT); for kappa its sum.
 
 #include "lookup/evidence/unknown_evidence.h"
 
@@ -118,11 +118,13 @@ Dense two_epochs(const Question& question, std::size_t row, double kappa, double
   add(own.asDiagonal(), own.asDiagonal(), 1.0);
   // What each loss leaves uncertain by itself.
   const auto loss = [&](const SceneFactors& of, const VectorXd& signal) {
-    const VectorXd spread = of.bridge.rowwise().squaredNorm() + of.epoch.rowwise().squaredNorm();
+    const VectorXd spread = of.bridge.rowwise().squaredNorm(), epochs = of.epoch.rowwise().squaredNorm();
     const double alike = error.common * error.common * signal.squaredNorm() / static_cast<double>(p) +
-                         residual.common * residual.common * spread.mean();
+                         std::pow(residual.common, 2) * spread.mean() +
+                         std::pow(residual.epoch_common, 2) * epochs.mean();
     const VectorXd variance = (error.share * signal).array().square().matrix() +
-                              residual.share * residual.share * spread + VectorXd::Constant(p, alike);
+                              std::pow(residual.share, 2) * spread +
+                              std::pow(residual.epoch_share, 2) * epochs + VectorXd::Constant(p, alike);
     add(MatrixXd::Zero(p, p), MatrixXd(variance.array().sqrt().matrix().asDiagonal()), 1.0);
   };
   const auto signal_of_block = [&](BlockId block) {
@@ -203,17 +205,16 @@ TEST_CASE("The evidence of an unknown bridge is that of the dense Gaussian of bo
     Epochs epochs;
     double datum;
   };
-  const auto& [kind, epochs, datum] =
-      GENERATE(values<Case>({{ReadingKind::absolute, Epochs::change, 0.0},
-                             {ReadingKind::absolute, Epochs::change, 1e-4},
-                             {ReadingKind::change, Epochs::change, 0.0},
-                             {ReadingKind::change, Epochs::change, 1e-4},
-                             {ReadingKind::change, Epochs::both, 0.0},
-                             {ReadingKind::change, Epochs::both, 1e-4}}));
+  const auto& [kind, epochs, datum] = GENERATE(values<Case>({{ReadingKind::absolute, Epochs::change, 0.0},
+                                                             {ReadingKind::absolute, Epochs::change, 1e-4},
+                                                             {ReadingKind::change, Epochs::change, 0.0},
+                                                             {ReadingKind::change, Epochs::change, 1e-4},
+                                                             {ReadingKind::change, Epochs::both, 0.0},
+                                                             {ReadingKind::change, Epochs::both, 1e-4}}));
   const Question question(kind);
   const SceneTable& table = question.library.table;
   const Observation observation = question.observation({0.0, datum, 0.0});
-  const UnknownBridge bridge = unknown_bridge(question.comparison, observation, 0.0, 0.0, epochs);
+  const UnknownBridge bridge = unknown_bridge(question.comparison, observation, 0.0, {.epochs = epochs});
   const auto rows = all_rows(table);
   const auto logs = scatter_logs(bridge, observation, table, rows, 2);
   std::size_t compared = 0;
@@ -229,4 +230,35 @@ TEST_CASE("The evidence of an unknown bridge is that of the dense Gaussian of bo
     ++compared;
   }
   CHECK(compared > 20);
+}
+
+TEST_CASE(
+    "Many columns of the basis count as they are for single blocks, few for what pairs have in common") {
+  const Question question(ReadingKind::change, kLeadingColumns + 20);
+  const SceneTable& table = question.library.table;
+  const Observation observation = question.observation();
+  const UnknownBridge bridge = unknown_bridge(question.comparison, observation, 0.0, {});
+  std::size_t compared = 0;
+  for (std::size_t row = 0; row < table.rows && table.scene(row).missing() < 2; ++row) {
+    const auto predicted = table.row(row);
+    if (std::any_of(predicted.begin(), predicted.end(), [](double value) { return std::isnan(value); }))
+      continue;
+    const std::array<std::size_t, 1> rows = {row};
+    const auto logs = scatter_logs(bridge, observation, table, rows, 1);
+    for (std::size_t k = 0; k < kScatterFactors.size(); ++k)
+      REQUIRE(logs[0][k] ==
+              Approx(oracle(question, row, kScatterFactors[k], 0.0, Epochs::change)).epsilon(1e-8));
+    ++compared;
+  }
+  CHECK(compared >= 8);
+}
+
+TEST_CASE("Over the scatter the density is the weighted mean of those of each factor") {
+  const ScatterLogs logs = {-3.0, -1.0, -2.0, -700.0};
+  double sum = 0.0;
+  for (std::size_t k = 0; k < logs.size(); ++k) sum += kScatterPrior[k] * std::exp(logs[k]);
+  CHECK(over_scatter(logs) == Approx(std::log(sum)).epsilon(1e-14));
+  double weights = 0.0;
+  for (const double weight : kScatterPrior) weights += weight;
+  CHECK(weights == Approx(1.0).epsilon(1e-15));
 }
