@@ -7,9 +7,9 @@ namespace {
 
 constexpr std::size_t kBuilt = 0;
 
-/// A stored field solves a step if no more of the forces is unbalanced than rounding and another path of no
-/// account leave [largest nodal weight].
-constexpr double kSameEquilibrium = 1e-3;
+/// A stored field solves a step if no more of the forces is unbalanced [largest nodal weight]: that moves a
+/// joint by a fraction of a micrometre.
+constexpr double kSameEquilibrium = 1e-2;
 
 bool stands(const std::optional<Solution>& solution) {
   return solution && solution->outcome == Outcome::standing;
@@ -55,7 +55,8 @@ void SceneDerivatives::append(const Scene& scene, const PlannedState& planned, c
                        .steps = kStepsOfLoss,
                        .keeps_steps = true};
   const std::vector<Solution> anew = solver({&task, 1});
-  if (anew.front().outcome == Outcome::standing)
+  const bool has_steps = anew.front().steps.size() + 1 == kStepsOfLoss;  // not every solver keeps them
+  if (anew.front().outcome == Outcome::standing && has_steps)
     append_stage(equations_.system, equations_.coefficients, stage, anew.front(), kStepsOfLoss, history);
   else
     append_stage(equations_.system, equations_.coefficients, stage, solution, 1, history);

@@ -6,6 +6,7 @@
 #include <catch2/catch.hpp>
 
 #include "core/solve/history.h"
+#include "core/structure/uncertain_parameters.h"
 #include "generator/build.h"
 #include "generator/sensitivity_check.h"
 #include "generator/stored_bridge.h"
