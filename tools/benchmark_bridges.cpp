@@ -8,7 +8,7 @@
 #include <ctime>
 #include <numbers>
 
-#include "lookup/readings/random.h"
+#include "core/random.h"
 
 namespace voussoir {
 namespace {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "lookup/lookup.h"
+#include "lookup/report/verdict.h"
 
 namespace voussoir {
 
@@ -13,10 +14,17 @@ namespace voussoir {
 std::vector<std::string> verdict(const Answer& answer, const Library& library);
 
 /// "located (a block is missing and named, at least 90 % sure)"
-std::string verdict_in_words(const Posterior& posterior, bool explained);
+std::string verdict_in_words(const Answer& answer);
 
-/// What the first candidate is: "most likely", or only "closest" if nothing explains the readings, "nearest
-/// by misfit" if the search did not find the likeliest scene, "best match" without probabilities.
+/// Precondition: there are probabilities.
+Verdict verdict_of(const Answer& answer);
+
+/// The verdict as a sentence: "Block 10,4 is missing (98.2 %)." Without probabilities nothing.
+std::string headline(const Answer& answer, const Library& library);
+
+/// What the first candidate is: "most likely", or only "likeliest of many" where the verdict names no scene
+/// and "closest" if nothing explains the readings, "nearest by misfit" if the search did not find the
+/// likeliest scene, "best match" without probabilities.
 std::string_view standing(const Answer& answer);
 
 /// "at most 9.7 % of the displacement (uniform noise, estimated)"

@@ -99,7 +99,7 @@ TEST_CASE("On a disk with room for the scenes but not for the finished file ever
 }
 
 TEST_CASE("On a full disk the old database stays as it was", "[whole-build]") {
-  const SmallDisk disk(std::size_t{1024} << 10);
+  const SmallDisk disk(std::size_t{2048} << 10);
   if (!disk.is_there()) return;
   const std::string before = test::json_of(build(disk / "small.h5", "singles")).at("digest");
   CHECK(build(disk / "small.h5").exit_code == 1);

@@ -1,0 +1,117 @@
+#pragma once
+/// @file Readings of a bridge that is not exactly known, as one Gaussian for each scene:
+///
+///   y | scene, kappa ~ N(mean, kappa A A^T + E E^T + noise)
+///
+/// A, E: what a standard deviation of the bridge's and of each epoch's parameters changes (ReadingFactors);
+/// kappa: by how much the bridge's scatter differs from what the bridge file states (scatter_factor.h);
+/// noise: instruments, levellings, the model's own error, and what the first order leaves.
+///
+/// A pair's factors are those of the intact bridge and what its two blocks change alone, unless the database
+/// has its own; what the model's error and the first order leave of both adds up. Of what a scene's signal is
+/// beyond that of its blocks with known factors, the whole counts as uncertain as signals typically are: by
+/// one factor, and once more at each point by itself. So scenes without factors (that collapse, or with a
+/// block whose loss alone makes a collapse) are told less sharply, not excluded.
+
+#include <Eigen/Core>
+#include <array>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "lookup/readings/observation.h"
+
+namespace voussoir {
+
+/// A number of y: after * (channel in the second epoch) + before * (in the first, with no block missing).
+struct ReadingRow {
+  std::size_t channel = 0;
+  double before = 0.0;
+  double after = 1.0;
+
+  double of_bridge() const { return before + after; }  ///< how what is the same in both epochs counts
+};
+
+/// What the first of two epochs tells.
+enum class Epochs {
+  change,  ///< only the difference counts: readings before have a datum of their own at every point
+  both     ///< the first's are displacements since the bridge carried nothing, and teach what it is like
+};
+
+/// Temperature and movements of supports, which every epoch has of its own.
+enum class Conditions {
+  uncertain,  ///< as the bridge file states, or less (kConditionSizes)
+  known       ///< they are those of the model, or readings have been corrected for them
+};
+
+/// Conditions differ from the model's by this much of what the bridge file states, in every epoch alike: by
+/// all of it, or, each as likely beforehand, hardly. One standard deviation for all would count every epoch
+/// as warm and moved; what heat does to joints is not linear, and its error would drown what a block does.
+/// The readings decide.
+inline constexpr std::array<double, 3> kConditionSizes = {0.03, 0.2, 1.0};
+
+struct UnknownSettings {
+  Epochs epochs = Epochs::change;
+  Conditions conditions = Conditions::uncertain;
+  double scale = 0.0;  ///< Nuisance::scale
+};
+
+/// What is gone through, as it is neither Gaussian nor linear.
+struct UnknownCase {
+  double level = 0.0;  ///< of the noise
+  double conditions =
+      1.0;  ///< of what the bridge file states: one of kConditionSizes, or 0 if they are known
+};
+
+/// The loss of a block, or of a pair with factors of its own, in rows of y.
+struct Loss {
+  const LossFactors* factors = nullptr;
+  Eigen::VectorXd signal{};    ///< [m] NaN at readings that the loss makes impossible
+  Eigen::VectorXd variance{};  ///< [m2] the model's own error in it, and what the first order leaves
+  bool known() const { return factors != nullptr && factors->known(); }
+};
+
+struct UnknownBridge {
+  const ReadingFactors* factors = nullptr;
+  std::vector<ReadingRow> rows;
+  Eigen::VectorXd reading;                    ///< [m] less what the intact bridge shows
+  Eigen::VectorXd movement;                   ///< [m] of the intact bridge, as a common factor counts it
+  Eigen::MatrixXd noise;                      ///< [m2] of all scenes
+  std::vector<Loss> blocks;                   ///< by block
+  std::vector<std::pair<Scene, Loss>> pairs;  ///< with factors of their own, in ascending order
+  Eigen::Index epochs = 1;                    ///< in y, each with its own columns of E
+  double spread = 0.0;  ///< [-] standard deviation of a signal as a share of it, where it is not known better
+  double scale = 0.0;   ///< [-] of a factor on all movements, as far as it was asked for
+  double conditions = 1.0;  ///< UnknownCase
+
+  bool has_first_epoch() const { return rows.front().after == 0.0; }  ///< before the rows of changes
+};
+
+/// The instruments' errors are those of a noise level, in shares of what was read; what the first order
+/// leaves of conditions goes with their size. Preconditions: the comparison has factors, the observation
+/// Gaussian noise and at least one reading.
+UnknownBridge unknown_bridge(const Comparison& comparison, const Observation& observation,
+                             const UnknownCase& one, const UnknownSettings& settings);
+
+/// What one scene lacks, in rows of y.
+struct SceneLoss {
+  std::vector<const Loss*> known;  ///< with factors: of its blocks, or its own
+  Eigen::VectorXd signal;          ///< [m] less what the intact bridge shows
+  Eigen::VectorXd beyond;          ///< [m] of it what is not that of the known losses
+  double variance_beyond = 0.0;    ///< [m2] of that, at each point by itself, beside its one factor
+};
+
+/// Nothing if the scene is impossible: a block with a reading is missing.
+std::optional<SceneLoss> scene_loss(const UnknownBridge& bridge, const Observation& observation,
+                                    const SceneTable& table, std::size_t row);
+
+/// E of a scene: a column for each epoch in y and parameter.
+Eigen::MatrixXd epoch_columns(const UnknownBridge& bridge, const SceneLoss& loss);
+
+/// Columns of what else is uncertain of a scene: its signal beyond known losses, and the common factor.
+Eigen::MatrixXd other_columns(const UnknownBridge& bridge, const SceneLoss& loss);
+
+/// The diagonal of what the scene's losses add to UnknownBridge::noise.
+Eigen::VectorXd loss_variance(const UnknownBridge& bridge, const SceneLoss& loss);
+
+}  // namespace voussoir
