@@ -154,7 +154,8 @@ class TwoEpochs {
       if (from().find(0, {{block}}) == nullptr) continue;
       const SceneFactors of = changed_by(from(), {{block}});
       double norm = 0.0;
-      for (const double one : signal_of(block).tail(p_ - 1)) norm += std::isnan(one) ? 0.0 : one * one;
+      const VectorXd signal = signal_of(block).tail(p_ - 1);
+      for (const double one : signal) norm += std::isnan(one) ? 0.0 : one * one;
       shares.push_back(std::sqrt((of.bridge.squaredNorm() + of.epoch.squaredNorm()) / norm));
     }
     std::sort(shares.begin(), shares.end());
