@@ -8,7 +8,7 @@
 namespace voussoir {
 
 struct IrregularOptions {
-  std::vector<std::string> truths;                ///< databases of sampled bridges
+  std::vector<std::string> truths;  ///< databases of sampled bridges
   std::vector<double> sigmas_mm = {0.01, 0.03, 0.1};
   std::size_t every = 10;
   std::string json;  ///< file; empty: none

@@ -20,8 +20,8 @@ struct LookFor {
 };
 
 constexpr std::array kLookFor = {LookFor{"singles among singles", 1, false},
-                                  LookFor{"singles among all", 1, true, true},
-                                  LookFor{"pairs among all", 2, true}};
+                                 LookFor{"singles among all", 1, true, true},
+                                 LookFor{"pairs among all", 2, true}};
 
 Asking asking_for(const Database& database, const SensorList& sensors, const LookFor& search,
                   bool known_bridge) {
@@ -39,7 +39,8 @@ void run_row(StudyRow row, const Asking& asking, const Taking& taking, const Tri
   const std::vector<Trial> results = trials(asking, taking);
   if (results.empty()) return;
   const std::chrono::duration<double, std::milli> time = std::chrono::steady_clock::now() - started;
-  row.milliseconds = time.count() * tbb::this_task_arena::max_concurrency() / static_cast<double>(results.size());
+  row.milliseconds =
+      time.count() * tbb::this_task_arena::max_concurrency() / static_cast<double>(results.size());
   row.rates = rates_of(results);
   done(row);
   rows.push_back(std::move(row));

@@ -20,8 +20,8 @@ std::string bridge_word(const StudyRow& row) {
 /// What was stated against what was true, with bars of three standard errors.
 void add_reliability(const std::vector<StudyRow>& rows, bool known_bridge, Chart& chart, Table& table) {
   const std::string name = known_bridge ? "bridge taken as known" : "bridge taken as unknown";
-  Series bars{name + ", three standard errors", known_bridge ? kKnownColour : kUnknownColour, Mark::band,
-              {}, {}, {}};
+  Series bars{
+      name + ", three standard errors", known_bridge ? kKnownColour : kUnknownColour, Mark::band, {}, {}, {}};
   Series points{name, known_bridge ? kKnownColour : kUnknownColour, Mark::beads, {}, {}};
   for (const ReliabilityBin& bin : joined_bins(rows, known_bridge)) {
     if (bin.scenes == 0) continue;
@@ -42,14 +42,15 @@ Figure reliability_figure(const std::vector<StudyRow>& rows) {
               {"stated probability [%]", AxisScale::linear, {{0.0, 100.0}}},
               {"was the truth [%]", AxisScale::linear, {{0.0, 100.0}}},
               {{"perfect", 0, Mark::dashes, {0.0, 100.0}, {0.0, 100.0}}}};
-  Table table{{"bridge", "scenes", "mean stated probability [%]", "was the truth [%]",
-               "standard error if right [%]"},
-              {}};
+  Table table{
+      {"bridge", "scenes", "mean stated probability [%]", "was the truth [%]", "standard error if right [%]"},
+      {}};
   for (const bool known_bridge : {false, true}) add_reliability(rows, known_bridge, chart, table);
   return {.id = "reliability",
           .title = "Reliability",
-          .caption = "Every scene of every answer that was given at least 0.1 %, by the probability that it was "
-                     "given. The band is three standard errors wide to each side of what was stated.",
+          .caption =
+              "Every scene of every answer that was given at least 0.1 %, by the probability that it was "
+              "given. The band is three standard errors wide to each side of what was stated.",
           .pictures = chart_html(chart),
           .table = std::move(table),
           .view = TableView::printed};
@@ -85,14 +86,17 @@ Figure success_figure(const std::vector<StudyRow>& rows, ReadingsTaken taken) {
 
 Table table_of(const std::vector<StudyRow>& rows) {
   Table table{{"truth", "looked for", "readings", "sigma [mm]", "bridge", "trials", "first [%]", "+-",
-               "in the 95 % set [%]", "+-", "scenes in it", "wrong, over 90 % [%]", "+-", "called damaged [%]",
-               "+-", "Brier"},
+               "in the 95 % set [%]", "+-", "scenes in it", "wrong, over 90 % [%]", "+-",
+               "called damaged [%]", "+-", "Brier"},
               {}};
   for (const Verdict verdict : all_verdicts()) table.columns.emplace_back(to_string(verdict));
   for (const StudyRow& row : rows) {
     const TrialRates& rates = row.rates;
-    std::vector<TableCell> cells = {row.truth, row.looked_for, std::string(to_string(row.taken)),
-                                    kMillimetres * row.sigma, bridge_word(row),
+    std::vector<TableCell> cells = {row.truth,
+                                    row.looked_for,
+                                    std::string(to_string(row.taken)),
+                                    kMillimetres * row.sigma,
+                                    bridge_word(row),
                                     static_cast<double>(rates.trials)};
     for (const Share& share : {rates.first, rates.in_credible}) {
       cells.emplace_back(kPerCent * share.value);
@@ -127,11 +131,11 @@ std::string to_page(const StudySource& source, const std::vector<StudyRow>& rows
   for (const ReadingsTaken taken :
        {ReadingsTaken::change, ReadingsTaken::two_epochs, ReadingsTaken::absolute})
     figures.push_back(success_figure(rows, taken));
-  return html_page("Voussoir: trials on irregular bridges",
-                   paragraph("Readings of sampled bridges, solved nonlinearly, that the database does not hold.",
-                             "lead") +
-                       section_html("figures", "What was found", figures_html(figures)) +
-                       section_html("all", "All series", to_html(table_of(rows), 3)) + source_html(source));
+  return html_page(
+      "Voussoir: trials on irregular bridges",
+      paragraph("Readings of sampled bridges, solved nonlinearly, that the database does not hold.", "lead") +
+          section_html("figures", "What was found", figures_html(figures)) +
+          section_html("all", "All series", to_html(table_of(rows), 3)) + source_html(source));
 }
 
 }  // namespace voussoir

@@ -60,19 +60,21 @@ std::string heading_text() {
   std::string verdicts;
   for (const Verdict verdict : all_verdicts())
     verdicts += fmt::format("{}{}", verdicts.empty() ? "" : "/", to_string(verdict));
-  return fmt::format("{:<22} {:<21} {:<10} {:>5} {:>7} {:>6} {:>13} {:>13} {:>7} {:>13} {:>13} {:>6} {:>6}  {}\n",
-                     "truth", "looked for", "readings", "sigma", "bridge", "trials", "first", "95 % set",
-                     "size", "wrong > 90 %", "called damaged", "Brier", "ms", verdicts);
+  return fmt::format(
+      "{:<22} {:<21} {:<10} {:>5} {:>7} {:>6} {:>13} {:>13} {:>7} {:>13} {:>13} {:>6} {:>6}  {}\n", "truth",
+      "looked for", "readings", "sigma", "bridge", "trials", "first", "95 % set", "size", "wrong > 90 %",
+      "called damaged", "Brier", "ms", verdicts);
 }
 
 std::string to_text(const StudyRow& row) {
   const TrialRates& rates = row.rates;
-  return fmt::format("{:<22} {:<21} {:<10} {:>5.2g} {:>7} {:>6} {:>13} {:>13} {:>7.1f} {:>13} {:>13} {:>6.3f} {:>6.1f}  {}\n",
-                     row.truth, row.looked_for, to_string(row.taken), kMillimetres * row.sigma,
-                     row.known_bridge ? "known" : "unknown", rates.trials, share_text(rates.first),
-                     share_text(rates.in_credible), rates.mean_set_size, share_text(rates.wrong_and_sure),
-                     share_text(rates.alarm), rates.mean_brier, row.milliseconds,
-                     fmt::join(rates.verdicts, "/"));
+  return fmt::format(
+      "{:<22} {:<21} {:<10} {:>5.2g} {:>7} {:>6} {:>13} {:>13} {:>7.1f} {:>13} {:>13} {:>6.3f} {:>6.1f}  "
+      "{}\n",
+      row.truth, row.looked_for, to_string(row.taken), kMillimetres * row.sigma,
+      row.known_bridge ? "known" : "unknown", rates.trials, share_text(rates.first),
+      share_text(rates.in_credible), rates.mean_set_size, share_text(rates.wrong_and_sure),
+      share_text(rates.alarm), rates.mean_brier, row.milliseconds, fmt::join(rates.verdicts, "/"));
 }
 
 std::vector<ReliabilityBin> joined_bins(const std::vector<StudyRow>& rows, bool known_bridge) {

@@ -20,8 +20,8 @@ ReadingsFile take_readings(const Shown& shown, ReadingsTaken taken, double sigma
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   const bool absolute = taken == ReadingsTaken::absolute;
   const double of_epoch = absolute ? sigma : sigma * std::sqrt(0.5);
-  ReadingsFile file{"", absolute ? ReadingKind::absolute : ReadingKind::change,
-                    taken == ReadingsTaken::two_epochs, {}};
+  ReadingsFile file{
+      "", absolute ? ReadingKind::absolute : ReadingKind::change, taken == ReadingsTaken::two_epochs, {}};
   for (std::size_t point = 0; point < shown.after.size(); ++point) {
     const double before = absolute ? 0.0 : shown.before[point] + of_epoch * random.gaussian();
     const double after = shown.after[point] + of_epoch * random.gaussian();

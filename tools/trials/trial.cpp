@@ -34,7 +34,8 @@ Share share_of(const std::vector<Trial>& trials, const std::function<bool(const 
   const auto n = static_cast<double>(trials.size()), b = static_cast<double>(bridges.size());
   const double value = counting / n;
   double squares = 0.0;
-  for (const auto& [number, bridge] : bridges) squares += std::pow(bridge.counting - bridge.trials * value, 2);
+  for (const auto& [number, bridge] : bridges)
+    squares += std::pow(bridge.counting - bridge.trials * value, 2);
   return {value, b > 1.0 ? std::sqrt(squares * b / (b - 1.0)) / n : std::sqrt(value * (1.0 - value) / n)};
 }
 

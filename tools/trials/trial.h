@@ -20,12 +20,12 @@ struct Asking {
 
 /// How an answer stands to the truth.
 struct Trial {
-  std::size_t bridge = 0;          ///< that the readings come from
-  bool first = false;              ///< no other scene is as likely as the truth
-  bool in_credible = false;        ///< the truth is in the 95 % set
-  std::size_t set_size = 0;        ///< scenes in it
-  double likeliest = 0.0;          ///< probability of the likeliest scene
-  double brier = 0.0;              ///< sum over all scenes of (probability - whether it is the truth)^2
+  std::size_t bridge = 0;    ///< that the readings come from
+  bool first = false;        ///< no other scene is as likely as the truth
+  bool in_credible = false;  ///< the truth is in the 95 % set
+  std::size_t set_size = 0;  ///< scenes in it
+  double likeliest = 0.0;    ///< probability of the likeliest scene
+  double brier = 0.0;        ///< sum over all scenes of (probability - whether it is the truth)^2
   Verdict verdict = Verdict::cannot_tell;
   std::vector<ReliabilityBin> bins;  ///< of this trial's probabilities, unfinished
 };

@@ -10,9 +10,9 @@ namespace voussoir {
 /// How readings are taken in a series.
 struct Taking {
   ReadingsTaken taken = ReadingsTaken::change;
-  double sigma = 1e-5;      ///< [m] as in take_readings
-  std::uint64_t seed = 1;   ///< of the errors; every trial draws its own
-  std::size_t every = 1;    ///< take this one of so many scenes of a bridge
+  double sigma = 1e-5;     ///< [m] as in take_readings
+  std::uint64_t seed = 1;  ///< of the errors; every trial draws its own
+  std::size_t every = 1;   ///< take this one of so many scenes of a bridge
 };
 
 /// Readings of the true bridges' scenes with so many missing blocks, each bridge's own ones; scenes that do
