@@ -29,7 +29,8 @@ std::string span_text(const SpanDescription& span) {
 }
 
 std::string material_text(const Material& material) {
-  const auto& [young_modulus, poisson_ratio, density, thickness, plane] = material;
+  const auto& [young_modulus, poisson_ratio, density, thickness, plane, thermal_expansion] = material;
+  static_cast<void>(thermal_expansion);  // stored states are those at the temperature of building
   return row("material", young_modulus, poisson_ratio, density, thickness, plane);
 }
 
@@ -50,8 +51,9 @@ std::string support_text(const SupportDescription& supports) {
 
 std::string physics_text(const BridgeDescription& description) {
   const auto& [name, wall, spans, material, joints, supports, control_points, mesh, gravity, joint_tolerance,
-               loads] = description;
-  static_cast<void>(loads);  // whose states are told apart by load case
+               loads, uncertainty] = description;
+  static_cast<void>(uncertainty);  // no solution depends on it
+  static_cast<void>(loads);        // whose states are told apart by load case
   static_cast<void>(name);
   static_cast<void>(control_points);
   std::string text = wall_text(wall);

@@ -39,8 +39,8 @@ void check_geometry(const Database& database, const Model& stored, VerifyReport&
   const Model bridge = same_program ? make_model(description) : stored;
   std::vector<VariantParameters> variants = database.variants();
   variants.front() = parameters_of(bridge);  // of the others nothing else says what they should be
-  const auto expected =
-      shared_datasets(provenance, bridge, variants, database.states(), database.model_errors());
+  const auto expected = shared_datasets(provenance, bridge, variants, database.states(),
+                                        database.model_errors(), database.sensitivities());
   for (const DatasetValue& value : expected)
     if (!std::ranges::equal(value.bytes, database.dataset_bytes(value.path.c_str())))
       report.problems.push_back(fmt::format("dataset '{}': is not what the bridge text gives", value.path));

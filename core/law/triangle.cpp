@@ -11,11 +11,12 @@ Eigen::Matrix2d displacement_gradient(const TriangleShape& shape, const Vector6d
 }
 
 /// From H, not from F, so that small strains keep their digits.
-Eigen::Vector3d stress_of(const Eigen::Matrix2d& h, const PlaneModuli& moduli) {
+Eigen::Vector3d stress_of(const Eigen::Matrix2d& h, const PlaneModuli& moduli, double pressure) {
   const double xx = h(0, 0) + 0.5 * (h(0, 0) * h(0, 0) + h(1, 0) * h(1, 0));
   const double yy = h(1, 1) + 0.5 * (h(0, 1) * h(0, 1) + h(1, 1) * h(1, 1));
   const double twice_xy = h(0, 1) + h(1, 0) + h(0, 0) * h(0, 1) + h(1, 0) * h(1, 1);
-  return {moduli.a * xx + moduli.b * yy, moduli.b * xx + moduli.a * yy, moduli.g * twice_xy};
+  return {moduli.a * xx + moduli.b * yy - pressure, moduli.b * xx + moduli.a * yy - pressure,
+          moduli.g * twice_xy};
 }
 
 Eigen::Matrix2d tensor(const Eigen::Vector3d& s) {
@@ -35,6 +36,13 @@ PlaneModuli plane_moduli(const Material& material) {
   return {factor * (1.0 - nu), factor * nu, g};
 }
 
+double thermal_pressure(const Material& material) {
+  const PlaneModuli moduli = plane_moduli(material);
+  // In plane strain the material cannot expand out of the plane either.
+  const double out_of_plane = material.plane == PlaneState::strain ? 1.0 + material.poisson_ratio : 1.0;
+  return (moduli.a + moduli.b) * out_of_plane * material.thermal_expansion;
+}
+
 TriangleShape triangle_shape(const Point& a, const Point& b, const Point& c) {
   const double twice_area = cross(b - a, c - a);
   TriangleShape shape;
@@ -45,13 +53,14 @@ TriangleShape triangle_shape(const Point& a, const Point& b, const Point& c) {
 }
 
 Eigen::Vector3d triangle_stress(const TriangleShape& shape, const PlaneModuli& moduli, const Vector6d& q) {
-  return stress_of(displacement_gradient(shape, q), moduli);
+  return stress_of(displacement_gradient(shape, q), moduli, 0.0);
 }
 
 Vector6d triangle_force(const TriangleShape& shape, const PlaneModuli& moduli, double thickness,
-                        const Vector6d& q) {
+                        const Vector6d& q, double pressure) {
   const Eigen::Matrix2d h = displacement_gradient(shape, q);
-  const Eigen::Matrix2d first_piola = (Eigen::Matrix2d::Identity() + h) * tensor(stress_of(h, moduli));
+  const Eigen::Matrix2d first_piola =
+      (Eigen::Matrix2d::Identity() + h) * tensor(stress_of(h, moduli, pressure));
   Vector6d force;
   Eigen::Map<Eigen::Matrix<double, 2, 3>>(force.data()) =
       (shape.area * thickness) * first_piola * shape.gradient;
@@ -59,10 +68,10 @@ Vector6d triangle_force(const TriangleShape& shape, const PlaneModuli& moduli, d
 }
 
 TriangleResponse triangle_response(const TriangleShape& shape, const PlaneModuli& moduli, double thickness,
-                                   const Vector6d& q) {
+                                   const Vector6d& q, double pressure) {
   const Eigen::Matrix2d h = displacement_gradient(shape, q);
   const Eigen::Matrix2d f = Eigen::Matrix2d::Identity() + h;
-  const Eigen::Vector3d s = stress_of(h, moduli);
+  const Eigen::Vector3d s = stress_of(h, moduli, pressure);
   const Eigen::Matrix2d stress = tensor(s);
 
   // B: d(E_xx, E_yy, 2 E_xy) / d q

@@ -22,6 +22,10 @@ struct PlaneModuli {
 
 PlaneModuli plane_moduli(const Material& material);
 
+/// Pressure of a material that is heated by one kelvin and cannot expand [Pa/K]. Its stress is that of the
+/// strain less this pressure times the temperature, in both directions of the plane.
+double thermal_pressure(const Material& material);
+
 /// What an element needs of the reference configuration.
 struct TriangleShape {
   Eigen::Matrix<double, 2, 3> gradient;  ///< column i: grad N_i [1/m]
@@ -39,12 +43,12 @@ struct TriangleResponse {
 /// Second Piola-Kirchhoff stress (S_xx, S_yy, S_xy) [Pa] at corner displacements q = (x0,y0,x1,y1,x2,y2) [m].
 Eigen::Vector3d triangle_stress(const TriangleShape& shape, const PlaneModuli& moduli, const Vector6d& q);
 
-/// Internal forces only.
+/// Internal forces only. `pressure` [Pa]: of a material that is heated and would expand.
 Vector6d triangle_force(const TriangleShape& shape, const PlaneModuli& moduli, double thickness,
-                        const Vector6d& q);
+                        const Vector6d& q, double pressure = 0.0);
 
 /// Internal forces and their derivative.
 TriangleResponse triangle_response(const TriangleShape& shape, const PlaneModuli& moduli, double thickness,
-                                   const Vector6d& q);
+                                   const Vector6d& q, double pressure = 0.0);
 
 }  // namespace voussoir

@@ -167,6 +167,7 @@ Coefficients::Coefficients(const EquilibriumSystem& system, const Parameters& pa
     const Material& material = parameters.blocks[block];
     moduli.push_back(plane_moduli(material));
     thickness.push_back(material.thickness);
+    thermal.push_back(thermal_pressure(material));
     const double specific = material.density * parameters.gravity * material.thickness;
     const IndexRange& range = structure.mesh.block_triangles[block];
     for (auto t = static_cast<std::size_t>(range.begin); t < static_cast<std::size_t>(range.end); ++t)
@@ -185,7 +186,9 @@ StageEquations::StageEquations(const EquilibriumSystem& system_, const Coefficie
     : system(&system_),
       coefficients(&coefficients_),
       removed(removal_mask(stage.scene, system_.structure->layout.size())),
-      memory(std::move(memory_)) {
+      memory(std::move(memory_)),
+      temperature(stage.temperature),
+      support_movement(stage.support_movement) {
   const Mesh& mesh = system->structure->mesh;
   memory.resize(system->joints.size());
   load = stage.load.size() > 0 ? stage.load : Field::Zero(2, mesh.node_count());
@@ -205,7 +208,7 @@ Field unbalanced_forces(const StageEquations& equations, const Field& displaceme
     const auto& nodes = system.structure->mesh.triangles[t].nodes;
     subtract_at(forces, nodes,
                 triangle_force(system.triangles[t], with.moduli[block], with.thickness[block],
-                               gathered(displacement, nodes)));
+                               gathered(displacement, nodes), equations.temperature * with.thermal[block]));
   });
   for_present_joints(equations, [&](const Joint& joint, std::size_t j) {
     const JointKinematics kinematics =
@@ -227,8 +230,9 @@ Field assemble(const StageEquations& equations, const Field& displacement, doubl
     tangent.first[i * tangent.stride] = 0.0;
   for_present_triangles(equations, [&](std::size_t t, std::size_t block) {
     const auto& nodes = system.structure->mesh.triangles[t].nodes;
-    const TriangleResponse response = triangle_response(system.triangles[t], with.moduli[block],
-                                                        with.thickness[block], gathered(displacement, nodes));
+    const TriangleResponse response =
+        triangle_response(system.triangles[t], with.moduli[block], with.thickness[block],
+                          gathered(displacement, nodes), equations.temperature * with.thermal[block]);
     subtract_at(forces, nodes, response.force);
     add_local(system.triangle_slots[t], response.tangent, tangent);
   });
@@ -259,6 +263,19 @@ std::vector<JointMemory> updated_memory(const StageEquations& equations, const F
     memory[j] = updated_memory(equations.coefficients->joints[j], memory[j], kinematics.state);
   });
   return memory;
+}
+
+Field admissible(const StageEquations& equations, const Field& field) {
+  const EquilibriumSystem& system = *equations.system;
+  Field result = field.array().isNaN().select(0.0, field);
+  for (std::size_t c = 0; c < system.unknown.size(); ++c)
+    if (system.unknown[c] < 0)
+      result.data()[c] = equations.support_movement.size() > 0 ? equations.support_movement.data()[c] : 0.0;
+  const Mesh& mesh = system.structure->mesh;
+  for (std::size_t block = 0; block < equations.removed.size(); ++block)
+    if (equations.removed[block])
+      result.middleCols(mesh.block_nodes[block].begin, mesh.block_nodes[block].size()).setZero();
+  return result;
 }
 
 std::vector<bool> removal_mask(const Scene& scene, std::size_t block_count) {

@@ -44,6 +44,7 @@ struct Coefficients {
 
   std::vector<PlaneModuli> moduli;     ///< of each block
   std::vector<double> thickness;       ///< of each block [m]
+  std::vector<double> thermal;         ///< thermal_pressure of each block [Pa/K]
   std::vector<JointStiffness> joints;  ///< of each joint
   Eigen::VectorXd weight;              ///< of each node under full gravity [N], positive
 };
@@ -59,9 +60,11 @@ struct StageEquations {
   const Coefficients* coefficients;
   std::vector<bool> removed;  ///< per block
   std::vector<JointMemory> memory;
-  Field load;           ///< weight and load of the stage on present blocks [N]
-  double largest_load;  ///< component of the load on the whole bridge [N]: the unit of residuals; 1 if
-                        ///< nothing is loaded
+  double temperature;      ///< of the stage [K]
+  Field support_movement;  ///< of the stage; empty: none
+  Field load;              ///< weight and load of the stage on present blocks [N]
+  double largest_load;     ///< component of the load on the whole bridge [N]: the unit of residuals; 1 if
+                           ///< nothing is loaded
 };
 
 /// Unbalanced force of every displacement component [N] (2 x nodes); zero at removed blocks and held
@@ -84,6 +87,10 @@ Field assemble(const StageEquations& equations, const Field& displacement, doubl
 
 /// What the joints remember when the stage ends with this displacement.
 std::vector<JointMemory> updated_memory(const StageEquations& equations, const Field& displacement);
+
+/// The nearest field that the supports allow: their movement where they hold, zero where the field says
+/// nothing (NaN) and where blocks are gone.
+Field admissible(const StageEquations& equations, const Field& field);
 
 /// Per block: is it missing?
 std::vector<bool> removal_mask(const Scene& scene, std::size_t block_count);

@@ -40,22 +40,6 @@ int most_iterations(SearchPhase phase, const QuasiStaticSettings& settings) {
   return phase == SearchPhase::falling ? settings.most_falling_iterations : settings.most_iterations;
 }
 
-void fill_removed(const Mesh& mesh, const std::vector<bool>& removed, double filling, Field& field) {
-  for (std::size_t block = 0; block < removed.size(); ++block)
-    if (removed[block])
-      field.middleCols(mesh.block_nodes[block].begin, mesh.block_nodes[block].size()).setConstant(filling);
-}
-
-/// Zero where the start says nothing, where supports hold and where blocks are gone.
-Field admissible(const StageEquations& equations, const Field& start) {
-  const EquilibriumSystem& system = *equations.system;
-  Field field = start.array().isNaN().select(0.0, start);
-  for (std::size_t c = 0; c < system.unknown.size(); ++c)
-    if (system.unknown[c] < 0) field.data()[c] = 0.0;
-  fill_removed(system.structure->mesh, equations.removed, 0.0, field);
-  return field;
-}
-
 }  // namespace
 
 NewtonSearch::NewtonSearch(StageEquations equations, const QuasiStaticSettings& settings, const Field* start,
@@ -195,8 +179,11 @@ Solution NewtonSearch::solution() const {
     solution.outcome = Outcome::standing;
     solution.memory = updated_memory(equations_, displacement_);
   }
-  fill_removed(system().structure->mesh, equations_.removed, std::numeric_limits<double>::quiet_NaN(),
-               solution.displacement);
+  const Mesh& mesh = system().structure->mesh;
+  for (std::size_t block = 0; block < equations_.removed.size(); ++block)
+    if (equations_.removed[block])
+      solution.displacement.middleCols(mesh.block_nodes[block].begin, mesh.block_nodes[block].size())
+          .setConstant(std::numeric_limits<double>::quiet_NaN());
   return solution;
 }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/geometry/polygon.h"
+#include "core/structure/uncertainty.h"
 
 namespace voussoir {
 
@@ -48,6 +49,7 @@ struct Material {
   double density = 2400.0;        ///< [kg/m3]
   double thickness = 1.0;         ///< [m] out of plane
   PlaneState plane = PlaneState::stress;
+  double thermal_expansion = 8e-6;  ///< [1/K] linear
 };
 
 /// Dry joints: no tension, no cohesion (paper, Table 1).
@@ -130,6 +132,7 @@ struct BridgeDescription {
   double gravity = 9.81;          ///< [m/s2] downwards
   double joint_tolerance = 1e-6;  ///< [m] edges closer than this form a joint
   std::vector<LoadDescription> loads;
+  Uncertainty uncertainty;
 };
 
 }  // namespace voussoir

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/structure/loads_section.h"
+#include "core/structure/uncertainty_section.h"
 #include "reference_bridge_text.h"
 
 namespace voussoir {
@@ -46,6 +47,7 @@ void read_material(TomlSection section, Material& material) {
   section.positive("density_kg_m3", material.density);
   section.positive("thickness_m", material.thickness);
   section.choice("plane", material.plane, {{"stress", PlaneState::stress}, {"strain", PlaneState::strain}});
+  section.number("thermal_expansion_per_K", material.thermal_expansion, 0.0, 1e-3, true);
   section.refuse_unknown_keys();
 }
 
@@ -151,6 +153,7 @@ BridgeDescription interpret(const toml::table& root, const std::string& file) {
   read_supports(section("supports"), description.supports);
   read_control_points(section("control_points"), description.control_points);
   read_mesh(section("mesh"), description.mesh);
+  description.uncertainty = read_uncertainty(section("uncertainty"));
 
   std::vector<long> span_lines(description.spans.size(), 0);
   if (const toml::array* spans = top.tables("spans", "[[spans]]")) {

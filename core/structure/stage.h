@@ -10,6 +10,9 @@ struct Stage {
   Scene scene{};               ///< which blocks are missing
   double gravity_share = 1.0;  ///< of the parameters' gravity
   Field load{};  ///< forces on the nodes beside the weight [N], 2 x nodes, of fixed direction; empty: none
+  double temperature = 0.0;  ///< of all blocks [K] over that at which the bridge was built
+  Field
+      support_movement{};  ///< displacements of the components that supports hold [m], 2 x nodes; empty: none
 };
 
 }  // namespace voussoir

@@ -1,5 +1,8 @@
 #include "core/structure/supports.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <cmath>
 
 namespace voussoir {
@@ -13,22 +16,61 @@ std::vector<NodeId> nodes_at(const Mesh& mesh, int axis, double coordinate, doub
   return nodes;
 }
 
+/// Where blocks stand on the ground side by side, from left to right [m].
+std::vector<std::pair<double, double>> stretches_on_ground(const Mesh& mesh, double tolerance) {
+  std::vector<std::pair<double, double>> edges;
+  for (const BoundaryEdge& edge : mesh.edges) {
+    const Point from = mesh.position(edge.from);
+    const Point to = mesh.position(edge.to);
+    if (std::abs(from.y()) <= tolerance && std::abs(to.y()) <= tolerance)
+      edges.emplace_back(std::minmax(from.x(), to.x()));
+  }
+  std::ranges::sort(edges);
+  std::vector<std::pair<double, double>> stretches;
+  for (const auto& [left, right] : edges)
+    if (stretches.empty() || left > stretches.back().second + tolerance)
+      stretches.emplace_back(left, right);
+    else
+      stretches.back().second = std::max(stretches.back().second, right);
+  return stretches;
+}
+
 /// `normal_axis`: 0 for a vertical face, 1 for a horizontal one.
-Support face(const char* name, std::vector<NodeId> nodes, SupportKind kind, int normal_axis) {
+Support face(const std::string& name, std::vector<NodeId> nodes, SupportKind kind, int normal_axis) {
   const auto holds = [&](int axis) {
     return kind == SupportKind::clamped || (kind == SupportKind::roller && axis == normal_axis);
   };
-  return {name, std::move(nodes), holds(0), holds(1)};
+  return {name, std::move(nodes), holds(0), holds(1), false};
+}
+
+/// Ground nodes that touch no ground edge (a corner on the ground) are the nearest foot's.
+std::vector<Support> feet(const Mesh& mesh, SupportKind kind, double tolerance) {
+  const auto stretches = stretches_on_ground(mesh, tolerance);
+  std::vector<Support> supports;
+  for (std::size_t i = 0; i < stretches.size(); ++i) {
+    supports.push_back(face(fmt::format("foot {}", i + 1), {}, kind, 1));
+    supports.back().is_foot = true;
+  }
+  if (supports.empty()) return {face("base", nodes_at(mesh, 1, 0.0, tolerance), kind, 1)};
+  const auto distance = [&](double x, std::size_t foot) {
+    return std::max({0.0, stretches[foot].first - x, x - stretches[foot].second});
+  };
+  for (const NodeId node : nodes_at(mesh, 1, 0.0, tolerance)) {
+    std::size_t nearest = 0;
+    for (std::size_t i = 1; i < supports.size(); ++i)
+      if (distance(mesh.position(node).x(), i) < distance(mesh.position(node).x(), nearest)) nearest = i;
+    supports[nearest].nodes.push_back(node);
+  }
+  return supports;
 }
 
 }  // namespace
 
 std::vector<Support> box_supports(const Mesh& mesh, const SupportDescription& description, double length) {
   const double tolerance = 1e-9 * length;
-  std::vector<Support> supports = {
-      face("base", nodes_at(mesh, 1, 0.0, tolerance), description.base, 1),
-      face("left side", nodes_at(mesh, 0, 0.0, tolerance), description.sides, 0),
-      face("right side", nodes_at(mesh, 0, length, tolerance), description.sides, 0)};
+  std::vector<Support> supports = feet(mesh, description.base, tolerance);
+  supports.push_back(face("left side", nodes_at(mesh, 0, 0.0, tolerance), description.sides, 0));
+  supports.push_back(face("right side", nodes_at(mesh, 0, length, tolerance), description.sides, 0));
   std::erase_if(supports, [](const Support& s) { return s.nodes.empty() || !(s.holds_x || s.holds_y); });
   return supports;
 }

@@ -11,14 +11,16 @@ namespace voussoir {
 
 /// A set of nodes with one condition.
 struct Support {
-  std::string name;  ///< "base", "left side", "right side"
+  std::string name;  ///< "foot 1".. from the left, "left side", "right side"
   std::vector<NodeId> nodes;
   bool holds_x = false;
   bool holds_y = false;
+  bool is_foot = false;  ///< part of the base; may move apart from the others
 };
 
-/// The supports of a bridge in a box: nodes at y = 0 (base), x = 0 and x = length (sides). Sets that hold
-/// nothing or have no node are left out.
+/// The supports of a bridge in a box: nodes at y = 0 (base), x = 0 and x = length (sides). The base is a foot
+/// for each stretch of ground on which blocks stand side by side. Sets that hold nothing or have no node are
+/// left out.
 std::vector<Support> box_supports(const Mesh& mesh, const SupportDescription& description, double length);
 
 /// Per displacement component (2 node + axis): does a support hold it?

@@ -71,6 +71,7 @@ struct Database::Implementation {
   OnFirstUse<std::vector<Joint>> joints{};
   OnFirstUse<std::vector<VariantParameters>> variants{};
   OnFirstUse<StoredRecords> records{};
+  OnFirstUse<std::optional<Sensitivities>> sensitivities{};
 
   void check_row(std::size_t row) const {
     if (row >= rows.sizes().records)
@@ -149,6 +150,15 @@ const std::vector<VariantParameters>& Database::variants() const {
   const std::size_t joint_count = joints().size();
   return implementation_->variants.get(
       [&] { return read_parameters(implementation_->file, layout().size(), joint_count); });
+}
+
+const Sensitivities* Database::sensitivities() const {
+  const Implementation& opened = *implementation_;
+  const auto& found = implementation_->sensitivities.get([&] {
+    return read_sensitivities(opened.file,
+                              {opened.states.size(), opened.points.size(), opened.rows.sizes().blocks});
+  });
+  return found ? &*found : nullptr;
 }
 
 const SearchIndex& Database::search_index(std::size_t state) const {

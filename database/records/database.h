@@ -15,6 +15,7 @@
 #include "database/records/provenance.h"
 #include "database/records/record.h"
 #include "database/records/scene_table.h"
+#include "database/records/sensitivities.h"
 #include "database/records/variant_parameters.h"
 #include "database/search/search_index.h"
 
@@ -44,9 +45,10 @@ class Database {
   const std::string& digest() const;  ///< SHA-256 of the content, hexadecimal
   const std::string& bridge_name() const;
   const std::vector<StoredPoint>& control_points() const;
-  const std::vector<std::string>& states() const;                      ///< names, at least one
-  const std::vector<ModelError>& model_errors() const;                 ///< one for each state
-  const std::vector<VariantParameters>& variants() const;              ///< read on first use
+  const std::vector<std::string>& states() const;          ///< names, at least one
+  const std::vector<ModelError>& model_errors() const;     ///< one for each state
+  const std::vector<VariantParameters>& variants() const;  ///< read on first use
+  const Sensitivities* sensitivities() const;              ///< null if it holds none; read on first use
   std::optional<std::size_t> find_state(std::string_view name) const;  ///< its number, or nothing
   std::size_t variant_count() const;                                   ///< at least one
 

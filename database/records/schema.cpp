@@ -4,6 +4,7 @@
 #include <iterator>
 
 #include "core/error.h"
+#include "database/format/names.h"
 
 namespace voussoir {
 namespace {
@@ -40,20 +41,6 @@ DatasetValue range_dataset(const char* path, const std::vector<IndexRange>& rang
   std::vector<std::int32_t> values;
   for (const IndexRange& range : ranges) values.insert(values.end(), {range.begin, range.end});
   return int_dataset(path, values, 2, meaning);
-}
-
-/// Names of fixed width.
-DatasetValue name_dataset(const char* path, const std::vector<std::string>& names, std::size_t width,
-                          const char* meaning) {
-  DatasetValue dataset{path, ElementType::text, {names.size()}, width, "text", meaning, {}};
-  for (std::string name : names) {
-    if (name.size() > width)
-      throw Failure(fmt::format("'{}' is too long a name for {} ({} bytes)", name, path, width));
-    name.resize(width);
-    const ByteView bytes = view_bytes(name);
-    dataset.bytes.insert(dataset.bytes.end(), bytes.begin(), bytes.end());
-  }
-  return dataset;
 }
 
 void append_blocks(const BlockLayout& layout, std::vector<DatasetValue>& datasets) {
@@ -163,7 +150,8 @@ void append_points(const std::vector<ControlPoint>& points, std::vector<DatasetV
 std::vector<DatasetValue> shared_datasets(const Provenance& provenance, const Model& bridge,
                                           const std::vector<VariantParameters>& variants,
                                           const std::vector<std::string>& states,
-                                          const std::vector<ModelError>& model_errors) {
+                                          const std::vector<ModelError>& model_errors,
+                                          const Sensitivities* sensitivities) {
   std::vector<DatasetValue> datasets;
   datasets.push_back(
       text_dataset(dataset::kBridgeText, provenance.bridge_text, "the bridge file (TOML) as it was given"));
@@ -178,6 +166,8 @@ std::vector<DatasetValue> shared_datasets(const Provenance& provenance, const Mo
                                   "colon and a stage of a load case"));
   std::ranges::move(model_error_datasets(model_errors, states.size(), bridge.control_points.size()),
                     std::back_inserter(datasets));
+  if (sensitivities != nullptr)
+    std::ranges::move(sensitivity_datasets(*sensitivities), std::back_inserter(datasets));
   std::ranges::move(parameter_datasets(variants), std::back_inserter(datasets));
   return datasets;
 }

@@ -9,15 +9,18 @@
 #include "database/format/dataset_value.h"
 #include "database/records/model_error.h"
 #include "database/records/provenance.h"
+#include "database/records/sensitivities.h"
 #include "database/records/variant_parameters.h"
 
 namespace voussoir {
 
 inline constexpr char kFormatName[] = "voussoir database";
-inline constexpr int kSchemaVersion = 5;
-inline constexpr std::size_t kBlockLabelWidth = 32;  ///< bytes, padded with zeros
-inline constexpr std::size_t kPointNameWidth = 8;    ///< bytes, padded with zeros
-inline constexpr std::size_t kStateNameWidth = 32;   ///< bytes, padded with zeros
+inline constexpr int kSchemaVersion = 6;
+inline constexpr std::size_t kBlockLabelWidth = 32;     ///< bytes, padded with zeros
+inline constexpr std::size_t kPointNameWidth = 8;       ///< bytes, padded with zeros
+inline constexpr std::size_t kStateNameWidth = 32;      ///< bytes, padded with zeros
+inline constexpr std::size_t kParameterNameWidth = 80;  ///< bytes, padded with zeros
+inline constexpr std::size_t kUnitWidth = 8;            ///< bytes, padded with zeros
 
 /// Paths of datasets.
 namespace dataset {
@@ -49,6 +52,19 @@ inline constexpr char kStates[] = "history/states";
 inline constexpr char kErrorShare[] = "model_error/share";
 inline constexpr char kErrorCommon[] = "model_error/common";
 inline constexpr char kErrorIntact[] = "model_error/intact";
+inline constexpr char kUncertainName[] = "sensitivity/parameter_name";
+inline constexpr char kUncertainUnit[] = "sensitivity/parameter_unit";
+inline constexpr char kUncertainSigma[] = "sensitivity/parameter_sigma";
+inline constexpr char kUncertainOfEpoch[] = "sensitivity/parameter_of_epoch";
+inline constexpr char kSensitivityBasis[] = "sensitivity/basis";
+inline constexpr char kSensitivityRemoved[] = "sensitivity/removed";
+inline constexpr char kSensitivityKnown[] = "sensitivity/known";
+inline constexpr char kBridgeFactors[] = "sensitivity/bridge_factors";
+inline constexpr char kEpochFactors[] = "sensitivity/epoch_factors";
+inline constexpr char kResidualBridge[] = "sensitivity/residual_bridge";
+inline constexpr char kResidualEpoch[] = "sensitivity/residual_epoch";
+inline constexpr char kResidualShare[] = "sensitivity/residual_share";
+inline constexpr char kResidualCommon[] = "sensitivity/residual_common";
 inline constexpr char kYoungModulus[] = "variants/young_modulus";
 inline constexpr char kPoissonRatio[] = "variants/poisson_ratio";
 inline constexpr char kDensity[] = "variants/density";
@@ -83,12 +99,13 @@ inline constexpr char kResultsKey[] = "results_key";
 }  // namespace attribute
 
 /// The datasets that all records share (bridge text, settings, geometry, control points, states, model error,
-/// variants) in the order in which the content digest takes them. Those of joints are missing if the bridge
-/// has none: an empty dataset has no place that could be mapped. Throws Failure for a name that is too long
-/// to be stored.
+/// sensitivities unless they are null, variants) in the order in which the content digest takes them. Those
+/// of joints are missing if the bridge has none: an empty dataset has no place that could be mapped. Throws
+/// Failure for a name that is too long to be stored.
 std::vector<DatasetValue> shared_datasets(const Provenance& provenance, const Model& bridge,
                                           const std::vector<VariantParameters>& variants,
                                           const std::vector<std::string>& states,
-                                          const std::vector<ModelError>& model_errors);
+                                          const std::vector<ModelError>& model_errors,
+                                          const Sensitivities* sensitivities);
 
 }  // namespace voussoir

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "database/format/names.h"
 #include "database/records/schema.h"
 
 namespace voussoir {
@@ -59,19 +60,6 @@ std::span<const std::uint8_t> read_flags(const Hdf5File& file, const char* path,
       std::all_of(flags.begin(), flags.end(), [highest](std::uint8_t flag) { return flag <= highest; }),
       fmt::format("dataset '{}' holds a value above {}", path, highest));
   return flags;
-}
-
-/// Names of fixed width without their padding.
-std::vector<std::string> read_names(const Hdf5File& file, const char* path, std::size_t width) {
-  const DatasetView found = file.view(path);
-  file.require(found.type == ElementType::text && found.shape.size() == 1 && found.text_width == width,
-               fmt::format("dataset '{}' has not the expected type and shape", path));
-  std::vector<std::string> names;
-  for (std::size_t i = 0; i < found.shape[0]; ++i) {
-    const auto* name = reinterpret_cast<const char*>(found.bytes.data()) + i * width;
-    names.emplace_back(name, std::find(name, name + width, '\0'));
-  }
-  return names;
 }
 
 }  // namespace

@@ -121,8 +121,9 @@ std::string write_content(const std::filesystem::path& path, const DatabaseConte
                           const RecordOfRow& record_of_row) {
   const auto lock = lock_hdf5();
   Hdf5Output output(path);
-  const auto shared = shared_datasets(content.provenance, content.bridge, content.variants, content.states,
-                                      content.model_errors);
+  const auto shared =
+      shared_datasets(content.provenance, content.bridge, content.variants, content.states,
+                      content.model_errors, content.sensitivities ? &*content.sensitivities : nullptr);
   for (const DatasetValue& dataset : shared) output.add_dataset(dataset);
   Columns columns(content, output);
   for (std::size_t row = 0; row < content.keys.size(); ++row) columns.put(row, record_of_row(row));

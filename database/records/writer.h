@@ -8,6 +8,7 @@
 #include "database/records/model_error.h"
 #include "database/records/provenance.h"
 #include "database/records/record.h"
+#include "database/records/sensitivities.h"
 #include "database/records/state_name.h"
 #include "database/records/variant_parameters.h"
 
@@ -22,6 +23,7 @@ struct DatabaseContent {
   std::vector<std::string> states = {kBuiltState};
   KeepField fields = KeepField::yes;
   std::vector<ModelError> model_errors{};  ///< of the states; zero for those that are left out
+  std::optional<Sensitivities> sensitivities{};
 };
 
 struct WrittenDatabase {

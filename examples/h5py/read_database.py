@@ -40,6 +40,10 @@ DIGEST_ORDER = [
     "model_error/share",
     "model_error/common",
     "model_error/intact",
+    "sensitivity/parameter_name", "sensitivity/parameter_unit", "sensitivity/parameter_sigma",
+    "sensitivity/parameter_of_epoch", "sensitivity/basis", "sensitivity/removed", "sensitivity/known",
+    "sensitivity/bridge_factors", "sensitivity/epoch_factors", "sensitivity/residual_bridge",
+    "sensitivity/residual_epoch", "sensitivity/residual_share", "sensitivity/residual_common",
     "variants/young_modulus", "variants/poisson_ratio", "variants/density",
     "variants/normal_stiffness", "variants/tangential_stiffness", "variants/friction_coefficient",
     "scenes/checksum",
@@ -56,7 +60,7 @@ def raw_bytes(dataset):
 def content_digest(file):
     digest = hashlib.sha256(f"{file.attrs['format'].decode()} {file.attrs['schema_version']}\n".encode())
     for path in DIGEST_ORDER:
-        if path not in file:  # those of joints, if the bridge has none
+        if path not in file:  # those of joints, if the bridge has none; sensitivities of a known bridge
             continue
         content = raw_bytes(file[path])
         digest.update(path.encode() + b"\0" + struct.pack("<Q", len(content)) + content)

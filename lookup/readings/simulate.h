@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "core/random.h"
 #include "lookup/readings/comparison.h"
 #include "lookup/readings/noise_model.h"
-#include "lookup/readings/random.h"
 
 namespace voussoir {
 

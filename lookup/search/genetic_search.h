@@ -5,9 +5,9 @@
 #include <span>
 #include <vector>
 
+#include "core/random.h"
 #include "core/structure/block_layout.h"
 #include "database/records/database.h"
-#include "lookup/readings/random.h"
 #include "lookup/search/scored_row.h"
 
 namespace voussoir {

@@ -91,15 +91,49 @@ inline DatabaseContent made_up_content(const BridgeFile& file, const Model& brid
   return content;
 }
 
+/// Made-up numbers for the intact bridge and the singles among the scenes, which are in their order; every
+/// fifth single has none in the last state.
+inline Sensitivities made_up_sensitivities(const Model& bridge, const std::vector<Scene>& scenes,
+                                           std::size_t states) {
+  const auto points = static_cast<Eigen::Index>(bridge.control_points.size());
+  double phase = 0.0;
+  const auto numbers = [&](Eigen::Index rows, Eigen::Index columns) -> Eigen::MatrixXd {
+    return Eigen::MatrixXd::NullaryExpr(rows, columns, [&] { return 1e-4 * std::sin(phase += 0.7); });
+  };
+  Sensitivities made;
+  made.parameters = {{"stiffness a/b", "1", 0.2, false},
+                     {"young modulus", "1", 0.25, false},
+                     {"density", "1", 0.05, false},
+                     {"temperature", "K", 10.0, true},
+                     {"base dy", "m", 1e-3, true}};
+  made.basis = Eigen::MatrixXd::Identity(3, 2);
+  for (const Scene& scene : scenes)
+    if (scene.missing() < 2) made.scenes.push_back(scene);
+  for (std::size_t state = 0; state < states; ++state) {
+    StateSensitivities& one = made.states.emplace_back();
+    for (std::size_t i = 0; i < made.scenes.size(); ++i)
+      one.scenes.push_back(state + 1 == states && i % 5 == 4
+                               ? SceneFactors{}
+                               : SceneFactors{numbers(points, 2), numbers(points, 2)});
+    one.residual = {numbers(points, 4), numbers(points, 5), 0.1, 0.2};
+  }
+  return made;
+}
+
+/// Writes made-up records of all keys of the content.
+inline WrittenDatabase write_made_up_records(const std::filesystem::path& path,
+                                             const DatabaseContent& content) {
+  return write_database(path, content, [&](std::size_t row) {
+    return made_up_record(content.bridge, content.keys[row], content.states.size(), content.fields);
+  });
+}
+
 inline WrittenDatabase write_made_up_database(const std::filesystem::path& path, const BridgeFile& file,
                                               const std::vector<Scene>& scenes,
                                               KeepField fields = KeepField::yes, std::size_t variants = 1,
                                               std::size_t states = 1) {
   const Model bridge = make_model(file.description);
-  const DatabaseContent content = made_up_content(file, bridge, scenes, fields, variants, states);
-  return write_database(path, content, [&](std::size_t row) {
-    return made_up_record(bridge, content.keys[row], states, fields);
-  });
+  return write_made_up_records(path, made_up_content(file, bridge, scenes, fields, variants, states));
 }
 
 }  // namespace voussoir::test

@@ -10,11 +10,14 @@
 
 namespace voussoir::test {
 
-/// The bytes of a database with made-up fields.
+/// The bytes of a database with made-up fields and sensitivities.
 inline std::string made_up_bytes(const BridgeFile& file, const std::vector<Scene>& scenes,
                                  KeepField fields = KeepField::yes) {
   const TemporaryFolder folder;
-  write_made_up_database(folder / "made-up.h5", file, scenes, fields);
+  const Model bridge = make_model(file.description);
+  DatabaseContent content = made_up_content(file, bridge, scenes, fields);
+  content.sensitivities = made_up_sensitivities(bridge, scenes, content.states.size());
+  write_made_up_records(folder / "made-up.h5", content);
   std::ifstream stream(folder / "made-up.h5", std::ios::binary);
   return {std::istreambuf_iterator<char>(stream), {}};
 }
@@ -28,6 +31,7 @@ inline void read_all(const std::filesystem::path& path) {
   static_cast<void>(database.search_index());
   static_cast<void>(database.joints());
   static_cast<void>(database.variants());
+  static_cast<void>(database.sensitivities());
   for (std::size_t row = 0; row < database.rows(); ++row) {
     static_cast<void>(database.record(row));
     const auto [variant, scene] = database.key(row);

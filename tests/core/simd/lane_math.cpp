@@ -2,8 +2,8 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "core/random.h"
 #include "core/simd/lane_math.h"
-#include "lookup/readings/random.h"
 
 using namespace voussoir;
 

@@ -38,7 +38,18 @@ std::vector<double> numbers_of(const BridgeDescription& d) {
                                  double(d.mesh.refinement),
                                  double(d.mesh.split_at_corners),
                                  d.gravity,
-                                 d.joint_tolerance};
+                                 d.joint_tolerance,
+                                 d.material.thermal_expansion,
+                                 d.uncertainty.joint_stiffness,
+                                 d.uncertainty.common_stiffness,
+                                 d.uncertainty.stiffness_ratio,
+                                 d.uncertainty.friction,
+                                 d.uncertainty.young_modulus,
+                                 d.uncertainty.density,
+                                 d.uncertainty.temperature,
+                                 d.uncertainty.foot_movement,
+                                 d.uncertainty.foot_rotation,
+                                 d.uncertainty.side_movement};
   for (const SpanDescription& span : d.spans)
     numbers.insert(numbers.end(), {span.centre_x, span.centre_y, span.intrados_radius, span.ring_thickness,
                                    double(span.voussoirs)});
@@ -87,11 +98,22 @@ const std::vector<Key> kKeys = {{"[wall]\nlength_m = 30.0", 0, 30.0},
                                 {"[mesh]\nsplit_at_corners = false", 19, 0.0},
                                 {"gravity_m_s2 = 1.62", 20, 1.62},
                                 {"[joints]\ntolerance_m = 1e-4", 21, 1e-4},
-                                {"[[spans]]\ncentre_x_m = 9.0", 22, 9.0},
-                                {"[[spans]]\ncentre_y_m = 1.5", 23, 1.5},
-                                {"[[spans]]\nintrados_radius_m = 3.0", 24, 3.0},
-                                {"[[spans]]\nring_thickness_m = 0.4", 25, 0.4},
-                                {"[[spans]]\nvoussoirs = 21", 26, 21.0}};
+                                {"[material]\nthermal_expansion_per_K = 1e-5", 22, 1e-5},
+                                {"[uncertainty]\njoint_stiffness_cv = 0.1", 23, 0.1},
+                                {"[uncertainty]\ncommon_stiffness_cv = 0.15", 24, 0.15},
+                                {"[uncertainty]\nstiffness_ratio_cv = 0.35", 25, 0.35},
+                                {"[uncertainty]\nfriction_cv = 0.12", 26, 0.12},
+                                {"[uncertainty]\nyoung_modulus_cv = 0.2", 27, 0.2},
+                                {"[uncertainty]\ndensity_cv = 0.0", 28, 0.0},
+                                {"[uncertainty]\ntemperature_K = 15", 29, 15.0},
+                                {"[uncertainty]\nfoot_movement_m = 0.002", 30, 2e-3},
+                                {"[uncertainty]\nfoot_rotation_rad = 2e-4", 31, 2e-4},
+                                {"[uncertainty]\nside_movement_m = 1e-3", 32, 1e-3},
+                                {"[[spans]]\ncentre_x_m = 9.0", 33, 9.0},
+                                {"[[spans]]\ncentre_y_m = 1.5", 34, 1.5},
+                                {"[[spans]]\nintrados_radius_m = 3.0", 35, 3.0},
+                                {"[[spans]]\nring_thickness_m = 0.4", 36, 0.4},
+                                {"[[spans]]\nvoussoirs = 21", 37, 21.0}};
 
 }  // namespace
 

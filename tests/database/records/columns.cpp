@@ -49,7 +49,9 @@ struct ManySizes {
   ManySizes() {
     auto scenes = all_scenes(38, 2);
     scenes.resize(kScenes);
-    test::write_made_up_database(path, file, scenes, KeepField::yes, kVariants, kStates);
+    DatabaseContent content = test::made_up_content(file, bridge, scenes, KeepField::yes, kVariants, kStates);
+    content.sensitivities = test::made_up_sensitivities(bridge, scenes, kStates);
+    test::write_made_up_records(path, content);
     const Database database = Database::open(path);
     std::size_t corners = 0;
     for (const Block& block : bridge.layout.blocks) corners += block.polygon.size();
@@ -67,7 +69,15 @@ struct ManySizes {
                {"T", bridge.mesh.triangles.size()},
                {"E", bridge.mesh.edges.size()},
                {"J", bridge.joints.size()},
-               {"M", 2}};
+               {"M", 2},
+               {"U", 5},
+               {"U1", 3},
+               {"U2", 2},
+               {"F", 2},
+               {"G", content.sensitivities->scenes.size()},
+               {"M1", 1},
+               {"H1", 4},
+               {"H2", 5}};
   }
 
   /// "R x 2" -> {150, 2}
@@ -213,8 +223,10 @@ TEST_CASE("The h5py example names the datasets in the digest in their order") {
   const BridgeFile file = test::small_bridge_file();
   const Model bridge = make_model(file.description);
   std::vector<std::string> expected;
-  for (const DatasetValue& value : shared_datasets(test::made_up_provenance(file), bridge,
-                                                   {test::made_up_parameters(bridge, 0)}, {kBuiltState}, {}))
+  const Sensitivities sensitivities = test::made_up_sensitivities(bridge, {Scene{}}, 1);
+  for (const DatasetValue& value :
+       shared_datasets(test::made_up_provenance(file), bridge, {test::made_up_parameters(bridge, 0)},
+                       {kBuiltState}, {}, &sensitivities))
     expected.push_back(value.path);
   CHECK_THAT(source_text("database/README.md"), Catch::Contains("`" + expected.back() + "` in the order"));
   expected.emplace_back(dataset::kChecksum);

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <limits>
 
-#include "lookup/readings/random.h"
+#include "core/random.h"
 #include "lookup/search/misfit.h"
 #include "tests/lookup/synthetic_library.h"
 

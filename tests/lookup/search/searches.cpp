@@ -6,7 +6,7 @@
 #include <cmath>
 #include <map>
 
-#include "lookup/readings/random.h"
+#include "core/random.h"
 #include "lookup/search/exhaustive_search.h"
 #include "lookup/search/genetic_search.h"
 #include "lookup/search/nearest_search.h"

@@ -1,4 +1,4 @@
-#include "lookup/readings/random.h"
+#include "core/random.h"
 
 #include <bit>
 #include <cmath>

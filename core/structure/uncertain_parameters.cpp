@@ -1,0 +1,195 @@
+#include "core/structure/uncertain_parameters.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <map>
+
+#include "core/random.h"
+
+namespace voussoir {
+namespace {
+
+bool turns(const Support& support) {
+  return support.holds_y && support.nodes.size() > 1;
+}
+
+/// Standard deviation of the logarithm of a lognormal factor with this coefficient of variation.
+double log_deviation(double variation) {
+  return std::sqrt(std::log1p(variation * variation));
+}
+
+std::vector<std::size_t> all_joints(const Structure& structure) {
+  std::vector<std::size_t> joints(structure.joints.size());
+  for (std::size_t j = 0; j < joints.size(); ++j) joints[j] = j;
+  return joints;
+}
+
+/// Adds a factor unless it is known exactly.
+void add_factor(std::vector<UncertainAction>& actions, UncertainQuantity quantity, const std::string& name,
+                double variation, std::vector<std::size_t> joints = {}, bool has_mean_one = false) {
+  if (variation > 0.0)
+    actions.push_back({quantity, {name, "1", log_deviation(variation), false}, std::move(joints), 0,
+                       has_mean_one});
+}
+
+void add_of_epoch(std::vector<UncertainAction>& actions, UncertainQuantity quantity, const std::string& name,
+                  const char* unit, double sigma, std::size_t support = 0) {
+  if (sigma > 0.0) actions.push_back({quantity, {name, unit, sigma, true}, {}, support, false});
+}
+
+/// Each pair of blocks that meet has one factor for all stretches of their joint, in the order of the first
+/// of these.
+void add_own_stiffness(const Structure& structure, double variation, std::vector<UncertainAction>& actions) {
+  std::map<std::pair<BlockId, BlockId>, std::size_t> places;
+  std::vector<std::vector<std::size_t>> stretches;
+  for (std::size_t j = 0; j < structure.joints.size(); ++j) {
+    const auto blocks = std::minmax(structure.joints[j].first, structure.joints[j].second);
+    const auto [place, is_new] = places.try_emplace(blocks, stretches.size());
+    if (is_new) stretches.emplace_back();
+    stretches[place->second].push_back(j);
+  }
+  const auto label = [&](BlockId block) {
+    return structure.layout.blocks[static_cast<std::size_t>(value(block))].label;
+  };
+  for (std::vector<std::size_t>& joints : stretches) {
+    const Joint& joint = structure.joints[joints.front()];
+    add_factor(actions, UncertainQuantity::stiffness,
+               fmt::format("stiffness {}/{}", label(joint.first), label(joint.second)), variation,
+               std::move(joints), true);
+  }
+}
+
+double factor_of(const UncertainAction& action, double theta) {
+  const double s = action.parameter.sigma;
+  return std::exp(s * theta - (action.has_mean_one ? 0.5 * s * s : 0.0));
+}
+
+void apply(const UncertainAction& action, double theta, Parameters& parameters) {
+  const double factor = factor_of(action, theta);
+  for (const std::size_t j : action.joints) {
+    JointMaterial& joint = parameters.joints[j];
+    if (action.quantity == UncertainQuantity::stiffness) joint.normal_stiffness *= factor;
+    if (action.quantity == UncertainQuantity::friction)
+      joint.friction_angle = std::atan(joint.friction_coefficient() * factor);
+    else
+      joint.tangential_stiffness *= factor;
+  }
+  for (Material& block : parameters.blocks) {
+    if (action.quantity == UncertainQuantity::young_modulus) block.young_modulus *= factor;
+    if (action.quantity == UncertainQuantity::density) block.density *= factor;
+  }
+}
+
+Point middle(const Support& support, const Mesh& mesh) {
+  Point least = mesh.position(support.nodes.front());
+  Point most = least;
+  for (const NodeId node : support.nodes) {
+    least = least.cwiseMin(mesh.position(node));
+    most = most.cwiseMax(mesh.position(node));
+  }
+  return 0.5 * (least + most);
+}
+
+}  // namespace
+
+std::vector<UncertainParameter> UncertainParameters::all() const {
+  std::vector<UncertainParameter> parameters;
+  for (const auto* actions : {&of_bridge, &of_epoch})
+    for (const UncertainAction& action : *actions) parameters.push_back(action.parameter);
+  return parameters;
+}
+
+UncertainParameters uncertain_parameters(const Structure& structure, const Uncertainty& uncertainty) {
+  UncertainParameters result;
+  const std::vector<std::size_t> joints = all_joints(structure);
+  if (!joints.empty()) {
+    add_factor(result.of_bridge, UncertainQuantity::stiffness, "stiffness", uncertainty.common_stiffness, joints);
+    add_factor(result.of_bridge, UncertainQuantity::stiffness_ratio, "stiffness ratio",
+               uncertainty.stiffness_ratio, joints);
+    add_factor(result.of_bridge, UncertainQuantity::friction, "friction", uncertainty.friction, joints);
+  }
+  add_factor(result.of_bridge, UncertainQuantity::young_modulus, "young modulus", uncertainty.young_modulus);
+  add_factor(result.of_bridge, UncertainQuantity::density, "density", uncertainty.density);
+  add_own_stiffness(structure, uncertainty.joint_stiffness, result.of_bridge);
+
+  add_of_epoch(result.of_epoch, UncertainQuantity::temperature, "temperature", "K", uncertainty.temperature);
+  for (std::size_t s = 0; s < structure.supports.size(); ++s) {
+    const Support& support = structure.supports[s];
+    const double sigma = support.is_foot ? uncertainty.foot_movement : uncertainty.side_movement;
+    if (support.holds_x)
+      add_of_epoch(result.of_epoch, UncertainQuantity::movement_x, support.name + " dx", "m", sigma, s);
+    if (support.holds_y)
+      add_of_epoch(result.of_epoch, UncertainQuantity::movement_y, support.name + " dy", "m", sigma, s);
+    if (support.is_foot && turns(support))
+      add_of_epoch(result.of_epoch, UncertainQuantity::rotation, support.name + " rotation", "rad",
+                   uncertainty.foot_rotation, s);
+  }
+  return result;
+}
+
+Parameters parameters_at(const Model& bridge, const UncertainParameters& uncertain,
+                         const Eigen::VectorXd& theta) {
+  Parameters parameters = bridge.parameters;
+  for (std::size_t i = 0; i < uncertain.of_bridge.size(); ++i)
+    apply(uncertain.of_bridge[i], theta[static_cast<Eigen::Index>(i)], parameters);
+  return parameters;
+}
+
+Stage in_epoch(Stage stage, const Structure& structure, const UncertainParameters& uncertain,
+               const Eigen::VectorXd& theta) {
+  stage.support_movement = Field::Zero(2, structure.mesh.node_count());
+  for (std::size_t i = 0; i < uncertain.of_epoch.size(); ++i) {
+    const UncertainAction& action = uncertain.of_epoch[i];
+    const double value = action.parameter.sigma * theta[static_cast<Eigen::Index>(i)];
+    if (action.quantity == UncertainQuantity::temperature)
+      stage.temperature += value;
+    else
+      stage.support_movement += movement_of(structure, action, value);
+  }
+  return stage;
+}
+
+Eigen::VectorXd sampled_theta(std::size_t count, std::uint64_t seed) {
+  Random random(seed);
+  Eigen::VectorXd theta(static_cast<Eigen::Index>(count));
+  for (double& value : theta) value = random.gaussian();
+  return theta;
+}
+
+Model sampled(const Model& bridge, const Uncertainty& uncertainty, std::uint64_t seed) {
+  const UncertainParameters uncertain = uncertain_parameters(bridge, uncertainty);
+  Model result = bridge;
+  result.parameters =
+      parameters_at(bridge, uncertain, sampled_theta(uncertain.of_bridge.size(), seed));
+  result.symmetry.reset();
+  return result;
+}
+
+Field movement_of(const Structure& structure, const UncertainAction& action, double value) {
+  switch (action.quantity) {
+    case UncertainQuantity::movement_x:
+      return rigid_movement(structure, action.support, {value, 0.0}, 0.0);
+    case UncertainQuantity::movement_y:
+      return rigid_movement(structure, action.support, {0.0, value}, 0.0);
+    case UncertainQuantity::rotation:
+      return rigid_movement(structure, action.support, {0.0, 0.0}, value);
+    default:
+      return Field::Zero(2, structure.mesh.node_count());
+  }
+}
+
+Field rigid_movement(const Structure& structure, std::size_t support, const Point& movement,
+                     double rotation) {
+  const Support& moving = structure.supports[support];
+  const Point centre = middle(moving, structure.mesh);
+  Field field = Field::Zero(2, structure.mesh.node_count());
+  for (const NodeId node : moving.nodes) {
+    const Point arm = structure.mesh.position(node) - centre;
+    if (moving.holds_x) field(0, value(node)) = movement.x() - rotation * arm.y();
+    if (moving.holds_y) field(1, value(node)) = movement.y() + rotation * arm.x();
+  }
+  return field;
+}
+
+}  // namespace voussoir

@@ -1,0 +1,74 @@
+#pragma once
+/// @file The uncertain parameters of a bridge, in a fixed order, and what values of them make of it.
+///
+/// Of the bridge: the common factors (stiffness, p_t / p_n, friction, Young's modulus, density) and then the
+/// own factor of each pair of blocks that meet, on all their joints. Of an epoch: the temperature and then
+/// what each support can do. A factor is exp(s theta), s = sqrt(ln(1 + c^2)) with its coefficient of
+/// variation c, so that theta = 0 is the bridge as its file states it; a joint's own is exp(s theta - s^2/2),
+/// whose mean is 1. What is known exactly (standard deviation 0) is no parameter.
+
+#include <Eigen/Core>
+#include <cstdint>
+
+#include "core/structure/model.h"
+#include "core/structure/stage.h"
+#include "core/structure/uncertain_parameter.h"
+
+namespace voussoir {
+
+/// What a parameter acts on.
+enum class UncertainQuantity {
+  stiffness,        ///< p_n and p_t of the joints
+  stiffness_ratio,  ///< p_t of the joints
+  friction,         ///< tan(phi) of the joints
+  young_modulus,
+  density,
+  temperature,
+  movement_x,  ///< of a support
+  movement_y,
+  rotation  ///< counter-clockwise about the middle of the support's nodes
+};
+
+struct UncertainAction {
+  UncertainQuantity quantity;
+  UncertainParameter parameter;
+  std::vector<std::size_t> joints{};  ///< that it acts on; ascending
+  std::size_t support = 0;            ///< of movements: place in Structure::supports
+  bool has_mean_one = false;          ///< the factor's mean is 1; otherwise its median
+};
+
+struct UncertainParameters {
+  std::vector<UncertainAction> of_bridge;
+  std::vector<UncertainAction> of_epoch;
+
+  /// Those of the bridge, then those of an epoch.
+  std::vector<UncertainParameter> all() const;
+};
+
+UncertainParameters uncertain_parameters(const Structure& structure, const Uncertainty& uncertainty);
+
+/// The bridge's parameters if the standardised uncertain ones have these values. Precondition: one value for
+/// each parameter of the bridge.
+Parameters parameters_at(const Model& bridge, const UncertainParameters& uncertain,
+                         const Eigen::VectorXd& theta);
+
+/// The stage in an epoch in which the parameters of an epoch have these values: with its temperature and the
+/// movements of the supports. Precondition: one value for each of them.
+Stage in_epoch(Stage stage, const Structure& structure, const UncertainParameters& uncertain,
+               const Eigen::VectorXd& theta);
+
+/// Independent standard normal numbers, the same on every machine for the same seed and count.
+Eigen::VectorXd sampled_theta(std::size_t count, std::uint64_t seed);
+
+/// The bridge with uncertain parameters drawn at random. It has no mirror symmetry.
+Model sampled(const Model& bridge, const Uncertainty& uncertainty, std::uint64_t seed);
+
+/// Displacements [m], 2 x nodes, of the supports' nodes if the parameter's quantity has this value [m or rad];
+/// zero if it is no movement.
+Field movement_of(const Structure& structure, const UncertainAction& action, double value);
+
+/// Displacements [m], 2 x nodes, of a support that moves and turns (counter-clockwise, small) as a rigid body
+/// about the middle of its nodes; zero elsewhere and in directions that it does not hold.
+Field rigid_movement(const Structure& structure, std::size_t support, const Point& movement, double rotation);
+
+}  // namespace voussoir

@@ -1,0 +1,30 @@
+#include "core/structure/uncertainty_section.h"
+
+namespace voussoir {
+namespace {
+
+constexpr double kMostVariation = 1.0;  ///< beyond it a first order about the stated bridge says nothing
+
+void read_variation(TomlSection& section, const char* key, double& target) {
+  section.number(key, target, 0.0, kMostVariation, true);
+}
+
+}  // namespace
+
+Uncertainty read_uncertainty(TomlSection section) {
+  Uncertainty uncertainty;
+  read_variation(section, "joint_stiffness_cv", uncertainty.joint_stiffness);
+  read_variation(section, "common_stiffness_cv", uncertainty.common_stiffness);
+  read_variation(section, "stiffness_ratio_cv", uncertainty.stiffness_ratio);
+  read_variation(section, "friction_cv", uncertainty.friction);
+  read_variation(section, "young_modulus_cv", uncertainty.young_modulus);
+  read_variation(section, "density_cv", uncertainty.density);
+  section.number("temperature_K", uncertainty.temperature, 0.0, 100.0, true);
+  section.number("foot_movement_m", uncertainty.foot_movement, 0.0, 1.0, true);
+  section.number("foot_rotation_rad", uncertainty.foot_rotation, 0.0, 0.1, true);
+  section.number("side_movement_m", uncertainty.side_movement, 0.0, 1.0, true);
+  section.refuse_unknown_keys();
+  return uncertainty;
+}
+
+}  // namespace voussoir

@@ -1,0 +1,287 @@
+#include "database/records/sensitivities.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "database/format/names.h"
+#include "database/records/schema.h"
+
+namespace voussoir {
+namespace {
+
+using Shape = std::vector<std::uint64_t>;
+using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+std::uint64_t extent(Eigen::Index size) {
+  return static_cast<std::uint64_t>(size);
+}
+
+/// A dataset being filled.
+template <class T>
+struct Filling {
+  const char* path;
+  ElementType type;
+  const char* units;
+  const char* meaning;
+  std::vector<T> values{};
+
+  void add(const Eigen::MatrixXd& matrix) {
+    const RowMajor rows = matrix;
+    values.insert(values.end(), rows.data(), rows.data() + rows.size());
+  }
+  /// Nothing is kept of a dataset without elements.
+  void finish(const Shape& shape, std::vector<DatasetValue>& datasets) const {
+    if (values.empty()) return;
+    datasets.push_back(dataset_of(path, type, values, kFlat, units, meaning));
+    datasets.back().shape = shape;
+  }
+};
+
+bool precedes(const Scene& first, const Scene& second) {
+  return first.missing() != second.missing() ? first.missing() < second.missing()
+                                             : first.removed < second.removed;
+}
+
+void append_parameters(const Sensitivities& from, std::vector<DatasetValue>& datasets) {
+  std::vector<std::string> names, units;
+  Filling<double> sigma{dataset::kUncertainSigma, ElementType::float64, "1",
+                        "standard deviation of each, in its unit"};
+  Filling<std::uint8_t> of_epoch{dataset::kUncertainOfEpoch, ElementType::uint8, "1",
+                                 "1: has a value of its own in every epoch, 0: the bridge has one for good"};
+  for (const UncertainParameter& parameter : from.parameters) {
+    names.push_back(parameter.name);
+    units.push_back(parameter.unit);
+    sigma.values.push_back(parameter.sigma);
+    of_epoch.values.push_back(parameter.of_epoch ? 1 : 0);
+  }
+  datasets.push_back(name_dataset(dataset::kUncertainName, names, kParameterNameWidth,
+                                  "uncertain parameters: those of the bridge, then those of an epoch"));
+  datasets.push_back(
+      name_dataset(dataset::kUncertainUnit, units, kUnitWidth, "unit of each parameter; 1: of a logarithm"));
+  sigma.finish({names.size()}, datasets);
+  of_epoch.finish({names.size()}, datasets);
+}
+
+void append_scenes(const Sensitivities& from, std::vector<DatasetValue>& datasets) {
+  std::size_t most_missing = 1;
+  for (const Scene& scene : from.scenes) most_missing = std::max(most_missing, scene.removed.size());
+  Filling<std::int32_t> removed{dataset::kSensitivityRemoved, ElementType::int32, "1",
+                                "removed blocks of each scene with sensitivities, ascending, then -1"};
+  for (const Scene& scene : from.scenes) {
+    const std::size_t end = removed.values.size() + most_missing;
+    for (const BlockId block : scene.removed) removed.values.push_back(value(block));
+    removed.values.resize(end, -1);
+  }
+  removed.finish({from.scenes.size(), most_missing}, datasets);
+}
+
+void append_factors(const Sensitivities& from, std::uint64_t points, std::vector<DatasetValue>& datasets) {
+  Filling<std::uint8_t> known{dataset::kSensitivityKnown, ElementType::uint8, "1",
+                              "1: the scene has sensitivities in the state, 0: it does not stand"};
+  Filling<double> bridge{
+      dataset::kBridgeFactors, ElementType::float64, "m",
+      "change of the control points' vertical displacements with each column of the basis"};
+  Filling<double> epoch{dataset::kEpochFactors, ElementType::float64, "m",
+                        "and with each parameter of an epoch, by one standard deviation"};
+  const auto rows = static_cast<Eigen::Index>(points);
+  for (const StateSensitivities& state : from.states)
+    for (const SceneFactors& scene : state.scenes) {
+      known.values.push_back(scene.known() ? 1 : 0);
+      bridge.add(scene.known() ? scene.bridge : Eigen::MatrixXd::Zero(rows, from.basis.cols()));
+      epoch.add(scene.known() ? scene.epoch : Eigen::MatrixXd::Zero(rows, from.of_epoch()));
+    }
+  const std::uint64_t states = from.states.size();
+  const std::uint64_t scenes = from.scenes.size();
+  known.finish({states, scenes}, datasets);
+  bridge.finish({states, scenes, points, extent(from.basis.cols())}, datasets);
+  epoch.finish({states, scenes, points, extent(from.of_epoch())}, datasets);
+}
+
+void append_residual(const Sensitivities& from, std::uint64_t points, std::vector<DatasetValue>& datasets) {
+  Filling<double> bridge{dataset::kResidualBridge, ElementType::float64, "m",
+                         "what the first order leaves of the intact bridge: independent columns"};
+  Filling<double> epoch{dataset::kResidualEpoch, ElementType::float64, "m",
+                        "what it leaves of an epoch's own parameters: independent columns"};
+  Filling<double> share{dataset::kResidualShare, ElementType::float64, "1",
+                        "what it leaves of a signal, as a share of the signal's own standard deviation"};
+  Filling<double> common{dataset::kResidualCommon, ElementType::float64, "1",
+                         "and, at all points alike, as a share of that one's root mean square"};
+  for (const StateSensitivities& state : from.states) {
+    bridge.add(state.residual.bridge);
+    epoch.add(state.residual.epoch);
+    share.values.push_back(state.residual.share);
+    common.values.push_back(state.residual.common);
+  }
+  const std::uint64_t states = from.states.size();
+  const FirstOrderResidual& first = from.states.front().residual;
+  bridge.finish({states, points, extent(first.bridge.cols())}, datasets);
+  epoch.finish({states, points, extent(first.epoch.cols())}, datasets);
+  share.finish({states}, datasets);
+  common.finish({states}, datasets);
+}
+
+// Reading.
+
+std::span<const double> finite_numbers(const Hdf5File& file, const DatasetView& found) {
+  const ByteView bytes = file.array(found.path.c_str(), ElementType::float64, found.shape);
+  const std::span values(reinterpret_cast<const double*>(bytes.data()), bytes.size() / sizeof(double));
+  file.require(std::ranges::all_of(values, [](double value) { return std::isfinite(value); }),
+               fmt::format("dataset '{}' holds a number that is not finite", found.path));
+  return values;
+}
+
+std::span<const double> finite_numbers(const Hdf5File& file, const char* path, const Shape& shape) {
+  const DatasetView found = file.view(path);
+  file.require(found.shape == shape, fmt::format("dataset '{}' has not the expected type and shape", path));
+  return finite_numbers(file, found);
+}
+
+/// Matrices of so many rows, one for each of `leading`; how many columns they have the file says. Without the
+/// dataset they have none.
+std::vector<Eigen::MatrixXd> read_matrices(const Hdf5File& file, const char* path, const Shape& leading,
+                                           std::size_t rows) {
+  std::size_t count = 1;
+  for (const std::uint64_t size : leading) count *= size;
+  std::vector<Eigen::MatrixXd> matrices(count, Eigen::MatrixXd(rows, 0));
+  if (!file.has(path)) return matrices;
+  const DatasetView found = file.view(path);
+  Shape expected = leading;
+  expected.insert(expected.end(), {rows, found.shape.empty() ? 0 : found.shape.back()});
+  file.require(found.shape == expected,
+               fmt::format("dataset '{}' has not the expected type and shape", path));
+  const auto values = finite_numbers(file, found);
+  const std::size_t columns = expected.back();
+  for (std::size_t i = 0; i < count; ++i)
+    matrices[i] =
+        Eigen::Map<const RowMajor>(values.data() + i * rows * columns, static_cast<Eigen::Index>(rows),
+                                   static_cast<Eigen::Index>(columns));
+  return matrices;
+}
+
+std::span<const std::uint8_t> read_flags(const Hdf5File& file, const char* path, const Shape& shape) {
+  const ByteView bytes = file.array(path, ElementType::uint8, shape);
+  const std::span flags(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size());
+  file.require(std::ranges::all_of(flags, [](std::uint8_t flag) { return flag <= 1; }),
+               fmt::format("dataset '{}' holds a value above 1", path));
+  return flags;
+}
+
+std::vector<UncertainParameter> read_parameters(const Hdf5File& file) {
+  const auto names = read_names(file, dataset::kUncertainName, kParameterNameWidth);
+  const auto units = read_names(file, dataset::kUncertainUnit, kUnitWidth);
+  const auto sigma = finite_numbers(file, dataset::kUncertainSigma, {names.size()});
+  const auto of_epoch = read_flags(file, dataset::kUncertainOfEpoch, {names.size()});
+  file.require(units.size() == names.size(),
+               fmt::format("dataset '{}' has {} rows where {} were expected", dataset::kUncertainUnit,
+                           units.size(), names.size()));
+  file.require(std::ranges::is_sorted(of_epoch),
+               fmt::format("dataset '{}': expected those of the bridge first", dataset::kUncertainOfEpoch));
+  file.require(std::ranges::all_of(sigma, [](double value) { return value > 0.0; }),
+               fmt::format("dataset '{}': expected positive numbers", dataset::kUncertainSigma));
+  std::vector<UncertainParameter> parameters;
+  for (std::size_t i = 0; i < names.size(); ++i)
+    parameters.push_back({names[i], units[i], sigma[i], of_epoch[i] != 0});
+  return parameters;
+}
+
+std::vector<Scene> read_scenes(const Hdf5File& file, std::size_t blocks) {
+  const DatasetView found = file.view(dataset::kSensitivityRemoved);
+  const ByteView bytes = file.array(dataset::kSensitivityRemoved, ElementType::int32, found.shape);
+  file.require(found.shape.size() == 2,
+               fmt::format("dataset '{}' has not the expected type and shape", found.path));
+  const std::span ids(reinterpret_cast<const std::int32_t*>(bytes.data()),
+                      bytes.size() / sizeof(std::int32_t));
+  const std::size_t width = found.shape[1];
+  std::vector<Scene> scenes;
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    if (i % width == 0) scenes.emplace_back();
+    Scene& scene = scenes.back();
+    const bool is_padding = ids[i] == -1;
+    const bool names_a_block = ids[i] >= 0 && static_cast<std::size_t>(ids[i]) < blocks &&
+                               scene.removed.size() == i % width &&
+                               (scene.removed.empty() || value(scene.removed.back()) < ids[i]);
+    file.require(is_padding || names_a_block,
+                 fmt::format("dataset '{}' holds a row that is no scene", found.path));
+    if (!is_padding) scene.removed.push_back(BlockId{ids[i]});
+  }
+  const auto unordered = std::ranges::adjacent_find(
+      scenes, [](const Scene& first, const Scene& second) { return !precedes(first, second); });
+  file.require(
+      scenes.front().removed.empty() && unordered == scenes.end(),
+      fmt::format("dataset '{}': expected the intact bridge and then scenes in ascending order", found.path));
+  return scenes;
+}
+
+void read_states(const Hdf5File& file, const SensitivitySizes& sizes, Sensitivities& into) {
+  const std::uint64_t scenes = into.scenes.size();
+  const auto known = read_flags(file, dataset::kSensitivityKnown, {sizes.states, scenes});
+  auto bridge = read_matrices(file, dataset::kBridgeFactors, {sizes.states, scenes}, sizes.points);
+  auto epoch = read_matrices(file, dataset::kEpochFactors, {sizes.states, scenes}, sizes.points);
+  auto left_of_bridge = read_matrices(file, dataset::kResidualBridge, {sizes.states}, sizes.points);
+  auto left_of_epoch = read_matrices(file, dataset::kResidualEpoch, {sizes.states}, sizes.points);
+  const auto share = finite_numbers(file, dataset::kResidualShare, {sizes.states});
+  const auto common = finite_numbers(file, dataset::kResidualCommon, {sizes.states});
+  file.require(
+      bridge.front().cols() == into.basis.cols() && epoch.front().cols() == into.of_epoch(),
+      fmt::format("datasets '{}' and '{}' have not the columns of '{}' and '{}'", dataset::kBridgeFactors,
+                  dataset::kEpochFactors, dataset::kSensitivityBasis, dataset::kUncertainName));
+  for (std::size_t state = 0; state < sizes.states; ++state) {
+    StateSensitivities& one = into.states.emplace_back();
+    for (std::size_t i = state * scenes; i < (state + 1) * scenes; ++i)
+      one.scenes.push_back(known[i] != 0 ? SceneFactors{std::move(bridge[i]), std::move(epoch[i])}
+                                         : SceneFactors{});
+    one.residual = {std::move(left_of_bridge[state]), std::move(left_of_epoch[state]), share[state],
+                    common[state]};
+  }
+}
+
+}  // namespace
+
+const SceneFactors* Sensitivities::find(std::size_t state, const Scene& scene) const {
+  const auto found = std::lower_bound(scenes.begin(), scenes.end(), scene, precedes);
+  if (found == scenes.end() || *found != scene) return nullptr;
+  const SceneFactors& stored = states[state].scenes[static_cast<std::size_t>(found - scenes.begin())];
+  return stored.known() ? &stored : nullptr;
+}
+
+SceneFactors Sensitivities::factors(std::size_t state, const Scene& scene) const {
+  if (const SceneFactors* stored = find(state, scene)) return *stored;
+  const SceneFactors* intact = find(state, Scene{});
+  if (intact == nullptr || scene.missing() < 2) return {};
+  SceneFactors sum = *intact;
+  for (const BlockId block : scene.removed) {
+    const SceneFactors* alone = find(state, Scene{{block}});
+    if (alone == nullptr) return {};
+    sum.bridge += alone->bridge - intact->bridge;
+    sum.epoch += alone->epoch - intact->epoch;
+  }
+  return sum;
+}
+
+std::vector<DatasetValue> sensitivity_datasets(const Sensitivities& sensitivities) {
+  std::vector<DatasetValue> datasets;
+  append_parameters(sensitivities, datasets);
+  Filling<double> basis{dataset::kSensitivityBasis, ElementType::float64, "1",
+                        "orthonormal directions of the bridge's standardised parameters"};
+  basis.add(sensitivities.basis);
+  basis.finish({extent(sensitivities.basis.rows()), extent(sensitivities.basis.cols())}, datasets);
+  append_scenes(sensitivities, datasets);
+  const auto points = extent(sensitivities.states.front().residual.bridge.rows());
+  append_factors(sensitivities, points, datasets);
+  append_residual(sensitivities, points, datasets);
+  return datasets;
+}
+
+std::optional<Sensitivities> read_sensitivities(const Hdf5File& file, const SensitivitySizes& sizes) {
+  if (!file.has(dataset::kUncertainName)) return std::nullopt;
+  Sensitivities result;
+  result.parameters = read_parameters(file);
+  const auto of_bridge = std::ranges::count(result.parameters, false, &UncertainParameter::of_epoch);
+  result.basis =
+      read_matrices(file, dataset::kSensitivityBasis, {}, static_cast<std::size_t>(of_bridge)).front();
+  result.scenes = read_scenes(file, sizes.blocks);
+  read_states(file, sizes, result);
+  return result;
+}
+
+}  // namespace voussoir

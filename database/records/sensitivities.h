@@ -1,0 +1,83 @@
+#pragma once
+/// @file How much a database's settlements change with what nobody knows exactly of the bridge, to first
+/// order, and what the first order leaves.
+///
+///   d(theta) = d + A z + E epsilon + residual,   z = V^T (theta of the bridge),   epsilon = theta of the
+///   epoch
+///
+/// d: vertical displacements of the control points [m], up is positive, as they are stored. All theta are
+/// standardised, so z and epsilon have independent entries of variance 1. What readings say of z they say of
+/// the bridge's parameters, too: theta = V z and what V leaves out, of which they say nothing.
+
+#include <Eigen/Core>
+#include <optional>
+#include <vector>
+
+#include "core/structure/scene.h"
+#include "core/structure/uncertain_parameter.h"
+#include "database/format/hdf5_file.h"
+
+namespace voussoir {
+
+/// Derivatives of one scene's displacements at the control points in one state [m per standard deviation].
+/// Rows of points whose block is gone are zero. Both empty: not known, because the scene does not stand.
+struct SceneFactors {
+  Eigen::MatrixXd bridge;  ///< A: points x columns of the basis
+  Eigen::MatrixXd epoch;   ///< E: points x parameters of an epoch
+
+  bool known() const { return bridge.rows() > 0; }
+};
+
+/// What the first order leaves, in one state, found by solving bridges with parameters drawn at random. All
+/// states of a database have the same numbers of columns.
+struct FirstOrderResidual {
+  /// The intact bridge's displacements: covariance bridge * bridge^T [m2], the same error in every epoch.
+  Eigen::MatrixXd bridge;  ///< points x any number of columns
+  /// What an epoch's own parameters add: epoch * epoch^T [m2], an error of its own in every epoch.
+  Eigen::MatrixXd epoch;  ///< points x any number of columns
+  /// A scene's signal d - d(intact): at point i the error has the standard deviation
+  ///     sqrt((share s_i)^2 + (common rms(s))^2),
+  /// s_i being that of the signal to first order: the norm of row i of (A - A_intact, E - E_intact); rms over
+  /// the points that the scene has.
+  double share = 0.0;   ///< [-]
+  double common = 0.0;  ///< [-]
+};
+
+/// Of all scenes that have been looked at, in one state.
+struct StateSensitivities {
+  std::vector<SceneFactors> scenes;  ///< one for each of Sensitivities::scenes
+  FirstOrderResidual residual;
+};
+
+struct Sensitivities {
+  std::vector<UncertainParameter> parameters;  ///< those of the bridge, then those of an epoch
+  Eigen::MatrixXd basis;                       ///< V: parameters of the bridge x columns, orthonormal
+  std::vector<Scene> scenes;               ///< ascending by missing blocks, then lexicographic: intact first
+  std::vector<StateSensitivities> states;  ///< of each state of the database
+
+  Eigen::Index of_bridge() const { return basis.rows(); }  ///< parameters of the bridge
+  Eigen::Index of_epoch() const { return static_cast<Eigen::Index>(parameters.size()) - basis.rows(); }
+
+  /// What is stored of a scene in a state; null if nothing is known of it. Precondition: the state exists.
+  const SceneFactors* find(std::size_t state, const Scene& scene) const;
+
+  /// The scene's factors: those that are stored, or the sum of what each of its blocks changes alone,
+  /// A_ab = A_a + A_b - A_intact. Empty (not known) if a block's own are not known.
+  SceneFactors factors(std::size_t state, const Scene& scene) const;
+};
+
+/// The datasets of sensitivities; datasets that would have no elements are left out.
+std::vector<DatasetValue> sensitivity_datasets(const Sensitivities& sensitivities);
+
+/// How many of everything there are in a file.
+struct SensitivitySizes {
+  std::size_t states = 0;
+  std::size_t points = 0;
+  std::size_t blocks = 0;
+};
+
+/// Nothing if the file has none. Throws InputError for wrong types, shapes and sizes, scenes that are out of
+/// order or without an intact bridge, and numbers that are not finite.
+std::optional<Sensitivities> read_sensitivities(const Hdf5File& file, const SensitivitySizes& sizes);
+
+}  // namespace voussoir

@@ -1,0 +1,129 @@
+/// @file Stages with a temperature and with supports that move. Oracles: closed forms of free and held bars,
+/// rigid motion.
+
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "core/solve/history.h"
+#include "core/statics/equilibrium.h"
+#include "core/structure/uncertain_parameters.h"
+#include "tests/support/bridges.h"
+#include "tools/validation/assemblies.h"
+
+using namespace voussoir;
+
+namespace {
+
+constexpr double kLength = 4.0, kHeight = 0.5;
+
+/// A bar on a smooth base and against a smooth wall at its left end; at its right one, too, or free there.
+Model bar(PlaneState plane, bool held) {
+  BridgeDescription description;
+  description.supports = {.base = SupportKind::roller, .sides = SupportKind::roller};
+  description.material.plane = plane;
+  description.wall.length = held ? kLength : 2.0 * kLength;
+  description.mesh.refinement = 2;
+  return validation::assemble_blocks(description,
+                                     {validation::rectangle(Point(0.0, 0.0), kLength, kHeight)});
+}
+
+/// Displacement of the corner that lies furthest from the supports.
+Point corner_of_heated(const Model& bridge, double temperature) {
+  QuasiStaticSolver solver(bridge);
+  const Solution solution =
+      solver.solve(StageTask{.stage = {.gravity_share = 0.0, .temperature = temperature}});
+  REQUIRE(solution.outcome == Outcome::standing);
+  for (int node = 0; node < bridge.mesh.node_count(); ++node)
+    if (bridge.mesh.nodes.col(node) == Point(kLength, kHeight)) return solution.displacement.col(node);
+  throw std::runtime_error("no such corner");
+}
+
+/// Elongation per length at this Green strain.
+double elongation(double strain) {
+  return std::sqrt(1.0 + 2.0 * strain) - 1.0;
+}
+
+/// All supports' nodes by the same vector.
+Field moved_together(const Model& bridge, const Point& movement) {
+  Field field = Field::Zero(2, bridge.mesh.node_count());
+  for (std::size_t s = 0; s < bridge.supports.size(); ++s) {
+    const Field one = rigid_movement(bridge, s, movement, 0.0);
+    field = (one.array() != 0.0).select(one, field);
+  }
+  return field;
+}
+
+}  // namespace
+
+TEST_CASE("A bar that is free to expand does so, and out of plane held the more (closed form)", "[stage]") {
+  const double strain = 8e-6 * 30.0;
+  const Point stress = corner_of_heated(bar(PlaneState::stress, false), 30.0);
+  CHECK(stress.x() == Approx(kLength * elongation(strain)).epsilon(1e-7));
+  CHECK(stress.y() == Approx(kHeight * elongation(strain)).epsilon(1e-7));
+  const Point plane_strain = corner_of_heated(bar(PlaneState::strain, false), 30.0);
+  CHECK(plane_strain.x() == Approx(kLength * elongation(1.2 * strain)).epsilon(1e-7));
+  CHECK(plane_strain.y() == Approx(kHeight * elongation(1.2 * strain)).epsilon(1e-7));
+}
+
+TEST_CASE("A bar that is held at both ends grows upwards only, by (1 + nu) times the strain (closed form)",
+          "[stage]") {
+  const Point corner = corner_of_heated(bar(PlaneState::stress, true), 30.0);
+  CHECK(corner.x() == 0.0);
+  CHECK(corner.y() == Approx(kHeight * elongation(1.2 * 8e-6 * 30.0)).epsilon(1e-7));
+}
+
+TEST_CASE("A column of two blocks grows by its own expansion and not by its joint's (closed form)", "[stage]") {
+  BridgeDescription description;
+  description.supports = {.base = SupportKind::roller, .sides = SupportKind::roller};
+  description.wall.length = 10.0;
+  const Model column = validation::assemble_blocks(
+      description, {validation::rectangle(Point(0.0, 0.0), 1.0, 0.5), validation::rectangle(Point(0.0, 0.5), 1.0, 0.5)});
+  QuasiStaticSolver solver(column);
+  const Solution cold = solver.solve(Scene{});
+  const Solution warm = solver.solve(StageTask{.stage = {.temperature = 20.0}});
+  REQUIRE(cold.outcome == Outcome::standing);
+  REQUIRE(warm.outcome == Outcome::standing);
+  const Field growth = warm.displacement - cold.displacement;
+  const double strain = 8e-6 * 20.0;
+  for (int node = 0; node < column.mesh.node_count(); ++node)  // the weight's own strains are 5e-7
+    CHECK((growth.col(node) - strain * column.mesh.nodes.col(node)).norm() < 1e-6 * 20.0 * 8e-6 + strain * strain);
+}
+
+TEST_CASE("Supports that all move together carry the bridge with them and change no force (rigid motion)",
+          "[stage]") {
+  const Model bridge = test::reference_bridge();
+  QuasiStaticSolver solver(bridge);
+  const Solution still = solver.solve(Scene{});
+  const Point movement(0.7e-3, -1.9e-3);
+  const Solution moved =
+      solver.solve(StageTask{.stage = {.support_movement = moved_together(bridge, movement)}});
+  REQUIRE(moved.outcome == Outcome::standing);
+  const Field carried = (moved.displacement - still.displacement).colwise() - movement;
+  CHECK(carried.cwiseAbs().maxCoeff() < 1e-9);  // what the solver's tolerance leaves
+  double largest = 0.0;
+  for (std::size_t j = 0; j < moved.memory.size(); ++j)
+    largest = std::max(largest, std::abs(moved.memory[j].slip_0 - still.memory[j].slip_0));
+  CHECK(largest < 1e-9);
+}
+
+TEST_CASE("One foot that settles takes down what stands on it, and a stage without movement has no trace of it",
+          "[stage]") {
+  const Model bridge = test::reference_bridge();
+  QuasiStaticSolver solver(bridge);
+  const Solution still = solver.solve(Scene{});
+  const auto left_foot = static_cast<std::size_t>(
+      std::ranges::find(bridge.supports, "foot 1", &Support::name) - bridge.supports.begin());
+  const Stage settled{.support_movement = rigid_movement(bridge, left_foot, {0.0, -1e-3}, 0.0)};
+  const Solution moved = solver.solve(StageTask{.stage = settled, .start = &still.displacement});
+  REQUIRE(moved.outcome == Outcome::standing);
+  for (const NodeId node : bridge.supports[left_foot].nodes)
+    CHECK(moved.displacement(1, value(node)) == -1e-3);
+  const EquilibriumSystem& system = solver.system();
+  const Coefficients coefficients(system, bridge.parameters);
+  CHECK(unbalanced_force(StageEquations(system, coefficients, settled), moved.displacement) < 1e-7);
+  const Eigen::VectorXd change = vertical_displacements(moved.displacement - still.displacement, bridge.control_points);
+  CHECK(change.head(1)[0] < -0.9e-3);  // T1 stands on the foot that settled
+  CHECK(std::abs(change[39]) < 0.1e-3);  // T40 on the other one
+  const Solution again = solver.solve(StageTask{.stage = {}});
+  CHECK(again.displacement == still.displacement);
+}

@@ -1,0 +1,188 @@
+/// @file Oracles: the definition of a lognormal factor written out, moments of many draws within four
+/// standard errors, rigid movements by hand.
+
+#include "core/structure/uncertain_parameters.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "tests/support/bridges.h"
+
+using namespace voussoir;
+
+namespace {
+
+double deviation(double variation) {
+  return std::sqrt(std::log(1.0 + variation * variation));
+}
+
+Eigen::VectorXd unit(std::size_t size, std::size_t place, double value) {
+  Eigen::VectorXd theta = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(size));
+  theta[static_cast<Eigen::Index>(place)] = value;
+  return theta;
+}
+
+std::size_t place_of(const std::vector<UncertainAction>& actions, const std::string& name) {
+  for (std::size_t i = 0; i < actions.size(); ++i)
+    if (actions[i].parameter.name == name) return i;
+  throw std::runtime_error("no parameter " + name);
+}
+
+/// Without the joints' own scatter, whose mean shifts the factors at theta = 0.
+Uncertainty without_own() {
+  Uncertainty uncertainty;
+  uncertainty.joint_stiffness = 0.0;
+  return uncertainty;
+}
+
+}  // namespace
+
+TEST_CASE("The reference bridge has five common factors, one of each pair of blocks, and two feet and sides",
+          "[uncertainty]") {
+  const Model bridge = test::reference_bridge();
+  const UncertainParameters uncertain = uncertain_parameters(bridge, {});
+  std::set<std::pair<BlockId, BlockId>> pairs;
+  for (const Joint& joint : bridge.joints) pairs.insert(std::minmax(joint.first, joint.second));
+  CHECK(uncertain.of_bridge.size() == 5 + pairs.size());
+  std::vector<std::string> names;
+  for (const UncertainAction& action : uncertain.of_epoch) names.push_back(action.parameter.name);
+  CHECK(names == std::vector<std::string>{"temperature", "foot 1 dx", "foot 1 dy", "foot 1 rotation",
+                                          "foot 2 dx", "foot 2 dy", "foot 2 rotation", "left side dx",
+                                          "right side dx"});
+  std::set<std::string> all;
+  std::vector<int> uses(bridge.joints.size(), 0);
+  for (const UncertainParameter& parameter : uncertain.all()) {
+    CHECK(parameter.sigma > 0.0);
+    all.insert(parameter.name);
+  }
+  CHECK(all.size() == uncertain.of_bridge.size() + uncertain.of_epoch.size());
+  for (std::size_t i = 5; i < uncertain.of_bridge.size(); ++i)
+    for (const std::size_t joint : uncertain.of_bridge[i].joints) ++uses[joint];
+  CHECK(uses == std::vector<int>(bridge.joints.size(), 1));
+}
+
+TEST_CASE("At theta = 0 without own scatter the bridge is as stated, to the last bit", "[uncertainty]") {
+  const Model bridge = test::small_bridge();
+  const UncertainParameters uncertain = uncertain_parameters(bridge, without_own());
+  const Parameters same = parameters_at(bridge, uncertain, unit(uncertain.of_bridge.size(), 0, 0.0));
+  for (std::size_t j = 0; j < bridge.joints.size(); ++j) {
+    CHECK(same.joints[j].normal_stiffness == bridge.parameters.joints[j].normal_stiffness);
+    CHECK(same.joints[j].tangential_stiffness == bridge.parameters.joints[j].tangential_stiffness);
+    CHECK(same.joints[j].friction_coefficient() ==
+          Approx(bridge.parameters.joints[j].friction_coefficient()).epsilon(1e-15).margin(0.0));
+  }
+  CHECK(same.blocks[3].young_modulus == bridge.parameters.blocks[3].young_modulus);
+  CHECK(same.blocks[3].density == bridge.parameters.blocks[3].density);
+}
+
+TEST_CASE("Each common parameter multiplies its own quantity by its lognormal factor (by hand)",
+          "[uncertainty]") {
+  const Model bridge = test::small_bridge();
+  const Uncertainty uncertainty = without_own();
+  const UncertainParameters uncertain = uncertain_parameters(bridge, uncertainty);
+  const auto factors = [&](const std::string& name, double theta) {
+    const Parameters p = parameters_at(
+        bridge, uncertain, unit(uncertain.of_bridge.size(), place_of(uncertain.of_bridge, name), theta));
+    const JointMaterial& joint = bridge.parameters.joints[5];
+    const Material& block = bridge.parameters.blocks[5];
+    return std::vector<double>{p.joints[5].normal_stiffness / joint.normal_stiffness,
+                               p.joints[5].tangential_stiffness / joint.tangential_stiffness,
+                               p.joints[5].friction_coefficient() / joint.friction_coefficient(),
+                               p.blocks[5].young_modulus / block.young_modulus,
+                               p.blocks[5].density / block.density};
+  };
+  const auto check = [&](const std::string& name, double variation, const std::vector<int>& acts) {
+    INFO(name);
+    const std::vector<double> found = factors(name, 1.5);
+    for (std::size_t i = 0; i < found.size(); ++i)
+      CHECK(found[i] == Approx(acts[i] != 0 ? std::exp(1.5 * deviation(variation)) : 1.0).epsilon(1e-12));
+  };
+  check("stiffness", uncertainty.common_stiffness, {1, 1, 0, 0, 0});
+  check("stiffness ratio", uncertainty.stiffness_ratio, {0, 1, 0, 0, 0});
+  check("friction", uncertainty.friction, {0, 0, 1, 0, 0});
+  check("young modulus", uncertainty.young_modulus, {0, 0, 0, 1, 0});
+  check("density", uncertainty.density, {0, 0, 0, 0, 1});
+}
+
+TEST_CASE("Joints scatter with mean 1 and the stated variation, pair by pair (moments of 400 bridges)",
+          "[uncertainty]") {
+  const Model bridge = test::small_bridge();
+  Uncertainty uncertainty{.joint_stiffness = 0.2,
+                          .common_stiffness = 0.0,
+                          .stiffness_ratio = 0.0,
+                          .friction = 0.0,
+                          .young_modulus = 0.0,
+                          .density = 0.0};
+  const std::size_t pairs = uncertain_parameters(bridge, uncertainty).of_bridge.size();
+  double sum = 0.0, squares = 0.0;
+  double count = 0.0;
+  for (std::uint64_t seed = 0; seed < 400; ++seed) {
+    const Model one = sampled(bridge, uncertainty, seed);
+    std::map<std::pair<BlockId, BlockId>, double> of_pair;
+    for (std::size_t j = 0; j < bridge.joints.size(); ++j) {
+      const double factor = one.parameters.joints[j].normal_stiffness / 1e9;
+      REQUIRE(one.parameters.joints[j].tangential_stiffness / 1e8 == Approx(factor).epsilon(1e-12));
+      const auto blocks = std::minmax(bridge.joints[j].first, bridge.joints[j].second);
+      const auto [known, is_new] = of_pair.emplace(blocks, factor);
+      REQUIRE(known->second == factor);
+      if (!is_new) continue;
+      sum += factor;
+      squares += factor * factor;
+      count += 1.0;
+    }
+    REQUIRE(of_pair.size() == pairs);
+  }
+  const double mean = sum / count;
+  CHECK(std::abs(mean - 1.0) < 4.0 * 0.2 / std::sqrt(count));
+  CHECK(std::sqrt(squares / count - mean * mean) == Approx(0.2).epsilon(4.0 * 1.2 / std::sqrt(2.0 * count)));
+}
+
+TEST_CASE("The same seed draws the same bridge, another seed another one", "[uncertainty]") {
+  const Model bridge = test::small_bridge();
+  const auto stiffness = [&](std::uint64_t seed) {
+    std::vector<double> values;
+    for (const JointMaterial& joint : sampled(bridge, {}, seed).parameters.joints)
+      values.push_back(joint.normal_stiffness);
+    return values;
+  };
+  CHECK(stiffness(3) == stiffness(3));
+  CHECK(stiffness(3) != stiffness(4));
+  CHECK_FALSE(sampled(bridge, {}, 3).symmetry.has_value());
+}
+
+TEST_CASE("What is known exactly is no parameter", "[uncertainty]") {
+  const Uncertainty nothing{0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
+  CHECK(uncertain_parameters(test::small_bridge(), nothing).all().empty());
+}
+
+TEST_CASE("A foot moves and turns as a rigid body about its middle (by hand)", "[uncertainty]") {
+  const Model bridge = test::reference_bridge();
+  const UncertainParameters uncertain = uncertain_parameters(bridge, {});
+  const auto movement = [&](const std::string& name) {
+    const std::size_t place = place_of(uncertain.of_epoch, name);
+    return in_epoch({}, bridge, uncertain, unit(uncertain.of_epoch.size(), place, 2.0)).support_movement;
+  };
+  const Field shift = movement("foot 1 dy");
+  const Field turn = movement("foot 2 rotation");
+  const Field side = movement("right side dx");
+  int left = 0, right = 0, held = 0;
+  for (int node = 0; node < bridge.mesh.node_count(); ++node) {
+    const Point at = bridge.mesh.nodes.col(node);
+    const bool on_ground = at.y() == 0.0;
+    const double dy = on_ground && at.x() < 10.0 ? 2e-3 : 0.0;
+    CHECK(shift(1, node) == Approx(dy).margin(1e-15));
+    CHECK(shift(0, node) == 0.0);
+    // The right foot stands on 13.5 <= x <= 20.
+    const double turned = on_ground && at.x() > 10.0 ? 2e-4 * (at.x() - 16.75) : 0.0;
+    CHECK(turn(1, node) == Approx(turned).margin(1e-15));
+    CHECK(side(0, node) == (at.x() == 20.0 ? 1e-3 : 0.0));
+    left += dy != 0.0 ? 1 : 0;
+    right += turned != 0.0 ? 1 : 0;
+    held += side(0, node) != 0.0 ? 1 : 0;
+  }
+  CHECK(left > 5);
+  CHECK(right > 5);
+  CHECK(held > 5);
+}
