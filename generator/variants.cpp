@@ -4,6 +4,7 @@
 #include <map>
 
 #include "core/error.h"
+#include "core/random.h"
 #include "core/structure/uncertain_parameters.h"
 
 namespace voussoir {
@@ -34,15 +35,6 @@ JointMaterial typical_joint(std::vector<JointMaterial> joints, const JointMateri
   return {.normal_stiffness = median(&JointMaterial::normal_stiffness),
           .tangential_stiffness = median(&JointMaterial::tangential_stiffness),
           .friction_angle = median(&JointMaterial::friction_angle)};
-}
-
-/// Seeds that look random, one for each number (Steele et al., "Fast splittable pseudorandom number
-/// generators", 2014: SplitMix64).
-std::uint64_t seed_of_variant(std::uint64_t seed, int number) {
-  std::uint64_t mixed = seed + 0x9e3779b97f4a7c15u * (static_cast<std::uint64_t>(number) + 1);
-  mixed = (mixed ^ (mixed >> 30)) * 0xbf58476d1ce4e5b9u;
-  mixed = (mixed ^ (mixed >> 27)) * 0x94d049bb133111ebu;
-  return mixed ^ (mixed >> 31);
 }
 
 using JointNodes = std::array<int, 4>;  // in ascending order
@@ -124,7 +116,8 @@ std::vector<VariantParameters> sampled_variants(const Model& bridge, const Uncer
                                                 int count, std::uint64_t seed) {
   std::vector<VariantParameters> variants;
   for (int number = 0; number < count; ++number)
-    variants.push_back(parameters_of(sampled(bridge, uncertainty, seed_of_variant(seed, number))));
+    variants.push_back(
+        parameters_of(sampled(bridge, uncertainty, series_seed(seed, static_cast<std::uint64_t>(number)))));
   return variants;
 }
 

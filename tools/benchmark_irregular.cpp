@@ -6,46 +6,93 @@
 
 #include "core/error.h"
 #include "lookup/report/text_file.h"
+#include "tools/trials/sampled_truth.h"
 #include "tools/trials/study_report.h"
 
 namespace voussoir {
 namespace {
 
-constexpr double kMetres = 1e-3;  // in a millimetre
+// Of the true bridges; no database draws with these what it knows.
+constexpr std::uint64_t kDamagedSeed = 2611, kPairsSeed = 2612, kIntactSeed = 2613;
+constexpr int kPairs = 20;
+constexpr double kScatter = 0.2;      // of the joints of intact bridges
+constexpr double kWarmer = 20.0;      // [K]
+constexpr double kSettlement = 1e-3;  // [m]
 
-StudySettings settings_of(const IrregularOptions& options) {
-  StudySettings settings{.sigmas = {}, .every = options.every};
-  for (const double sigma : options.sigmas_mm) settings.sigmas.push_back(kMetres * sigma);
-  return settings;
+/// All trials of one run.
+struct Run {
+  const Database& database;
+  const IrregularOptions& options;
+  BridgeFile bridge;
+  StudySource source;
+  std::vector<StudyRow> rows{};
+
+  void damaged(const DamagedTruth& truth) {
+    source.truths.push_back(truth.name);
+    append(study_damaged(database, truth, options.settings, show));
+  }
+  void intact(const IntactTruth& truth) {
+    source.truths.push_back(truth.name);
+    append(study_intact(database, truth, options.settings, show));
+  }
+
+ private:
+  static void show(const StudyRow& row) {
+    fmt::print("{}", to_text(row));
+    std::fflush(stdout);
+  }
+  void append(std::vector<StudyRow>&& more) {
+    rows.insert(rows.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
+  }
+};
+
+void try_given(Run& run) {
+  for (const std::string& truth : run.options.truths)
+    run.damaged({std::filesystem::path(truth).stem().string(), read_true_bridges(Database::open(truth))});
 }
 
-void print(const std::string& text) {
-  fmt::print("{}", text);
-  std::fflush(stdout);
-}
-
-void append(std::vector<StudyRow>&& more, std::vector<StudyRow>& rows) {
-  rows.insert(rows.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
+/// Scattered joints, and all that the bridge file says is uncertain.
+void try_solved(Run& run) {
+  const IrregularOptions& options = run.options;
+  const BlockLayout& layout = run.database.layout();
+  const Uncertainty& all = run.bridge.description.uncertainty;
+  const auto damaged = [&](const std::string& name, const Uncertainty& uncertainty, std::uint64_t seed,
+                           const std::string& scenes) {
+    run.damaged(
+        solve_damaged(run.bridge, {name, uncertainty, options.bridges, seed}, scenes, options.folder));
+  };
+  for (const double scatter : options.scatters)
+    damaged(fmt::format("joints {}", scatter), scattered_joints(scatter), kDamagedSeed, wall_singles(layout));
+  damaged("everything", all, kDamagedSeed, wall_singles(layout));
+  damaged(fmt::format("joints {} pairs", kScatter), scattered_joints(kScatter), kPairsSeed,
+          random_pairs(layout, kPairs, kPairsSeed));
+  const auto intact = [&](const std::string& name, const Uncertainty& uncertainty, const Between& between) {
+    run.intact(solve_intact(run.bridge.description, {name, uncertainty, options.intact_bridges, kIntactSeed},
+                            between));
+  };
+  for (const double scatter : options.scatters)
+    intact(fmt::format("joints {}", scatter), scattered_joints(scatter), {});
+  intact("20 K warmer", scattered_joints(kScatter), {.warmer = kWarmer});
+  intact("foot 1 mm lower", scattered_joints(kScatter), {.settlement = kSettlement});
+  intact("everything", all, {.at_random = true});
 }
 
 }  // namespace
 
 std::string benchmark_irregular(const std::filesystem::path& path, const IrregularOptions& options) {
   const Database database = Database::open(path);
-  StudySource source{path.string(), database.digest(), database.bridge_name(), {}, settings_of(options)};
-  const auto show = [](const StudyRow& row) { print(to_text(row)); };
-  std::vector<StudyRow> rows;
-  print(heading_text());
-  for (const std::string& truth : options.truths) {
-    const Database bridges = Database::open(truth);
-    source.truths.push_back(fmt::format("{} (digest {})", truth, bridges.digest()));
-    append(study_damaged(database, {std::filesystem::path(truth).stem().string(), read_true_bridges(bridges)},
-                         source.settings, show),
-           rows);
-  }
-  if (!options.json.empty()) write_file(options.json, to_json(source, rows));
-  if (!options.page.empty()) write_file(options.page, to_page(source, rows));
-  return reliability_text(rows);
+  Run run{database,
+          options,
+          parse_bridge_file(database.bridge_text(), database.bridge_name()),
+          {path.string(), database.digest(), database.bridge_name(), {}, options.settings}};
+  fmt::print("{}", heading_text());
+  if (options.truths.empty())
+    try_solved(run);
+  else
+    try_given(run);
+  if (!options.json.empty()) write_file(options.json, to_json(run.source, run.rows));
+  if (!options.page.empty()) write_file(options.page, to_page(run.source, run.rows));
+  return reliability_text(run.rows);
 }
 
 }  // namespace voussoir

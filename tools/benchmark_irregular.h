@@ -1,16 +1,21 @@
 #pragma once
-/// @file Trials on irregular bridges from the command line's choice of true bridges.
+/// @file Trials on irregular bridges, from the command line's choice of true bridges.
 
 #include <filesystem>
 #include <string>
 #include <vector>
 
+#include "tools/trials/study.h"
+
 namespace voussoir {
 
 struct IrregularOptions {
-  std::vector<std::string> truths;  ///< databases of sampled bridges
-  std::vector<double> sigmas_mm = {0.01, 0.03, 0.1};
-  std::size_t every = 10;
+  std::vector<std::string> truths;                      ///< databases of sampled bridges; empty: solved here
+  std::vector<double> scatters = {0.1, 0.2, 0.3, 0.4};  ///< of the joints of bridges that are solved here
+  std::string folder = "build/irregular";               ///< where their databases are
+  int bridges = 20;                                     ///< of each kind, with blocks missing
+  int intact_bridges = 200;                             ///< of each kind, intact
+  StudySettings settings;
   std::string json;  ///< file; empty: none
   std::string page;  ///< file; empty: none
 };

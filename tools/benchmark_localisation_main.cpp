@@ -2,7 +2,7 @@
 
 #include "core/error.h"
 #include "lookup/command_line.h"
-#include "tools/benchmark_irregular.h"
+#include "tools/benchmark_irregular_options.h"
 #include "tools/benchmark_localisation.h"
 
 namespace {
@@ -109,7 +109,7 @@ int main(int argc, char** argv) {
   CLI::App app("Measures how often noisy readings lead to the truth.", "benchmark-localisation");
   app.footer(
       "Example: benchmark-localisation -d bridge.h5\n"
-      "         benchmark-localisation -d bridge.h5 --irregular --truth irregular.h5 --page irregular.html");
+      "         benchmark-localisation -d bridge.h5 --irregular --page irregular.html");
   Options options;
   app.add_option("-d,--database", options.database, "default: $VOUSSOIR_DATABASE, else ./bridge.h5");
   app.add_option("--trials", options.trials, "noisy trials of each of the paper's cases, default 200")
@@ -120,18 +120,7 @@ int main(int argc, char** argv) {
   app.add_flag(
       "--irregular", options.irregular,
       "instead: bridges that the database does not hold, with the bridge taken as known and as unknown");
-  app.add_option(
-      "--truth", options.bridges.truths,
-      "of --irregular: databases of sampled bridges (build-database --variants) that readings come from");
-  app.add_option("--sigma", options.bridges.sigmas_mm,
-                 "of --irregular: errors of readings [mm], default .01,.03,.1")
-      ->delimiter(',')
-      ->check(CLI::PositiveNumber);
-  app.add_option("--every", options.bridges.every,
-                 "of --irregular: one of so many singles is looked for among all scenes, default 10")
-      ->check(CLI::Range(1, 1000000));
-  app.add_option("--json", options.bridges.json, "of --irregular: also write the results to this file");
-  app.add_option("--page", options.bridges.page, "of --irregular: also write an HTML page to this file");
+  voussoir::add_irregular_options(app, options.bridges);
   return voussoir::run_program(app, argc, argv, [&] {
     return options.irregular
                ? voussoir::benchmark_irregular(voussoir::find_database(options.database), options.bridges)

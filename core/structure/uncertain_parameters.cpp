@@ -29,8 +29,8 @@ std::vector<std::size_t> all_joints(const Structure& structure) {
 void add_factor(std::vector<UncertainAction>& actions, UncertainQuantity quantity, const std::string& name,
                 double variation, std::vector<std::size_t> joints = {}, bool has_mean_one = false) {
   if (variation > 0.0)
-    actions.push_back({quantity, {name, "1", log_deviation(variation), false}, std::move(joints), 0,
-                       has_mean_one});
+    actions.push_back(
+        {quantity, {name, "1", log_deviation(variation), false}, std::move(joints), 0, has_mean_one});
 }
 
 void add_of_epoch(std::vector<UncertainAction>& actions, UncertainQuantity quantity, const std::string& name,
@@ -104,7 +104,8 @@ UncertainParameters uncertain_parameters(const Structure& structure, const Uncer
   UncertainParameters result;
   const std::vector<std::size_t> joints = all_joints(structure);
   if (!joints.empty()) {
-    add_factor(result.of_bridge, UncertainQuantity::stiffness, "stiffness", uncertainty.common_stiffness, joints);
+    add_factor(result.of_bridge, UncertainQuantity::stiffness, "stiffness", uncertainty.common_stiffness,
+               joints);
     add_factor(result.of_bridge, UncertainQuantity::stiffness_ratio, "stiffness ratio",
                uncertainty.stiffness_ratio, joints);
     add_factor(result.of_bridge, UncertainQuantity::friction, "friction", uncertainty.friction, joints);
@@ -160,8 +161,7 @@ Eigen::VectorXd sampled_theta(std::size_t count, std::uint64_t seed) {
 Model sampled(const Model& bridge, const Uncertainty& uncertainty, std::uint64_t seed) {
   const UncertainParameters uncertain = uncertain_parameters(bridge, uncertainty);
   Model result = bridge;
-  result.parameters =
-      parameters_at(bridge, uncertain, sampled_theta(uncertain.of_bridge.size(), seed));
+  result.parameters = parameters_at(bridge, uncertain, sampled_theta(uncertain.of_bridge.size(), seed));
   result.symmetry.reset();
   return result;
 }

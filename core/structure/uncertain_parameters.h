@@ -63,8 +63,8 @@ Eigen::VectorXd sampled_theta(std::size_t count, std::uint64_t seed);
 /// The bridge with uncertain parameters drawn at random. It has no mirror symmetry.
 Model sampled(const Model& bridge, const Uncertainty& uncertainty, std::uint64_t seed);
 
-/// Displacements [m], 2 x nodes, of the supports' nodes if the parameter's quantity has this value [m or rad];
-/// zero if it is no movement.
+/// Displacements [m], 2 x nodes, of the supports' nodes if the parameter's quantity has this value [m or
+/// rad]; zero if it is no movement.
 Field movement_of(const Structure& structure, const UncertainAction& action, double value);
 
 /// Displacements [m], 2 x nodes, of a support that moves and turns (counter-clockwise, small) as a rigid body

@@ -7,16 +7,16 @@ namespace voussoir {
 /// Stiffness, friction, modulus and density are multiplied by lognormal factors, whose coefficients of
 /// variation these are; all others are normal, with these standard deviations about zero. 0: known exactly.
 struct Uncertainty {
-  double joint_stiffness = 0.2;    ///< [-] of each pair of blocks that meet, its own factor on p_n and p_t
-  double common_stiffness = 0.3;   ///< [-] of p_n and p_t of all joints alike
-  double stiffness_ratio = 0.3;    ///< [-] of p_t / p_n of all joints alike
-  double friction = 0.1;           ///< [-] of tan(phi) of all joints alike
-  double young_modulus = 0.25;     ///< [-] of all blocks alike
-  double density = 0.05;           ///< [-] of all blocks alike
-  double temperature = 10.0;       ///< [K] of the whole bridge in an epoch
-  double foot_movement = 1e-3;     ///< [m] of each foot in an epoch, along x and y
-  double foot_rotation = 1e-4;     ///< [rad] of each foot in an epoch, about its middle
-  double side_movement = 0.5e-3;   ///< [m] of each held side in an epoch
+  double joint_stiffness = 0.2;   ///< [-] of each pair of blocks that meet, its own factor on p_n and p_t
+  double common_stiffness = 0.3;  ///< [-] of p_n and p_t of all joints alike
+  double stiffness_ratio = 0.3;   ///< [-] of p_t / p_n of all joints alike
+  double friction = 0.1;          ///< [-] of tan(phi) of all joints alike
+  double young_modulus = 0.25;    ///< [-] of all blocks alike
+  double density = 0.05;          ///< [-] of all blocks alike
+  double temperature = 10.0;      ///< [K] of the whole bridge in an epoch
+  double foot_movement = 1e-3;    ///< [m] of each foot in an epoch, along x and y
+  double foot_rotation = 1e-4;    ///< [rad] of each foot in an epoch, about its middle
+  double side_movement = 0.5e-3;  ///< [m] of each held side in an epoch
 
   friend bool operator==(const Uncertainty&, const Uncertainty&) = default;
 };

@@ -55,8 +55,8 @@ struct Site {
         solution.outcome = Outcome::standing;
         solution.moving.clear();
         solution.extent = CollapseExtent::none;
-        solution.displacement = to_storage_precision(
-            factors[static_cast<std::size_t>(key.variant)] * solution.displacement);
+        solution.displacement =
+            to_storage_precision(factors[static_cast<std::size_t>(key.variant)] * solution.displacement);
       }
       return make_record(key, solutions, bridge.control_points, KeepField::yes, KeepField::yes);
     });
@@ -105,9 +105,16 @@ TEST_CASE("Shares of trials come with the standard error between bridges (worked
   // Bridge 0: 3 of 4 count, bridge 1: 1 of 4, bridge 2: 2 of 2. Share 0.6; sum of squares of k - 0.6 n:
   // 0.6^2 + 1.4^2 + 0.8^2 = 2.96, times 3 / 2, root, over 10.
   std::vector<Trial> trials;
-  for (const auto& [bridge, first] : std::vector<std::pair<std::size_t, bool>>{
-           {0, true}, {0, true}, {0, true}, {0, false}, {1, true}, {1, false}, {1, false}, {1, false},
-           {2, true}, {2, true}})
+  for (const auto& [bridge, first] : std::vector<std::pair<std::size_t, bool>>{{0, true},
+                                                                               {0, true},
+                                                                               {0, true},
+                                                                               {0, false},
+                                                                               {1, true},
+                                                                               {1, false},
+                                                                               {1, false},
+                                                                               {1, false},
+                                                                               {2, true},
+                                                                               {2, true}})
     trials.push_back(trial(bridge, first, 0.95));
   const TrialRates rates = rates_of(trials);
   CHECK(rates.trials == 10);

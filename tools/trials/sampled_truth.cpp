@@ -25,14 +25,17 @@ std::vector<State> solve_all(QuasiStaticSolver& solver, const std::vector<Model>
   std::vector<State> states;
   for (Solution& solution : solver.solve(tasks)) {
     if (solution.outcome != Outcome::standing)
-      throw Failure(fmt::format("{}: intact bridge {} is {}", name, states.size() + 1,
-                                to_string(solution.outcome)));
+      throw Failure(
+          fmt::format("{}: intact bridge {} is {}", name, states.size() + 1, to_string(solution.outcome)));
     states.push_back(std::move(solution));
   }
   return states;
 }
 
-/// What an epoch does to the bridges. Epochs have seeds of their own, far from those of bridges.
+constexpr std::uint64_t kEpochs =
+    1u << 30;  // beyond the numbers of bridges, which have seeds of the same series
+
+/// What an epoch does to the bridges.
 std::vector<Stage> stages_of_epoch(const Model& bridge, const SampledTruth& truth, const Between& between,
                                    int epoch) {
   const UncertainParameters uncertain = uncertain_parameters(bridge, truth.uncertainty);
@@ -40,8 +43,10 @@ std::vector<Stage> stages_of_epoch(const Model& bridge, const SampledTruth& trut
   for (int b = 0; b < truth.bridges; ++b) {
     Stage stage;
     if (between.at_random) {
-      const std::uint64_t seed = seed_of(truth.seed + static_cast<std::uint64_t>(epoch), -1 - b);
-      stage = in_epoch(stage, bridge, uncertain, sampled_theta(uncertain.of_epoch.size(), seed));
+      const std::uint64_t epochs = series_seed(truth.seed, kEpochs + static_cast<std::uint64_t>(epoch));
+      stage = in_epoch(
+          stage, bridge, uncertain,
+          sampled_theta(uncertain.of_epoch.size(), series_seed(epochs, static_cast<std::uint64_t>(b))));
     } else if (epoch > 1) {
       stage.temperature = between.warmer;
       if (between.settlement != 0.0)
@@ -55,6 +60,19 @@ std::vector<Stage> stages_of_epoch(const Model& bridge, const SampledTruth& trut
 std::vector<double> shown(const State& state, const Model& bridge) {
   const Eigen::VectorXd vertical = vertical_displacements(state.displacement, bridge.control_points);
   return {vertical.begin(), vertical.end()};
+}
+
+std::vector<BlockId> wall_blocks(const BlockLayout& layout) {
+  std::vector<BlockId> wall;
+  for (std::size_t b = 0; b < layout.size(); ++b)
+    if (layout.blocks[b].role == BlockRole::wall) wall.push_back(BlockId{static_cast<std::int32_t>(b)});
+  return wall;
+}
+
+std::string list_of(const std::vector<Scene>& scenes, const BlockLayout& layout) {
+  std::string text;
+  for (const Scene& scene : scenes) text += (text.empty() ? "" : ";") + to_string(scene, layout);
+  return text;
 }
 
 }  // namespace
@@ -78,8 +96,8 @@ DamagedTruth solve_damaged(const BridgeFile& bridge, const SampledTruth& truth, 
   BuildRequest request{.bridge = bridge, .output = folder / (truth.name + ".h5"), .scenes = scenes};
   request.histories = "built,lost";
   request.fields = KeepField::no;
-  request.other_variants = sampled_variants(make_model(bridge.description), truth.uncertainty, truth.bridges,
-                                            truth.seed);
+  request.other_variants =
+      sampled_variants(make_model(bridge.description), truth.uncertainty, truth.bridges, truth.seed);
   Progress progress(Progress::Mode::automatic);
   build_database(request, quasi_static(), progress);
   return {truth.name, read_true_bridges(Database::open(request.output))};
@@ -105,21 +123,24 @@ IntactTruth solve_intact(const BridgeDescription& description, const SampledTrut
   return result;
 }
 
+std::string wall_singles(const BlockLayout& layout) {
+  std::vector<Scene> scenes = {Scene{}};
+  for (const BlockId block : wall_blocks(layout)) scenes.push_back(Scene{{block}});
+  return list_of(scenes, layout);
+}
+
 std::string random_pairs(const BlockLayout& layout, int count, std::uint64_t seed) {
-  std::vector<BlockId> wall;
-  for (std::size_t b = 0; b < layout.size(); ++b)
-    if (layout[BlockId{static_cast<std::int32_t>(b)}].role == BlockRole::wall)
-      wall.push_back(BlockId{static_cast<std::int32_t>(b)});
+  const std::vector<BlockId> wall = wall_blocks(layout);
+  const auto draw = [&](Random& random) {
+    return wall[random.below(static_cast<std::uint32_t>(wall.size()))];
+  };
   Random random(seed);
-  std::set<Scene> pairs;
-  while (static_cast<int>(pairs.size()) < count) {
-    const BlockId a = wall[random.below(static_cast<std::uint32_t>(wall.size()))];
-    const BlockId b = wall[random.below(static_cast<std::uint32_t>(wall.size()))];
-    if (a != b) pairs.insert(Scene{{std::min(a, b), std::max(a, b)}});
+  std::set<Scene> scenes = {Scene{}};
+  while (static_cast<int>(scenes.size()) <= count) {
+    const BlockId first = draw(random), second = draw(random);
+    if (first != second) scenes.insert(Scene{{std::min(first, second), std::max(first, second)}});
   }
-  std::string text = to_string(Scene{}, layout);
-  for (const Scene& pair : pairs) text += ";" + to_string(pair, layout);
-  return text;
+  return list_of({scenes.begin(), scenes.end()}, layout);
 }
 
 }  // namespace voussoir

@@ -29,14 +29,18 @@ DamagedTruth solve_damaged(const BridgeFile& bridge, const SampledTruth& truth, 
 struct Between {
   double warmer = 0.0;      ///< [K] the whole bridge
   double settlement = 0.0;  ///< [m] of the first foot
-  bool at_random = false;   ///< instead, each epoch has its own temperature and movements, as uncertain as they are
+  bool at_random =
+      false;  ///< instead, each epoch has its own temperature and movements, as uncertain as they are
 };
 
 /// Solves the intact bridges at two times, the second from the state of the first. Throws Failure if one does
 /// not stand.
 IntactTruth solve_intact(const BridgeDescription& bridge, const SampledTruth& truth, const Between& between);
 
-/// So many random pairs of wall blocks, as parse_scene_list reads them.
+/// The intact bridge and all singles of the wall, as parse_scene_list reads them: those of the arch collapse.
+std::string wall_singles(const BlockLayout& layout);
+
+/// The same with so many random pairs of wall blocks in the place of singles.
 std::string random_pairs(const BlockLayout& layout, int count, std::uint64_t seed);
 
 }  // namespace voussoir

@@ -4,7 +4,7 @@
 #include <span>
 #include <string_view>
 
-#include "lookup/readings/random.h"
+#include "core/random.h"
 #include "lookup/readings/readings_file.h"
 
 namespace voussoir {

@@ -8,12 +8,6 @@
 namespace voussoir {
 namespace {
 
-/// Seeds of neighbouring trials do not touch, whatever the number of threads.
-std::uint64_t seed_of(const Taking& taking, std::size_t trial) {
-  constexpr std::uint64_t kSpread = 0x9e3779b97f4a7c15u;  // 2^64 over the golden ratio
-  return (taking.seed * kSpread) ^ (trial + 1);
-}
-
 /// A question and its right answer.
 struct Question {
   std::size_t bridge = 0;
@@ -25,7 +19,7 @@ std::vector<Trial> ask_all(const Asking& asking, const std::vector<Question>& qu
                            const Taking& taking) {
   std::vector<Trial> trials(questions.size());
   tbb::parallel_for(std::size_t{0}, questions.size(), [&](std::size_t i) {
-    Random random(seed_of(taking, i));
+    Random random(series_seed(taking.seed, i));
     trials[i] = ask(asking, take_readings(questions[i].shown, taking.taken, taking.sigma, random),
                     questions[i].truth);
     trials[i].bridge = questions[i].bridge;

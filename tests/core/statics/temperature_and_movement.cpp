@@ -23,8 +23,7 @@ Model bar(PlaneState plane, bool held) {
   description.material.plane = plane;
   description.wall.length = held ? kLength : 2.0 * kLength;
   description.mesh.refinement = 2;
-  return validation::assemble_blocks(description,
-                                     {validation::rectangle(Point(0.0, 0.0), kLength, kHeight)});
+  return validation::assemble_blocks(description, {validation::rectangle(Point(0.0, 0.0), kLength, kHeight)});
 }
 
 /// Displacement of the corner that lies furthest from the supports.
@@ -72,12 +71,14 @@ TEST_CASE("A bar that is held at both ends grows upwards only, by (1 + nu) times
   CHECK(corner.y() == Approx(kHeight * elongation(1.2 * 8e-6 * 30.0)).epsilon(1e-7));
 }
 
-TEST_CASE("A column of two blocks grows by its own expansion and not by its joint's (closed form)", "[stage]") {
+TEST_CASE("A column of two blocks grows by its own expansion and not by its joint's (closed form)",
+          "[stage]") {
   BridgeDescription description;
   description.supports = {.base = SupportKind::roller, .sides = SupportKind::roller};
   description.wall.length = 10.0;
   const Model column = validation::assemble_blocks(
-      description, {validation::rectangle(Point(0.0, 0.0), 1.0, 0.5), validation::rectangle(Point(0.0, 0.5), 1.0, 0.5)});
+      description,
+      {validation::rectangle(Point(0.0, 0.0), 1.0, 0.5), validation::rectangle(Point(0.0, 0.5), 1.0, 0.5)});
   QuasiStaticSolver solver(column);
   const Solution cold = solver.solve(Scene{});
   const Solution warm = solver.solve(StageTask{.stage = {.temperature = 20.0}});
@@ -86,7 +87,8 @@ TEST_CASE("A column of two blocks grows by its own expansion and not by its join
   const Field growth = warm.displacement - cold.displacement;
   const double strain = 8e-6 * 20.0;
   for (int node = 0; node < column.mesh.node_count(); ++node)  // the weight's own strains are 5e-7
-    CHECK((growth.col(node) - strain * column.mesh.nodes.col(node)).norm() < 1e-6 * 20.0 * 8e-6 + strain * strain);
+    CHECK((growth.col(node) - strain * column.mesh.nodes.col(node)).norm() <
+          1e-6 * 20.0 * 8e-6 + strain * strain);
 }
 
 TEST_CASE("Supports that all move together carry the bridge with them and change no force (rigid motion)",
@@ -106,8 +108,9 @@ TEST_CASE("Supports that all move together carry the bridge with them and change
   CHECK(largest < 1e-9);
 }
 
-TEST_CASE("One foot that settles takes down what stands on it, and a stage without movement has no trace of it",
-          "[stage]") {
+TEST_CASE(
+    "One foot that settles takes down what stands on it, and a stage without movement has no trace of it",
+    "[stage]") {
   const Model bridge = test::reference_bridge();
   QuasiStaticSolver solver(bridge);
   const Solution still = solver.solve(Scene{});
@@ -121,8 +124,9 @@ TEST_CASE("One foot that settles takes down what stands on it, and a stage witho
   const EquilibriumSystem& system = solver.system();
   const Coefficients coefficients(system, bridge.parameters);
   CHECK(unbalanced_force(StageEquations(system, coefficients, settled), moved.displacement) < 1e-7);
-  const Eigen::VectorXd change = vertical_displacements(moved.displacement - still.displacement, bridge.control_points);
-  CHECK(change.head(1)[0] < -0.9e-3);  // T1 stands on the foot that settled
+  const Eigen::VectorXd change =
+      vertical_displacements(moved.displacement - still.displacement, bridge.control_points);
+  CHECK(change.head(1)[0] < -0.9e-3);    // T1 stands on the foot that settled
   CHECK(std::abs(change[39]) < 0.1e-3);  // T40 on the other one
   const Solution again = solver.solve(StageTask{.stage = {}});
   CHECK(again.displacement == still.displacement);
