@@ -65,6 +65,58 @@ JointMemory updated_memory(const JointStiffness& joint, const JointMemory& memor
   return {memory.slip_0 + plastic, memory.slip_1 + plastic};
 }
 
+JointForceParts joint_force_parts(const JointStiffness& joint, const JointMemory& memory,
+                                  const JointState& state) {
+  const JointState elastic_state = elastic(state, memory);
+  JointForceParts parts{Eigen::Vector4d::Zero(), Eigen::Vector4d::Zero(), Eigen::Vector4d::Zero()};
+  if (state[0] >= 0.0 && state[2] >= 0.0) return parts;
+  const StretchContact contact = contact_of(joint, elastic_state);
+  const StretchMass closed = mass_of_part(contact.closed.begin, contact.end());
+  const StretchMass above = mass_of(contact, contact.excess.above);
+  const StretchMass below = mass_of(contact, contact.excess.below);
+  const auto force = [&](const StretchMass& mass, int row, int column, double coefficient) {
+    Eigen::Matrix4d matrix = Eigen::Matrix4d::Zero();
+    add_mass(matrix, mass, row, column, coefficient);
+    return Eigen::Vector4d(matrix * elastic_state);
+  };
+  return {force(closed, 0, 0, joint.normal), force(closed - above - below, 1, 1, joint.tangential),
+          force(below - above, 1, 0, joint.cap)};
+}
+
+MemoryDerivatives memory_derivatives(const JointStiffness& joint, const JointMemory& memory,
+                                     const JointState& state) {
+  MemoryDerivatives result;
+  if (state[0] >= 0.0 && state[2] >= 0.0) {
+    result.by_state(0, 1) = result.by_state(1, 3) = 1.0;
+    result.by_memory.setZero();
+    return result;
+  }
+  const JointState x = elastic(state, memory);
+  const StretchContact contact = contact_of(joint, x);
+  if (contact.excess.common == 0.0) return result;
+  // The plastic slip is xi(s) + bound gap(s) at that end s of the closed part where the excess is smaller.
+  const double sign = contact.excess.common > 0.0 ? 1.0 : -1.0;
+  const double bound = sign * joint.cap / joint.tangential;
+  const auto slip = [&](double s) { return x[1] + s * (x[3] - x[1]) + bound * (x[0] + s * (x[2] - x[0])); };
+  const bool at_begin = sign * slip(contact.closed.begin) < sign * slip(contact.end());
+  const double s = at_begin ? contact.closed.begin : contact.end();
+  Eigen::RowVector4d plastic(0.0, 1.0 - s, 0.0, s);
+  if (state[at_begin ? 0 : 2] < 0.0) {
+    plastic[0] = bound * (1.0 - s);
+    plastic[2] = bound * s;
+    const double way = bound * (x[0] + s * (x[2] - x[0]));
+    result.by_friction.setConstant(way);
+    result.by_ratio.setConstant(-way);
+  } else {  // the closed part ends where the gap is zero, s = gap_0 / (gap_0 - gap_1)
+    const double difference = x[0] - x[2];
+    plastic[0] = -(x[3] - x[1]) * x[2] / (difference * difference);
+    plastic[2] = (x[3] - x[1]) * x[0] / (difference * difference);
+  }
+  result.by_state.rowwise() = plastic;
+  result.by_memory.rowwise() -= Eigen::RowVector2d(1.0 - s, s);
+  return result;
+}
+
 Eigen::Matrix4d bonded_joint_tangent(const JointStiffness& joint) {
   const StretchMass whole = mass_of_part(0.0, 1.0);
   Eigen::Matrix4d tangent = Eigen::Matrix4d::Zero();

@@ -100,8 +100,31 @@ struct JointResponse {
 JointResponse integrate_joint(const JointStiffness& joint, const JointMemory& memory,
                               const JointState& state);
 
+/// The force by what it comes from; each part is proportional to its own stiffness, so these are derivatives,
+/// too: `normal` of ln p_n, `sticking` of ln p_t, `slipping` of ln mu and of ln p_n.
+struct JointForceParts {
+  Eigen::Vector4d normal;    ///< pressure [N]
+  Eigen::Vector4d sticking;  ///< shear where the joint sticks [N]
+  Eigen::Vector4d slipping;  ///< shear where it slips [N]
+};
+
+JointForceParts joint_force_parts(const JointStiffness& joint, const JointMemory& memory,
+                                  const JointState& state);
+
 /// What the joint remembers when a stage ends in this state.
 JointMemory updated_memory(const JointStiffness& joint, const JointMemory& memory, const JointState& state);
+
+/// How updated_memory (slip_0, slip_1) changes. It has kinks where slip begins or ends; these are derivatives
+/// beside them.
+struct MemoryDerivatives {
+  Eigen::Matrix<double, 2, 4> by_state = Eigen::Matrix<double, 2, 4>::Zero();
+  Eigen::Matrix2d by_memory = Eigen::Matrix2d::Identity();
+  Eigen::Vector2d by_friction = Eigen::Vector2d::Zero();  ///< by ln mu [m]
+  Eigen::Vector2d by_ratio = Eigen::Vector2d::Zero();     ///< by ln (p_t / p_n) [m]
+};
+
+MemoryDerivatives memory_derivatives(const JointStiffness& joint, const JointMemory& memory,
+                                     const JointState& state);
 
 /// The tangent if the whole stretch were closed and sticking.
 Eigen::Matrix4d bonded_joint_tangent(const JointStiffness& joint);

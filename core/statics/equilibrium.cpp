@@ -3,32 +3,10 @@
 #include <algorithm>
 #include <array>
 
+#include "core/statics/elements.h"
+
 namespace voussoir {
 namespace {
-
-std::array<NodeId, 4> corners(const Joint& joint) {
-  return {joint.first_edge.from, joint.first_edge.to, joint.second_edge.from, joint.second_edge.to};
-}
-
-/// Displacement components of some nodes: 2 node, 2 node + 1, ...
-template <std::size_t N>
-std::array<int, 2 * N> components(const std::array<NodeId, N>& nodes) {
-  std::array<int, 2 * N> result;
-  for (std::size_t i = 0; i < N; ++i) {
-    result[2 * i] = 2 * value(nodes[i]);
-    result[2 * i + 1] = 2 * value(nodes[i]) + 1;
-  }
-  return result;
-}
-
-template <std::size_t N>
-Eigen::Matrix<double, static_cast<int>(2 * N), 1> gathered(const Field& field,
-                                                           const std::array<NodeId, N>& nodes) {
-  Eigen::Matrix<double, static_cast<int>(2 * N), 1> local;
-  for (std::size_t i = 0; i < N; ++i)
-    local.template segment<2>(static_cast<int>(2 * i)) = field.col(value(nodes[i]));
-  return local;
-}
 
 template <std::size_t N, typename Vector>
 void subtract_at(Field& field, const std::array<NodeId, N>& nodes, const Vector& local) {
@@ -103,10 +81,6 @@ void add_local(const std::array<int, N>& slots, const Matrix& local, TangentTarg
     if (slots[k] >= 0) tangent.first[static_cast<std::size_t>(slots[k]) * tangent.stride] += local.data()[k];
 }
 
-bool present(const std::vector<bool>& removed, BlockId block) {
-  return !removed[static_cast<std::size_t>(value(block))];
-}
-
 /// Gives the unknowns of removed blocks an equation of their own: 1 * change = 0.
 void pin_removed(const StageEquations& equations, TangentTarget tangent) {
   const EquilibriumSystem& system = *equations.system;
@@ -125,26 +99,6 @@ void pin_removed(const StageEquations& equations, TangentTarget tangent) {
 void clear_held(const EquilibriumSystem& system, Field& forces) {
   for (std::size_t c = 0; c < system.unknown.size(); ++c)
     if (system.unknown[c] < 0) forces.data()[c] = 0.0;
-}
-
-/// Calls `visit(triangle, block)` for every triangle of a block that is there.
-template <class Visit>
-void for_present_triangles(const StageEquations& equations, const Visit& visit) {
-  const Mesh& mesh = equations.system->structure->mesh;
-  for (std::size_t block = 0; block < equations.removed.size(); ++block) {
-    if (equations.removed[block]) continue;
-    const IndexRange& range = mesh.block_triangles[block];
-    for (int t = range.begin; t < range.end; ++t) visit(static_cast<std::size_t>(t), block);
-  }
-}
-
-/// Calls `visit(joint, its number)` for every joint between blocks that are there.
-template <class Visit>
-void for_present_joints(const StageEquations& equations, const Visit& visit) {
-  const std::vector<Joint>& joints = equations.system->structure->joints;
-  for (std::size_t j = 0; j < joints.size(); ++j)
-    if (present(equations.removed, joints[j].first) && present(equations.removed, joints[j].second))
-      visit(joints[j], j);
 }
 
 }  // namespace
@@ -187,12 +141,13 @@ StageEquations::StageEquations(const EquilibriumSystem& system_, const Coefficie
       coefficients(&coefficients_),
       removed(removal_mask(stage.scene, system_.structure->layout.size())),
       memory(std::move(memory_)),
+      gravity_share(stage.gravity_share),
       temperature(stage.temperature),
       support_movement(stage.support_movement) {
   const Mesh& mesh = system->structure->mesh;
   memory.resize(system->joints.size());
   load = stage.load.size() > 0 ? stage.load : Field::Zero(2, mesh.node_count());
-  load.row(1) -= stage.gravity_share * coefficients->weight.transpose();
+  load.row(1) -= gravity_share * coefficients->weight.transpose();
   largest_load = load.cwiseAbs().maxCoeff();
   if (largest_load == 0.0) largest_load = 1.0;
   for (std::size_t block = 0; block < removed.size(); ++block)

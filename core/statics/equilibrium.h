@@ -60,6 +60,7 @@ struct StageEquations {
   const Coefficients* coefficients;
   std::vector<bool> removed;  ///< per block
   std::vector<JointMemory> memory;
+  double gravity_share;    ///< of the stage
   double temperature;      ///< of the stage [K]
   Field support_movement;  ///< of the stage; empty: none
   Field load;              ///< weight and load of the stage on present blocks [N]

@@ -84,8 +84,11 @@ struct LaneSearch {
   template <class Workspace>
   bool end_step(std::size_t lane, Workspace& w) {
     const int before = reached.iterations;
+    std::vector<State> passed = std::move(reached.steps);
+    if (task->keeps_steps && step > 1) passed.push_back(std::move(static_cast<State&>(reached)));
     reached = search->solution();
     reached.iterations += before;
+    reached.steps = std::move(passed);
     search.reset();
     if (step == task->steps || reached.outcome != Outcome::standing) return true;
     begin_step(&reached, &reached.displacement, lane, w);

@@ -29,6 +29,7 @@ struct Solution : State {
   std::vector<BlockId>
       moving{};  ///< blocks that had moved away when the scene's collapse was decided, ascending;
                  ///< of a scene in motion that stands those that slid and were caught
+  std::vector<State> steps{};  ///< at the ends of all implicit steps but the last, if the task asked for them
 };
 
 }  // namespace voussoir
