@@ -76,6 +76,17 @@ void add_motion_options(CLI::App& app, DynamicSettings& motion) {
       ->capture_default_str();
 }
 
+void add_variant_options(CLI::App& app, BuildOptions& options) {
+  app.add_option(
+         "--variants", options.variants,
+         "also solve so many bridges with parameters drawn from the bridge file's [uncertainty]: their "
+         "singles, or the scenes that --scenes names")
+      ->check(CLI::Range(0, kMostVariants))
+      ->capture_default_str();
+  app.add_option("--variant-seed", options.variant_seed, "other seeds draw other bridges")
+      ->capture_default_str();
+}
+
 /// What is given as a word.
 struct Words {
   std::string solver = "quasi-static";
@@ -98,14 +109,7 @@ void add_options(CLI::App& app, BuildOptions& options, Words& words) {
   app.add_option("--loads", options.request.loads,
                  "all, none, or names of the bridge's load cases, which act after each history")
       ->capture_default_str();
-  app.add_option(
-         "--variants", options.variants,
-         "also solve so many bridges with parameters drawn from the bridge file's [uncertainty]: their "
-         "singles, or the scenes that --scenes names")
-      ->check(CLI::Range(0, kMostVariants))
-      ->capture_default_str();
-  app.add_option("--variant-seed", options.variant_seed, "other seeds draw other bridges")
-      ->capture_default_str();
+  add_variant_options(app, options);
   app.add_option("--threads", options.request.threads, "threads, 0: one for each core")
       ->check(CLI::Range(0, kMostThreads))
       ->capture_default_str();

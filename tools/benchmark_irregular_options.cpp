@@ -9,9 +9,10 @@ constexpr int kMost = 1000000;
 }  // namespace
 
 void add_irregular_options(CLI::App& app, IrregularOptions& options) {
-  app.add_option("--truth", options.truths,
-                 "of --irregular: databases of sampled bridges (build-database --variants) that readings come from; "
-                 "default: they are solved");
+  app.add_option(
+      "--truth", options.truths,
+      "of --irregular: databases of sampled bridges (build-database --variants) that readings come from; "
+      "default: they are solved");
   app.add_option("--folder", options.folder, "of --irregular: where solved bridges are kept")
       ->capture_default_str();
   app.add_option("--scatter", options.scatters, "of --irregular: coefficients of variation of the joints")

@@ -5,10 +5,13 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <numeric>
+#include <set>
 
 #include "core/error.h"
+#include "core/structure/uncertain_parameters.h"
 #include "tests/support/made_up_database.h"
 #include "tests/support/temporary_folder.h"
+#include "tools/trials/sampled_truth.h"
 #include "tools/trials/study_report.h"
 
 using namespace voussoir;
@@ -211,4 +214,92 @@ TEST_CASE("Trials do not depend on what else is asked; other seeds draw other er
   };
   CHECK(likeliest(1) == likeliest(1));
   CHECK(likeliest(1) != likeliest(2));
+}
+
+TEST_CASE("Between two epochs intact bridges stay as they are, or rise with the warmth") {
+  const BridgeDescription description = test::small_bridge_file().description;
+  const Model bridge = make_model(description);
+  const SampledTruth truth{"joints", scattered_joints(0.2), 3, 1};
+  const IntactTruth same = solve_intact(description, truth, {});
+  const IntactTruth warmer = solve_intact(description, truth, {.warmer = 20.0});
+  REQUIRE(same.bridges.size() == 3);
+  CHECK(same.bridges[0].before != same.bridges[1].before);
+  for (std::size_t b = 0; b < same.bridges.size(); ++b) {
+    double rise = 0.0, free = 0.0;
+    for (std::size_t point = 0; point < bridge.control_points.size(); ++point) {
+      CHECK(same.bridges[b].after[point] == Approx(same.bridges[b].before[point]).margin(1e-12));
+      CHECK(warmer.bridges[b].before[point] == same.bridges[b].before[point]);
+      rise += warmer.bridges[b].after[point] - warmer.bridges[b].before[point];
+      free += description.material.thermal_expansion * 20.0 * bridge.control_points[point].position.y();
+    }
+    // A free column rises by alpha dT y; sides that hold push up, an arch rises more in its middle.
+    CHECK(rise > 0.8 * free);
+    CHECK(rise < 2.0 * free);
+  }
+}
+
+TEST_CASE("A foot that settles takes the points above it along, those of the other foot hardly") {
+  const BridgeDescription description = test::small_bridge_file().description;
+  const Model bridge = make_model(description);
+  const IntactTruth truth =
+      solve_intact(description, {"joints", scattered_joints(0.1), 1, 1}, {.settlement = 1e-3});
+  const auto change = [&](std::size_t point) {
+    return truth.bridges[0].after[point] - truth.bridges[0].before[point];
+  };
+  std::size_t left = 0, right = 0;
+  for (std::size_t i = 0; i < bridge.control_points.size(); ++i) {
+    if (bridge.control_points[i].position.x() < bridge.control_points[left].position.x()) left = i;
+    if (bridge.control_points[i].position.x() > bridge.control_points[right].position.x()) right = i;
+  }
+  CHECK(change(left) == Approx(-1e-3).epsilon(0.3));
+  CHECK(std::abs(change(right)) < 3e-4);
+}
+
+TEST_CASE("Epochs at random are others for each bridge and epoch, the same in every run") {
+  const BridgeDescription description = test::small_bridge_file().description;
+  const SampledTruth truth{"everything", {}, 2, 1};
+  const IntactTruth once = solve_intact(description, truth, {.at_random = true});
+  const IntactTruth again = solve_intact(description, truth, {.at_random = true});
+  for (std::size_t b = 0; b < 2; ++b) {
+    CHECK(once.bridges[b].before == again.bridges[b].before);
+    CHECK(once.bridges[b].after == again.bridges[b].after);
+    CHECK(once.bridges[b].before != once.bridges[b].after);
+  }
+}
+
+TEST_CASE("Random pairs are so many different ones of the wall, with the intact bridge") {
+  const Model bridge = make_model(test::small_bridge_file().description);
+  const std::string list = random_pairs(bridge.layout, 20, 3);
+  CHECK(list == random_pairs(bridge.layout, 20, 3));
+  CHECK(list != random_pairs(bridge.layout, 20, 4));
+  std::set<Scene> scenes;
+  for (std::size_t begin = 0; begin < list.size();) {
+    const std::size_t end = std::min(list.find(';', begin), list.size());
+    const Scene scene = parse_scene(list.substr(begin, end - begin), bridge.layout);
+    for (const BlockId block : scene.removed) CHECK(bridge.layout[block].role == BlockRole::wall);
+    scenes.insert(scene);
+    begin = end + 1;
+  }
+  CHECK(scenes.size() == 21);
+  CHECK(scenes.begin()->removed.empty());
+  CHECK(std::ranges::all_of(scenes, [](const Scene& scene) { return scene.missing() != 1; }));
+}
+
+TEST_CASE("Damaged truths are solved once, and taken from their file then") {
+  test::TemporaryFolder folder;
+  const BridgeFile file = test::small_bridge_file();
+  const SampledTruth truth{"joints", scattered_joints(0.2), 2, 1};
+  const DamagedTruth solved = solve_damaged(file, truth, "intact;4,2..3", folder.path());
+  const auto written = std::filesystem::last_write_time(folder / "joints.h5");
+  const DamagedTruth read = solve_damaged(file, truth, "intact;4,2..3", folder.path());
+  CHECK(std::filesystem::last_write_time(folder / "joints.h5") == written);
+  REQUIRE(read.bridges.size() == 2);
+  REQUIRE(read.bridges[0].damaged.size() == 2);
+  CHECK(read.bridges[0].intact == solved.bridges[0].intact);
+  CHECK(read.bridges[0].intact != read.bridges[1].intact);
+  // The intact bridge of the file is the one that solve_intact finds by itself.
+  const IntactTruth intact = solve_intact(file.description, truth, {});
+  for (std::size_t b = 0; b < 2; ++b)
+    for (std::size_t point = 0; point < read.bridges[b].intact.size(); ++point)
+      CHECK(read.bridges[b].intact[point] == Approx(intact.bridges[b].before[point]).epsilon(1e-6));
 }
