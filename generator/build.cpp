@@ -13,6 +13,7 @@
 #include "generator/results_key.h"
 #include "generator/reused_records.h"
 #include "generator/scene_list.h"
+#include "generator/sensitivities.h"
 #include "generator/variants.h"
 
 namespace voussoir {
@@ -125,6 +126,17 @@ std::size_t reuse(const Build& build, Database old, KnownRecords& known) {
   return count;
 }
 
+/// Of the nominal variant, unless the bridge is said to be known.
+std::optional<Sensitivities> sensitivities_of(const Build& build, const KnownRecords& known) {
+  if (build.request.known_bridge) return std::nullopt;
+  std::vector<Scene> scenes;
+  for (const RecordKey& key : build.wanted)
+    if (key.variant == kNominalVariant) scenes.push_back(key.scene);
+  return find_sensitivities({build.bridge(), build.request.bridge.description.uncertainty, build.states,
+                             build.solver, build.provenance.solver_settings, build.request.threads},
+                            scenes, known);
+}
+
 void write(const Build& build, const KnownRecords& known, BuildSummary& summary) {
   const ErrorProbes probes{build.request.bridge.description, build.bridge(), build.states, build.solver};
   const DatabaseContent content{build.provenance,
@@ -133,7 +145,8 @@ void write(const Build& build, const KnownRecords& known, BuildSummary& summary)
                                 build.wanted,
                                 kept_names(build.states),
                                 build.request.fields,
-                                estimate_model_errors(probes)};
+                                estimate_model_errors(probes),
+                                sensitivities_of(build, known)};
   summary.outcomes = OutcomeCounts(content.states);
   const WrittenDatabase written = write_database(build.request.output, content, [&](std::size_t row) {
     Record record = known.kept_record(build.wanted[row], build.request.fields);
@@ -191,7 +204,8 @@ BuildSummary build_database(const BuildRequest& request, const SolverChoice& sol
   summary.output = request.output;
   ExistingDatabase existing = examine_existing(
       request.output,
-      {build.provenance, build.variants, build.wanted, kept_names(build.states), request.fields},
+      {build.provenance, build.variants, build.wanted, kept_names(build.states), request.fields,
+       !request.known_bridge && is_uncertain(request.bridge.description.uncertainty)},
       request.force);
   summary.changes = existing.changes;
   if (existing.up_to_date) {

@@ -24,8 +24,9 @@ struct BuildRequest {
   int threads = 0;  ///< 0: one for each core
   KeepField fields = KeepField::yes;
   PlanRules rules;
-  std::string xdmf_scenes;  ///< scenes of the XDMF index beside the database; empty: no index
-  bool force = false;       ///< build anew even if the file is up to date
+  std::string xdmf_scenes;    ///< scenes of the XDMF index beside the database; empty: no index
+  bool known_bridge = false;  ///< leave out the sensitivities to what is uncertain of the bridge
+  bool force = false;         ///< build anew even if the file is up to date
 };
 
 struct BuildSummary {

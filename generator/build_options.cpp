@@ -130,6 +130,9 @@ void add_options(CLI::App& app, BuildOptions& options, Words& words) {
                  "what is normally skipped or shared is done for every scene, see below")
       ->delimiter(',')
       ->check(CLI::IsMember(switch_names()));
+  app.add_flag("--known-bridge", options.request.known_bridge,
+               "leave out how displacements change with what is uncertain of the bridge: for readings of "
+               "bridges that are just as the file says");
   app.add_flag("--force", options.request.force, "build anew even if the file is up to date");
   app.add_flag("--quiet", options.quiet, "no progress and no messages");
 }

@@ -13,6 +13,11 @@ bool has_keys(const Database& database, const std::vector<RecordKey>& wanted) {
   return true;
 }
 
+bool stands_intact(const Database& database) {
+  const auto row = database.find(Scene{});
+  return !row || database.record(*row).states.front().outcome == Outcome::standing;
+}
+
 std::vector<std::string> find_changes(const Database& database, const WantedDatabase& wanted) {
   std::vector<std::string> changes = differences(wanted.provenance, database.provenance());
   if (database.states() != wanted.states)
@@ -26,6 +31,10 @@ std::vector<std::string> find_changes(const Database& database, const WantedData
         fmt::format("other scenes are wanted ({}, was {})", wanted.keys.size(), database.rows()));
   if (database.has_fields() != (wanted.fields == KeepField::yes))
     changes.push_back(wanted.fields == KeepField::yes ? "fields are wanted" : "fields are no longer wanted");
+  const bool has_sensitivities = database.sensitivities() != nullptr;
+  if (wanted.sensitivities != has_sensitivities && (has_sensitivities || stands_intact(database)))
+    changes.push_back(wanted.sensitivities ? "sensitivities are wanted"
+                                           : "sensitivities are no longer wanted");
   return changes;
 }
 

@@ -22,6 +22,7 @@ struct WantedDatabase {
   const std::vector<RecordKey>& keys;
   std::vector<std::string> states;  ///< names
   KeepField fields;
+  bool sensitivities;  ///< those of an uncertain bridge, if it stands
 };
 
 /// Looks at the file; `force` makes any file out of date and its records worthless. Throws Failure for a file

@@ -18,13 +18,8 @@ namespace {
 constexpr double kSameReadings = 0.1;
 constexpr double kSolverPrecision = 1e-9;      // [m] predictions are not compared more closely
 constexpr std::size_t kMostChecked = 20;       // scenes whose fit is checked
+constexpr std::size_t kMostMixed = 5;          // scenes that say together what the bridge is like
 constexpr std::size_t kMostComparisons = 500;  // rows looked at for scenes that cannot be told apart
-
-/// The evidence of every scene, or -infinity where it does not matter.
-std::vector<double> evidence_of_scenes(const Library& library, const Observation& observation,
-                                       const Eligible& eligible, const LookupSettings& settings) {
-  return EvidenceScreen(library.table, library.index, eligible, settings.prior)(observation, settings.top);
-}
 
 std::vector<ScoredRow> run_genetic(const Library& library, const Observation& observation,
                                    const LookupSettings& settings, Answer& answer) {
@@ -135,21 +130,40 @@ Fit fit_of(const Library& library, const Observation& observation, const Answer&
   return fit;
 }
 
-/// The noise, the fit and the residuals if the best candidate is the truth, and what cannot be told from the
-/// candidates.
-void judge_best(const Library& library, const Observation& observation, const std::vector<ScoredRow>& found,
-                Answer& answer) {
-  const std::span<const double> best = library.table.row(found.front().row);
-  answer.noise = estimate_noise(observation, best);
+/// What cannot be told from the candidates by these sensors.
+void add_same_readings(const Library& library, const Observation& observation,
+                       const std::vector<ScoredRow>& found, Answer& answer) {
   const ErrorScales scales = scales_at(observation, std::max(answer.noise->level, kSmallestLevel));
-  answer.residuals = sensor_residuals(observation, scales, best);
-  answer.fit = fit_of(library, observation, answer);
   const std::vector<std::size_t> others = rows_to_compare(found, *answer.posterior);
   for (Candidate& candidate : answer.candidates)
     for (const std::size_t other : others)
       if (other != candidate.row &&
           same_readings(observation, scales, library.table.row(candidate.row), library.table.row(other)))
         candidate.same_readings.push_back(library.table.scene(other));
+}
+
+/// The noise, the fit and the residuals if the best candidate is the truth.
+void judge_known_bridge(const Library& library, const Observation& observation, std::size_t best,
+                        Answer& answer) {
+  const std::span<const double> prediction = library.table.row(best);
+  answer.noise = estimate_noise(observation, prediction);
+  answer.residuals = sensor_residuals(
+      observation, scales_at(observation, std::max(answer.noise->level, kSmallestLevel)), prediction);
+  answer.fit = fit_of(library, observation, answer);
+}
+
+/// The same, and what the readings say of the bridge, averaged over the likeliest scenes.
+void judge_unknown_bridge(const UnknownBridgeQuestion& question, const Observation& observation,
+                          Answer& answer) {
+  answer.noise = {NoiseShape::gaussian, question.level(), observation.unknown_level};
+  answer.fit = {false, 0.0, "every scene lacks a block that has a reading"};
+  std::vector<WeightedScene> scenes;
+  for (const std::size_t row : answer.posterior->credible)
+    if (scenes.size() < kMostMixed) scenes.push_back({row, answer.posterior->probability[row]});
+  if (scenes.empty()) return;
+  answer.bridge = {question.bridge(), question.posterior(scenes)};
+  answer.fit = check_fit(answer.bridge->posterior);
+  answer.residuals = sensor_residuals(observation, answer.bridge->model, answer.bridge->posterior);
 }
 
 /// The candidates' rows, best first.
@@ -176,25 +190,43 @@ Candidate candidate_of(const Library& library, const ScoredRow& found,
 
 }  // namespace
 
+bool counts_as_known(const Comparison& comparison, const LookupSettings& settings) {
+  return settings.known_bridge || comparison.factors == nullptr || settings.objective == Objective::paper;
+}
+
 Answer locate_damage(const Comparison& comparison, const LookupSettings& settings) {
   const Library& library = comparison.library;
+  const bool known = counts_as_known(comparison, settings);
+  const Prior prior = stated_prior(settings.prior, known);
   const Eligible eligible = eligible_rows(library.table, settings.prior.missing);
   if (eligible.rows.empty())
     throw Failure(fmt::format("the database has no solved scene with {} missing blocks",
                               fmt::join(settings.prior.missing, ", ")));
-  const Observation observation = observe(comparison, settings.noise, settings.nuisance);
+  const Observation observation =
+      observe(comparison, known ? settings.noise : gaussian_noise(settings.noise), settings.nuisance);
   Answer answer;
   answer.readings = comparison.measured.count();
   answer.searched = eligible.rows.size();
   answer.unresolved = eligible.unresolved;
+  if (settings.epochs == Epochs::both && comparison.before.empty())
+    throw InputError("both epochs are to count, expected readings with before_mm and after_mm");
+  std::optional<UnknownBridgeQuestion> question;
+  if (!known) question.emplace(comparison, observation, settings.nuisance.scale, settings.epochs);
   if (settings.objective == Objective::posterior) {
-    const std::vector<double> evidence = evidence_of_scenes(library, observation, eligible, settings);
-    answer.posterior = posterior(library.table, eligible, evidence, settings.prior, library.layout.size());
+    const std::vector<double> evidence =
+        question ? question->log_evidence(eligible, prior, settings.top)
+                 : EvidenceScreen(library.table, library.index, eligible, prior)(observation, settings.top);
+    answer.posterior = posterior(library.table, eligible, evidence, prior, library.layout.size());
   }
   const std::vector<ScoredRow> found = found_rows(library, observation, eligible, settings, answer);
   for (const ScoredRow& row : found)
     answer.candidates.push_back(candidate_of(library, row, answer.posterior));
-  if (answer.posterior && !found.empty()) judge_best(library, observation, found, answer);
+  if (!answer.posterior || found.empty()) return answer;
+  if (question)
+    judge_unknown_bridge(*question, observation, answer);
+  else
+    judge_known_bridge(library, observation, found.front().row, answer);
+  add_same_readings(library, observation, found, answer);
   return answer;
 }
 

@@ -8,6 +8,7 @@
 #include "lookup/evidence/evidence.h"
 #include "lookup/evidence/fit.h"
 #include "lookup/evidence/posterior.h"
+#include "lookup/evidence/unknown_question.h"
 #include "lookup/readings/comparison.h"
 #include "lookup/readings/noise_model.h"
 #include "lookup/readings/nuisance.h"
@@ -27,6 +28,8 @@ struct LookupSettings {
   Prior prior;
   NoiseModel noise;
   Nuisance nuisance;
+  bool known_bridge = false;       ///< what the comparison says of the bridge's uncertainty does not count
+  Epochs epochs = Epochs::change;  ///< what readings of two epochs are, if the bridge is not known
   std::size_t top = 10;  ///< candidates wanted
   GeneticSettings genetic;
 };
@@ -41,17 +44,28 @@ struct Candidate {
   std::vector<Scene> same_readings;  ///< scenes that these sensors cannot tell from this one under this noise
 };
 
+/// What the readings say of a bridge that is not exactly known, beside the scenes.
+struct BridgeAnswer {
+  UnknownBridge model;  ///< of the readings, at the likeliest level of the noise
+  BridgePosterior posterior;
+};
+
 struct Answer {
   std::vector<Candidate> candidates;      ///< best first
   std::optional<Posterior> posterior;     ///< with Objective::posterior
   std::optional<NoiseEstimate> noise;     ///< if the best candidate is the truth; with Objective::posterior
   std::optional<Fit> fit;                 ///< of the best candidate; with Objective::posterior
   std::vector<SensorResidual> residuals;  ///< of the best candidate, a value for each reading
+  std::optional<BridgeAnswer> bridge;     ///< unless the bridge counts as known, or no scene is possible
   std::size_t readings = 0;
   std::size_t searched = 0;            ///< scenes
   std::size_t unresolved = 0;          ///< scenes left out because the solver gave no answer
   std::vector<GeneticResult> genetic;  ///< with Search::genetic: for one and for two missing blocks
 };
+
+/// True if the answer is one for a bridge that is exactly as the model says: it is wanted so, nothing is known
+/// of the uncertainty of these readings, or only misfits are asked for.
+bool counts_as_known(const Comparison& comparison, const LookupSettings& settings);
 
 /// Scores the scenes of the library and ranks the best.
 /// Throws Failure if the library has no scene with the wanted numbers of missing blocks, InputError if no

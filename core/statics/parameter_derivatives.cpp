@@ -82,8 +82,8 @@ void add_modulus(const StageEquations& equations, const Field& displacement, dou
   for_present_triangles(equations, [&](std::size_t t, std::size_t block) {
     const auto& nodes = system.structure->mesh.triangles[t].nodes;
     add_forces(system, nodes,
-               Vector6d(-sigma * triangle_force(system.triangles[t], with.moduli[block], with.thickness[block],
-                                                gathered(displacement, nodes),
+               Vector6d(-sigma * triangle_force(system.triangles[t], with.moduli[block],
+                                                with.thickness[block], gathered(displacement, nodes),
                                                 equations.temperature * with.thermal[block])),
                column, entries);
   });
@@ -203,17 +203,17 @@ MemoryJacobian memory_jacobian(const StageEquations& equations, const Field& dis
     for (int end = 0; end < 2; ++end)
       for (int other = 0; other < 2; ++other)
         by_memory.emplace_back(memory_of(j)[static_cast<std::size_t>(end)],
-                               memory_of(j)[static_cast<std::size_t>(other)], derivatives[j].by_memory(end, other));
+                               memory_of(j)[static_cast<std::size_t>(other)],
+                               derivatives[j].by_memory(end, other));
   int column = 0;
   for (const UncertainAction& action : uncertain.of_bridge) {
     const bool is_friction = action.quantity == UncertainQuantity::friction;
     if (is_friction || action.quantity == UncertainQuantity::stiffness_ratio)
       for (const std::size_t j : action.joints)
         for (int end = 0; end < 2; ++end)
-          by_parameters.emplace_back(
-              memory_of(j)[static_cast<std::size_t>(end)], column,
-              action.parameter.sigma *
-                  (is_friction ? derivatives[j].by_friction[end] : derivatives[j].by_ratio[end]));
+          by_parameters.emplace_back(memory_of(j)[static_cast<std::size_t>(end)], column,
+                                     action.parameter.sigma * (is_friction ? derivatives[j].by_friction[end]
+                                                                           : derivatives[j].by_ratio[end]));
     ++column;
   }
   const auto ends = static_cast<Eigen::Index>(2 * system.joints.size());

@@ -101,7 +101,8 @@ bool SensitivitySolver::solve_transposed(const SolvedStep& step, Eigen::MatrixXd
     linear_.solve(right_);
     for (std::size_t i = 0; i < right_.size(); ++i)
       for (std::size_t lane = 0; lane < count; ++lane)
-        right_hand_sides(system_.component[i], first + static_cast<Eigen::Index>(lane)) = right_[i].value[lane];
+        right_hand_sides(system_.component[i], first + static_cast<Eigen::Index>(lane)) =
+            right_[i].value[lane];
   }
   return right_hand_sides.allFinite();
 }
@@ -149,9 +150,9 @@ bool SensitivitySolver::step_back(const SolvedStep& step, Adjoint& adjoint) {
 
 std::optional<Eigen::MatrixXd> SensitivitySolver::solve(const SolvedHistory& history,
                                                         const Eigen::MatrixXd& readings) {
-  Adjoint adjoint{readings,
-                  Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(2 * system_.joints.size()), readings.cols()),
-                  Eigen::MatrixXd::Zero(movements_.cols(), readings.cols())};
+  Adjoint adjoint{
+      readings, Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(2 * system_.joints.size()), readings.cols()),
+      Eigen::MatrixXd::Zero(movements_.cols(), readings.cols())};
   for (auto step = history.rbegin(); step != history.rend() && !adjoint.is_zero(); ++step)
     if (!step_back(*step, adjoint)) return std::nullopt;
   return adjoint.by_parameters.transpose();

@@ -21,4 +21,9 @@ struct Uncertainty {
   friend bool operator==(const Uncertainty&, const Uncertainty&) = default;
 };
 
+/// Is anything of the bridge or of an epoch not known exactly?
+inline bool is_uncertain(const Uncertainty& uncertainty) {
+  return uncertainty != Uncertainty{0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
+}
+
 }  // namespace voussoir

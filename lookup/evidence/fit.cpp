@@ -41,6 +41,12 @@ double limit_of_agreement(const std::vector<SensorResidual>& residuals) {
   return kDisagreement * *middle;
 }
 
+void mark_disagreement(std::vector<SensorResidual>& residuals) {
+  const double limit = limit_of_agreement(residuals);
+  for (SensorResidual& residual : residuals)
+    residual.disagrees = limit > 0.0 && std::abs(residual.error) > limit;
+}
+
 double lower_tail(double standard_normal) {
   return boost::math::cdf(boost::math::normal(), standard_normal);
 }
@@ -122,9 +128,28 @@ std::vector<SensorResidual> sensor_residuals(const Observation& observation, con
     result.push_back(
         {point, reading, prediction[point], scale, (reading - prediction[point]) / scale, false});
   }
-  const double limit = limit_of_agreement(result);
-  for (SensorResidual& residual : result)
-    residual.disagrees = limit > 0.0 && std::abs(residual.error) > limit;
+  mark_disagreement(result);
+  return result;
+}
+
+std::vector<SensorResidual> sensor_residuals(const Observation& observation, const UnknownBridge& bridge,
+                                             const BridgePosterior& posterior) {
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  std::vector<SensorResidual> result;
+  for (std::size_t point = 0; point < observation.displacement.size(); ++point)
+    if (const double reading = observation.displacement[point]; !std::isnan(reading))
+      result.push_back({point, reading, reading, kNan, kNan, false});
+  for (std::size_t k = 0; k < bridge.rows.size(); ++k) {
+    const auto row = static_cast<Eigen::Index>(k);
+    if (bridge.rows[k].after == 0.0) continue;
+    const auto found = std::find_if(result.begin(), result.end(), [&](const SensorResidual& residual) {
+      return residual.point == bridge.rows[k].channel;
+    });
+    found->predicted = found->reading - posterior.left[row];
+    found->scale = std::sqrt(bridge.noise(row, row));
+    found->error = posterior.others[row];
+  }
+  mark_disagreement(result);
   return result;
 }
 
@@ -143,6 +168,12 @@ Fit check_fit(const Observation& observation, const NoiseEstimate& noise,
   const double chance = chance_of_pattern(errors);
   return {chance >= kSmallestChance, chance,
           chance >= kSmallestChance ? "" : "neighbouring sensors deviate together, as noise does not"};
+}
+
+Fit check_fit(const BridgePosterior& posterior) {
+  const bool explained = posterior.chance >= kSmallestChance;
+  return {explained, posterior.chance,
+          explained ? "" : "the scatter exceeds what instruments and an uncertain bridge explain"};
 }
 
 }  // namespace voussoir

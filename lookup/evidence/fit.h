@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "database/records/database.h"
+#include "lookup/evidence/bridge_posterior.h"
 #include "lookup/evidence/evidence.h"
 
 namespace voussoir {
@@ -38,5 +39,12 @@ std::vector<SensorResidual> sensor_residuals(const Observation& observation, con
 /// sum of the logarithms of every error's chance)? With an unknown level: is it below the largest level, and
 /// free of a pattern along the bridge (von Neumann's ratio of successive differences)?
 Fit check_fit(const Observation& observation, const NoiseEstimate& noise, std::span<const double> prediction);
+
+/// The same of a bridge that is not exactly known. `predicted` is what the likeliest scene lets expect with what
+/// the readings say of the bridge; `scale` the standard deviation of instrument and model; `error` how far the
+/// reading is from what all others let expect, in standard deviations of that.
+std::vector<SensorResidual> sensor_residuals(const Observation& observation, const UnknownBridge& bridge,
+                                             const BridgePosterior& posterior);
+Fit check_fit(const BridgePosterior& posterior);
 
 }  // namespace voussoir

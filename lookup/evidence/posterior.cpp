@@ -41,6 +41,15 @@ std::vector<std::size_t> credible_set(const std::vector<double>& probability) {
 
 }  // namespace
 
+Prior stated_prior(Prior prior, bool known_bridge) {
+  if (known_bridge || !prior.weight.empty()) return prior;
+  for (const int missing : prior.missing) {
+    const auto number = std::min(static_cast<std::size_t>(missing), kBeliefInMissing.size() - 1);
+    prior.weight.push_back(kBeliefInMissing[number]);
+  }
+  return prior;
+}
+
 std::vector<double> log_prior_by_missing(const SceneTable& table, const Eligible& eligible,
                                          const Prior& prior) {
   if (!prior.weight.empty() && prior.weight.size() != prior.missing.size())

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/error.h"
+#include "core/text.h"
 #include "lookup/readings/reading_states.h"
 
 namespace voussoir {
@@ -99,6 +101,17 @@ ModelError model_error_of(const Database& database, std::size_t base, const std:
   return result;
 }
 
+/// Of other sensors than control points the database has no sensitivities.
+void require_control_points(const ReadingsFile& file, const SensorList& list) {
+  for (const Reading& reading : file.readings)
+    if (reading.sensor >= list.control_points)
+      throw InputError(at_line(file.name, reading.line,
+                               fmt::format("sensor {} is no control point: what it shows of a bridge that is not "
+                                           "exactly known is not in the database; expected control points, or "
+                                           "--known-bridge",
+                                           voussoir::quoted(list.sensors[reading.sensor].name))));
+}
+
 }  // namespace
 
 Comparison absolute_readings(Library library, Measurements measured) {
@@ -122,6 +135,11 @@ Comparison compare(const ReadingsFile& file, const SensorList& list, const Datab
   enter(file, settings.sigma, result);
   result.model_error = settings.model_error ? ModelError{*settings.model_error, 0.0, {}}
                                             : model_error_of(database, states.base, channels, result.library);
+  const Sensitivities* const sensitivities = settings.known_bridge ? nullptr : database.sensitivities();
+  if (sensitivities != nullptr) {
+    require_control_points(file, list);
+    result.factors = reading_factors(*sensitivities, states.base, channels, result.library.layout.size());
+  }
   if (own_table) return result;
   result.levelling = levelling_of(channels);
   for (const Channel& channel : channels) {

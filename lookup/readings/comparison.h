@@ -8,6 +8,7 @@
 #include "database/records/state_name.h"
 #include "lookup/readings/library.h"
 #include "lookup/readings/measurements.h"
+#include "lookup/readings/reading_factors.h"
 #include "lookup/readings/reading_kind.h"
 #include "lookup/readings/readings_file.h"
 
@@ -26,6 +27,7 @@ struct Comparison {
   std::vector<double> after{};
   std::vector<Quantity> quantity{};  ///< by channel; empty: all displacements upwards
   std::vector<std::string> load{};   ///< by channel; empty: none
+  std::shared_ptr<const ReadingFactors> factors{};  ///< of the channels; null: the bridge counts as known
 };
 
 /// Readings of displacements at a database's control points in its first state.
@@ -35,13 +37,15 @@ struct ComparisonSettings {
   std::optional<std::string> history;   ///< "built" or "lost"; nothing: what fits the readings
   std::optional<double> sigma{};        ///< [m] of readings that do not state their own
   std::optional<double> model_error{};  ///< share of a signal, in the place of what the database states
+  bool known_bridge = false;            ///< what is uncertain of the bridge is left out
 };
 
 /// Readings beside the predictions of the database's states. Without a wish absolute readings are compared
 /// with the history `built`, all others with `lost`, or with the other one where the database lacks states.
 /// Changes and absolute readings at control points are compared with the database's own table and its search
 /// index; for all others a library of their own is computed, from the fields where sensors are no control
-/// points. Throws InputError for histories and loads that the database lacks, Failure without the fields.
+/// points. Throws InputError for histories and loads that the database lacks and, unless the bridge is to
+/// count as known, for sensors that are no control points; Failure without the fields.
 Comparison compare(const ReadingsFile& file, const SensorList& list, const Database& database,
                    const ComparisonSettings& settings);
 

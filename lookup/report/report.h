@@ -43,5 +43,6 @@ std::string picture_report(const Answer& answer, const Comparison& comparison);
 /// Names of settings as the command line has them.
 std::string_view to_string(Objective objective);
 std::string_view to_string(Search search);
+std::string_view to_string(Epochs epochs);
 
 }  // namespace voussoir

@@ -1,5 +1,7 @@
+#include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "lookup/report/bridge_report.h"
 #include "lookup/report/reading_words.h"
 #include "lookup/report/report.h"
 #include "lookup/report/report_words.h"
@@ -36,6 +38,7 @@ ordered_json settings_json(const LookupSettings& settings) {
                          {"generations", settings.genetic.most_generations},
                          {"seed", settings.genetic.seed}};
   if (settings.objective == Objective::paper) return result;
+  result["epochs"] = to_string(settings.epochs);
   ordered_json noise = {{"model", to_string(settings.noise.shape)},
                         {"relative", nullptr},
                         {"floor_m", settings.noise.floor},
@@ -88,7 +91,7 @@ ordered_json sensors_json(const Answer& answer, const Comparison& comparison) {
 /// What the readings are, what they were compared with, and the answer in one word.
 void add_judgement(const Answer& answer, const Comparison& comparison, ordered_json& result) {
   result["history"] = comparison.history;
-  result["known_bridge"] = true;  // of all predictions of this version
+  result["known_bridge"] = !answer.bridge.has_value();
   result["model_error"] = {{"share", comparison.model_error.share},
                            {"common", comparison.model_error.common}};
   result["intact_probability"] = nullptr;
@@ -96,6 +99,32 @@ void add_judgement(const Answer& answer, const Comparison& comparison, ordered_j
   if (!answer.posterior) return;
   result["intact_probability"] = intact_probability(*answer.posterior);
   result["verdict"] = to_string(verdict_of(*answer.posterior, answer.fit && answer.fit->explained));
+}
+
+ordered_json parameter_json(const KnownParameter& parameter) {
+  return {{"name", parameter.name},
+          {"unit", parameter.unit},
+          {"before", {{"mean", 0.0}, {"deviation", parameter.deviation_before}}},
+          {"after", {{"mean", parameter.mean}, {"deviation", parameter.deviation}}}};
+}
+
+/// What moved the sensors, and what the readings say of the bridge and of temperature and supports.
+ordered_json bridge_json(const BridgeAnswer& bridge, const ReadingFactors& factors) {
+  ordered_json causes = ordered_json::array(), scatter = ordered_json::array(),
+               parameters = ordered_json::array(), epochs = ordered_json::array();
+  for (const Cause& cause : causes_of(bridge, factors))
+    causes.push_back({{"cause", cause.name}, {"share", cause.share}, {"rms_m", cause.size}});
+  for (std::size_t k = 0; k < kScatterFactors.size(); ++k)
+    scatter.push_back({{"deviation_factor", std::sqrt(kScatterFactors[k])},
+                       {"probability", bridge.posterior.scatter[k]}});
+  for (const KnownParameter& parameter : known_of_bridge(bridge, factors))
+    parameters.push_back(parameter_json(parameter));
+  for (const KnownParameter& parameter : known_of_epochs(bridge, factors))
+    epochs.push_back(parameter_json(parameter));
+  return {{"causes", std::move(causes)},
+          {"scatter", std::move(scatter)},
+          {"parameters", std::move(parameters)},
+          {"epochs", std::move(epochs)}};
 }
 
 }  // namespace
@@ -128,6 +157,7 @@ std::string json_report(const Answer& answer, const LookupSettings& settings, co
   if (answer.fit)
     result["fit"] = {
         {"explained", answer.fit->explained}, {"chance", answer.fit->chance}, {"reason", answer.fit->reason}};
+  if (answer.bridge) result["bridge"] = bridge_json(*answer.bridge, *comparison.factors);
   if (!answer.residuals.empty()) result["sensors"] = sensors_json(answer, comparison);
   for (const GeneticResult& run : answer.genetic)
     result["genetic"].push_back({{"generations", run.generations},

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "lookup/report/bridge_report.h"
 #include "lookup/report/drawing/page.h"
 #include "lookup/report/report.h"
 #include "lookup/report/report_pictures.h"
@@ -14,10 +15,13 @@
 namespace voussoir {
 namespace {
 
+constexpr std::size_t kMostParametersShown = 12;
+
 using Terms = std::vector<std::pair<std::string, std::string>>;
 
 std::string verdict_html(const Answer& answer, const Library& library) {
   std::string html;
+  if (const std::string first = headline(answer, library); !first.empty()) html += paragraph(first, "lead");
   for (const std::string& sentence : verdict(answer, library))
     html += paragraph(sentence, html.empty() ? "lead" : "");
   if (answer.posterior)
@@ -61,6 +65,50 @@ Figure candidates_figure(const Answer& answer, const Library& library) {
           5};
 }
 
+Figure causes_figure(const Answer& answer, const ReadingFactors& factors) {
+  Table table{{"cause", "share of the squares [%]", "root mean square [mm]"}, {}};
+  for (const Cause& cause : causes_of(*answer.bridge, factors))
+    table.rows.push_back({cause.name, 100.0 * cause.share, 1e3 * cause.size});
+  return {"causes",
+          "What moved the sensors",
+          "As far as the answer believes in it, if the first scene is the truth. Shares sum up to 100 %; parts "
+          "that work against each other can have negative ones.",
+          "",
+          table,
+          false,
+          TableView::open,
+          3};
+}
+
+Figure parameters_figure(const Answer& answer, const ReadingFactors& factors) {
+  std::vector<KnownParameter> parameters = known_of_bridge(*answer.bridge, factors);
+  std::stable_sort(parameters.begin(), parameters.end(),
+                   [](const auto& a, const auto& b) { return a.news() > b.news(); });
+  parameters.resize(std::min(parameters.size(), kMostParametersShown));
+  for (const KnownParameter& parameter : known_of_epochs(*answer.bridge, factors))
+    parameters.push_back(parameter);
+  Table table{{"parameter", "unit", "before", "after: mean", "after: spread"}, {}};
+  for (const KnownParameter& one : parameters)
+    table.rows.push_back({one.name, one.unit == "1" ? "relative" : one.unit, one.deviation_before, one.mean,
+                          one.deviation});
+  return {"parameters",
+          "What the readings say of the bridge",
+          "Standard deviations before and after, and the mean after; before it is zero. The parameters of which "
+          "the readings say most, then those of temperature and supports.",
+          "",
+          table,
+          false,
+          TableView::open,
+          3};
+}
+
+std::string bridge_html(const Answer& answer, const Comparison& comparison) {
+  if (!answer.bridge) return "";
+  return section_html("bridge", "Other causes, and the bridge itself",
+                      figures_html({causes_figure(answer, *comparison.factors),
+                                    parameters_figure(answer, *comparison.factors)}));
+}
+
 std::string level_in_words(const NoiseModel& noise) {
   if (noise.relative == 0.0) return "nothing relative to the reading";
   return noise.relative ? fmt::format("{:.3g} % of the displacement, as stated", 100.0 * *noise.relative)
@@ -85,6 +133,7 @@ void add_noise_terms(const Answer& answer, const LookupSettings& settings, Terms
   if (settings.nuisance.any()) terms.emplace_back("Also unknown", unknowns_in_words(settings.nuisance));
 }
 
+/// `prior` has its weights stated (stated_prior); without weights they are those of a known bridge.
 std::string weights_in_words(const Prior& prior) {
   std::string text;
   for (std::size_t i = 0; i < prior.missing.size(); ++i) {
@@ -106,6 +155,9 @@ std::string search_in_words(const LookupSettings& settings) {
 std::string assumptions_html(const Answer& answer, const LookupSettings& settings,
                              const Comparison& comparison, const Source& source) {
   Terms terms = {
+      {"Bridge", answer.bridge ? "not exactly known: parameters of joints and blocks, temperature and supports "
+                                 "are uncertain as the bridge file states, with half to twice that scatter"
+                               : "taken as exactly known"},
       {"Measurements",
        fmt::format("{}: {}", source.measurements, readings_in_words(comparison, answer.readings))},
       {"History", history_in_words(comparison.history)},
@@ -117,7 +169,7 @@ std::string assumptions_html(const Answer& answer, const LookupSettings& setting
                         ? "the misfit log(sum |measured - scene|) alone, which gives no probabilities"
                         : "posterior probability of each scene"},
       {"Search", search_in_words(settings)},
-      {"Numbers of missing blocks considered", weights_in_words(settings.prior)},
+      {"Numbers of missing blocks considered", weights_in_words(stated_prior(settings.prior, !answer.bridge))},
       {"The model's own error",
        fmt::format("{:.2g} % of the change that a scene makes at a point, and {:.2g} % of "
                    "that change's root mean square",
@@ -157,7 +209,7 @@ std::string page_report(const Answer& answer, const LookupSettings& settings, co
           section_html("ranked", "Candidates", figures_html({candidates_figure(answer, library)})) +
           section_html("readings", "Readings against the first candidate",
                        figures_html(profile_figures(pictures)) + figures_html(residual_figures(pictures))) +
-          assumed);
+          bridge_html(answer, comparison) + assumed);
 }
 
 }  // namespace voussoir

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "lookup/report/bridge_report.h"
 #include "lookup/report/reading_words.h"
 #include "lookup/report/report.h"
 #include "lookup/report/report_words.h"
@@ -17,6 +18,8 @@ constexpr std::size_t kMostBlocksListed = 5;
 constexpr std::size_t kMostSensorsListed = 5;
 constexpr double kBlockWorthListing = 0.01;
 constexpr std::size_t kDigestShown = 12;
+constexpr std::size_t kMostParametersListed = 5;
+constexpr double kWorthSaying = 0.5;  // KnownParameter::news
 
 /// Collects lines.
 class Text {
@@ -41,6 +44,9 @@ void write_heading(Text& text, const Answer& answer, const Comparison& compariso
                 ? ""
                 : fmt::format("; {} more have no solution and were left out", answer.unresolved));
   text.line("History:      {}", history_in_words(comparison.history));
+  text.line("Bridge:       {}", answer.bridge ? "not exactly known: joints, stone, temperature and supports are "
+                                               "uncertain as the bridge file states"
+                                             : "taken as exactly known");
 }
 
 void write_verdict(Text& text, const Answer& answer, const Library& library) {
@@ -133,6 +139,22 @@ void write_sensors(Text& text, const Answer& answer, const Comparison& compariso
               kMillimetres * (sensor.predicted - origin[sensor.point]));
 }
 
+/// What else moved the sensors, and what the readings say of the bridge.
+void write_bridge(Text& text, const Answer& answer, const Comparison& comparison) {
+  if (!answer.bridge) return;
+  const ReadingFactors& factors = *comparison.factors;
+  text.line("Explained by: {}", causes_in_words(causes_of(*answer.bridge, factors)));
+  for (const KnownParameter& parameter : known_of_epochs(*answer.bridge, factors))
+    if (parameter.news() > kWorthSaying) text.line("      {}", in_words(parameter));
+  std::vector<KnownParameter> bridge = known_of_bridge(*answer.bridge, factors);
+  std::stable_sort(bridge.begin(), bridge.end(),
+                   [](const auto& a, const auto& b) { return a.news() > b.news(); });
+  bridge.resize(std::min(bridge.size(), kMostParametersListed));
+  std::erase_if(bridge, [](const auto& parameter) { return parameter.news() <= kWorthSaying; });
+  if (!bridge.empty()) text.line("The readings say of the bridge itself:");
+  for (const KnownParameter& parameter : bridge) text.line("      {}", in_words(parameter));
+}
+
 void write_genetic(Text& text, const Answer& answer) {
   for (const GeneticResult& run : answer.genetic)
     text.line("Genetic search: {} generations, the best appeared in generation {}, {} scenes scored",
@@ -144,6 +166,7 @@ void write_genetic(Text& text, const Answer& answer) {
 std::string text_report(const Answer& answer, const Comparison& comparison, const Source& source) {
   const Library& library = comparison.library;
   Text text;
+  if (const std::string first = headline(answer, library); !first.empty()) text.line("{}\n", first);
   write_heading(text, answer, comparison, source);
   write_genetic(text, answer);
   text.line("");
@@ -161,6 +184,7 @@ std::string text_report(const Answer& answer, const Comparison& comparison, cons
   write_movements(text, answer, comparison);
   write_groups(text, answer, library);
   if (answer.posterior && !answer.posterior->credible.empty()) write_probabilities(text, answer, library);
+  write_bridge(text, answer, comparison);
   if (answer.posterior) write_sensors(text, answer, comparison);
   return text.take();
 }

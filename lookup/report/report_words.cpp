@@ -20,6 +20,21 @@ std::optional<std::size_t> missed_row(const Answer& answer) {
   return missed ? std::optional(likeliest) : std::nullopt;
 }
 
+Verdict verdict_of(const Answer& answer) {
+  return verdict_of(*answer.posterior, answer.fit && answer.fit->explained);
+}
+
+/// The blocks that are certainly missing.
+std::string located_in_words(const Posterior& posterior, const Library& library) {
+  const std::vector<BlockId> blocks = likely_blocks(posterior, kCertain);
+  std::string names;
+  for (const BlockId id : blocks)
+    names += fmt::format("{}{} ({})", names.empty() ? "" : " and ", to_string(library.layout[id].index),
+                         percent(posterior.block_probability[static_cast<std::size_t>(value(id))]));
+  return fmt::format("Block{} {} {} missing.", blocks.size() == 1 ? "" : "s", names,
+                     blocks.size() == 1 ? "is" : "are");
+}
+
 std::string in_words(const Scene& scene, const Library& library) {
   return fmt::format("{} ({})", to_string(scene, library.layout), place_in_words(scene, library.layout));
 }
@@ -29,7 +44,33 @@ std::string in_words(const Scene& scene, const Library& library) {
 std::string_view standing(const Answer& answer) {
   if (!answer.posterior) return "best match";
   if (missed_row(answer)) return "nearest by misfit";
-  return answer.fit && !answer.fit->explained ? "closest" : "most likely";
+  switch (verdict_of(answer)) {
+    case Verdict::unexplained:
+      return "closest";
+    case Verdict::cannot_tell:
+    case Verdict::damaged_unlocated:
+      return "likeliest of many";
+    default:
+      return "most likely";
+  }
+}
+
+std::string headline(const Answer& answer, const Library& library) {
+  if (!answer.posterior) return "";
+  const Posterior& posterior = *answer.posterior;
+  const double intact = intact_probability(posterior);
+  switch (verdict_of(answer)) {
+    case Verdict::located:
+      return located_in_words(posterior, library);
+    case Verdict::damaged_unlocated:
+      return fmt::format("Blocks are missing ({}), but the readings do not say which.", percent(1.0 - intact));
+    case Verdict::intact:
+      return fmt::format("No block is missing ({}).", percent(intact));
+    case Verdict::cannot_tell:
+      return fmt::format("The readings do not tell whether blocks are missing (none is: {}).", percent(intact));
+    default:
+      return "The readings fit no scene of this database: neither damage nor its absence is shown.";
+  }
 }
 
 std::vector<std::string> verdict(const Answer& answer, const Library& library) {

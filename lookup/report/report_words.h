@@ -15,7 +15,11 @@ std::vector<std::string> verdict(const Answer& answer, const Library& library);
 /// "located (a block is missing and named, at least 90 % sure)"
 std::string verdict_in_words(const Posterior& posterior, bool explained);
 
-/// What the first candidate is: "most likely", or only "closest" if nothing explains the readings, "nearest
+/// The verdict as a sentence: "Block 10,4 is missing (98.2 %)." Without probabilities nothing.
+std::string headline(const Answer& answer, const Library& library);
+
+/// What the first candidate is: "most likely", or only "likeliest of many" where the verdict names no scene and
+/// "closest" if nothing explains the readings, "nearest
 /// by misfit" if the search did not find the likeliest scene, "best match" without probabilities.
 std::string_view standing(const Answer& answer);
 

@@ -1,0 +1,43 @@
+#pragma once
+/// @file Sensitivities of the intact bridge and the singles to what is uncertain of the bridge, for a
+/// database.
+
+#include "database/records/sensitivities.h"
+#include "generator/known_records.h"
+#include "generator/scene_solving.h"
+#include "generator/state_plan.h"
+
+namespace voussoir {
+
+/// The basis holds what the intact bridge's displacements depend on, down to this standard deviation [m]: a
+/// hundredth of what good gauges read.
+inline constexpr double kLeastDeviation = 1e-7;
+
+/// And of the variance of every signal, taken on average over scenes and states, all but this share.
+inline constexpr double kLeftOfSignals = 1e-3;
+
+struct SensitivityStudy {
+  const Model& bridge;  ///< the nominal variant
+  const Uncertainty& uncertainty;
+  const StatePlan& states;  ///< those that are kept are looked at
+  const SolverChoice& solver;
+  const std::string& settings;  ///< of the solver
+  int threads = 0;
+};
+
+/// Sensitivities of the intact bridge and of those of the scenes that lack one block, where they stand; in
+/// `known` are their states as far as they have been solved. Nothing if nothing is uncertain or the intact
+/// bridge does not stand.
+///
+/// A state of which the stored field is in equilibrium after one implicit step, too, has the derivatives of
+/// this step; of others the loss is solved again in all its steps.
+std::optional<Sensitivities> find_sensitivities(const SensitivityStudy& study, const std::vector<Scene>& scenes,
+                                                const KnownRecords& known);
+
+/// Orthonormal directions of the bridge's parameters: see kLeastDeviation and kLeftOfSignals. `derivatives`:
+/// of each state and scene, points x parameters (the bridge's first, `of_bridge` of them); those of the
+/// intact bridge come first. Empty ones are not known.
+Eigen::MatrixXd sensitivity_basis(const std::vector<std::vector<Eigen::MatrixXd>>& derivatives,
+                                  Eigen::Index of_bridge);
+
+}  // namespace voussoir

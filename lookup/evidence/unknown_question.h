@@ -1,0 +1,43 @@
+#pragma once
+/// @file A question about a bridge that is not exactly known: the evidence of every scene, then what the
+/// readings say of the bridge.
+
+#include <span>
+#include <vector>
+
+#include "lookup/evidence/bridge_posterior.h"
+#include "lookup/evidence/posterior.h"
+
+namespace voussoir {
+
+class UnknownBridgeQuestion {
+ public:
+  /// All of them outlive the question. The comparison has factors; the
+  /// observation Gaussian noise (gaussian_noise). Throws InputError if no reading is at a point that can move.
+  UnknownBridgeQuestion(const Comparison& comparison, const Observation& observation, double scale,
+                        Epochs epochs);
+
+  /// log p(readings | scene) by row of the table, what is not known marginalised: the parameters of bridge and
+  /// epochs, their scatter, the noise's level. -infinity for rows that are impossible, not eligible, or hold
+  /// less than kScreenedAway of the posterior together; the `count` likeliest are never left out.
+  std::vector<double> log_evidence(const Eligible& eligible, const Prior& prior, std::size_t count);
+
+  /// Of these scenes, at the likeliest level.
+  BridgePosterior posterior(const std::vector<WeightedScene>& scenes) const;
+
+  const UnknownBridge& bridge() const { return bridges_[likeliest_]; }
+  double level() const { return levels_[likeliest_]; }  ///< [-] of the noise: stated, or the likeliest
+
+ private:
+  const Comparison& comparison_;
+  const Observation& observation_;
+  std::vector<double> levels_;
+  std::vector<UnknownBridge> bridges_;  // of each level
+  std::size_t likeliest_ = 0;
+};
+
+/// The noise as the evidence of an unknown bridge counts it: of any shape a Gaussian of its variance, as all
+/// else that is unknown is Gaussian.
+NoiseModel gaussian_noise(NoiseModel noise);
+
+}  // namespace voussoir

@@ -1,0 +1,93 @@
+#include "lookup/report/bridge_report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace voussoir {
+namespace {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+constexpr std::string_view kTemperature = "temperature";
+
+/// Parameters of the bridge and those of epochs lie one behind the other.
+std::size_t first_of_epochs(const ReadingFactors& factors) {
+  return factors.parameters.size() - static_cast<std::size_t>(factors.of_epoch());
+}
+
+KnownParameter in_own_unit(const UncertainParameter& parameter, double before, double mean, double deviation) {
+  return {parameter.name, parameter.unit, parameter.sigma * before, parameter.sigma * mean,
+          parameter.sigma * deviation};
+}
+
+}  // namespace
+
+std::vector<Cause> causes_of(const BridgeAnswer& bridge, const ReadingFactors& factors) {
+  const auto& [model, posterior] = bridge;
+  VectorXd counts(model.reading.size());
+  for (Index k = 0; k < counts.size(); ++k)
+    counts[k] = model.rows[static_cast<std::size_t>(k)].after != 0.0 ? 1.0 : 0.0;
+  const VectorXd all = model.reading.cwiseProduct(counts);
+  std::vector<Cause> causes;
+  const auto add = [&](std::string name, const VectorXd& part) {
+    const double size = part.cwiseProduct(counts).norm() / std::sqrt(std::max(1.0, counts.sum()));
+    causes.push_back({std::move(name), all.isZero(0.0) ? 0.0 : part.dot(all) / all.squaredNorm(), size});
+  };
+  VectorXd temperature = VectorXd::Zero(counts.size()), supports = temperature;
+  for (Index i = 0; i < posterior.from_epochs.cols(); ++i) {
+    const std::string& name = factors.parameters[first_of_epochs(factors) + static_cast<std::size_t>(i)].name;
+    (name == kTemperature ? temperature : supports) += posterior.from_epochs.col(i);
+  }
+  add("missing blocks", posterior.signal);
+  add("the bridge itself", posterior.from_bridge);
+  add("temperature", temperature);
+  add("supports", supports);
+  add("what is left", posterior.left);
+  return causes;
+}
+
+double KnownParameter::news() const {
+  return std::abs(mean) / deviation_before + std::abs(std::log(deviation / deviation_before));
+}
+
+std::vector<KnownParameter> known_of_bridge(const BridgeAnswer& bridge, const ReadingFactors& factors) {
+  std::vector<KnownParameter> result;
+  for (const ParameterEstimate& one : parameter_estimates(bridge.posterior, factors.basis))
+    result.push_back(in_own_unit(factors.parameters[one.parameter], 1.0, one.mean, one.deviation));
+  return result;
+}
+
+std::vector<KnownParameter> known_of_epochs(const BridgeAnswer& bridge, const ReadingFactors& factors) {
+  const auto& [model, posterior] = bridge;
+  const Index columns = factors.of_epoch();
+  std::vector<KnownParameter> result;
+  for (Index i = 0; i < columns; ++i) {
+    VectorXd weights = VectorXd::Zero(posterior.epoch_mean.size());
+    weights[weights.size() - columns + i] = 1.0;
+    if (model.epochs > 1) weights[i] = -1.0;
+    const auto& parameter = factors.parameters[first_of_epochs(factors) + static_cast<std::size_t>(i)];
+    result.push_back(in_own_unit(parameter, weights.norm(), weights.dot(posterior.epoch_mean),
+                                 std::sqrt(weights.dot(posterior.epoch_covariance * weights))));
+  }
+  return result;
+}
+
+std::string in_words(const KnownParameter& parameter) {
+  const bool relative = parameter.unit == "1";
+  const double factor = relative ? 100.0 : parameter.unit == "m" ? 1e3 : parameter.unit == "rad" ? 1e3 : 1.0;
+  const std::string unit = relative ? "%" : parameter.unit == "m" ? "mm" : parameter.unit == "rad" ? "mrad" : parameter.unit;
+  return fmt::format("{}: {:+.2g} +- {:.2g} {} (before: +- {:.2g} {})", parameter.name, factor * parameter.mean,
+                     factor * parameter.deviation, unit, factor * parameter.deviation_before, unit);
+}
+
+std::string causes_in_words(const std::vector<Cause>& causes) {
+  std::string text;
+  for (const Cause& cause : causes)
+    text += fmt::format("{}{} {:.0f} %", text.empty() ? "" : ", ", cause.name, 100.0 * cause.share + 0.0);
+  return text;
+}
+
+}  // namespace voussoir

@@ -1,0 +1,47 @@
+#pragma once
+/// @file What the readings say of a bridge that is not exactly known, as tables for text, JSON and page.
+
+#include <string>
+#include <vector>
+
+#include "lookup/lookup.h"
+
+namespace voussoir {
+
+/// Something that moved the sensors, as far as the answer believes in it: means, of the likeliest scene.
+struct Cause {
+  std::string name;    ///< "missing blocks", "the bridge itself", "temperature", "supports", "what is left"
+  double share = 0.0;  ///< [-] of the sum of squares of the readings less what the nominal intact bridge shows:
+                       ///< their product with this part. Shares sum up to one; a part that works against the
+                       ///< others has a negative one
+  double size = 0.0;   ///< [m] root mean square of the part
+};
+
+/// Of changes and of what loads add the readings are those; the first epoch's own do not count.
+std::vector<Cause> causes_of(const BridgeAnswer& bridge, const ReadingFactors& factors);
+
+/// A parameter in its own unit, or a relative change where the parameter is a logarithm.
+struct KnownParameter {
+  std::string name;
+  std::string unit;               ///< "1" of relative changes
+  double deviation_before = 0.0;  ///< as the bridge file states it; the mean before is zero
+  double mean = 0.0;
+  double deviation = 0.0;
+
+  /// How far the readings moved or narrowed what was believed, to choose what is worth showing.
+  double news() const;
+};
+
+/// All parameters of the bridge, in their order.
+std::vector<KnownParameter> known_of_bridge(const BridgeAnswer& bridge, const ReadingFactors& factors);
+
+/// All parameters of epochs: of two epochs how they changed.
+std::vector<KnownParameter> known_of_epochs(const BridgeAnswer& bridge, const ReadingFactors& factors);
+
+/// "young modulus: -4 +- 3 % (before: +- 15 %)"
+std::string in_words(const KnownParameter& parameter);
+
+/// "missing blocks 97 %, the bridge itself 1 %, .."
+std::string causes_in_words(const std::vector<Cause>& causes);
+
+}  // namespace voussoir
