@@ -41,9 +41,8 @@ std::vector<SceneStates> states_of(const SensitivityStudy& study, const std::vec
   for (const Scene& scene : scenes) {
     const RecordKey key{kNominalVariant, scene};
     const bool is_known = known.can_start(key);
-    groups.push_back({.solved = scene,
-                      .states = is_known ? known.states(key) : known.old_states(key),
-                      .image = {}});
+    groups.push_back(
+        {.solved = scene, .states = is_known ? known.states(key) : known.old_states(key), .image = {}});
     all_known = all_known && is_known;
   }
   if (!all_known) {
@@ -107,7 +106,8 @@ class SceneDerivatives {
               SolvedHistory& history) {
     const Stage stage{.scene = scene, .load = planned.load};
     append_stage(equations_.system, equations_.coefficients, stage, solution, 1, history);
-    if (!is_loss || unbalanced_force(history.back().equations, history.back().displacement) <= kSameEquilibrium)
+    if (!is_loss ||
+        unbalanced_force(history.back().equations, history.back().displacement) <= kSameEquilibrium)
       return;
     history.pop_back();
     const State before{history.back().displacement,
@@ -174,8 +174,8 @@ Eigen::MatrixXd sensitivity_basis(const std::vector<std::vector<Eigen::MatrixXd>
   for (const auto& state : derivatives)
     if (state.front().size() > 0)
       gram += state.front().leftCols(of_bridge).transpose() * state.front().leftCols(of_bridge);
-  const Eigen::MatrixXd of_intact = leading_directions(
-      gram, [](double, double next) { return next < kLeastDeviation * kLeastDeviation; });
+  const Eigen::MatrixXd of_intact =
+      leading_directions(gram, [](double, double next) { return next < kLeastDeviation * kLeastDeviation; });
 
   gram.setZero();
   double count = 0.0;
@@ -195,8 +195,8 @@ Eigen::MatrixXd sensitivity_basis(const std::vector<std::vector<Eigen::MatrixXd>
   return basis;
 }
 
-std::optional<Sensitivities> find_sensitivities(const SensitivityStudy& study, const std::vector<Scene>& scenes,
-                                                const KnownRecords& known) {
+std::optional<Sensitivities> find_sensitivities(const SensitivityStudy& study,
+                                                const std::vector<Scene>& scenes, const KnownRecords& known) {
   // Sums are ordered by the sizes of caches: the same ones everywhere give the same bits.
   Eigen::setCpuCacheSizes(32 * 1024, 256 * 1024, 2 * 1024 * 1024);
   const Equations equations(study.bridge, study.uncertainty);
@@ -213,10 +213,9 @@ std::optional<Sensitivities> find_sensitivities(const SensitivityStudy& study, c
   for (auto& state : derivatives) {
     StateSensitivities& one = result.states.emplace_back();
     for (Eigen::MatrixXd& scene : state)
-      one.scenes.push_back(scene.size() == 0
-                               ? SceneFactors{}
-                               : SceneFactors{scene.leftCols(of_bridge) * result.basis,
-                                              scene.rightCols(scene.cols() - of_bridge)});
+      one.scenes.push_back(scene.size() == 0 ? SceneFactors{}
+                                             : SceneFactors{scene.leftCols(of_bridge) * result.basis,
+                                                            scene.rightCols(scene.cols() - of_bridge)});
     one.residual = {Eigen::MatrixXd(points, 0), Eigen::MatrixXd(points, 0), 0.0, 0.0};
   }
   return result;

@@ -31,8 +31,8 @@ struct SensitivityStudy {
 ///
 /// A state of which the stored field is in equilibrium after one implicit step, too, has the derivatives of
 /// this step; of others the loss is solved again in all its steps.
-std::optional<Sensitivities> find_sensitivities(const SensitivityStudy& study, const std::vector<Scene>& scenes,
-                                                const KnownRecords& known);
+std::optional<Sensitivities> find_sensitivities(const SensitivityStudy& study,
+                                                const std::vector<Scene>& scenes, const KnownRecords& known);
 
 /// Orthonormal directions of the bridge's parameters: see kLeastDeviation and kLeftOfSignals. `derivatives`:
 /// of each state and scene, points x parameters (the bridge's first, `of_bridge` of them); those of the

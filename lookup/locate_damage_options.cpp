@@ -29,9 +29,10 @@ void add_search_options(CLI::App& app, LocateDamageOptions& options) {
       ->delimiter(',')
       ->check(CLI::Range(0, kMostMissing))
       ->option_text("LIST");
-  app.add_option("--prior", settings.prior.weight,
-                 "weights of these numbers, what is believed beforehand; default 1000,10,1: a block has gone in "
-                 "one of a hundred bridges, two in one of a thousand (with --known-bridge 8,1,1)")
+  app.add_option(
+         "--prior", settings.prior.weight,
+         "weights of these numbers, what is believed beforehand; default 1000,10,1: a block has gone in "
+         "one of a hundred bridges, two in one of a thousand (with --known-bridge 8,1,1)")
       ->delimiter(',')
       ->check(number_in_range(0.0, kLargestWeight, "LIST"))
       ->option_text("LIST");
@@ -181,8 +182,7 @@ LookupSettings finish(const LocateDamageOptions& options) {
 
 ComparisonSettings comparison_settings(const LocateDamageOptions& options) {
   ComparisonSettings settings;
-  settings.known_bridge =
-      options.settings.known_bridge || options.settings.objective == Objective::paper;
+  settings.known_bridge = options.settings.known_bridge || options.settings.objective == Objective::paper;
   if (!options.history.empty()) settings.history = options.history;
   if (!options.sigma.empty()) settings.sigma = parse_sigma(options.sigma);
   if (!options.model_error.empty()) settings.model_error = parse_noise_level(options.model_error);

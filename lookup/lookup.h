@@ -30,7 +30,7 @@ struct LookupSettings {
   Nuisance nuisance;
   bool known_bridge = false;       ///< what the comparison says of the bridge's uncertainty does not count
   Epochs epochs = Epochs::change;  ///< what readings of two epochs are, if the bridge is not known
-  std::size_t top = 10;  ///< candidates wanted
+  std::size_t top = 10;            ///< candidates wanted
   GeneticSettings genetic;
 };
 
@@ -63,8 +63,8 @@ struct Answer {
   std::vector<GeneticResult> genetic;  ///< with Search::genetic: for one and for two missing blocks
 };
 
-/// True if the answer is one for a bridge that is exactly as the model says: it is wanted so, nothing is known
-/// of the uncertainty of these readings, or only misfits are asked for.
+/// True if the answer is one for a bridge that is exactly as the model says: it is wanted so, nothing is
+/// known of the uncertainty of these readings, or only misfits are asked for.
 bool counts_as_known(const Comparison& comparison, const LookupSettings& settings);
 
 /// Scores the scenes of the library and ranks the best.

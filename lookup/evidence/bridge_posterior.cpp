@@ -120,7 +120,8 @@ std::vector<ParameterEstimate> parameter_estimates(const BridgePosterior& poster
   for (Index i = 0; i < basis.rows(); ++i) {
     const double outside = 1.0 - std::min(1.0, basis.row(i).squaredNorm());
     const double inside = basis.row(i).dot(basis.row(i) * posterior.bridge_covariance);
-    estimates.push_back({static_cast<std::size_t>(i), mean[i], std::sqrt(outside * posterior.variance + inside)});
+    estimates.push_back(
+        {static_cast<std::size_t>(i), mean[i], std::sqrt(outside * posterior.variance + inside)});
   }
   return estimates;
 }

@@ -18,8 +18,8 @@ struct WeightedScene {
 /// A mixture over the likeliest scenes and over kappa, by its moments. All parameters are standardised.
 struct BridgePosterior {
   std::array<double, kScatterFactors.size()> scatter{};  ///< probability of each of kScatterFactors
-  double variance = 1.0;             ///< mean of kappa: of whatever the readings say nothing of
-  Eigen::VectorXd bridge_mean;       ///< of the basis's columns
+  double variance = 1.0;        ///< mean of kappa: of whatever the readings say nothing of
+  Eigen::VectorXd bridge_mean;  ///< of the basis's columns
   Eigen::MatrixXd bridge_covariance;
   Eigen::VectorXd epoch_mean;  ///< of the parameters of each epoch in y, the second's last
   Eigen::MatrixXd epoch_covariance;
@@ -29,7 +29,7 @@ struct BridgePosterior {
   Eigen::VectorXd from_bridge;  ///< expected of the parameters of the bridge
   Eigen::MatrixXd from_epochs;  ///< and of each parameter of the epochs: a column for each parameter
   Eigen::VectorXd left;         ///< of the readings: y less all of these
-  Eigen::VectorXd others;  ///< y less what all other readings let expect, in standard deviations of that
+  Eigen::VectorXd others;       ///< y less what all other readings let expect, in standard deviations of that
   double chance = 1.0;  ///< of readings as far from what the scenes let expect as these, or farther: even
                         ///< between 0 and 1 over many questions if the model is right (chi square)
 };

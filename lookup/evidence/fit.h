@@ -40,9 +40,9 @@ std::vector<SensorResidual> sensor_residuals(const Observation& observation, con
 /// free of a pattern along the bridge (von Neumann's ratio of successive differences)?
 Fit check_fit(const Observation& observation, const NoiseEstimate& noise, std::span<const double> prediction);
 
-/// The same of a bridge that is not exactly known. `predicted` is what the likeliest scene lets expect with what
-/// the readings say of the bridge; `scale` the standard deviation of instrument and model; `error` how far the
-/// reading is from what all others let expect, in standard deviations of that.
+/// The same of a bridge that is not exactly known. `predicted` is what the likeliest scene lets expect with
+/// what the readings say of the bridge; `scale` the standard deviation of instrument and model; `error` how
+/// far the reading is from what all others let expect, in standard deviations of that.
 std::vector<SensorResidual> sensor_residuals(const Observation& observation, const UnknownBridge& bridge,
                                              const BridgePosterior& posterior);
 Fit check_fit(const BridgePosterior& posterior);

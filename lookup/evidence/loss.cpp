@@ -33,8 +33,8 @@ VectorXd signal_of(const Observation& observation, const std::vector<ReadingRow>
   return signal;
 }
 
-Loss loss_of(const Comparison& comparison, const Observation& observation, const std::vector<ReadingRow>& rows,
-             std::size_t row, const SceneFactors& change, Index epochs) {
+Loss loss_of(const Comparison& comparison, const Observation& observation,
+             const std::vector<ReadingRow>& rows, std::size_t row, const SceneFactors& change, Index epochs) {
   const std::span<const double> prediction = comparison.library.table.row(row);
   const FirstOrderResidual& residual = comparison.factors->residual;
   const auto n = static_cast<Index>(rows.size());

@@ -26,8 +26,9 @@ struct Loss {
 
 /// The loss that makes a row of the comparison's table; `change`: its factors by channel, which may be not
 /// known. Factors of epochs have `epochs` times the parameters' columns; those of the second come last.
-Loss loss_of(const Comparison& comparison, const Observation& observation, const std::vector<ReadingRow>& rows,
-             std::size_t row, const SceneFactors& change, Eigen::Index epochs);
+Loss loss_of(const Comparison& comparison, const Observation& observation,
+             const std::vector<ReadingRow>& rows, std::size_t row, const SceneFactors& change,
+             Eigen::Index epochs);
 
 /// What the row of a table differs from the intact bridge [m]; rows are those of y.
 Eigen::VectorXd signal_of(const Observation& observation, const std::vector<ReadingRow>& rows,

@@ -17,8 +17,8 @@ struct Prior {
                                          ///< numbers. Uniform over the scenes within each number
 };
 
-/// Of a bridge that is not exactly known, no, one and two missing blocks: one in a hundred times that a bridge
-/// is levelled a block has gone since, and of these one in ten times two. No published rate was found
+/// Of a bridge that is not exactly known, no, one and two missing blocks: one in a hundred times that a
+/// bridge is levelled a block has gone since, and of these one in ten times two. No published rate was found
 /// (inspection records count conditions, not blocks); a stock that lost blocks more often than once in a
 /// hundred inspections would be repaired, not monitored. docs/uncertainty.md says what other beliefs change.
 inline constexpr std::array<double, 3> kBeliefInMissing = {1000.0, 10.0, 1.0};

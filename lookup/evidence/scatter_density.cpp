@@ -32,7 +32,7 @@ struct Factorisation {
 VOUSSOIR_INLINE void four_columns(const Factorisation& f, std::size_t i, std::size_t j) {
   DoubleLanes* const to = f.row(i);
   const DoubleLanes *const r0 = f.row(j), *const r1 = f.row(j + 1), *const r2 = f.row(j + 2),
-                    *const r3 = f.row(j + 3);
+                           *const r3 = f.row(j + 3);
   DoubleLanes s0 = f.entry(i, j), s1 = f.entry(i, j + 1), s2 = f.entry(i, j + 2), s3 = f.entry(i, j + 3);
   for (std::size_t p = 0; p < j; ++p) {
     const DoubleLanes own = to[p];
@@ -90,9 +90,9 @@ void add_outer(const double* a, std::size_t rows, std::size_t width, double* sum
     for (std::size_t j = 0; j <= i; j += kTogether) {
       const std::size_t last = i;  // rows beyond the diagonal are worked out once more and dropped
       DoubleLanes sums[kTogether] = {};
-      const double* const others[kTogether] = {
-          a + j * width, a + smaller(j + 1, last) * width, a + smaller(j + 2, last) * width,
-          a + smaller(j + 3, last) * width};
+      const double* const others[kTogether] = {a + j * width, a + smaller(j + 1, last) * width,
+                                               a + smaller(j + 2, last) * width,
+                                               a + smaller(j + 3, last) * width};
       for (std::size_t p = 0; p < width; p += kLanes) {
         const DoubleLanes some = load<DoubleLanes>(own + p);
         for (std::size_t k = 0; k < kTogether; ++k) sums[k] += some * load<DoubleLanes>(others[k] + p);

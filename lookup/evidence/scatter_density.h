@@ -25,12 +25,14 @@ constexpr std::size_t padded(std::size_t columns) {
 /// Adds A A^T to a lower triangle. A: so many rows of padded(columns) numbers, one after the other.
 void add_outer_product(const std::vector<double>& a, std::size_t rows, LowerTriangle& sum);
 
-/// Factorises noise + kappa * bridge for all kScatterFactors side by side. Keeps its memory for the next call.
+/// Factorises noise + kappa * bridge for all kScatterFactors side by side. Keeps its memory for the next
+/// call.
 class ScatterDensity {
  public:
   /// log N(difference; 0, noise + kappa bridge) for each kappa; NaN where that is not positive definite.
   std::array<double, kScatterFactors.size()> operator()(const std::vector<double>& difference,
-                                                        const LowerTriangle& noise, const LowerTriangle& bridge);
+                                                        const LowerTriangle& noise,
+                                                        const LowerTriangle& bridge);
 
  private:
   LaneVector factor_;  // lower triangle, and the difference as one more row

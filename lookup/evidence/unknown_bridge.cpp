@@ -129,9 +129,8 @@ void add_losses(const Comparison& comparison, const Observation& observation, Un
     } else if (missing > 1 && of_pair.empty()) {
       break;  // few removed blocks come first
     } else if (const auto found = of_pair.find(table.scene(row)); found != of_pair.end()) {
-      bridge.pairs.emplace_back(found->first,
-                                loss_of(comparison, observation, bridge.rows, row, *found->second,
-                                        bridge.epochs));
+      bridge.pairs.emplace_back(
+          found->first, loss_of(comparison, observation, bridge.rows, row, *found->second, bridge.epochs));
     }
   }
   std::sort(bridge.pairs.begin(), bridge.pairs.end(),
@@ -156,8 +155,9 @@ UnknownBridge unknown_bridge(const Comparison& comparison, const Observation& ob
 }
 
 std::vector<const Loss*> known_losses(const UnknownBridge& bridge, const Scene& scene) {
-  const auto own = std::lower_bound(bridge.pairs.begin(), bridge.pairs.end(), scene,
-                                    [](const auto& pair, const Scene& wanted) { return pair.first < wanted; });
+  const auto own =
+      std::lower_bound(bridge.pairs.begin(), bridge.pairs.end(), scene,
+                       [](const auto& pair, const Scene& wanted) { return pair.first < wanted; });
   if (own != bridge.pairs.end() && own->first == scene) return {&own->second};
   std::vector<const Loss*> losses;
   for (const BlockId block : scene.removed)

@@ -4,14 +4,14 @@
 ///   y | scene, kappa ~ N(mean, kappa A A^T + E E^T + noise)
 ///
 /// A, E: what a standard deviation of the bridge's and of each epoch's parameters changes (ReadingFactors);
-/// kappa: by how much the bridge's scatter differs from what the bridge file states (scatter_factor.h); noise:
-/// instruments, levellings, the model's own error, and what the first order leaves.
+/// kappa: by how much the bridge's scatter differs from what the bridge file states (scatter_factor.h);
+/// noise: instruments, levellings, the model's own error, and what the first order leaves.
 ///
 /// A pair's factors are those of the intact bridge and what its two blocks change alone, unless the database
 /// has its own. Of what a scene's signal is beyond that of its blocks with known factors, the whole counts as
-/// uncertain as signals typically are: by one factor, and once more at each point by itself. So scenes without
-/// factors (that collapse, or with a block whose loss alone makes a collapse) are told less sharply, not
-/// excluded.
+/// uncertain as signals typically are: by one factor, and once more at each point by itself. So scenes
+/// without factors (that collapse, or with a block whose loss alone makes a collapse) are told less sharply,
+/// not excluded.
 
 #include <Eigen/Core>
 #include <optional>
@@ -30,13 +30,13 @@ enum class Epochs {
 
 struct UnknownBridge {
   std::vector<ReadingRow> rows;
-  Eigen::VectorXd reading;   ///< [m] less what the intact bridge shows
-  Eigen::VectorXd movement;  ///< [m] of the intact bridge, as a common factor counts it
-  SceneFactors intact;       ///< epochs' parameters: a column for each epoch and parameter
-  Eigen::MatrixXd noise;     ///< [m2] of all scenes
-  std::vector<Loss> blocks;  ///< by block
+  Eigen::VectorXd reading;                    ///< [m] less what the intact bridge shows
+  Eigen::VectorXd movement;                   ///< [m] of the intact bridge, as a common factor counts it
+  SceneFactors intact;                        ///< epochs' parameters: a column for each epoch and parameter
+  Eigen::MatrixXd noise;                      ///< [m2] of all scenes
+  std::vector<Loss> blocks;                   ///< by block
   std::vector<std::pair<Scene, Loss>> pairs;  ///< with factors of their own, in ascending order
-  Eigen::Index epochs = 1;  ///< in y, each with its own columns
+  Eigen::Index epochs = 1;                    ///< in y, each with its own columns
   double spread = 0.0;  ///< [-] standard deviation of a signal as a share of it, where it is not known better
   double scale = 0.0;   ///< [-] Observation::unknown_scale as far as it was asked for
 };

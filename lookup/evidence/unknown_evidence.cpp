@@ -54,7 +54,8 @@ ScatterLogs logs_of(const SceneGaussian& scene, const LowerTriangle& common, Wor
 }  // namespace
 
 std::vector<ScatterLogs> scatter_logs(const UnknownBridge& bridge, const Observation& observation,
-                                      const SceneTable& table, std::span<const std::size_t> rows, int threads) {
+                                      const SceneTable& table, std::span<const std::size_t> rows,
+                                      int threads) {
   const LowerTriangle common = lower_of(bridge.noise);
   std::vector<ScatterLogs> result(rows.size());
   for_each_index_on_threads((rows.size() + kBlockRows - 1) / kBlockRows, threads, [&](std::size_t block) {

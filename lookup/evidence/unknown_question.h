@@ -13,13 +13,14 @@ namespace voussoir {
 class UnknownBridgeQuestion {
  public:
   /// All of them outlive the question. The comparison has factors; the
-  /// observation Gaussian noise (gaussian_noise). Throws InputError if no reading is at a point that can move.
+  /// observation Gaussian noise (gaussian_noise). Throws InputError if no reading is at a point that can
+  /// move.
   UnknownBridgeQuestion(const Comparison& comparison, const Observation& observation, double scale,
                         Epochs epochs);
 
-  /// log p(readings | scene) by row of the table, what is not known marginalised: the parameters of bridge and
-  /// epochs, their scatter, the noise's level. -infinity for rows that are impossible, not eligible, or hold
-  /// less than kScreenedAway of the posterior together; the `count` likeliest are never left out.
+  /// log p(readings | scene) by row of the table, what is not known marginalised: the parameters of bridge
+  /// and epochs, their scatter, the noise's level. -infinity for rows that are impossible, not eligible, or
+  /// hold less than kScreenedAway of the posterior together; the `count` likeliest are never left out.
   std::vector<double> log_evidence(const Eligible& eligible, const Prior& prior, std::size_t count);
 
   /// Of these scenes, at the likeliest level.

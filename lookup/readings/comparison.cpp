@@ -105,11 +105,12 @@ ModelError model_error_of(const Database& database, std::size_t base, const std:
 void require_control_points(const ReadingsFile& file, const SensorList& list) {
   for (const Reading& reading : file.readings)
     if (reading.sensor >= list.control_points)
-      throw InputError(at_line(file.name, reading.line,
-                               fmt::format("sensor {} is no control point: what it shows of a bridge that is not "
-                                           "exactly known is not in the database; expected control points, or "
-                                           "--known-bridge",
-                                           voussoir::quoted(list.sensors[reading.sensor].name))));
+      throw InputError(
+          at_line(file.name, reading.line,
+                  fmt::format("sensor {} is no control point: what it shows of a bridge that is not "
+                              "exactly known is not in the database; expected control points, or "
+                              "--known-bridge",
+                              voussoir::quoted(list.sensors[reading.sensor].name))));
 }
 
 }  // namespace

@@ -25,8 +25,8 @@ struct Comparison {
   std::vector<int> levelling{};  ///< by channel: readings with one number share datum and tilt; empty: all do
   std::vector<double> before{};  ///< [m] by channel, of two epochs; else empty
   std::vector<double> after{};
-  std::vector<Quantity> quantity{};  ///< by channel; empty: all displacements upwards
-  std::vector<std::string> load{};   ///< by channel; empty: none
+  std::vector<Quantity> quantity{};                 ///< by channel; empty: all displacements upwards
+  std::vector<std::string> load{};                  ///< by channel; empty: none
   std::shared_ptr<const ReadingFactors> factors{};  ///< of the channels; null: the bridge counts as known
 };
 

@@ -21,7 +21,8 @@ class ChannelRows {
     for (std::size_t i = 0; i < channels_.size(); ++i) {
       const Channel& channel = channels_[i];
       const auto to = static_cast<Eigen::Index>(i), from = static_cast<Eigen::Index>(channel.point);
-      const SceneFactors* const loaded = channel.loaded ? sensitivities_.find(*channel.loaded, scene) : nullptr;
+      const SceneFactors* const loaded =
+          channel.loaded ? sensitivities_.find(*channel.loaded, scene) : nullptr;
       if (channel.loaded && loaded == nullptr) return {};
       const double sign = channel.loaded ? -1.0 : 1.0;
       result.bridge.row(to) = sign * unloaded->bridge.row(from);
@@ -60,7 +61,8 @@ class ChannelRows {
       const auto to = static_cast<Eigen::Index>(i), from = static_cast<Eigen::Index>(channel.point);
       result.row(to).head(unloaded.cols()) = unloaded.row(from);
       if (channel.loaded)
-        result.row(to).tail(unloaded.cols()) = (sensitivities_.states[*channel.loaded].residual.*columns).row(from);
+        result.row(to).tail(unloaded.cols()) =
+            (sensitivities_.states[*channel.loaded].residual.*columns).row(from);
     }
     return result;
   }

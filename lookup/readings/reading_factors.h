@@ -15,8 +15,8 @@ struct ReadingFactors {
   std::vector<UncertainParameter> parameters;  ///< those of the bridge, then those of an epoch
   Eigen::MatrixXd basis;                       ///< parameters of the bridge x columns
   SceneFactors intact;
-  std::vector<SceneFactors> change;  ///< by block: of its single less the intact bridge's; not known of singles
-                                     ///< that do not stand
+  std::vector<SceneFactors> change;  ///< by block: of its single less the intact bridge's; not known of
+                                     ///< singles that do not stand
   std::vector<std::pair<Scene, SceneFactors>> pairs;  ///< the same of pairs that are stored
   FirstOrderResidual residual;
 

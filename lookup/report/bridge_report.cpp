@@ -18,7 +18,8 @@ std::size_t first_of_epochs(const ReadingFactors& factors) {
   return factors.parameters.size() - static_cast<std::size_t>(factors.of_epoch());
 }
 
-KnownParameter in_own_unit(const UncertainParameter& parameter, double before, double mean, double deviation) {
+KnownParameter in_own_unit(const UncertainParameter& parameter, double before, double mean,
+                           double deviation) {
   return {parameter.name, parameter.unit, parameter.sigma * before, parameter.sigma * mean,
           parameter.sigma * deviation};
 }
@@ -78,9 +79,13 @@ std::vector<KnownParameter> known_of_epochs(const BridgeAnswer& bridge, const Re
 std::string in_words(const KnownParameter& parameter) {
   const bool relative = parameter.unit == "1";
   const double factor = relative ? 100.0 : parameter.unit == "m" ? 1e3 : parameter.unit == "rad" ? 1e3 : 1.0;
-  const std::string unit = relative ? "%" : parameter.unit == "m" ? "mm" : parameter.unit == "rad" ? "mrad" : parameter.unit;
-  return fmt::format("{}: {:+.2g} +- {:.2g} {} (before: +- {:.2g} {})", parameter.name, factor * parameter.mean,
-                     factor * parameter.deviation, unit, factor * parameter.deviation_before, unit);
+  const std::string unit = relative                  ? "%"
+                           : parameter.unit == "m"   ? "mm"
+                           : parameter.unit == "rad" ? "mrad"
+                                                     : parameter.unit;
+  return fmt::format("{}: {:+.2g} +- {:.2g} {} (before: +- {:.2g} {})", parameter.name,
+                     factor * parameter.mean, factor * parameter.deviation, unit,
+                     factor * parameter.deviation_before, unit);
 }
 
 std::string causes_in_words(const std::vector<Cause>& causes) {

@@ -11,10 +11,10 @@ namespace voussoir {
 /// Something that moved the sensors, as far as the answer believes in it: means, of the likeliest scene.
 struct Cause {
   std::string name;    ///< "missing blocks", "the bridge itself", "temperature", "supports", "what is left"
-  double share = 0.0;  ///< [-] of the sum of squares of the readings less what the nominal intact bridge shows:
-                       ///< their product with this part. Shares sum up to one; a part that works against the
-                       ///< others has a negative one
-  double size = 0.0;   ///< [m] root mean square of the part
+  double share = 0.0;  ///< [-] of the sum of squares of the readings less what the nominal intact bridge
+                       ///< shows: their product with this part. Shares sum up to one; a part that works
+                       ///< against the others has a negative one
+  double size = 0.0;  ///< [m] root mean square of the part
 };
 
 /// Of changes and of what loads add the readings are those; the first epoch's own do not count.

@@ -115,8 +115,8 @@ ordered_json bridge_json(const BridgeAnswer& bridge, const ReadingFactors& facto
   for (const Cause& cause : causes_of(bridge, factors))
     causes.push_back({{"cause", cause.name}, {"share", cause.share}, {"rms_m", cause.size}});
   for (std::size_t k = 0; k < kScatterFactors.size(); ++k)
-    scatter.push_back({{"deviation_factor", std::sqrt(kScatterFactors[k])},
-                       {"probability", bridge.posterior.scatter[k]}});
+    scatter.push_back(
+        {{"deviation_factor", std::sqrt(kScatterFactors[k])}, {"probability", bridge.posterior.scatter[k]}});
   for (const KnownParameter& parameter : known_of_bridge(bridge, factors))
     parameters.push_back(parameter_json(parameter));
   for (const KnownParameter& parameter : known_of_epochs(bridge, factors))

@@ -69,15 +69,16 @@ Figure causes_figure(const Answer& answer, const ReadingFactors& factors) {
   Table table{{"cause", "share of the squares [%]", "root mean square [mm]"}, {}};
   for (const Cause& cause : causes_of(*answer.bridge, factors))
     table.rows.push_back({cause.name, 100.0 * cause.share, 1e3 * cause.size});
-  return {"causes",
-          "What moved the sensors",
-          "As far as the answer believes in it, if the first scene is the truth. Shares sum up to 100 %; parts "
-          "that work against each other can have negative ones.",
-          "",
-          table,
-          false,
-          TableView::open,
-          3};
+  return {
+      "causes",
+      "What moved the sensors",
+      "As far as the answer believes in it, if the first scene is the truth. Shares sum up to 100 %; parts "
+      "that work against each other can have negative ones.",
+      "",
+      table,
+      false,
+      TableView::open,
+      3};
 }
 
 Figure parameters_figure(const Answer& answer, const ReadingFactors& factors) {
@@ -89,17 +90,18 @@ Figure parameters_figure(const Answer& answer, const ReadingFactors& factors) {
     parameters.push_back(parameter);
   Table table{{"parameter", "unit", "before", "after: mean", "after: spread"}, {}};
   for (const KnownParameter& one : parameters)
-    table.rows.push_back({one.name, one.unit == "1" ? "relative" : one.unit, one.deviation_before, one.mean,
-                          one.deviation});
-  return {"parameters",
-          "What the readings say of the bridge",
-          "Standard deviations before and after, and the mean after; before it is zero. The parameters of which "
-          "the readings say most, then those of temperature and supports.",
-          "",
-          table,
-          false,
-          TableView::open,
-          3};
+    table.rows.push_back(
+        {one.name, one.unit == "1" ? "relative" : one.unit, one.deviation_before, one.mean, one.deviation});
+  return {
+      "parameters",
+      "What the readings say of the bridge",
+      "Standard deviations before and after, and the mean after; before it is zero. The parameters of which "
+      "the readings say most, then those of temperature and supports.",
+      "",
+      table,
+      false,
+      TableView::open,
+      3};
 }
 
 std::string bridge_html(const Answer& answer, const Comparison& comparison) {
@@ -155,9 +157,10 @@ std::string search_in_words(const LookupSettings& settings) {
 std::string assumptions_html(const Answer& answer, const LookupSettings& settings,
                              const Comparison& comparison, const Source& source) {
   Terms terms = {
-      {"Bridge", answer.bridge ? "not exactly known: parameters of joints and blocks, temperature and supports "
-                                 "are uncertain as the bridge file states, with half to twice that scatter"
-                               : "taken as exactly known"},
+      {"Bridge", answer.bridge
+                     ? "not exactly known: parameters of joints and blocks, temperature and supports "
+                       "are uncertain as the bridge file states, with half to twice that scatter"
+                     : "taken as exactly known"},
       {"Measurements",
        fmt::format("{}: {}", source.measurements, readings_in_words(comparison, answer.readings))},
       {"History", history_in_words(comparison.history)},
@@ -169,7 +172,8 @@ std::string assumptions_html(const Answer& answer, const LookupSettings& setting
                         ? "the misfit log(sum |measured - scene|) alone, which gives no probabilities"
                         : "posterior probability of each scene"},
       {"Search", search_in_words(settings)},
-      {"Numbers of missing blocks considered", weights_in_words(stated_prior(settings.prior, !answer.bridge))},
+      {"Numbers of missing blocks considered",
+       weights_in_words(stated_prior(settings.prior, !answer.bridge))},
       {"The model's own error",
        fmt::format("{:.2g} % of the change that a scene makes at a point, and {:.2g} % of "
                    "that change's root mean square",

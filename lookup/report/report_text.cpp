@@ -44,9 +44,10 @@ void write_heading(Text& text, const Answer& answer, const Comparison& compariso
                 ? ""
                 : fmt::format("; {} more have no solution and were left out", answer.unresolved));
   text.line("History:      {}", history_in_words(comparison.history));
-  text.line("Bridge:       {}", answer.bridge ? "not exactly known: joints, stone, temperature and supports are "
-                                               "uncertain as the bridge file states"
-                                             : "taken as exactly known");
+  text.line("Bridge:       {}", answer.bridge
+                                    ? "not exactly known: joints, stone, temperature and supports are "
+                                      "uncertain as the bridge file states"
+                                    : "taken as exactly known");
 }
 
 void write_verdict(Text& text, const Answer& answer, const Library& library) {

@@ -63,11 +63,13 @@ std::string headline(const Answer& answer, const Library& library) {
     case Verdict::located:
       return located_in_words(posterior, library);
     case Verdict::damaged_unlocated:
-      return fmt::format("Blocks are missing ({}), but the readings do not say which.", percent(1.0 - intact));
+      return fmt::format("Blocks are missing ({}), but the readings do not say which.",
+                         percent(1.0 - intact));
     case Verdict::intact:
       return fmt::format("No block is missing ({}).", percent(intact));
     case Verdict::cannot_tell:
-      return fmt::format("The readings do not tell whether blocks are missing (none is: {}).", percent(intact));
+      return fmt::format("The readings do not tell whether blocks are missing (none is: {}).",
+                         percent(intact));
     default:
       return "The readings fit no scene of this database: neither damage nor its absence is shown.";
   }

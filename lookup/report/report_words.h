@@ -18,9 +18,9 @@ std::string verdict_in_words(const Posterior& posterior, bool explained);
 /// The verdict as a sentence: "Block 10,4 is missing (98.2 %)." Without probabilities nothing.
 std::string headline(const Answer& answer, const Library& library);
 
-/// What the first candidate is: "most likely", or only "likeliest of many" where the verdict names no scene and
-/// "closest" if nothing explains the readings, "nearest
-/// by misfit" if the search did not find the likeliest scene, "best match" without probabilities.
+/// What the first candidate is: "most likely", or only "likeliest of many" where the verdict names no scene
+/// and "closest" if nothing explains the readings, "nearest by misfit" if the search did not find the
+/// likeliest scene, "best match" without probabilities.
 std::string_view standing(const Answer& answer);
 
 /// "at most 9.7 % of the displacement (uniform noise, estimated)"

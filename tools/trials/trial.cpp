@@ -61,8 +61,11 @@ std::array<Verdict, kVerdicts> all_verdicts() {
 }
 
 Trial ask(const Asking& asking, const ReadingsFile& readings, std::size_t truth) {
-  const Comparison comparison = compare(readings, asking.sensors, asking.database, {});
+  const Comparison comparison =
+      compare(readings, asking.sensors, asking.database, {.known_bridge = asking.known_bridge});
   LookupSettings settings = asking.lookup;
+  settings.known_bridge = asking.known_bridge;
+  settings.epochs = readings.two_epochs && !asking.known_bridge ? Epochs::both : Epochs::change;
   settings.noise = noise_of(comparison.measured, settings.noise);
   const Answer answer = locate_damage(comparison, settings);
   const Posterior& posterior = answer.posterior.value();

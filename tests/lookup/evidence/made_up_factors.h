@@ -9,8 +9,8 @@
 
 namespace voussoir::test {
 
-/// `columns` of the basis of `columns` + 2 parameters of the bridge, two parameters of an epoch. Block 1's loss,
-/// which makes scenes collapse, has no factors.
+/// `columns` of the basis of `columns` + 2 parameters of the bridge, two parameters of an epoch. Block 1's
+/// loss, which makes scenes collapse, has no factors.
 inline std::shared_ptr<const ReadingFactors> made_up_factors(const SyntheticLibrary& library,
                                                              Eigen::Index columns = 5, double size = 1e-4) {
   std::mt19937_64 random(7);
@@ -27,11 +27,12 @@ inline std::shared_ptr<const ReadingFactors> made_up_factors(const SyntheticLibr
   result.basis = Eigen::MatrixXd::Identity(columns + 2, columns);
   result.intact = {numbers(points, columns, size), numbers(points, 2, size)};
   for (std::size_t block = 0; block < library.blocks; ++block)
-    result.change.push_back(block == 1 ? SceneFactors{}
-                                       : SceneFactors{numbers(points, columns, 0.2 * size),
-                                                      numbers(points, 2, 0.1 * size)});
-  result.pairs.emplace_back(Scene{{BlockId{2}, BlockId{4}}},
-                            SceneFactors{numbers(points, columns, 0.3 * size), numbers(points, 2, 0.1 * size)});
+    result.change.push_back(
+        block == 1 ? SceneFactors{}
+                   : SceneFactors{numbers(points, columns, 0.2 * size), numbers(points, 2, 0.1 * size)});
+  result.pairs.emplace_back(
+      Scene{{BlockId{2}, BlockId{4}}},
+      SceneFactors{numbers(points, columns, 0.3 * size), numbers(points, 2, 0.1 * size)});
   result.residual = {numbers(points, 2, 0.05 * size), numbers(points, 1, 0.05 * size), 0.1, 0.05};
   return std::make_shared<const ReadingFactors>(std::move(result));
 }

@@ -1,5 +1,5 @@
-/// @file Evidence under an unknown bridge. Oracle: the dense multivariate normal, written down once more from the
-/// definition of the model and factorised by Eigen (LDLT); for kappa its sum.
+/// @file Evidence under an unknown bridge. Oracle: the dense multivariate normal, written down once more from
+/// the definition of the model and factorised by Eigen (LDLT); for kappa its sum.
 
 #include "lookup/evidence/unknown_evidence.h"
 
@@ -190,13 +190,12 @@ TEST_CASE("The evidence of an unknown bridge is that of the dense Gaussian of bo
     Epochs epochs;
     double datum;
   };
-  const auto& [kind, epochs, datum] =
-      GENERATE(values<Case>({{ReadingKind::absolute, Epochs::change, 0.0},
-                             {ReadingKind::absolute, Epochs::change, 1e-4},
-                             {ReadingKind::change, Epochs::change, 0.0},
-                             {ReadingKind::change, Epochs::change, 1e-4},
-                             {ReadingKind::change, Epochs::both, 0.0},
-                             {ReadingKind::change, Epochs::both, 1e-4}}));
+  const auto& [kind, epochs, datum] = GENERATE(values<Case>({{ReadingKind::absolute, Epochs::change, 0.0},
+                                                             {ReadingKind::absolute, Epochs::change, 1e-4},
+                                                             {ReadingKind::change, Epochs::change, 0.0},
+                                                             {ReadingKind::change, Epochs::change, 1e-4},
+                                                             {ReadingKind::change, Epochs::both, 0.0},
+                                                             {ReadingKind::change, Epochs::both, 1e-4}}));
   const Question question(kind);
   const SceneTable& table = question.library.table;
   const Observation observation = question.observation({0.0, datum, 0.0});
