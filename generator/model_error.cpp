@@ -1,11 +1,11 @@
 #include "generator/model_error.h"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
 #include "core/structure/block_layout.h"
 #include "database/records/state_name.h"
+#include "generator/error_fit.h"
 #include "generator/state_solving.h"
 
 namespace voussoir {
@@ -60,43 +60,6 @@ std::vector<Scene> probed_singles(const BlockLayout& layout) {
     scenes.push_back(singles[(2 * i + 1) * singles.size() / (2 * count)]);
   return scenes;
 }
-
-/// Least squares of e_i^2 = share^2 s_i^2 + common^2 rms(s)^2, every signal counting alike.
-class ErrorFit {
- public:
-  void add(const Eigen::VectorXd& signal, const Eigen::VectorXd& error) {
-    double sum = 0.0;
-    Eigen::Index count = 0;
-    for (const double s : signal)
-      if (!std::isnan(s)) {
-        sum += s * s;
-        ++count;
-      }
-    const double mean_square = count > 0 ? sum / static_cast<double>(count) : 0.0;
-    if (mean_square == 0.0) return;
-    for (Eigen::Index i = 0; i < signal.size(); ++i) {
-      if (std::isnan(signal[i]) || std::isnan(error[i])) continue;
-      const Eigen::Vector2d terms(signal[i] * signal[i] / mean_square, 1.0);
-      normal_ += terms * terms.transpose();
-      right_ += terms * (error[i] * error[i] / mean_square);
-    }
-  }
-
-  /// share^2 and common^2. Where one would be negative it is zero, and the other is fitted alone.
-  Eigen::Vector2d squares() const {
-    if (normal_.determinant() <= 0.0) return Eigen::Vector2d::Zero();
-    const Eigen::Vector2d both = normal_.inverse() * right_;
-    if (both.minCoeff() >= 0.0) return both;
-    const Eigen::Index kept = both[0] < 0.0 ? 1 : 0;
-    Eigen::Vector2d one = Eigen::Vector2d::Zero();
-    one[kept] = std::max(0.0, right_[kept] / normal_(kept, kept));
-    return one;
-  }
-
- private:
-  Eigen::Matrix2d normal_ = Eigen::Matrix2d::Zero();
-  Eigen::Vector2d right_ = Eigen::Vector2d::Zero();
-};
 
 ModelError error_of_state(const std::vector<Settlements>& coarse, const std::vector<Settlements>& fine,
                           std::size_t state) {

@@ -5,18 +5,14 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 
-#include "core/solve/history.h"
-#include "core/statics/sensitivity.h"
+#include "generator/first_order_residual.h"
 #include "generator/parallel.h"
+#include "generator/scene_derivatives.h"
 
 namespace voussoir {
 namespace {
 
 constexpr std::size_t kBuilt = 0;
-
-/// A stored field solves a step if no more of the forces is unbalanced than rounding and another path of no
-/// account leave [largest nodal weight].
-constexpr double kSameEquilibrium = 1e-3;
 
 bool stands(const std::optional<Solution>& solution) {
   return solution && solution->outcome == Outcome::standing;
@@ -59,86 +55,11 @@ std::vector<SceneStates> states_of(const SensitivityStudy& study, const std::vec
   return states;
 }
 
-/// What all threads share.
-struct Equations {
-  Equations(const Model& bridge, const Uncertainty& uncertainty)
-      : system(bridge),
-        coefficients(system, bridge.parameters),
-        uncertain(uncertain_parameters(bridge, uncertainty)),
-        readings(vertical_readings(bridge, bridge.control_points)) {}
-
-  EquilibriumSystem system;
-  Coefficients coefficients;
-  UncertainParameters uncertain;
-  Eigen::MatrixXd readings;
-};
-
-/// Derivatives of one scene's states, on one thread.
-class SceneDerivatives {
- public:
-  SceneDerivatives(const SensitivityStudy& study, const Equations& equations)
-      : study_(study), equations_(equations), derivatives_(equations.system, equations.uncertain) {}
-
-  /// Points x parameters; empty if the scene does not stand.
-  Eigen::MatrixXd of(const Scene& scene, std::size_t state, const SceneStates& states,
-                     const SceneStates& intact) {
-    const auto history = history_of(scene, state, states, intact);
-    if (!history) return {};
-    return derivatives_.solve(*history, equations_.readings).value_or(Eigen::MatrixXd());
-  }
-
- private:
-  std::optional<SolvedHistory> history_of(const Scene& scene, std::size_t state, const SceneStates& states,
-                                          const SceneStates& intact) {
-    const PlannedState& planned = study_.states[state];
-    const bool is_loss = planned.before && !planned.is_load;
-    if (!stands(states[state])) return std::nullopt;
-    if (is_loss && scene.removed.empty()) return history_of(scene, kBuilt, states, intact);
-    std::optional<SolvedHistory> history = SolvedHistory{};
-    if (planned.before)
-      history = is_loss ? history_of(Scene{}, kBuilt, intact, intact)
-                        : history_of(scene, *planned.before, states, intact);
-    if (history) append(scene, planned, *states[state], is_loss, *history);
-    return history;
-  }
-
-  void append(const Scene& scene, const PlannedState& planned, const Solution& solution, bool is_loss,
-              SolvedHistory& history) {
-    const Stage stage{.scene = scene, .load = planned.load};
-    append_stage(equations_.system, equations_.coefficients, stage, solution, 1, history);
-    if (!is_loss ||
-        unbalanced_force(history.back().equations, history.back().displacement) <= kSameEquilibrium)
-      return;
-    history.pop_back();
-    const State before{history.back().displacement,
-                       updated_memory(history.back().equations, history.back().displacement)};
-    if (!solver_) solver_ = study_.solver.make_solver(study_.bridge, study_.settings);
-    const StageTask task{.stage = stage,
-                         .start = &before.displacement,
-                         .before = &before,
-                         .steps = kStepsOfLoss,
-                         .keeps_steps = true};
-    const std::vector<Solution> anew = solver_({&task, 1});
-    if (anew.front().outcome == Outcome::standing)
-      append_stage(equations_.system, equations_.coefficients, stage, anew.front(), kStepsOfLoss, history);
-    else
-      append_stage(equations_.system, equations_.coefficients, stage, solution, 1, history);
-  }
-
-  const SensitivityStudy& study_;
-  const Equations& equations_;
-  SensitivitySolver derivatives_;
-  SceneSolver solver_;
-};
-
 /// Of each kept state and each scene.
-std::vector<std::vector<Eigen::MatrixXd>> derivatives_of(const SensitivityStudy& study,
-                                                         const Equations& equations,
-                                                         const std::vector<Scene>& scenes,
-                                                         const std::vector<SceneStates>& states) {
+Derivatives derivatives_of(const SensitivityStudy& study, const SensitivityEquations& equations,
+                           const std::vector<Scene>& scenes, const std::vector<SceneStates>& states) {
   const std::vector<std::size_t> kept = kept_states(study.states);
-  std::vector<std::vector<Eigen::MatrixXd>> derivatives(kept.size(),
-                                                        std::vector<Eigen::MatrixXd>(scenes.size()));
+  Derivatives derivatives(kept.size(), std::vector<Eigen::MatrixXd>(scenes.size()));
   oneapi::tbb::enumerable_thread_specific<SceneDerivatives> workers(
       [&] { return SceneDerivatives(study, equations); });
   Crew(study.threads).for_each_index(scenes.size(), [&](std::size_t i) {
@@ -168,8 +89,7 @@ Eigen::MatrixXd leading_directions(const Eigen::MatrixXd& gram, const Enough& en
 
 }  // namespace
 
-Eigen::MatrixXd sensitivity_basis(const std::vector<std::vector<Eigen::MatrixXd>>& derivatives,
-                                  Eigen::Index of_bridge) {
+Eigen::MatrixXd sensitivity_basis(const Derivatives& derivatives, Eigen::Index of_bridge) {
   Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(of_bridge, of_bridge);
   for (const auto& state : derivatives)
     if (state.front().size() > 0)
@@ -199,7 +119,7 @@ std::optional<Sensitivities> find_sensitivities(const SensitivityStudy& study,
                                                 const std::vector<Scene>& scenes, const KnownRecords& known) {
   // Sums are ordered by the sizes of caches: the same ones everywhere give the same bits.
   Eigen::setCpuCacheSizes(32 * 1024, 256 * 1024, 2 * 1024 * 1024);
-  const Equations equations(study.bridge, study.uncertainty);
+  const SensitivityEquations equations(study.bridge, study.uncertainty);
   Sensitivities result;
   result.parameters = equations.uncertain.all();
   if (result.parameters.empty()) return std::nullopt;
@@ -209,14 +129,15 @@ std::optional<Sensitivities> find_sensitivities(const SensitivityStudy& study,
   auto derivatives = derivatives_of(study, equations, result.scenes, states);
   const auto of_bridge = static_cast<Eigen::Index>(equations.uncertain.of_bridge.size());
   result.basis = sensitivity_basis(derivatives, of_bridge);
-  const auto points = static_cast<Eigen::Index>(study.bridge.control_points.size());
-  for (auto& state : derivatives) {
+  const auto residuals =
+      first_order_residuals(study, equations.uncertain, {result.scenes, states, derivatives});
+  for (std::size_t state = 0; state < derivatives.size(); ++state) {
     StateSensitivities& one = result.states.emplace_back();
-    for (Eigen::MatrixXd& scene : state)
+    for (const Eigen::MatrixXd& scene : derivatives[state])
       one.scenes.push_back(scene.size() == 0 ? SceneFactors{}
                                              : SceneFactors{scene.leftCols(of_bridge) * result.basis,
                                                             scene.rightCols(scene.cols() - of_bridge)});
-    one.residual = {Eigen::MatrixXd(points, 0), Eigen::MatrixXd(points, 0), 0.0, 0.0};
+    one.residual = residuals[state];
   }
   return result;
 }

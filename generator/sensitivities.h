@@ -16,6 +16,7 @@ inline constexpr double kLeastDeviation = 1e-7;
 /// And of the variance of every signal, taken on average over scenes and states, all but this share.
 inline constexpr double kLeftOfSignals = 1e-3;
 
+/// What is found for which bridge with what.
 struct SensitivityStudy {
   const Model& bridge;  ///< the nominal variant
   const Uncertainty& uncertainty;
@@ -24,6 +25,10 @@ struct SensitivityStudy {
   const std::string& settings;  ///< of the solver
   int threads = 0;
 };
+
+/// Of each kept state and each scene: points x parameters (the bridge's first) [m per standard deviation];
+/// those of the intact bridge come first. Empty ones are not known.
+using Derivatives = std::vector<std::vector<Eigen::MatrixXd>>;
 
 /// Sensitivities of the intact bridge and of those of the scenes that lack one block, where they stand; in
 /// `known` are their states as far as they have been solved. Nothing if nothing is uncertain or the intact
@@ -34,10 +39,8 @@ struct SensitivityStudy {
 std::optional<Sensitivities> find_sensitivities(const SensitivityStudy& study,
                                                 const std::vector<Scene>& scenes, const KnownRecords& known);
 
-/// Orthonormal directions of the bridge's parameters: see kLeastDeviation and kLeftOfSignals. `derivatives`:
-/// of each state and scene, points x parameters (the bridge's first, `of_bridge` of them); those of the
-/// intact bridge come first. Empty ones are not known.
-Eigen::MatrixXd sensitivity_basis(const std::vector<std::vector<Eigen::MatrixXd>>& derivatives,
-                                  Eigen::Index of_bridge);
+/// Orthonormal directions of the bridge's parameters, `of_bridge` of them: see kLeastDeviation and
+/// kLeftOfSignals.
+Eigen::MatrixXd sensitivity_basis(const Derivatives& derivatives, Eigen::Index of_bridge);
 
 }  // namespace voussoir

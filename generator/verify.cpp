@@ -13,6 +13,7 @@
 #include "generator/parallel.h"
 #include "generator/recompute.h"
 #include "generator/scene_check.h"
+#include "generator/sensitivity_check.h"
 #include "generator/stored_bridge.h"
 #include "generator/variants.h"
 
@@ -188,6 +189,9 @@ void check_content(const VerifyRequest& request, VerifyReport& report) {
   check_geometry(database, nominal, report);
   check_search(database, report);
   const StatePlan plan = plan_of(database, nominal);
+  const SensitivityCheck sensitivities =
+      check_sensitivities(database, nominal, description_of(database).uncertainty, plan);
+  std::ranges::copy(sensitivities.problems, std::back_inserter(report.problems));
   for (std::int32_t variant = 0; static_cast<std::size_t>(variant) < database.variant_count(); ++variant)
     check_variant(request, database, bridge_of(database, nominal, variant), variant, plan, report);
 }

@@ -155,13 +155,14 @@ ColumnMatrix forces_by_parameters(const StageEquations& equations, const Field& 
       add_modulus(equations, displacement, sigma, column, entries);
     ++column;
   }
-  for (const UncertainAction& action : uncertain.of_epoch) {
+  for (std::size_t i = 0; i < uncertain.of_epoch.size(); ++i) {
+    const UncertainAction& action = uncertain.of_epoch[i];
+    const double* movement = movements.col(static_cast<Eigen::Index>(i)).data();
     if (action.quantity == UncertainQuantity::temperature)
       add_temperature(equations, displacement, action.parameter.sigma, column, entries);
     else
-      add_movement(equations, displacement,
-                   Eigen::Map<const Field>(movements.col(column).data(), 2, movements.rows() / 2), column,
-                   entries);
+      add_movement(equations, displacement, Eigen::Map<const Field>(movement, 2, movements.rows() / 2),
+                   column, entries);
     ++column;
   }
   return matrix_of(displacement.size(), column, entries);

@@ -12,8 +12,8 @@ namespace voussoir {
 /// ends of each joint's memory. Displacements have no NaN.
 using ColumnMatrix = Eigen::SparseMatrix<double>;
 
-/// d unbalanced forces / d parameters: components x parameters [N]. `movements`: components x parameters, the
-/// displacements of held components per standard deviation.
+/// d unbalanced forces / d parameters: components x parameters [N]. `movements`: components x parameters of
+/// an epoch, the displacements of held components per standard deviation.
 ColumnMatrix forces_by_parameters(const StageEquations& equations, const Field& displacement,
                                   const UncertainParameters& uncertain, const Eigen::MatrixXd& movements);
 

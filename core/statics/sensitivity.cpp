@@ -23,15 +23,13 @@ std::vector<int> transposed_slots(const Eigen::SparseMatrix<double>& pattern) {
   return slots;
 }
 
-/// Per standard deviation: components x parameters.
+/// Per standard deviation: components x parameters of an epoch.
 Eigen::MatrixXd movements_of(const EquilibriumSystem& system, const UncertainParameters& uncertain) {
-  const std::size_t of_bridge = uncertain.of_bridge.size();
-  Eigen::MatrixXd movements =
-      Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(system.unknown.size()),
-                            static_cast<Eigen::Index>(of_bridge + uncertain.of_epoch.size()));
+  Eigen::MatrixXd movements(static_cast<Eigen::Index>(system.unknown.size()),
+                            static_cast<Eigen::Index>(uncertain.of_epoch.size()));
   for (std::size_t i = 0; i < uncertain.of_epoch.size(); ++i) {
     const UncertainAction& action = uncertain.of_epoch[i];
-    movements.col(static_cast<Eigen::Index>(of_bridge + i)) =
+    movements.col(static_cast<Eigen::Index>(i)) =
         movement_of(*system.structure, action, action.parameter.sigma).reshaped();
   }
   return movements;
@@ -116,7 +114,7 @@ bool SensitivitySolver::step_back(const SolvedStep& step, Adjoint& adjoint) {
     adjoint.by_parameters += jacobian.by_parameters.transpose() * adjoint.by_memory;
     adjoint.by_memory = (jacobian.by_memory.transpose() * adjoint.by_memory).eval();
   }
-  adjoint.by_parameters += movements_.transpose() * adjoint.by_displacement;
+  adjoint.by_parameters.bottomRows(movements_.cols()) += movements_.transpose() * adjoint.by_displacement;
   for (std::size_t block = 0; block < step.equations.removed.size(); ++block) {
     const IndexRange& nodes = system_.structure->mesh.block_nodes[block];
     if (step.equations.removed[block])
@@ -150,9 +148,10 @@ bool SensitivitySolver::step_back(const SolvedStep& step, Adjoint& adjoint) {
 
 std::optional<Eigen::MatrixXd> SensitivitySolver::solve(const SolvedHistory& history,
                                                         const Eigen::MatrixXd& readings) {
+  const auto parameters = static_cast<Eigen::Index>(uncertain_.of_bridge.size() + uncertain_.of_epoch.size());
   Adjoint adjoint{
       readings, Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(2 * system_.joints.size()), readings.cols()),
-      Eigen::MatrixXd::Zero(movements_.cols(), readings.cols())};
+      Eigen::MatrixXd::Zero(parameters, readings.cols())};
   for (auto step = history.rbegin(); step != history.rend() && !adjoint.is_zero(); ++step)
     if (!step_back(*step, adjoint)) return std::nullopt;
   return adjoint.by_parameters.transpose();

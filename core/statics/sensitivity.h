@@ -60,7 +60,7 @@ class SensitivitySolver {
 
   const EquilibriumSystem& system_;
   const UncertainParameters& uncertain_;
-  Eigen::MatrixXd movements_;         ///< components x parameters: of held ones, per standard deviation
+  Eigen::MatrixXd movements_;         ///< components x parameters of an epoch, per standard deviation
   std::vector<int> transposed_slot_;  ///< of each entry of the pattern: the place of its mirror entry
   LaneFactorisation linear_;
   std::vector<double> tangent_;

@@ -64,7 +64,6 @@ inline constexpr char kEpochFactors[] = "sensitivity/epoch_factors";
 inline constexpr char kResidualBridge[] = "sensitivity/residual_bridge";
 inline constexpr char kResidualEpoch[] = "sensitivity/residual_epoch";
 inline constexpr char kResidualShare[] = "sensitivity/residual_share";
-inline constexpr char kResidualCommon[] = "sensitivity/residual_common";
 inline constexpr char kYoungModulus[] = "variants/young_modulus";
 inline constexpr char kPoissonRatio[] = "variants/poisson_ratio";
 inline constexpr char kDensity[] = "variants/density";

@@ -102,22 +102,21 @@ void append_residual(const Sensitivities& from, std::uint64_t points, std::vecto
                          "what the first order leaves of the intact bridge: independent columns"};
   Filling<double> epoch{dataset::kResidualEpoch, ElementType::float64, "m",
                         "what it leaves of an epoch's own parameters: independent columns"};
-  Filling<double> share{dataset::kResidualShare, ElementType::float64, "1",
-                        "what it leaves of a signal, as a share of the signal's own standard deviation"};
-  Filling<double> common{dataset::kResidualCommon, ElementType::float64, "1",
-                         "and, at all points alike, as a share of that one's root mean square"};
+  Filling<double> share{
+      dataset::kResidualShare, ElementType::float64, "1",
+      "what it leaves of a signal: as a share of the signal's own standard deviation, and at all "
+      "points alike as a share of that one's root mean square; then the same two of an epoch"};
   for (const StateSensitivities& state : from.states) {
     bridge.add(state.residual.bridge);
     epoch.add(state.residual.epoch);
-    share.values.push_back(state.residual.share);
-    common.values.push_back(state.residual.common);
+    share.values.insert(share.values.end(), {state.residual.share, state.residual.common,
+                                             state.residual.epoch_share, state.residual.epoch_common});
   }
   const std::uint64_t states = from.states.size();
   const FirstOrderResidual& first = from.states.front().residual;
   bridge.finish({states, points, extent(first.bridge.cols())}, datasets);
   epoch.finish({states, points, extent(first.epoch.cols())}, datasets);
-  share.finish({states}, datasets);
-  common.finish({states}, datasets);
+  share.finish({states, 4}, datasets);
 }
 
 // Reading.
@@ -219,8 +218,7 @@ void read_states(const Hdf5File& file, const SensitivitySizes& sizes, Sensitivit
   auto epoch = read_matrices(file, dataset::kEpochFactors, {sizes.states, scenes}, sizes.points);
   auto left_of_bridge = read_matrices(file, dataset::kResidualBridge, {sizes.states}, sizes.points);
   auto left_of_epoch = read_matrices(file, dataset::kResidualEpoch, {sizes.states}, sizes.points);
-  const auto share = finite_numbers(file, dataset::kResidualShare, {sizes.states});
-  const auto common = finite_numbers(file, dataset::kResidualCommon, {sizes.states});
+  const auto shares = finite_numbers(file, dataset::kResidualShare, {sizes.states, 4});
   file.require(
       bridge.front().cols() == into.basis.cols() && epoch.front().cols() == into.of_epoch(),
       fmt::format("datasets '{}' and '{}' have not the columns of '{}' and '{}'", dataset::kBridgeFactors,
@@ -230,8 +228,9 @@ void read_states(const Hdf5File& file, const SensitivitySizes& sizes, Sensitivit
     for (std::size_t i = state * scenes; i < (state + 1) * scenes; ++i)
       one.scenes.push_back(known[i] != 0 ? SceneFactors{std::move(bridge[i]), std::move(epoch[i])}
                                          : SceneFactors{});
-    one.residual = {std::move(left_of_bridge[state]), std::move(left_of_epoch[state]), share[state],
-                    common[state]};
+    const auto own = shares.subspan(4 * state, 4);
+    one.residual = {
+        std::move(left_of_bridge[state]), std::move(left_of_epoch[state]), own[0], own[1], own[2], own[3]};
   }
 }
 

@@ -37,10 +37,14 @@ struct FirstOrderResidual {
   Eigen::MatrixXd epoch;  ///< points x any number of columns
   /// A scene's signal d - d(intact): at point i the error has the standard deviation
   ///     sqrt((share s_i)^2 + (common rms(s))^2),
-  /// s_i being that of the signal to first order: the norm of row i of (A - A_intact, E - E_intact); rms over
-  /// the points that the scene has.
+  /// s_i being that of the signal to first order: the norm of row i of A - A_intact; rms over the points that
+  /// the scene has.
   double share = 0.0;   ///< [-]
   double common = 0.0;  ///< [-]
+  /// The same of what an epoch's own parameters add to a signal, s_i of E - E_intact; an error of its own in
+  /// every epoch.
+  double epoch_share = 0.0;   ///< [-]
+  double epoch_common = 0.0;  ///< [-]
 };
 
 /// Of all scenes that have been looked at, in one state.

@@ -115,7 +115,7 @@ inline Sensitivities made_up_sensitivities(const Model& bridge, const std::vecto
       one.scenes.push_back(state + 1 == states && i % 5 == 4
                                ? SceneFactors{}
                                : SceneFactors{numbers(points, 2), numbers(points, 2)});
-    one.residual = {numbers(points, 4), numbers(points, 5), 0.1, 0.2};
+    one.residual = {numbers(points, 4), numbers(points, 5), 0.1, 0.2, 0.3, 0.4};
   }
   return made;
 }

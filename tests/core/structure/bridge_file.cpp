@@ -206,7 +206,18 @@ const std::vector<Limits> kLimits = {{"[wall]\nlength_m = ", 1e-3, 1e5, true},
                                      {"[[spans]]\ncentre_y_m = ", 0.0, 1e5, true},
                                      {"[[spans]]\nintrados_radius_m = ", 1e-3, 1e5, true},
                                      {"[[spans]]\nring_thickness_m = ", 1e-3, 1e5, true},
-                                     {"[[spans]]\nvoussoirs = ", 3.0, 1000.0, true, true}};
+                                     {"[[spans]]\nvoussoirs = ", 3.0, 1000.0, true, true},
+                                     {"[material]\nthermal_expansion_per_K = ", 0.0, 1e-3, true},
+                                     {"[uncertainty]\njoint_stiffness_cv = ", 0.0, 1.0, true},
+                                     {"[uncertainty]\ncommon_stiffness_cv = ", 0.0, 1.0, true},
+                                     {"[uncertainty]\nstiffness_ratio_cv = ", 0.0, 1.0, true},
+                                     {"[uncertainty]\nfriction_cv = ", 0.0, 1.0, true},
+                                     {"[uncertainty]\nyoung_modulus_cv = ", 0.0, 1.0, true},
+                                     {"[uncertainty]\ndensity_cv = ", 0.0, 1.0, true},
+                                     {"[uncertainty]\ntemperature_K = ", 0.0, 100.0, true},
+                                     {"[uncertainty]\nfoot_movement_m = ", 0.0, 1.0, true},
+                                     {"[uncertainty]\nfoot_rotation_rad = ", 0.0, 0.1, true},
+                                     {"[uncertainty]\nside_movement_m = ", 0.0, 1.0, true}};
 
 /// Does the key take this value? The bridge may still be refused for a ring that its wall cannot hold or for
 /// too many blocks, which are other checks.

@@ -1,0 +1,46 @@
+#pragma once
+/// @file Derivatives of one scene's states by what is uncertain of the bridge.
+
+#include "core/statics/sensitivity.h"
+#include "generator/sensitivities.h"
+#include "generator/state_solving.h"
+
+namespace voussoir {
+
+/// What all threads share.
+struct SensitivityEquations {
+  SensitivityEquations(const Model& bridge, const Uncertainty& uncertainty)
+      : system(bridge),
+        coefficients(system, bridge.parameters),
+        uncertain(uncertain_parameters(bridge, uncertainty)),
+        readings(vertical_readings(bridge, bridge.control_points)) {}
+
+  EquilibriumSystem system;
+  Coefficients coefficients;
+  UncertainParameters uncertain;
+  Eigen::MatrixXd readings;  ///< of the control points
+};
+
+/// One a thread. The study and the equations outlive it.
+class SceneDerivatives {
+ public:
+  SceneDerivatives(const SensitivityStudy& study, const SensitivityEquations& equations)
+      : study_(study), equations_(equations), derivatives_(equations.system, equations.uncertain) {}
+
+  /// Points x parameters [m per standard deviation], in the state of the plan; empty if the scene does not
+  /// stand. `states` are the scene's and `intact` the intact bridge's.
+  Eigen::MatrixXd of(const Scene& scene, std::size_t state, const SceneStates& states,
+                     const SceneStates& intact);
+
+ private:
+  std::optional<SolvedHistory> history_of(const Scene& scene, std::size_t state, const SceneStates& states,
+                                          const SceneStates& intact) const;
+  void append(const Scene& scene, const PlannedState& planned, const Solution& solution, bool is_loss,
+              SolvedHistory& history) const;
+
+  const SensitivityStudy& study_;
+  const SensitivityEquations& equations_;
+  SensitivitySolver derivatives_;
+};
+
+}  // namespace voussoir

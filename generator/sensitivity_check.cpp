@@ -1,0 +1,62 @@
+#include "generator/sensitivity_check.h"
+
+#include <algorithm>
+
+#include "core/error.h"
+#include "generator/scene_derivatives.h"
+
+namespace voussoir {
+namespace {
+
+SceneStates stored_states(const Database& database, std::size_t row, const StatePlan& plan) {
+  SceneStates states;
+  for (std::size_t state = 0; state < plan.size(); ++state)
+    states.emplace_back(database.solution(row, state));
+  return states;
+}
+
+double largest(const Eigen::MatrixXd& matrix) {
+  return matrix.size() == 0 ? 0.0 : matrix.cwiseAbs().maxCoeff();
+}
+
+}  // namespace
+
+SensitivityCheck check_sensitivities(const Database& database, const Model& bridge,
+                                     const Uncertainty& uncertainty, const StatePlan& plan) {
+  SensitivityCheck check;
+  const Sensitivities* stored = database.sensitivities();
+  const auto intact_row = database.find(Scene{});
+  if (stored == nullptr || !intact_row || !database.has_fields() || kept_states(plan).size() != plan.size())
+    return check;
+  const std::string settings = database.provenance().solver_settings;
+  const SolverChoice solver{.settings = {}, .make_solver = stated_solver};
+  const SensitivityStudy study{bridge, uncertainty, plan, solver, settings};
+  const SensitivityEquations equations(bridge, uncertainty);
+  SceneDerivatives derivatives(study, equations);
+  const SceneStates intact = stored_states(database, *intact_row, plan);
+  const std::size_t count = std::min(kCheckedSensitivities, stored->scenes.size());
+  for (std::size_t i = 0; i < count; ++i) {
+    const Scene& scene = stored->scenes[i * stored->scenes.size() / count];
+    const auto row = database.find(scene);
+    if (!row) continue;
+    ++check.scenes;
+    const SceneStates states = stored_states(database, *row, plan);
+    for (std::size_t state = 0; state < plan.size(); ++state) {
+      const Eigen::MatrixXd anew = derivatives.of(scene, state, states, intact);
+      const SceneFactors* factors = stored->find(state, scene);
+      const bool is_same = (factors == nullptr) == (anew.size() == 0) &&
+                           (factors == nullptr ||
+                            (anew.cols() == stored->of_bridge() + stored->of_epoch() &&
+                             largest(anew.leftCols(stored->of_bridge()) * stored->basis - factors->bridge) <=
+                                 kSameSensitivity * largest(factors->bridge) &&
+                             largest(anew.rightCols(stored->of_epoch()) - factors->epoch) <=
+                                 kSameSensitivity * largest(factors->epoch)));
+      if (!is_same)
+        check.problems.push_back(fmt::format("scene {}: its sensitivities {} are not those of its field",
+                                             to_string(scene, bridge.layout), database.states()[state]));
+    }
+  }
+  return check;
+}
+
+}  // namespace voussoir

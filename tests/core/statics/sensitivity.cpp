@@ -1,0 +1,172 @@
+/// @file Adjoint sensitivities. Oracle: central differences of bridges solved anew.
+
+#include "core/statics/sensitivity.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "core/random.h"
+#include "core/solve/history.h"
+#include "tests/support/bridges.h"
+
+using namespace voussoir;
+
+namespace {
+
+/// Solved so tightly that differences of parameters by 3e-5 standard deviations have six digits.
+QuasiStaticSettings tight() {
+  QuasiStaticSettings settings;
+  settings.tolerance = 1e-12;
+  settings.round_off = 1e-15;
+  return settings;
+}
+
+struct Bench {
+  Model bridge = test::small_bridge();
+  UncertainParameters uncertain = uncertain_parameters(bridge, {});
+  QuasiStaticSolver solver{bridge, tight()};
+  Coefficients coefficients{solver.system(), bridge.parameters};
+  Eigen::MatrixXd readings = vertical_readings(bridge, bridge.control_points);
+  SensitivitySolver sensitivities{solver.system(), uncertain};
+
+  std::size_t of_bridge() const { return uncertain.of_bridge.size(); }
+  std::size_t parameters() const { return of_bridge() + uncertain.of_epoch.size(); }
+
+  /// Where all factors are 1: a joint's own has its mean there.
+  Eigen::VectorXd nominal() const {
+    Eigen::VectorXd theta = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(parameters()));
+    for (std::size_t i = 0; i < of_bridge(); ++i)
+      if (uncertain.of_bridge[i].has_mean_one)
+        theta[static_cast<Eigen::Index>(i)] = 0.5 * uncertain.of_bridge[i].parameter.sigma;
+    return theta;
+  }
+
+  std::vector<NamedStage> stages(const std::string& kind, const Scene& scene) const {
+    if (kind == "built") return built(scene).stages;
+    Field load = Field::Zero(2, bridge.mesh.node_count());
+    load(1, value(bridge.control_points[5].node)) = -2e4;
+    return kind == "lost" ? lost(scene).stages : followed_by(lost(scene), "load", load).stages;
+  }
+
+  /// `near`: solutions of the same stages to start from.
+  std::vector<Solution> solve(const std::vector<NamedStage>& stages, const Eigen::VectorXd& theta,
+                              const std::vector<Solution>* near) {
+    const Parameters own =
+        parameters_at(bridge, uncertain, theta.head(static_cast<Eigen::Index>(of_bridge())));
+    std::vector<Solution> solutions;
+    solutions.reserve(stages.size());
+    for (const NamedStage& next : stages) {
+      const Solution* before = solutions.empty() ? nullptr : &solutions.back();
+      if (before != nullptr && before->outcome != Outcome::standing) break;
+      const Field* start = before != nullptr ? &before->displacement : nullptr;
+      if (near != nullptr && next.steps == 1) start = &(*near)[solutions.size()].displacement;
+      const Eigen::VectorXd epoch = theta.tail(static_cast<Eigen::Index>(uncertain.of_epoch.size()));
+      solutions.push_back(solver.solve(StageTask{.stage = in_epoch(next.stage, bridge, uncertain, epoch),
+                                                 .start = start,
+                                                 .before = before,
+                                                 .parameters = &own,
+                                                 .steps = next.steps,
+                                                 .keeps_steps = true}));
+    }
+    return solutions;
+  }
+
+  Eigen::MatrixXd derivatives(const std::vector<NamedStage>& stages, const std::vector<Solution>& solutions) {
+    SolvedHistory history;
+    for (std::size_t i = 0; i < stages.size(); ++i)
+      append_stage(solver.system(), coefficients, stages[i].stage, solutions[i], stages[i].steps, history);
+    return sensitivities.solve(history, readings).value();
+  }
+};
+
+bool stand(const std::vector<Solution>& solutions, std::size_t stages) {
+  return solutions.size() == stages && solutions.back().outcome == Outcome::standing;
+}
+
+}  // namespace
+
+TEST_CASE(
+    "Adjoint sensitivities are central differences, of built, lost in sixteen steps, and a load after it",
+    "[sensitivity]") {
+  constexpr double kStep = 3e-5;      // [standard deviations]
+  constexpr double kResolved = 1e-9;  // [m] what rounding leaves of a difference is 1e-7 of that
+  constexpr int kWanted = 50;
+  Bench bench;
+  Random random(4);
+  int compared = 0, kinks = 0;
+  for (int trial = 0; compared < kWanted && trial < 400; ++trial) {
+    const std::string kind =
+        std::vector<std::string>{"built", "lost", "load"}[static_cast<std::size_t>(trial % 3)];
+    Scene scene;
+    if (trial % 10 != 0) scene.removed = {BlockId{static_cast<std::int32_t>(random.below(38))}};
+    const auto parameter =
+        static_cast<Eigen::Index>(random.below(static_cast<std::uint32_t>(bench.parameters())));
+    const auto reading =
+        static_cast<Eigen::Index>(random.below(static_cast<std::uint32_t>(bench.readings.cols())));
+    const auto stages = bench.stages(kind, scene);
+    const Eigen::VectorXd theta = bench.nominal();
+    const auto nominal = bench.solve(stages, theta, nullptr);
+    if (!stand(nominal, stages.size())) continue;
+    const Eigen::MatrixXd derivatives = bench.derivatives(stages, nominal);
+    const double scale = derivatives.col(parameter).cwiseAbs().maxCoeff();
+    if (scale < kResolved) continue;
+    const auto moved = [&](double way) {
+      Eigen::VectorXd there = theta;
+      there[parameter] += way * kStep;
+      const auto solutions = bench.solve(stages, there, &nominal);
+      REQUIRE(stand(solutions, stages.size()));
+      return vertical_displacements(solutions.back().displacement, bench.bridge.control_points)[reading];
+    };
+    const double here =
+        vertical_displacements(nominal.back().displacement, bench.bridge.control_points)[reading];
+    const double ahead = moved(1.0), behind = moved(-1.0);
+    if (std::isnan(here)) {
+      CHECK(derivatives(reading, parameter) == 0.0);
+      continue;
+    }
+    ++compared;
+    // Where a joint changes its state within the step, the differences of both sides are not alike.
+    if (std::abs((ahead - here) - (here - behind)) > 1e-4 * scale * kStep) {
+      ++kinks;
+      continue;
+    }
+    INFO(kind << " " << to_string(scene, bench.bridge.layout) << " "
+              << bench.uncertain.all()[static_cast<std::size_t>(parameter)].name);
+    CHECK(std::abs((ahead - behind) / (2.0 * kStep) - derivatives(reading, parameter)) < 1e-6 * scale);
+  }
+  CHECK(compared == kWanted);
+  CHECK(kinks <= 2);
+}
+
+TEST_CASE("Sensitivities of what is not there or does not act are zero", "[sensitivity]") {
+  Bench bench;
+  const Scene scene = parse_scene("5,2", bench.bridge.layout);
+  const auto stages = bench.stages("built", scene);
+  const Eigen::MatrixXd derivatives =
+      bench.derivatives(stages, bench.solve(stages, bench.nominal(), nullptr));
+  int gone = 0;
+  for (std::size_t i = 0; i < bench.of_bridge(); ++i)
+    if (bench.uncertain.of_bridge[i].has_mean_one) {
+      const Joint& joint = bench.bridge.joints[bench.uncertain.of_bridge[i].joints.front()];
+      if (!scene.lacks(joint.first) && !scene.lacks(joint.second)) continue;
+      ++gone;
+      CHECK(derivatives.col(static_cast<Eigen::Index>(i)).isZero(0.0));
+    }
+  CHECK(gone >= 3);
+  for (std::size_t i = 0; i < bench.bridge.control_points.size(); ++i)
+    if (scene.lacks(bench.bridge.control_points[i].block))
+      CHECK(derivatives.row(static_cast<Eigen::Index>(i)).isZero(0.0));
+}
+
+TEST_CASE("All joints' own factors together are the common one (sum rule)", "[sensitivity]") {
+  Bench bench;
+  const auto stages = bench.stages("lost", parse_scene("4,2", bench.bridge.layout));
+  const Eigen::MatrixXd derivatives =
+      bench.derivatives(stages, bench.solve(stages, bench.nominal(), nullptr));
+  Eigen::VectorXd sum = Eigen::VectorXd::Zero(derivatives.rows());
+  for (std::size_t i = 0; i < bench.of_bridge(); ++i)
+    if (bench.uncertain.of_bridge[i].has_mean_one)
+      sum += derivatives.col(static_cast<Eigen::Index>(i)) / bench.uncertain.of_bridge[i].parameter.sigma;
+  const Eigen::VectorXd common = derivatives.col(0) / bench.uncertain.of_bridge[0].parameter.sigma;
+  CHECK((sum - common).cwiseAbs().maxCoeff() < 1e-9 * common.cwiseAbs().maxCoeff());
+}

@@ -1,0 +1,137 @@
+/// @file Sensitivities as build-database finds them. Oracles: bridges solved anew with other parameters, the
+/// definition of a basis, a build with other threads.
+
+#include "generator/sensitivities.h"
+
+#include <catch2/catch.hpp>
+
+#include "core/solve/history.h"
+#include "core/structure/uncertain_parameters.h"
+#include "generator/build.h"
+#include "generator/sensitivity_check.h"
+#include "generator/stored_bridge.h"
+#include "tests/support/bridges.h"
+#include "tests/support/made_up_database.h"
+#include "tests/support/temporary_folder.h"
+
+namespace voussoir {
+namespace {
+
+BuildSummary build(const std::filesystem::path& path, int threads, bool known_bridge = false) {
+  BuildRequest request;
+  request.bridge = test::small_bridge_file();
+  request.output = path;
+  request.histories = "built,lost";
+  request.scenes = "intact;4,*";
+  request.threads = threads;
+  request.known_bridge = known_bridge;
+  Progress quiet(Progress::Mode::quiet);
+  return build_database(request, quasi_static(), quiet);
+}
+
+}  // namespace
+
+TEST_CASE("A database's sensitivities predict what a little more stiffness and heat do (solved anew)",
+          "[sensitivity]") {
+  const test::TemporaryFolder folder;
+  build(folder / "small.h5", 2);
+  const Database database = Database::open(folder / "small.h5");
+  const Sensitivities* found = database.sensitivities();
+  REQUIRE(found != nullptr);
+  const Model bridge = test::small_bridge();
+  const UncertainParameters uncertain = uncertain_parameters(bridge, {});
+  CHECK(found->parameters == uncertain.all());
+  Eigen::VectorXd theta = Eigen::VectorXd::Zero(found->of_bridge());
+  for (std::size_t i = 0; i < uncertain.of_bridge.size(); ++i)
+    if (uncertain.of_bridge[i].has_mean_one)
+      theta[static_cast<Eigen::Index>(i)] = 0.5 * uncertain.of_bridge[i].parameter.sigma;
+  Eigen::VectorXd change = Eigen::VectorXd::Zero(found->of_bridge());
+  change[0] = 1e-3;
+  change[20] = 5e-3;
+  Eigen::VectorXd epoch = Eigen::VectorXd::Zero(found->of_epoch());
+  epoch[0] = 1e-3;
+  const Parameters parameters = parameters_at(bridge, uncertain, theta + change);
+  QuasiStaticSolver solver(bridge);
+  int compared = 0;
+  for (const Scene& scene : found->scenes)
+    for (const auto& [name, history] : {std::pair{"built", built(scene)}, std::pair{"lost", lost(scene)}}) {
+      const std::size_t state = *database.find_state(name);
+      const SceneFactors* factors = found->find(state, scene);
+      if (factors == nullptr) continue;
+      History moved = history;
+      for (NamedStage& stage : moved.stages) stage.stage = in_epoch(stage.stage, bridge, uncertain, epoch);
+      const auto solutions = solve_history(solver, moved, &parameters);
+      REQUIRE(solutions.back().outcome == Outcome::standing);
+      const Eigen::VectorXd now =
+          vertical_displacements(solutions.back().displacement, bridge.control_points);
+      const auto table = database.table(kNominalVariant, state);
+      const auto row = table.row(*database.find(scene));
+      const Eigen::VectorXd before = Eigen::Map<const Eigen::VectorXd>(row.data(), now.size());
+      const Eigen::VectorXd predicted =
+          factors->bridge * (found->basis.transpose() * change) + factors->epoch * epoch;
+      Eigen::VectorXd error = now - before - predicted;
+      error = error.array().isNaN().select(0.0, error);
+      INFO(name << " " << to_string(scene, bridge.layout));
+      CHECK(error.norm() < 0.02 * predicted.norm());  // what the basis leaves out and the second order
+      ++compared;
+    }
+  CHECK(compared >= 8);
+}
+
+TEST_CASE("Sensitivities and digest are the same for all numbers of threads", "[sensitivity]") {
+  const test::TemporaryFolder folder;
+  CHECK(build(folder / "one.h5", 1).digest == build(folder / "three.h5", 3).digest);
+}
+
+TEST_CASE("A bridge that is said to be known has no sensitivities; without that word it gets them",
+          "[sensitivity]") {
+  const test::TemporaryFolder folder;
+  build(folder / "small.h5", 2, true);
+  CHECK(Database::open(folder / "small.h5").sensitivities() == nullptr);
+  CHECK(build(folder / "small.h5", 2, true).up_to_date);
+  const BuildSummary again = build(folder / "small.h5", 2);
+  CHECK_FALSE(again.up_to_date);
+  CHECK(again.computed == 0);
+  CHECK(Database::open(folder / "small.h5").sensitivities() != nullptr);
+  CHECK(build(folder / "small.h5", 2).up_to_date);
+}
+
+TEST_CASE("The basis is orthonormal and leaves little of every kind (definition)", "[sensitivity]") {
+  Derivatives derivatives(1);
+  for (int scene = 0; scene < 5; ++scene) {
+    Eigen::MatrixXd one(6, 12);
+    for (Eigen::Index i = 0; i < one.size(); ++i)
+      one.data()[i] =
+          1e-4 * std::sin(1.3 * static_cast<double>(i) + 0.4 * scene * static_cast<double>(i % 7));
+    derivatives[0].push_back(one);
+  }
+  const Eigen::MatrixXd basis = sensitivity_basis(derivatives, 10);
+  CHECK((basis.transpose() * basis - Eigen::MatrixXd::Identity(basis.cols(), basis.cols())).norm() < 1e-12);
+  const auto left = [&](const Eigen::MatrixXd& all) {
+    const Eigen::MatrixXd own = all.leftCols(10);
+    return (own - own * basis * basis.transpose()).eval();
+  };
+  CHECK(left(derivatives[0][0]).norm() < 10.0 * kLeastDeviation);
+  double share = 0.0;
+  for (std::size_t i = 1; i < 5; ++i) {
+    const Eigen::MatrixXd signal = derivatives[0][i] - derivatives[0][0];
+    share += left(signal).squaredNorm() / signal.leftCols(10).squaredNorm() / 4.0;
+  }
+  CHECK(share <= kLeftOfSignals * (1.0 + 1e-9));
+}
+
+TEST_CASE("Stored sensitivities are those of the fields, and changed ones are found", "[sensitivity]") {
+  const test::TemporaryFolder folder;
+  build(folder / "small.h5", 2);
+  const Database database = Database::open(folder / "small.h5");
+  const Model bridge = bridge_of(database);
+  const StatePlan plan = plan_states(database.states(), bridge, description_of(database));
+  const SensitivityCheck right = check_sensitivities(database, bridge, {}, plan);
+  CHECK(right.scenes == kCheckedSensitivities);
+  CHECK(right.problems.empty());
+  Uncertainty other;
+  other.young_modulus = 0.3;
+  CHECK(check_sensitivities(database, bridge, other, plan).problems.size() >= 4);
+}
+
+}  // namespace voussoir
