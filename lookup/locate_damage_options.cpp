@@ -75,6 +75,11 @@ void add_bridge_options(CLI::App& app, LocateDamageOptions& options) {
       "what before_mm and after_mm are: change (default): only their difference counts, since levellings "
       "have a datum of their own; both: displacements since the bridge carried nothing, so that the first "
       "epoch teaches what the bridge is like");
+  add_choice<Conditions>(
+      app, "--conditions", options.settings.conditions,
+      {{"uncertain", Conditions::uncertain}, {"known", Conditions::known}},
+      "temperature and movements of the supports: uncertain (default) as the bridge file states, or known: "
+      "the model's, or the readings have been corrected for them");
 }
 
 void add_noise_options(CLI::App& app, LocateDamageOptions& options) {

@@ -211,7 +211,9 @@ Answer locate_damage(const Comparison& comparison, const LookupSettings& setting
   if (settings.epochs == Epochs::both && comparison.before.empty())
     throw InputError("both epochs are to count, expected readings with before_mm and after_mm");
   std::optional<UnknownBridgeQuestion> question;
-  if (!known) question.emplace(comparison, observation, settings.nuisance.scale, settings.epochs);
+  if (!known)
+    question.emplace(comparison, observation,
+                     UnknownSettings{settings.epochs, settings.conditions, settings.nuisance.scale});
   if (settings.objective == Objective::posterior) {
     const std::vector<double> evidence =
         question ? question->log_evidence(eligible, prior, settings.top)

@@ -29,8 +29,9 @@ struct LookupSettings {
   NoiseModel noise;
   Nuisance nuisance;
   bool known_bridge = false;       ///< what the comparison says of the bridge's uncertainty does not count
-  Epochs epochs = Epochs::change;  ///< what readings of two epochs are, if the bridge is not known
-  std::size_t top = 10;            ///< candidates wanted
+  Epochs epochs = Epochs::change;  ///< this and the next: if the bridge is not known
+  Conditions conditions = Conditions::uncertain;
+  std::size_t top = 10;  ///< candidates wanted
   GeneticSettings genetic;
 };
 

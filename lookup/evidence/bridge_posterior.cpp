@@ -1,6 +1,5 @@
 #include "lookup/evidence/bridge_posterior.h"
 
-#include <Eigen/Cholesky>
 #include <boost/math/special_functions/gamma.hpp>
 #include <cmath>
 
@@ -11,7 +10,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kNegligible = 1e-4;  // parts of the mixture with less weight are left out
+constexpr double kNegligible = 0.02;  // parts of the mixture with less weight are left out
 
 /// A scene with one kappa, and its weight in the mixture.
 struct Part {
@@ -38,57 +37,82 @@ std::vector<Part> parts_of(const std::vector<WeightedScene>& scenes, const std::
   return parts;
 }
 
-/// Mean and covariance of a mixture of Gaussians, part by part.
-class Moments {
- public:
-  explicit Moments(Index size) : mean_(VectorXd::Zero(size)), second_(MatrixXd::Zero(size, size)) {}
-
-  /// A part with the covariance variance * I - fall^T fall.
-  void add(double weight, const VectorXd& mean, double variance, const MatrixXd& fall) {
-    mean_ += weight * mean;
-    second_.diagonal().array() += weight * variance;
-    second_.selfadjointView<Eigen::Lower>().rankUpdate(fall.transpose(), -weight);
-    second_.selfadjointView<Eigen::Lower>().rankUpdate(mean, weight);
+/// A of a scene with all its columns, in rows of y.
+MatrixXd bridge_columns(const UnknownBridge& bridge, const Scene& scene) {
+  const MatrixXd& intact = bridge.factors->intact.bridge;
+  const MatrixXd after = bridge.factors->of(scene).bridge;
+  MatrixXd columns(static_cast<Index>(bridge.rows.size()), intact.cols());
+  for (Index k = 0; k < columns.rows(); ++k) {
+    const ReadingRow& row = bridge.rows[static_cast<std::size_t>(k)];
+    const auto channel = static_cast<Index>(row.channel);
+    columns.row(k) = row.after * after.row(channel);
+    if (row.before != 0.0) columns.row(k) += row.before * intact.row(channel);
   }
-  const VectorXd& mean() const { return mean_; }
-  MatrixXd covariance() const {
-    return MatrixXd(second_.selfadjointView<Eigen::Lower>()) - mean_ * mean_.transpose();
-  }
+  return columns;
+}
 
- private:
-  VectorXd mean_;
-  MatrixXd second_;
+/// One scene's Gaussian, but for kappa.
+struct SceneGaussian {
+  SceneLoss loss;
+  VectorXd difference;
+  MatrixXd bridge, epoch, noise;
 };
 
-/// With the covariance C = L L^T: E[z] = kappa A^T C^-1 r and cov(z) = kappa I - kappa^2 A^T C^-1 A; what all
-/// others let expect of reading i is off by (C^-1 r)_i / (C^-1)_ii, a variance of 1 / (C^-1)_ii.
-void add_part(const UnknownBridge& bridge, const SceneGaussian& scene, double kappa, double weight,
-              Moments& of_bridge, Moments& of_epochs, BridgePosterior& result) {
-  const Eigen::LLT<MatrixXd> factorised(scene.covariance(bridge, kappa));
-  const auto lower = factorised.matrixL();
+SceneGaussian scene_gaussian(const UnknownBridge& bridge, const Observation& observation,
+                             const SceneTable& table, std::size_t row) {
+  SceneGaussian scene{*scene_loss(bridge, observation, table, row), {}, {}, {}, bridge.noise};
+  scene.difference = bridge.reading - scene.loss.signal;
+  scene.bridge = bridge_columns(bridge, table.scene(row));
+  scene.epoch = epoch_columns(bridge, scene.loss);
+  scene.noise.diagonal() += loss_variance(bridge, scene.loss);
+  for (const MatrixXd& columns : {scene.epoch, other_columns(bridge, scene.loss)})
+    scene.noise.noalias() += columns * columns.transpose();
+  return scene;
+}
+
+/// What all others let expect of reading i is off by (C^-1 r)_i / (C^-1)_ii, which has the variance
+/// 1 / (C^-1)_ii. The epochs' parameters have the mean E^T C^-1 r and the covariance I - E^T C^-1 E.
+void add_part(const SceneGaussian& scene, const MatrixXd& scatter, double kappa, double weight,
+              BridgePosterior& result) {
+  const Index n = scene.difference.size();
+  BridgePart part{weight, kappa, scene.bridge, Eigen::LLT<MatrixXd>(scene.noise + kappa * scatter), {}};
+  const auto lower = part.covariance.matrixL();
   const VectorXd whitened = lower.solve(scene.difference);
-  const MatrixXd from_bridge = lower.solve(scene.factors.bridge);
-  const MatrixXd from_epochs = lower.solve(scene.factors.epoch);
-  of_bridge.add(weight, kappa * (from_bridge.transpose() * whitened), kappa, kappa * from_bridge);
-  of_epochs.add(weight, from_epochs.transpose() * whitened, 1.0, from_epochs);
-  const Index n = whitened.size();
+  const VectorXd pulled = lower.transpose().solve(whitened);
+  part.mean = kappa * (scene.bridge.transpose() * pulled);
+  const VectorXd epoch = scene.epoch.transpose() * pulled;
+  const MatrixXd fall = lower.solve(scene.epoch);
+  result.bridge_mean += weight * part.mean;
+  result.epoch_mean += weight * epoch;
+  result.epoch_covariance.diagonal().array() += weight;
+  result.epoch_covariance += weight * (epoch * epoch.transpose() - fall.transpose() * fall);
   const MatrixXd inverse = lower.solve(MatrixXd::Identity(n, n));
   const VectorXd precision = inverse.colwise().squaredNorm();
-  const VectorXd pulled = inverse.transpose() * whitened;
   result.others += weight * (pulled.array() / precision.array().sqrt()).matrix();
   result.chance += weight * boost::math::gamma_q(0.5 * static_cast<double>(n), 0.5 * whitened.squaredNorm());
-  result.variance += weight * kappa;
+  result.parts.push_back(std::move(part));
 }
 
 /// What the means make of the likeliest scene's readings.
 void explain(const UnknownBridge& bridge, const SceneGaussian& scene, BridgePosterior& result) {
-  const Index parameters = scene.factors.epoch.cols() / bridge.epochs;
-  result.signal = bridge.reading - scene.difference;
-  result.from_bridge = scene.factors.bridge * result.bridge_mean;
-  const MatrixXd each = scene.factors.epoch * result.epoch_mean.asDiagonal();
+  const Index parameters = bridge.factors->of_epoch();
+  result.signal = scene.loss.signal;
+  result.from_bridge = scene.bridge * result.bridge_mean;
+  const MatrixXd each = scene.epoch * result.epoch_mean.asDiagonal();
   result.from_epochs = each.rightCols(parameters);
   if (bridge.epochs > 1) result.from_epochs += each.leftCols(parameters);
   result.left = scene.difference - result.from_bridge - result.from_epochs.rowwise().sum();
+}
+
+BridgePosterior empty_posterior(const UnknownBridge& bridge) {
+  const Index epochs = bridge.epochs * bridge.factors->of_epoch();
+  BridgePosterior result;
+  result.chance = 0.0;
+  result.others = VectorXd::Zero(bridge.reading.size());
+  result.bridge_mean = VectorXd::Zero(bridge.factors->of_bridge());
+  result.epoch_mean = VectorXd::Zero(epochs);
+  result.epoch_covariance = MatrixXd::Zero(epochs, epochs);
+  return result;
 }
 
 }  // namespace
@@ -97,33 +121,32 @@ BridgePosterior bridge_posterior(const UnknownBridge& bridge, const Observation&
                                  const SceneTable& table, const std::vector<WeightedScene>& scenes) {
   std::vector<std::size_t> rows;
   for (const WeightedScene& scene : scenes) rows.push_back(scene.row);
-  BridgePosterior result;
-  result.chance = result.variance = 0.0;
-  result.others = VectorXd::Zero(bridge.reading.size());
-  Moments of_bridge(bridge.intact.bridge.cols()), of_epochs(bridge.intact.epoch.cols());
-  for (const Part& part : parts_of(scenes, scatter_logs(bridge, observation, table, rows, 1))) {
-    const auto scene = scene_gaussian(bridge, observation, table, rows[part.scene]);
-    add_part(bridge, *scene, kScatterFactors[part.kappa], part.weight, of_bridge, of_epochs, result);
-    result.scatter[part.kappa] += part.weight;
+  BridgePosterior result = empty_posterior(bridge);
+  const std::vector<Part> parts = parts_of(scenes, scatter_logs(bridge, observation, table, rows, 1));
+  for (std::size_t i = 0; i < scenes.size(); ++i) {
+    const SceneGaussian scene = scene_gaussian(bridge, observation, table, rows[i]);
+    const MatrixXd scatter = scene.bridge * scene.bridge.transpose();
+    for (const Part& part : parts) {
+      if (part.scene != i) continue;
+      add_part(scene, scatter, kScatterFactors[part.kappa], part.weight, result);
+      result.scatter[part.kappa] += part.weight;
+    }
   }
-  result.bridge_mean = of_bridge.mean();
-  result.bridge_covariance = of_bridge.covariance();
-  result.epoch_mean = of_epochs.mean();
-  result.epoch_covariance = of_epochs.covariance();
-  explain(bridge, *scene_gaussian(bridge, observation, table, rows.front()), result);
+  result.epoch_covariance -= result.epoch_mean * result.epoch_mean.transpose();
+  explain(bridge, scene_gaussian(bridge, observation, table, rows.front()), result);
   return result;
 }
 
-std::vector<ParameterEstimate> parameter_estimates(const BridgePosterior& posterior, const MatrixXd& basis) {
-  const VectorXd mean = basis * posterior.bridge_mean;
-  std::vector<ParameterEstimate> estimates;
-  for (Index i = 0; i < basis.rows(); ++i) {
-    const double outside = 1.0 - std::min(1.0, basis.row(i).squaredNorm());
-    const double inside = basis.row(i).dot(basis.row(i) * posterior.bridge_covariance);
-    estimates.push_back(
-        {static_cast<std::size_t>(i), mean[i], std::sqrt(outside * posterior.variance + inside)});
+ParameterEstimate parameter_estimate(const BridgePosterior& posterior, const VectorXd& row) {
+  ParameterEstimate estimate{row.dot(posterior.bridge_mean), 0.0};
+  double second = 0.0;
+  for (const BridgePart& part : posterior.parts) {
+    const VectorXd fall = part.kappa * part.covariance.matrixL().solve(part.bridge * row);
+    const double mean = row.dot(part.mean);
+    second += part.weight * (part.kappa - fall.squaredNorm() + mean * mean);
   }
-  return estimates;
+  estimate.deviation = std::sqrt(std::max(0.0, second - estimate.mean * estimate.mean));
+  return estimate;
 }
 
 }  // namespace voussoir

@@ -39,6 +39,20 @@ std::vector<std::size_t> credible_set(const std::vector<double>& probability) {
   return rows;
 }
 
+/// From the probabilities of 0, 1, 2.. missing blocks afterwards and beforehand.
+double intact_if_even(const std::vector<double>& afterwards, const Eligible& eligible,
+                      const std::vector<double>& log_prior) {
+  double before = 0.0, after = 0.0;
+  for (std::size_t missing = 1; missing < afterwards.size(); ++missing) {
+    before += static_cast<double>(eligible.scenes[missing]) * std::exp(log_prior[missing]);
+    after += afterwards[missing];
+  }
+  const double intact_before = static_cast<double>(eligible.scenes[0]) * std::exp(log_prior[0]);
+  if (before == 0.0 || intact_before == 0.0) return afterwards.front();
+  const double intact = afterwards.front() / intact_before, damaged = after / before;
+  return intact / (intact + damaged);
+}
+
 }  // namespace
 
 Prior stated_prior(Prior prior, bool known_bridge) {
@@ -98,6 +112,7 @@ Posterior posterior(const SceneTable& table, const Eligible& eligible,
     for (const std::int32_t id : table.removed.subspan(row * table.most_missing, table.most_missing))
       if (id >= 0) result.block_probability[static_cast<std::size_t>(id)] += result.probability[row];
   }
+  result.intact_if_even = intact_if_even(result.missing_probability, eligible, log_prior);
   result.credible = credible_set(result.probability);
   return result;
 }

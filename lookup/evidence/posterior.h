@@ -36,6 +36,9 @@ struct Posterior {
   std::vector<double> block_probability;    ///< that a block is missing: sum over the scenes that lack it
   std::vector<double> missing_probability;  ///< of 0, 1, 2... missing blocks
   std::vector<std::size_t> credible;  ///< the fewest rows that hold 95 % of the probability, likeliest first
+  double intact_if_even =
+      0.0;  ///< what the probability that no block is missing would be, if that had been as
+            ///< likely beforehand as that some are: what the readings themselves say of it
 };
 
 /// Share of the probability in Posterior::credible.

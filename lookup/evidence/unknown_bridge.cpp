@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <numbers>
+
+#include "lookup/readings/common_variance.h"
 
 namespace voussoir {
 namespace {
@@ -27,34 +28,26 @@ std::vector<ReadingRow> rows_of(const Comparison& comparison, const Observation&
   return rows;
 }
 
-bool has_two_epochs(const std::vector<ReadingRow>& rows) {
-  return rows.back().before != 0.0;
-}
-
-/// The first epoch's own readings stand before the changes.
-bool has_first_epoch(const std::vector<ReadingRow>& rows) {
-  return rows.front().after == 0.0;
-}
-
-/// Rows of y from a matrix whose rows are channels.
-MatrixXd at_rows(const std::vector<ReadingRow>& rows, const MatrixXd& channels, double ReadingRow::*weight) {
+/// What is the same in both epochs, from a matrix whose rows are channels.
+MatrixXd of_bridge(const std::vector<ReadingRow>& rows, const MatrixXd& channels) {
   MatrixXd result(static_cast<Index>(rows.size()), channels.cols());
   for (std::size_t k = 0; k < rows.size(); ++k)
-    result.row(static_cast<Index>(k)) = rows[k].*weight * channels.row(static_cast<Index>(rows[k].channel));
+    result.row(static_cast<Index>(k)) =
+        rows[k].of_bridge() * channels.row(static_cast<Index>(rows[k].channel));
   return result;
 }
 
-/// What is the same in both epochs.
-MatrixXd of_bridge(const std::vector<ReadingRow>& rows, const MatrixXd& channels) {
-  return at_rows(rows, channels, &ReadingRow::before) + at_rows(rows, channels, &ReadingRow::after);
-}
-
 /// What each epoch has of its own: columns of the first, if it is in y, and of the second.
-MatrixXd of_epochs(const std::vector<ReadingRow>& rows, const MatrixXd& channels) {
-  const Index columns = channels.cols();
-  MatrixXd result = MatrixXd::Zero(static_cast<Index>(rows.size()), (has_two_epochs(rows) ? 2 : 1) * columns);
-  result.leftCols(columns) = at_rows(rows, channels, &ReadingRow::before);
-  result.rightCols(columns) = at_rows(rows, channels, &ReadingRow::after);
+MatrixXd of_epochs(const std::vector<ReadingRow>& rows, Index epochs, const MatrixXd& before,
+                   const MatrixXd& after) {
+  const Index columns = after.cols();
+  MatrixXd result = MatrixXd::Zero(static_cast<Index>(rows.size()), epochs * columns);
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    const auto channel = static_cast<Index>(rows[k].channel);
+    auto to = result.row(static_cast<Index>(k));
+    if (epochs > 1) to.head(columns) = rows[k].before * before.row(channel);
+    to.tail(columns) += rows[k].after * after.row(channel);
+  }
   return result;
 }
 
@@ -67,13 +60,13 @@ double instrument_variance(const Observation& observation, std::size_t channel, 
 }
 
 /// Each of two epochs has half the change's variance, and the first one's error is in the change.
-void add_instruments(const std::vector<ReadingRow>& rows, const Observation& observation, double level,
+void add_instruments(const UnknownBridge& bridge, const Observation& observation, double level,
                      MatrixXd& noise) {
-  for (std::size_t k = 0; k < rows.size(); ++k) {
-    const double variance = instrument_variance(observation, rows[k].channel, level);
+  for (std::size_t k = 0; k < bridge.rows.size(); ++k) {
+    const double variance = instrument_variance(observation, bridge.rows[k].channel, level);
     const auto at = static_cast<Index>(k);
-    noise(at, at) += (rows[k].after == 0.0 ? 0.5 : 1.0) * variance;
-    if (rows[k].after != 0.0) continue;
+    noise(at, at) += (bridge.rows[k].after == 0.0 ? 0.5 : 1.0) * variance;
+    if (bridge.rows[k].after != 0.0) continue;
     const auto change = at + noise.rows() / 2;  // the same channels in the same order
     noise(at, change) -= 0.5 * variance;
     noise(change, at) -= 0.5 * variance;
@@ -86,16 +79,21 @@ MatrixXd common_noise(const Comparison& comparison, const Observation& observati
   const std::vector<ReadingRow>& rows = bridge.rows;
   const auto n = static_cast<Index>(rows.size());
   MatrixXd noise = MatrixXd::Zero(n, n);
-  add_instruments(rows, observation, level, noise);
+  add_instruments(bridge, observation, level, noise);
   const std::vector<double>& own = comparison.model_error.intact;
   for (std::size_t k = 0; k < rows.size() && !own.empty(); ++k)
     noise(static_cast<Index>(k), static_cast<Index>(k)) +=
-        std::pow((rows[k].before + rows[k].after) * own[rows[k].channel], 2);
+        std::pow(rows[k].of_bridge() * own[rows[k].channel], 2);
   const FirstOrderResidual& residual = comparison.factors->residual;
-  const double epochs = is_change(comparison.kind) ? std::numbers::sqrt2 : 1.0;  // that levellings stand for
-  for (const MatrixXd& columns : {of_bridge(rows, residual.bridge), of_epochs(rows, residual.epoch),
-                                  of_epochs(rows, observation.levelling / epochs)})
-    noise.noalias() += columns * columns.transpose();
+  // Levelling columns of changes stand for both epochs.
+  const MatrixXd levelling = is_change(comparison.kind)
+                                 ? MatrixXd(observation.levelling / std::numbers::sqrt2)
+                                 : observation.levelling;
+  const auto add = [&](const MatrixXd& columns) { noise.noalias() += columns * columns.transpose(); };
+  add(of_bridge(rows, residual.bridge));
+  add(of_epochs(rows, bridge.epochs, levelling, levelling));
+  if (bridge.conditions == Conditions::uncertain)
+    add(of_epochs(rows, bridge.epochs, residual.epoch, residual.epoch));
   return noise;
 }
 
@@ -104,95 +102,165 @@ void add_readings(const Comparison& comparison, const Observation& observation, 
   bridge.reading.resize(n);
   bridge.movement.resize(n);
   for (Index k = 0; k < n; ++k) {
-    const auto& [channel, before, after] = bridge.rows[static_cast<std::size_t>(k)];
-    const double intact = observation.intact[channel];
-    const double shown = after == 0.0 ? comparison.before[channel] : observation.reading[channel];
+    const ReadingRow& row = bridge.rows[static_cast<std::size_t>(k)];
+    const double intact = observation.intact[row.channel];
+    const double shown = row.after == 0.0 ? comparison.before[row.channel] : observation.reading[row.channel];
     bridge.reading[k] = shown - intact;
-    bridge.movement[k] = (before + after) * intact;
+    bridge.movement[k] = row.of_bridge() * intact;
   }
+}
+
+VectorXd signal_of(const UnknownBridge& bridge, const Observation& observation,
+                   std::span<const double> prediction) {
+  VectorXd signal(static_cast<Index>(bridge.rows.size()));
+  for (std::size_t k = 0; k < bridge.rows.size(); ++k) {
+    const ReadingRow& row = bridge.rows[k];
+    signal[static_cast<Index>(k)] =
+        row.after == 0.0 ? 0.0 : row.after * (prediction[row.channel] - observation.intact[row.channel]);
+  }
+  return signal;
+}
+
+/// Variance that parameters of the bridge give each channel, and that of an epoch's.
+VectorXd bridge_spread(const LossFactors& factors) {
+  return factors.lead.rowwise().squaredNorm() + factors.own.diagonal();
+}
+VectorXd epoch_spread(const UnknownBridge& bridge, const LossFactors& factors) {
+  const VectorXd spread = factors.epoch.rowwise().squaredNorm();
+  return bridge.conditions == Conditions::uncertain ? spread : VectorXd::Zero(spread.size());
+}
+
+/// What the first order leaves of a signal, by channel.
+VectorXd left_by_first_order(const UnknownBridge& bridge, const LossFactors& factors) {
+  const FirstOrderResidual& residual = bridge.factors->residual;
+  const VectorXd own = bridge_spread(factors), epoch = epoch_spread(bridge, factors);
+  const double alike =
+      std::pow(residual.common, 2) * own.mean() + std::pow(residual.epoch_common, 2) * epoch.mean();
+  return (std::pow(residual.share, 2) * own + std::pow(residual.epoch_share, 2) * epoch).array() + alike;
+}
+
+/// The loss that makes a row of the comparison's table.
+Loss loss_of(const Comparison& comparison, const Observation& observation, const UnknownBridge& bridge,
+             std::size_t row, const LossFactors& factors) {
+  const std::span<const double> prediction = comparison.library.table.row(row);
+  Loss loss{&factors, signal_of(bridge, observation, prediction), {}};
+  const double common = common_variance(observation.intact, observation.error_common, prediction);
+  loss.variance = (observation.error_share * loss.signal).array().square() + common;
+  const VectorXd left = factors.known() ? left_by_first_order(bridge, factors)
+                                        : VectorXd(VectorXd::Zero(comparison.factors->intact.bridge.rows()));
+  for (Index k = 0; k < loss.variance.size(); ++k) {
+    const ReadingRow& at = bridge.rows[static_cast<std::size_t>(k)];
+    if (at.after == 0.0) loss.variance[k] = 0.0;
+    if (at.after != 0.0) loss.variance[k] += left[static_cast<Index>(at.channel)];
+  }
+  return loss;
 }
 
 void add_losses(const Comparison& comparison, const Observation& observation, UnknownBridge& bridge) {
   const ReadingFactors& factors = *comparison.factors;
   const SceneTable& table = comparison.library.table;
-  bridge.blocks.resize(factors.change.size());
-  std::map<Scene, const SceneFactors*> of_pair;
-  for (const auto& [scene, change] : factors.pairs) of_pair[scene] = &change;
+  bridge.blocks.resize(factors.blocks.size());
   for (std::size_t row = 0; row < table.rows; ++row) {
-    const std::span<const std::int32_t> removed =
-        table.removed.subspan(row * table.most_missing, table.most_missing);
-    const auto missing = std::count_if(removed.begin(), removed.end(), [](auto id) { return id >= 0; });
-    if (missing == 1) {
-      const auto block = static_cast<std::size_t>(removed.front());
-      bridge.blocks[block] =
-          loss_of(comparison, observation, bridge.rows, row, factors.change[block], bridge.epochs);
-    } else if (missing > 1 && of_pair.empty()) {
-      break;  // few removed blocks come first
-    } else if (const auto found = of_pair.find(table.scene(row)); found != of_pair.end()) {
-      bridge.pairs.emplace_back(
-          found->first, loss_of(comparison, observation, bridge.rows, row, *found->second, bridge.epochs));
+    const std::int32_t first = table.removed[row * table.most_missing];
+    const bool pair = table.most_missing > 1 && table.removed[row * table.most_missing + 1] >= 0;
+    if (first < 0) continue;
+    if (pair && factors.pairs.empty()) break;  // few missing blocks come first
+    if (!pair) {
+      const auto block = static_cast<std::size_t>(first);
+      bridge.blocks[block] = loss_of(comparison, observation, bridge, row, factors.blocks[block]);
+      continue;
     }
+    const Scene scene = table.scene(row);
+    for (const auto& [own, change] : factors.pairs)
+      if (own == scene)
+        bridge.pairs.emplace_back(scene, loss_of(comparison, observation, bridge, row, change));
   }
-  std::sort(bridge.pairs.begin(), bridge.pairs.end(),
-            [](const auto& a, const auto& b) { return a.first < b.first; });
+}
+
+/// The median over the known losses; 1 if there are none.
+double typical_spread(const UnknownBridge& bridge) {
+  std::vector<double> shares;
+  for (const Loss& loss : bridge.blocks) {
+    if (!loss.known()) continue;
+    const double size = loss.signal.array().isNaN().select(0.0, loss.signal).norm();
+    if (size > 0.0)
+      shares.push_back(std::sqrt((bridge_spread(*loss.factors) + epoch_spread(bridge, *loss.factors)).sum()) /
+                       size);
+  }
+  if (shares.empty()) return 1.0;
+  const auto middle = shares.begin() + static_cast<std::ptrdiff_t>(shares.size() / 2);
+  std::nth_element(shares.begin(), middle, shares.end());
+  return *middle;
+}
+
+/// The losses that a scene is made of, of which factors are known.
+std::vector<const Loss*> known_losses(const UnknownBridge& bridge, const SceneTable& table, std::size_t row) {
+  if (!bridge.pairs.empty()) {
+    const Scene scene = table.scene(row);
+    const auto own =
+        std::lower_bound(bridge.pairs.begin(), bridge.pairs.end(), scene,
+                         [](const auto& pair, const Scene& wanted) { return pair.first < wanted; });
+    if (own != bridge.pairs.end() && own->first == scene) return {&own->second};
+  }
+  std::vector<const Loss*> losses;
+  for (const std::int32_t block : table.removed.subspan(row * table.most_missing, table.most_missing))
+    if (block >= 0 && bridge.blocks[static_cast<std::size_t>(block)].known())
+      losses.push_back(&bridge.blocks[static_cast<std::size_t>(block)]);
+  return losses;
 }
 
 }  // namespace
 
 UnknownBridge unknown_bridge(const Comparison& comparison, const Observation& observation, double level,
-                             double scale, Epochs epochs) {
-  const SceneFactors& intact = comparison.factors->intact;
+                             const UnknownSettings& settings) {
   UnknownBridge bridge;
-  bridge.rows = rows_of(comparison, observation, epochs);
-  bridge.epochs = has_two_epochs(bridge.rows) ? 2 : 1;
-  bridge.scale = scale;
+  bridge.factors = comparison.factors.get();
+  bridge.rows = rows_of(comparison, observation, settings.epochs);
+  bridge.epochs = bridge.rows.back().before != 0.0 ? 2 : 1;
+  bridge.conditions = settings.conditions;
+  bridge.scale = settings.scale;
   add_readings(comparison, observation, bridge);
-  bridge.intact = {of_bridge(bridge.rows, intact.bridge), of_epochs(bridge.rows, intact.epoch)};
   bridge.noise = common_noise(comparison, observation, level, bridge);
   add_losses(comparison, observation, bridge);
-  bridge.spread = typical_spread(bridge.blocks);
+  bridge.spread = typical_spread(bridge);
   return bridge;
 }
 
-std::vector<const Loss*> known_losses(const UnknownBridge& bridge, const Scene& scene) {
-  const auto own =
-      std::lower_bound(bridge.pairs.begin(), bridge.pairs.end(), scene,
-                       [](const auto& pair, const Scene& wanted) { return pair.first < wanted; });
-  if (own != bridge.pairs.end() && own->first == scene) return {&own->second};
-  std::vector<const Loss*> losses;
-  for (const BlockId block : scene.removed)
-    if (const Loss& loss = bridge.blocks[static_cast<std::size_t>(value(block))]; loss.known())
-      losses.push_back(&loss);
-  return losses;
+std::optional<SceneLoss> scene_loss(const UnknownBridge& bridge, const Observation& observation,
+                                    const SceneTable& table, std::size_t row) {
+  SceneLoss loss;
+  loss.signal = signal_of(bridge, observation, table.row(row));
+  if (loss.signal.hasNaN()) return std::nullopt;
+  loss.known = known_losses(bridge, table, row);
+  loss.beyond = loss.signal;
+  for (const Loss* one : loss.known) loss.beyond -= one->signal;
+  const Index changed = bridge.has_first_epoch() ? loss.signal.size() / 2 : loss.signal.size();
+  loss.variance_beyond =
+      bridge.spread * bridge.spread * loss.beyond.squaredNorm() / static_cast<double>(changed);
+  return loss;
 }
 
-std::optional<SceneGaussian> scene_gaussian(const UnknownBridge& bridge, const Observation& observation,
-                                            const SceneTable& table, std::size_t row) {
-  const VectorXd signal = signal_of(observation, bridge.rows, table.row(row));
-  if (signal.hasNaN()) return std::nullopt;
-  SceneGaussian scene{bridge.reading - signal, bridge.intact, VectorXd::Zero(signal.size()),
-                      MatrixXd(signal.size(), 2)};
-  VectorXd beyond = signal;
-  for (const Loss* loss : known_losses(bridge, table.scene(row))) {
-    scene.factors.bridge += loss->factors.bridge;
-    scene.factors.epoch += loss->factors.epoch;
-    scene.variance += loss->variance;
-    beyond -= loss->signal;
-  }
-  const Index changed = has_first_epoch(bridge.rows) ? signal.size() / 2 : signal.size();
-  const double alike = bridge.spread * bridge.spread * beyond.squaredNorm() / static_cast<double>(changed);
-  for (Index k = 0; k < signal.size(); ++k)
-    if (bridge.rows[static_cast<std::size_t>(k)].after != 0.0) scene.variance[k] += alike;
-  scene.columns << bridge.spread * beyond, bridge.scale * (bridge.movement + signal);
-  return scene;
+MatrixXd epoch_columns(const UnknownBridge& bridge, const SceneLoss& loss) {
+  const MatrixXd& intact = bridge.factors->intact.epoch;
+  if (bridge.conditions == Conditions::known)
+    return MatrixXd::Zero(static_cast<Index>(bridge.rows.size()), bridge.epochs * intact.cols());
+  MatrixXd after = intact;
+  for (const Loss* one : loss.known) after += one->factors->epoch;
+  return of_epochs(bridge.rows, bridge.epochs, intact, after);
 }
 
-MatrixXd SceneGaussian::covariance(const UnknownBridge& bridge, double kappa) const {
-  MatrixXd result = bridge.noise + kappa * (factors.bridge * factors.bridge.transpose());
-  result.noalias() += factors.epoch * factors.epoch.transpose();
-  result.noalias() += columns * columns.transpose();
-  result.diagonal() += variance;
-  return result;
+MatrixXd other_columns(const UnknownBridge& bridge, const SceneLoss& loss) {
+  MatrixXd columns(loss.signal.size(), 2);
+  columns << bridge.spread * loss.beyond, bridge.scale * (bridge.movement + loss.signal);
+  return columns;
+}
+
+VectorXd loss_variance(const UnknownBridge& bridge, const SceneLoss& loss) {
+  VectorXd variance(loss.signal.size());
+  for (Index k = 0; k < variance.size(); ++k)
+    variance[k] = bridge.rows[static_cast<std::size_t>(k)].after != 0.0 ? loss.variance_beyond : 0.0;
+  for (const Loss* one : loss.known) variance += one->variance;
+  return variance;
 }
 
 }  // namespace voussoir

@@ -8,19 +8,28 @@
 /// noise: instruments, levellings, the model's own error, and what the first order leaves.
 ///
 /// A pair's factors are those of the intact bridge and what its two blocks change alone, unless the database
-/// has its own. Of what a scene's signal is beyond that of its blocks with known factors, the whole counts as
-/// uncertain as signals typically are: by one factor, and once more at each point by itself. So scenes
-/// without factors (that collapse, or with a block whose loss alone makes a collapse) are told less sharply,
-/// not excluded.
+/// has its own; what the model's error and the first order leave of both adds up. Of what a scene's signal is
+/// beyond that of its blocks with known factors, the whole counts as uncertain as signals typically are: by
+/// one factor, and once more at each point by itself. So scenes without factors (that collapse, or with a
+/// block whose loss alone makes a collapse) are told less sharply, not excluded.
 
 #include <Eigen/Core>
 #include <optional>
 #include <utility>
 #include <vector>
 
-#include "lookup/evidence/loss.h"
+#include "lookup/readings/observation.h"
 
 namespace voussoir {
+
+/// A number of y: after * (channel in the second epoch) + before * (in the first, with no block missing).
+struct ReadingRow {
+  std::size_t channel = 0;
+  double before = 0.0;
+  double after = 1.0;
+
+  double of_bridge() const { return before + after; }  ///< how what is the same in both epochs counts
+};
 
 /// What the first of two epochs tells.
 enum class Epochs {
@@ -28,40 +37,66 @@ enum class Epochs {
   both     ///< the first's are displacements since the bridge carried nothing, and teach what it is like
 };
 
+/// Temperature and movements of supports, which every epoch has of its own.
+enum class Conditions {
+  uncertain,  ///< as the bridge file states
+  known       ///< they are those of the model, or readings have been corrected for them
+};
+
+struct UnknownSettings {
+  Epochs epochs = Epochs::change;
+  Conditions conditions = Conditions::uncertain;
+  double scale = 0.0;  ///< Nuisance::scale
+};
+
+/// The loss of a block, or of a pair with factors of its own, in rows of y.
+struct Loss {
+  const LossFactors* factors = nullptr;
+  Eigen::VectorXd signal{};    ///< [m] NaN at readings that the loss makes impossible
+  Eigen::VectorXd variance{};  ///< [m2] the model's own error in it, and what the first order leaves
+  bool known() const { return factors != nullptr && factors->known(); }
+};
+
 struct UnknownBridge {
+  const ReadingFactors* factors = nullptr;
   std::vector<ReadingRow> rows;
   Eigen::VectorXd reading;                    ///< [m] less what the intact bridge shows
   Eigen::VectorXd movement;                   ///< [m] of the intact bridge, as a common factor counts it
-  SceneFactors intact;                        ///< epochs' parameters: a column for each epoch and parameter
   Eigen::MatrixXd noise;                      ///< [m2] of all scenes
   std::vector<Loss> blocks;                   ///< by block
   std::vector<std::pair<Scene, Loss>> pairs;  ///< with factors of their own, in ascending order
-  Eigen::Index epochs = 1;                    ///< in y, each with its own columns
+  Eigen::Index epochs = 1;                    ///< in y, each with its own columns of E
   double spread = 0.0;  ///< [-] standard deviation of a signal as a share of it, where it is not known better
-  double scale = 0.0;   ///< [-] Observation::unknown_scale as far as it was asked for
+  double scale = 0.0;   ///< [-] of a factor on all movements, as far as it was asked for
+  Conditions conditions = Conditions::uncertain;
+
+  bool has_first_epoch() const { return rows.front().after == 0.0; }  ///< before the rows of changes
 };
 
-/// The instruments' errors are those of a noise level, in shares of what was read; `scale`: Nuisance::scale.
+/// The instruments' errors are those of a noise level, in shares of what was read.
 /// Preconditions: the comparison has factors, the observation Gaussian noise and at least one reading.
 UnknownBridge unknown_bridge(const Comparison& comparison, const Observation& observation, double level,
-                             double scale, Epochs epochs);
+                             const UnknownSettings& settings);
 
-/// The losses that a scene is made of, of which factors are known: those of its blocks, or its own.
-std::vector<const Loss*> known_losses(const UnknownBridge& bridge, const Scene& scene);
-
-/// One scene's Gaussian. Rows are those of y.
-struct SceneGaussian {
-  Eigen::VectorXd difference;  ///< [m] y less its mean
-  SceneFactors factors;
-  Eigen::VectorXd variance;  ///< [m2] beside UnknownBridge::noise
-  Eigen::MatrixXd columns;   ///< [m] and columns * columns^T
-
-  /// kappa A A^T + E E^T + noise
-  Eigen::MatrixXd covariance(const UnknownBridge& bridge, double kappa) const;
+/// What one scene lacks, in rows of y.
+struct SceneLoss {
+  std::vector<const Loss*> known;  ///< with factors: of its blocks, or its own
+  Eigen::VectorXd signal;          ///< [m] less what the intact bridge shows
+  Eigen::VectorXd beyond;          ///< [m] of it what is not that of the known losses
+  double variance_beyond = 0.0;    ///< [m2] of that, at each point by itself, beside its one factor
 };
 
 /// Nothing if the scene is impossible: a block with a reading is missing.
-std::optional<SceneGaussian> scene_gaussian(const UnknownBridge& bridge, const Observation& observation,
-                                            const SceneTable& table, std::size_t row);
+std::optional<SceneLoss> scene_loss(const UnknownBridge& bridge, const Observation& observation,
+                                    const SceneTable& table, std::size_t row);
+
+/// E of a scene: a column for each epoch in y and parameter.
+Eigen::MatrixXd epoch_columns(const UnknownBridge& bridge, const SceneLoss& loss);
+
+/// Columns of what else is uncertain of a scene: its signal beyond known losses, and the common factor.
+Eigen::MatrixXd other_columns(const UnknownBridge& bridge, const SceneLoss& loss);
+
+/// The diagonal of what the scene's losses add to UnknownBridge::noise.
+Eigen::VectorXd loss_variance(const UnknownBridge& bridge, const SceneLoss& loss);
 
 }  // namespace voussoir

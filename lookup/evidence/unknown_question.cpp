@@ -2,18 +2,24 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
+#include <numeric>
 #include <thread>
 
 #include "lookup/evidence/evidence.h"
+#include "lookup/evidence/evidence_screen.h"
 #include "lookup/evidence/scene_evidence.h"
+#include "lookup/evidence/unknown_screen.h"
 
 namespace voussoir {
 namespace {
 
 constexpr double kImpossible = -std::numeric_limits<double>::infinity();
-constexpr double kSmallestCounted = 1e-3;  // [-] levels below it hide in what else is unknown
-constexpr double kNegligible = 20.0;       // logarithm of what an unlikely level is behind the likeliest
+constexpr double kSmallestCounted = 1e-3;   // [-] levels below it hide in what else is unknown
+constexpr double kEstimate = 12.0;          // an estimate of a logarithm may be too low by this much
+constexpr std::size_t kAtOnce = 16;         // scenes that are worked out before the next look at what matters
+constexpr std::size_t kMostWorkedOut = 96;  // scenes; others that may matter count by their estimates
 
 /// Stated, or from 0.1 % by factors of two, equally likely beforehand.
 std::vector<double> levels_of(const Observation& observation) {
@@ -23,8 +29,27 @@ std::vector<double> levels_of(const Observation& observation) {
   return levels;
 }
 
-double largest(const std::vector<double>& logs) {
-  return logs.empty() ? kImpossible : *std::max_element(logs.begin(), logs.end());
+int threads() {
+  return static_cast<int>(std::thread::hardware_concurrency());
+}
+
+/// Scenes in the order of estimates, and what is known of them.
+struct Ranked {
+  std::vector<std::size_t> order;  // positions in the eligible rows, best first
+  std::vector<double> estimate;    // of each position, with prior and silence
+};
+
+Ranked ranked(const std::vector<double>& logs, const std::vector<double>& beforehand) {
+  Ranked result{{}, logs};
+  for (std::size_t i = 0; i < logs.size(); ++i) {
+    if (std::isnan(logs[i])) result.estimate[i] = std::numeric_limits<double>::infinity();
+    result.estimate[i] += beforehand[i];
+    if (result.estimate[i] > kImpossible) result.order.push_back(i);
+  }
+  std::sort(result.order.begin(), result.order.end(), [&](std::size_t a, std::size_t b) {
+    return result.estimate[a] != result.estimate[b] ? result.estimate[a] > result.estimate[b] : a < b;
+  });
+  return result;
 }
 
 }  // namespace
@@ -38,28 +63,68 @@ NoiseModel gaussian_noise(NoiseModel noise) {
 }
 
 UnknownBridgeQuestion::UnknownBridgeQuestion(const Comparison& comparison, const Observation& observation,
-                                             double scale, Epochs epochs)
+                                             const UnknownSettings& settings)
     : comparison_(comparison), observation_(observation), levels_(levels_of(observation)) {
   require_readings(observation);
   for (const double level : levels_)
-    bridges_.push_back(unknown_bridge(comparison, observation, level, scale, epochs));
+    bridges_.push_back(unknown_bridge(comparison, observation, level, settings));
+}
+
+/// Works out scenes in the order of their estimates, so many at a time, until what is left cannot matter;
+/// then gives the others, if there are too many that may, their estimates shifted by what the worked out ones
+/// show.
+std::vector<double> UnknownBridgeQuestion::screened(const UnknownBridge& bridge,
+                                                    std::span<const std::size_t> rows,
+                                                    const std::vector<double>& beforehand,
+                                                    std::size_t count) const {
+  const SceneTable& table = comparison_.library.table;
+  const UnknownScreen screen(bridge, observation_, table, kReferenceScatter, threads());
+  const Ranked scenes = ranked(screen.estimates(rows), beforehand);
+  std::vector<double> result(rows.size(), kImpossible);
+  const double negligible = std::log(kScreenedAway / static_cast<double>(rows.size()));
+  double best = kImpossible, shift = 0.0;  // of exact less estimate, of the likeliest
+  std::size_t done = 0;
+  const auto least = [&] { return best + negligible - shift - kEstimate; };
+  while (done < scenes.order.size() && done < std::max(count, kMostWorkedOut) &&
+         (done < std::max(count, kAtOnce) || scenes.estimate[scenes.order[done]] >= least())) {
+    const std::size_t end = std::min(scenes.order.size(), done + kAtOnce);
+    std::vector<std::size_t> next;
+    for (std::size_t i = done; i < end; ++i) next.push_back(rows[scenes.order[i]]);
+    const std::vector<ScatterLogs> logs = scatter_logs(bridge, observation_, table, next, threads());
+    for (std::size_t i = done; i < end; ++i) {
+      const std::size_t at = scenes.order[i];
+      result[at] = over_scatter(logs[i - done]);
+      if (result[at] + beforehand[at] <= best) continue;
+      best = result[at] + beforehand[at];
+      shift = best - scenes.estimate[at];
+    }
+    done = end;
+  }
+  for (; done < scenes.order.size() && scenes.estimate[scenes.order[done]] >= least(); ++done) {
+    const std::size_t at = scenes.order[done];
+    result[at] = scenes.estimate[at] - beforehand[at] + shift;
+  }
+  return result;
 }
 
 std::vector<double> UnknownBridgeQuestion::log_evidence(const Eligible& eligible, const Prior& prior,
                                                         std::size_t count) {
   const SceneTable& table = comparison_.library.table;
-  const int threads = static_cast<int>(std::thread::hardware_concurrency());
+  const std::vector<double> by_missing = log_prior_by_missing(table, eligible, prior);
+  const std::vector<double> silence = log_chance_of_silence(observation_, table, eligible.rows);
+  std::vector<double> beforehand = silence;
+  for (std::size_t i = 0; i < beforehand.size(); ++i) beforehand[i] += by_missing[eligible.missing[i]];
   std::vector<double> result(table.rows, kImpossible);
   double best = kImpossible;
   for (std::size_t i = 0; i < levels_.size(); ++i) {
-    std::vector<double> logs;
-    for (const ScatterLogs& each : scatter_logs(bridges_[i], observation_, table, eligible.rows, threads))
-      logs.push_back(over_scatter(each));
-    if (const double own = largest(logs); own > best) best = own, likeliest_ = i;
-    for (std::size_t k = 0; k < logs.size(); ++k)
+    const std::vector<double> logs = screened(bridges_[i], eligible.rows, beforehand, count);
+    double likeliest = kImpossible;
+    for (std::size_t k = 0; k < logs.size(); ++k) {
+      likeliest = std::max(likeliest, logs[k] + beforehand[k]);
       result[eligible.rows[k]] = log_sum(result[eligible.rows[k]], logs[k]);
+    }
+    if (likeliest > best) best = likeliest, likeliest_ = i;
   }
-  const std::vector<double> silence = log_chance_of_silence(observation_, table, eligible.rows);
   const double log_levels = std::log(static_cast<double>(levels_.size()));
   for (std::size_t k = 0; k < eligible.rows.size(); ++k) result[eligible.rows[k]] += silence[k] - log_levels;
   return result;

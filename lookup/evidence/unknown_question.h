@@ -15,8 +15,8 @@ class UnknownBridgeQuestion {
   /// All of them outlive the question. The comparison has factors; the
   /// observation Gaussian noise (gaussian_noise). Throws InputError if no reading is at a point that can
   /// move.
-  UnknownBridgeQuestion(const Comparison& comparison, const Observation& observation, double scale,
-                        Epochs epochs);
+  UnknownBridgeQuestion(const Comparison& comparison, const Observation& observation,
+                        const UnknownSettings& settings);
 
   /// log p(readings | scene) by row of the table, what is not known marginalised: the parameters of bridge
   /// and epochs, their scatter, the noise's level. -infinity for rows that are impossible, not eligible, or
@@ -30,6 +30,9 @@ class UnknownBridgeQuestion {
   double level() const { return levels_[likeliest_]; }  ///< [-] of the noise: stated, or the likeliest
 
  private:
+  std::vector<double> screened(const UnknownBridge& bridge, std::span<const std::size_t> rows,
+                               const std::vector<double>& beforehand, std::size_t count) const;
+
   const Comparison& comparison_;
   const Observation& observation_;
   std::vector<double> levels_;

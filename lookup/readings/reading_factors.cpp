@@ -1,101 +1,123 @@
 #include "lookup/readings/reading_factors.h"
 
 #include <algorithm>
+#include <thread>
+
+#include "core/threads.h"
 
 namespace voussoir {
 namespace {
 
+using Eigen::Index;
 using Eigen::MatrixXd;
 
-/// Rows of channels from rows of points in the states that the channels compare.
-class ChannelRows {
- public:
-  ChannelRows(const Sensitivities& sensitivities, std::size_t base, const std::vector<Channel>& channels)
-      : sensitivities_(sensitivities), base_(base), channels_(channels) {}
-
-  /// Not known if the scene's are unknown in one of the states.
-  SceneFactors of(const Scene& scene) const {
-    const SceneFactors* const unloaded = sensitivities_.find(base_, scene);
-    if (unloaded == nullptr) return {};
-    SceneFactors result{empty(unloaded->bridge), empty(unloaded->epoch)};
-    for (std::size_t i = 0; i < channels_.size(); ++i) {
-      const Channel& channel = channels_[i];
-      const auto to = static_cast<Eigen::Index>(i), from = static_cast<Eigen::Index>(channel.point);
-      const SceneFactors* const loaded =
-          channel.loaded ? sensitivities_.find(*channel.loaded, scene) : nullptr;
-      if (channel.loaded && loaded == nullptr) return {};
-      const double sign = channel.loaded ? -1.0 : 1.0;
-      result.bridge.row(to) = sign * unloaded->bridge.row(from);
-      result.epoch.row(to) = sign * unloaded->epoch.row(from);
-      if (loaded == nullptr) continue;
-      result.bridge.row(to) += loaded->bridge.row(from);
-      result.epoch.row(to) += loaded->epoch.row(from);
-    }
-    return result;
+/// The scene's factors by channel; not known if they are unknown in one of the states.
+SceneFactors factors_of(const ReadingFactors& factors, const Scene& scene) {
+  const Sensitivities& from = *factors.sensitivities;
+  const SceneFactors* const unloaded = from.find(factors.base, scene);
+  if (unloaded == nullptr) return {};
+  const auto rows = static_cast<Index>(factors.channels.size());
+  SceneFactors result{MatrixXd(rows, unloaded->bridge.cols()), MatrixXd(rows, unloaded->epoch.cols())};
+  for (Index i = 0; i < rows; ++i) {
+    const Channel& channel = factors.channels[static_cast<std::size_t>(i)];
+    const auto point = static_cast<Index>(channel.point);
+    result.bridge.row(i) = unloaded->bridge.row(point);
+    result.epoch.row(i) = unloaded->epoch.row(point);
+    if (!channel.loaded) continue;
+    const SceneFactors* const loaded = from.find(*channel.loaded, scene);
+    if (loaded == nullptr) return {};
+    result.bridge.row(i) = loaded->bridge.row(point) - result.bridge.row(i);
+    result.epoch.row(i) = loaded->epoch.row(point) - result.epoch.row(i);
   }
-
-  /// Of what a load adds the errors in both states count: nothing says how far they cancel.
-  FirstOrderResidual residual() const {
-    FirstOrderResidual result = sensitivities_.states[base_].residual;
-    for (const Channel& channel : channels_)
-      if (channel.loaded) {
-        const FirstOrderResidual& loaded = sensitivities_.states[*channel.loaded].residual;
-        result.share = std::max(result.share, loaded.share);
-        result.common = std::max(result.common, loaded.common);
-      }
-    result.bridge = both(&FirstOrderResidual::bridge);
-    result.epoch = both(&FirstOrderResidual::epoch);
-    return result;
-  }
-
- private:
-  MatrixXd empty(const MatrixXd& like) const {
-    return MatrixXd::Zero(static_cast<Eigen::Index>(channels_.size()), like.cols());
-  }
-
-  MatrixXd both(MatrixXd FirstOrderResidual::*columns) const {
-    const MatrixXd& unloaded = sensitivities_.states[base_].residual.*columns;
-    MatrixXd result = MatrixXd::Zero(static_cast<Eigen::Index>(channels_.size()), 2 * unloaded.cols());
-    for (std::size_t i = 0; i < channels_.size(); ++i) {
-      const Channel& channel = channels_[i];
-      const auto to = static_cast<Eigen::Index>(i), from = static_cast<Eigen::Index>(channel.point);
-      result.row(to).head(unloaded.cols()) = unloaded.row(from);
-      if (channel.loaded)
-        result.row(to).tail(unloaded.cols()) =
-            (sensitivities_.states[*channel.loaded].residual.*columns).row(from);
-    }
-    return result;
-  }
-
-  const Sensitivities& sensitivities_;
-  std::size_t base_;
-  const std::vector<Channel>& channels_;
-};
+  return result;
+}
 
 /// Where a block is gone (rows are zero) nothing is read and nothing changes.
-SceneFactors less(SceneFactors factors, const SceneFactors& intact) {
-  for (Eigen::Index i = 0; i < factors.bridge.rows(); ++i) {
+void subtract(const SceneFactors& intact, SceneFactors& factors) {
+  for (Index i = 0; i < factors.bridge.rows(); ++i) {
     if (factors.bridge.row(i).isZero(0.0) && factors.epoch.row(i).isZero(0.0)) continue;
     factors.bridge.row(i) -= intact.bridge.row(i);
     factors.epoch.row(i) -= intact.epoch.row(i);
   }
-  return factors;
+}
+
+LossFactors loss_factors(const ReadingFactors& factors, const Scene& scene) {
+  SceneFactors change = factors_of(factors, scene);
+  if (!change.known()) return {};
+  subtract(factors.intact, change);
+  const Index lead = std::min(kLeadingColumns, change.bridge.cols());
+  const auto others = change.bridge.rightCols(change.bridge.cols() - lead);
+  LossFactors loss{change.bridge.leftCols(lead), std::move(change.epoch), {}, {}, {}, {}};
+  loss.own.noalias() = others * others.transpose();
+  loss.cross.noalias() = factors.intact.bridge.rightCols(others.cols()) * others.transpose();
+  const Index middle = lead - std::min(kFirstColumns, lead);
+  const auto between = loss.lead.rightCols(middle);
+  loss.own_beyond_first = loss.own + between * between.transpose();
+  loss.cross_beyond_first =
+      loss.cross + factors.intact.bridge.middleCols(lead - middle, middle) * between.transpose();
+  return loss;
+}
+
+/// Of what a load adds the errors in both states count: nothing says how far they cancel.
+FirstOrderResidual residual_of(const ReadingFactors& factors) {
+  const auto& states = factors.sensitivities->states;
+  FirstOrderResidual result = states[factors.base].residual;
+  const auto both = [&](MatrixXd FirstOrderResidual::*columns) {
+    const MatrixXd& unloaded = states[factors.base].residual.*columns;
+    MatrixXd rows = MatrixXd::Zero(static_cast<Index>(factors.channels.size()), 2 * unloaded.cols());
+    for (Index i = 0; i < rows.rows(); ++i) {
+      const Channel& channel = factors.channels[static_cast<std::size_t>(i)];
+      const auto point = static_cast<Index>(channel.point);
+      rows.row(i).head(unloaded.cols()) = unloaded.row(point);
+      if (channel.loaded)
+        rows.row(i).tail(unloaded.cols()) = (states[*channel.loaded].residual.*columns).row(point);
+    }
+    return rows;
+  };
+  result.bridge = both(&FirstOrderResidual::bridge);
+  result.epoch = both(&FirstOrderResidual::epoch);
+  for (const Channel& channel : factors.channels)
+    if (channel.loaded) {
+      result.share = std::max(result.share, states[*channel.loaded].residual.share);
+      result.common = std::max(result.common, states[*channel.loaded].residual.common);
+      result.epoch_share = std::max(result.epoch_share, states[*channel.loaded].residual.epoch_share);
+      result.epoch_common = std::max(result.epoch_common, states[*channel.loaded].residual.epoch_common);
+    }
+  return result;
 }
 
 }  // namespace
 
+SceneFactors ReadingFactors::of(const Scene& scene) const {
+  if (SceneFactors own = factors_of(*this, scene); own.known()) return own;
+  SceneFactors sum = intact;
+  for (const BlockId block : scene.removed)
+    if (SceneFactors alone = factors_of(*this, {{block}}); alone.known()) {
+      subtract(intact, alone);
+      sum.bridge += alone.bridge;
+      sum.epoch += alone.epoch;
+    }
+  return sum;
+}
+
 std::shared_ptr<const ReadingFactors> reading_factors(const Sensitivities& sensitivities, std::size_t base,
-                                                      const std::vector<Channel>& channels,
-                                                      std::size_t blocks) {
-  const ChannelRows rows(sensitivities, base, channels);
-  ReadingFactors result{sensitivities.parameters, sensitivities.basis, rows.of({}), {}, {}, rows.residual()};
+                                                      std::vector<Channel> channels, std::size_t blocks) {
+  ReadingFactors result{&sensitivities, base, std::move(channels), {}, {}, {}, {}, {}};
+  result.intact = factors_of(result, {});
   if (!result.intact.known()) return nullptr;
-  for (std::size_t block = 0; block < blocks; ++block)
-    result.change.push_back(less(rows.of({{BlockId{static_cast<std::int32_t>(block)}}}), result.intact));
+  const auto others =
+      result.intact.bridge.rightCols(result.of_bridge() - std::min(kLeadingColumns, result.of_bridge()));
+  result.intact_own = others * others.transpose();
+  result.residual = residual_of(result);
+  result.blocks.resize(blocks);
+  for_each_index_on_threads(
+      blocks, static_cast<int>(std::thread::hardware_concurrency()), [&](std::size_t block) {
+        result.blocks[block] = loss_factors(result, {{BlockId{static_cast<std::int32_t>(block)}}});
+      });
   for (const Scene& scene : sensitivities.scenes)
     if (scene.missing() > 1)
-      if (SceneFactors own = rows.of(scene); own.known())
-        result.pairs.emplace_back(scene, less(std::move(own), result.intact));
+      if (LossFactors own = loss_factors(result, scene); own.known())
+        result.pairs.emplace_back(scene, std::move(own));
   return std::make_shared<const ReadingFactors>(std::move(result));
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace voussoir {
 namespace {
@@ -12,10 +13,11 @@ using Eigen::Index;
 using Eigen::VectorXd;
 
 constexpr std::string_view kTemperature = "temperature";
+constexpr std::string_view kJointPrefix = "stiffness ";
 
 /// Parameters of the bridge and those of epochs lie one behind the other.
 std::size_t first_of_epochs(const ReadingFactors& factors) {
-  return factors.parameters.size() - static_cast<std::size_t>(factors.of_epoch());
+  return factors.parameters().size() - static_cast<std::size_t>(factors.of_epoch());
 }
 
 KnownParameter in_own_unit(const UncertainParameter& parameter, double before, double mean,
@@ -39,7 +41,8 @@ std::vector<Cause> causes_of(const BridgeAnswer& bridge, const ReadingFactors& f
   };
   VectorXd temperature = VectorXd::Zero(counts.size()), supports = temperature;
   for (Index i = 0; i < posterior.from_epochs.cols(); ++i) {
-    const std::string& name = factors.parameters[first_of_epochs(factors) + static_cast<std::size_t>(i)].name;
+    const std::string& name =
+        factors.parameters()[first_of_epochs(factors) + static_cast<std::size_t>(i)].name;
     (name == kTemperature ? temperature : supports) += posterior.from_epochs.col(i);
   }
   add("missing blocks", posterior.signal);
@@ -54,10 +57,24 @@ double KnownParameter::news() const {
   return std::abs(mean) / deviation_before + std::abs(std::log(deviation / deviation_before));
 }
 
-std::vector<KnownParameter> known_of_bridge(const BridgeAnswer& bridge, const ReadingFactors& factors) {
+std::vector<KnownParameter> known_of_bridge(const BridgeAnswer& bridge, const ReadingFactors& factors,
+                                            std::size_t most_joints) {
+  const Eigen::MatrixXd& basis = factors.sensitivities->basis;
+  const VectorXd mean = basis * bridge.posterior.bridge_mean;
+  std::vector<std::size_t> order(static_cast<std::size_t>(mean.size()));
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  const auto is_joint = [&](std::size_t i) { return factors.parameters()[i].name.starts_with(kJointPrefix); };
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    if (is_joint(a) != is_joint(b)) return is_joint(b);
+    return std::abs(mean[static_cast<Index>(a)]) > std::abs(mean[static_cast<Index>(b)]);
+  });
   std::vector<KnownParameter> result;
-  for (const ParameterEstimate& one : parameter_estimates(bridge.posterior, factors.basis))
-    result.push_back(in_own_unit(factors.parameters[one.parameter], 1.0, one.mean, one.deviation));
+  std::size_t joints = 0;
+  for (const std::size_t i : order) {
+    if (is_joint(i) && ++joints > most_joints) break;
+    const ParameterEstimate one = parameter_estimate(bridge.posterior, basis.row(static_cast<Index>(i)));
+    result.push_back(in_own_unit(factors.parameters()[i], 1.0, one.mean, one.deviation));
+  }
   return result;
 }
 
@@ -69,7 +86,7 @@ std::vector<KnownParameter> known_of_epochs(const BridgeAnswer& bridge, const Re
     VectorXd weights = VectorXd::Zero(posterior.epoch_mean.size());
     weights[weights.size() - columns + i] = 1.0;
     if (model.epochs > 1) weights[i] = -1.0;
-    const auto& parameter = factors.parameters[first_of_epochs(factors) + static_cast<std::size_t>(i)];
+    const auto& parameter = factors.parameters()[first_of_epochs(factors) + static_cast<std::size_t>(i)];
     result.push_back(in_own_unit(parameter, weights.norm(), weights.dot(posterior.epoch_mean),
                                  std::sqrt(weights.dot(posterior.epoch_covariance * weights))));
   }

@@ -32,8 +32,9 @@ struct KnownParameter {
   double news() const;
 };
 
-/// All parameters of the bridge, in their order.
-std::vector<KnownParameter> known_of_bridge(const BridgeAnswer& bridge, const ReadingFactors& factors);
+/// The parameters that the whole bridge shares, and of the joints' own those that the readings move farthest.
+std::vector<KnownParameter> known_of_bridge(const BridgeAnswer& bridge, const ReadingFactors& factors,
+                                            std::size_t most_joints);
 
 /// All parameters of epochs: of two epochs how they changed.
 std::vector<KnownParameter> known_of_epochs(const BridgeAnswer& bridge, const ReadingFactors& factors);

@@ -28,6 +28,10 @@ std::string csv_report(const Answer& answer, const Library& library) {
   return text;
 }
 
+std::string_view to_string(Conditions conditions) {
+  return conditions == Conditions::known ? "known" : "uncertain";
+}
+
 std::string_view to_string(Epochs epochs) {
   return epochs == Epochs::both ? "both" : "change";
 }

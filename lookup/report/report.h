@@ -44,5 +44,6 @@ std::string picture_report(const Answer& answer, const Comparison& comparison);
 std::string_view to_string(Objective objective);
 std::string_view to_string(Search search);
 std::string_view to_string(Epochs epochs);
+std::string_view to_string(Conditions conditions);
 
 }  // namespace voussoir

@@ -39,6 +39,7 @@ ordered_json settings_json(const LookupSettings& settings) {
                          {"seed", settings.genetic.seed}};
   if (settings.objective == Objective::paper) return result;
   result["epochs"] = to_string(settings.epochs);
+  result["conditions"] = to_string(settings.conditions);
   ordered_json noise = {{"model", to_string(settings.noise.shape)},
                         {"relative", nullptr},
                         {"floor_m", settings.noise.floor},
@@ -98,8 +99,11 @@ void add_judgement(const Answer& answer, const Comparison& comparison, ordered_j
   result["verdict"] = nullptr;
   if (!answer.posterior) return;
   result["intact_probability"] = intact_probability(*answer.posterior);
-  result["verdict"] = to_string(verdict_of(*answer.posterior, answer.fit && answer.fit->explained));
+  result["intact_if_even"] = answer.posterior->intact_if_even;
+  result["verdict"] = to_string(verdict_of(answer));
 }
+
+constexpr std::size_t kMostJoints = 50;
 
 ordered_json parameter_json(const KnownParameter& parameter) {
   return {{"name", parameter.name},
@@ -117,7 +121,7 @@ ordered_json bridge_json(const BridgeAnswer& bridge, const ReadingFactors& facto
   for (std::size_t k = 0; k < kScatterFactors.size(); ++k)
     scatter.push_back(
         {{"deviation_factor", std::sqrt(kScatterFactors[k])}, {"probability", bridge.posterior.scatter[k]}});
-  for (const KnownParameter& parameter : known_of_bridge(bridge, factors))
+  for (const KnownParameter& parameter : known_of_bridge(bridge, factors, kMostJoints))
     parameters.push_back(parameter_json(parameter));
   for (const KnownParameter& parameter : known_of_epochs(bridge, factors))
     epochs.push_back(parameter_json(parameter));

@@ -15,7 +15,7 @@
 namespace voussoir {
 namespace {
 
-constexpr std::size_t kMostParametersShown = 12;
+constexpr std::size_t kMostJointsShown = 12;
 
 using Terms = std::vector<std::pair<std::string, std::string>>;
 
@@ -24,8 +24,7 @@ std::string verdict_html(const Answer& answer, const Library& library) {
   if (const std::string first = headline(answer, library); !first.empty()) html += paragraph(first, "lead");
   for (const std::string& sentence : verdict(answer, library))
     html += paragraph(sentence, html.empty() ? "lead" : "");
-  if (answer.posterior)
-    html += paragraph("Verdict: " + verdict_in_words(*answer.posterior, answer.fit && answer.fit->explained));
+  if (answer.posterior) html += paragraph("Verdict: " + verdict_in_words(answer));
   if (answer.posterior && !answer.posterior->credible.empty())
     html += paragraph(
         fmt::format("Number of missing blocks: {}. {:.0f} % of the probability is held by {} scene{}.",
@@ -82,10 +81,7 @@ Figure causes_figure(const Answer& answer, const ReadingFactors& factors) {
 }
 
 Figure parameters_figure(const Answer& answer, const ReadingFactors& factors) {
-  std::vector<KnownParameter> parameters = known_of_bridge(*answer.bridge, factors);
-  std::stable_sort(parameters.begin(), parameters.end(),
-                   [](const auto& a, const auto& b) { return a.news() > b.news(); });
-  parameters.resize(std::min(parameters.size(), kMostParametersShown));
+  std::vector<KnownParameter> parameters = known_of_bridge(*answer.bridge, factors, kMostJointsShown);
   for (const KnownParameter& parameter : known_of_epochs(*answer.bridge, factors))
     parameters.push_back(parameter);
   Table table{{"parameter", "unit", "before", "after: mean", "after: spread"}, {}};
@@ -95,8 +91,8 @@ Figure parameters_figure(const Answer& answer, const ReadingFactors& factors) {
   return {
       "parameters",
       "What the readings say of the bridge",
-      "Standard deviations before and after, and the mean after; before it is zero. The parameters of which "
-      "the readings say most, then those of temperature and supports.",
+      "Standard deviations before and after, and the mean after; before it is zero. What the whole bridge "
+      "shares, the joints that the readings move farthest, then temperature and supports.",
       "",
       table,
       false,

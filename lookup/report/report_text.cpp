@@ -18,7 +18,7 @@ constexpr std::size_t kMostBlocksListed = 5;
 constexpr std::size_t kMostSensorsListed = 5;
 constexpr double kBlockWorthListing = 0.01;
 constexpr std::size_t kDigestShown = 12;
-constexpr std::size_t kMostParametersListed = 5;
+constexpr std::size_t kMostJointsListed = 3;
 constexpr double kWorthSaying = 0.5;  // KnownParameter::news
 
 /// Collects lines.
@@ -51,8 +51,7 @@ void write_heading(Text& text, const Answer& answer, const Comparison& compariso
 }
 
 void write_verdict(Text& text, const Answer& answer, const Library& library) {
-  if (answer.posterior)
-    text.line("Verdict:      {}", verdict_in_words(*answer.posterior, answer.fit && answer.fit->explained));
+  if (answer.posterior) text.line("Verdict:      {}", verdict_in_words(answer));
   for (const std::string& sentence : verdict(answer, library)) text.line("{}", sentence);
 }
 
@@ -147,10 +146,7 @@ void write_bridge(Text& text, const Answer& answer, const Comparison& comparison
   text.line("Explained by: {}", causes_in_words(causes_of(*answer.bridge, factors)));
   for (const KnownParameter& parameter : known_of_epochs(*answer.bridge, factors))
     if (parameter.news() > kWorthSaying) text.line("      {}", in_words(parameter));
-  std::vector<KnownParameter> bridge = known_of_bridge(*answer.bridge, factors);
-  std::stable_sort(bridge.begin(), bridge.end(),
-                   [](const auto& a, const auto& b) { return a.news() > b.news(); });
-  bridge.resize(std::min(bridge.size(), kMostParametersListed));
+  std::vector<KnownParameter> bridge = known_of_bridge(*answer.bridge, factors, kMostJointsListed);
   std::erase_if(bridge, [](const auto& parameter) { return parameter.news() <= kWorthSaying; });
   if (!bridge.empty()) text.line("The readings say of the bridge itself:");
   for (const KnownParameter& parameter : bridge) text.line("      {}", in_words(parameter));

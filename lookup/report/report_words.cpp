@@ -12,16 +12,14 @@ namespace voussoir {
 
 namespace {
 
+constexpr std::string_view kOneOfMany = "likeliest of many";
+
 /// The likeliest scene's row if it is none of the candidates, which a search by misfit may miss.
 std::optional<std::size_t> missed_row(const Answer& answer) {
   if (!answer.posterior || answer.posterior->credible.empty()) return std::nullopt;
   const std::size_t likeliest = answer.posterior->credible.front();
   const bool missed = *answer.candidates.front().posterior < answer.posterior->probability[likeliest];
   return missed ? std::optional(likeliest) : std::nullopt;
-}
-
-Verdict verdict_of(const Answer& answer) {
-  return verdict_of(*answer.posterior, answer.fit && answer.fit->explained);
 }
 
 /// The blocks that are certainly missing.
@@ -41,6 +39,10 @@ std::string in_words(const Scene& scene, const Library& library) {
 
 }  // namespace
 
+Verdict verdict_of(const Answer& answer) {
+  return verdict_of(*answer.posterior, answer.fit && answer.fit->explained, !answer.bridge.has_value());
+}
+
 std::string_view standing(const Answer& answer) {
   if (!answer.posterior) return "best match";
   if (missed_row(answer)) return "nearest by misfit";
@@ -49,7 +51,7 @@ std::string_view standing(const Answer& answer) {
       return "closest";
     case Verdict::cannot_tell:
     case Verdict::damaged_unlocated:
-      return "likeliest of many";
+      return kOneOfMany;
     default:
       return "most likely";
   }
@@ -79,6 +81,8 @@ std::vector<std::string> verdict(const Answer& answer, const Library& library) {
   const Candidate& best = answer.candidates.front();
   const std::optional<std::size_t> missed = missed_row(answer);
   std::vector<std::string> sentences;
+  if (standing(answer) == kOneOfMany)
+    sentences.push_back("No scene is named: what follows is only the likeliest of many.");
   if (!missed && answer.fit && !answer.fit->explained)
     sentences.push_back(
         fmt::format("No scene in this database explains these measurements: {}.", answer.fit->reason));
@@ -95,8 +99,8 @@ std::vector<std::string> verdict(const Answer& answer, const Library& library) {
   return sentences;
 }
 
-std::string verdict_in_words(const Posterior& posterior, bool explained) {
-  const Verdict verdict = verdict_of(posterior, explained);
+std::string verdict_in_words(const Answer& answer) {
+  const Verdict verdict = verdict_of(answer);
   const auto meaning = [&]() -> std::string_view {
     switch (verdict) {
       case Verdict::located:

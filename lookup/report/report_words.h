@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "lookup/lookup.h"
+#include "lookup/report/verdict.h"
 
 namespace voussoir {
 
@@ -13,7 +14,10 @@ namespace voussoir {
 std::vector<std::string> verdict(const Answer& answer, const Library& library);
 
 /// "located (a block is missing and named, at least 90 % sure)"
-std::string verdict_in_words(const Posterior& posterior, bool explained);
+std::string verdict_in_words(const Answer& answer);
+
+/// Precondition: there are probabilities.
+Verdict verdict_of(const Answer& answer);
 
 /// The verdict as a sentence: "Block 10,4 is missing (98.2 %)." Without probabilities nothing.
 std::string headline(const Answer& answer, const Library& library);

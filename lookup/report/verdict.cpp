@@ -8,10 +8,11 @@ double intact_probability(const Posterior& posterior) {
   return posterior.missing_probability.empty() ? 0.0 : posterior.missing_probability.front();
 }
 
-Verdict verdict_of(const Posterior& posterior, bool explained) {
+Verdict verdict_of(const Posterior& posterior, bool explained, bool known_bridge) {
   if (!explained || posterior.credible.empty()) return Verdict::unexplained;
   const double intact = intact_probability(posterior);
-  if (intact >= kCertain) return Verdict::intact;
+  if (intact >= kCertain)
+    return known_bridge || posterior.intact_if_even >= kCertain ? Verdict::intact : Verdict::cannot_tell;
   const auto& blocks = posterior.block_probability;
   if (std::any_of(blocks.begin(), blocks.end(), [](double share) { return share >= kCertain; }))
     return Verdict::located;

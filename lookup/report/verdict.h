@@ -10,15 +10,16 @@ namespace voussoir {
 enum class Verdict {
   located,            ///< some block is missing with at least kCertain
   damaged_unlocated,  ///< blocks are missing with at least kCertain, but no single one is
-  intact,             ///< no block is missing with at least kCertain
-  cannot_tell,        ///< none of these
-  unexplained         ///< no scene explains the readings: what is likeliest among them means nothing
+  intact,  ///< no block is missing with at least kCertain; of a bridge that is not exactly known, for which
+           ///< that is believed beforehand, also if it were not (Posterior::intact_if_even)
+  cannot_tell,  ///< none of these
+  unexplained   ///< no scene explains the readings: what is likeliest among them means nothing
 };
 
 inline constexpr double kCertain = 0.9;
 
-/// `explained`: the likeliest scene passes the predictive check (Fit).
-Verdict verdict_of(const Posterior& posterior, bool explained);
+/// `explained`: the likeliest scene passes the predictive check (Fit); `known_bridge`: the answer's.
+Verdict verdict_of(const Posterior& posterior, bool explained, bool known_bridge = true);
 
 /// Probability that no block is missing.
 double intact_probability(const Posterior& posterior);

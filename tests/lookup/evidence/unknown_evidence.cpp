@@ -29,11 +29,13 @@ double log_normal(const VectorXd& difference, const MatrixXd& covariance) {
 /// Readings of one row with a little of everything, at every point but one.
 struct Question {
   SyntheticLibrary library{3, 4};
+  Sensitivities sensitivities;
   Comparison comparison = absolute_readings(library.library(), no_measurements(library.points.size()));
 
-  explicit Question(ReadingKind kind, std::size_t truth = 5) {
+  explicit Question(ReadingKind kind, Index columns = 5, std::size_t truth = 5)
+      : sensitivities(made_up_sensitivities_of(library, columns)) {
     comparison.kind = kind;
-    comparison.factors = made_up_factors(library);
+    comparison.factors = factors_of(library, sensitivities);
     comparison.model_error = {0.02, 0.01, std::vector<double>(library.points.size(), 3e-6)};
     const auto intact = library.intact();
     if (is_change(kind)) comparison.before = comparison.after = comparison.measured.displacement;
@@ -52,15 +54,23 @@ struct Question {
   }
 };
 
-/// Sums over a scene's known blocks of one matrix, or a stored pair's own.
-SceneFactors changed_by(const ReadingFactors& factors, const Scene& scene) {
-  if (factors.pairs.front().first == scene) return factors.pairs.front().second;
-  SceneFactors sum{MatrixXd::Zero(factors.intact.bridge.rows(), factors.of_bridge()),
-                   MatrixXd::Zero(factors.intact.bridge.rows(), factors.of_epoch())};
+/// What a scene changes in the factors: its own or the sum of its blocks' own.
+SceneFactors changed_by(const Sensitivities& from, const Scene& scene) {
+  const SceneFactors& intact = from.states[0].scenes[0];
+  const auto less_intact = [&](SceneFactors own) {
+    for (Index i = 0; i < own.bridge.rows(); ++i)
+      if (!own.bridge.row(i).isZero()) {
+        own.bridge.row(i) -= intact.bridge.row(i);
+        own.epoch.row(i) -= intact.epoch.row(i);
+      }
+    return own;
+  };
+  if (const SceneFactors* own = from.find(0, scene)) return less_intact(*own);
+  SceneFactors sum{0.0 * intact.bridge, 0.0 * intact.epoch};
   for (const BlockId block : scene.removed)
-    if (const SceneFactors& one = factors.change[static_cast<std::size_t>(value(block))]; one.known()) {
-      sum.bridge += one.bridge;
-      sum.epoch += one.epoch;
+    if (const SceneFactors* own = from.find(0, {{block}})) {
+      sum.bridge += less_intact(*own).bridge;
+      sum.epoch += less_intact(*own).epoch;
     }
   return sum;
 }
@@ -74,11 +84,13 @@ struct Dense {
 
 Dense two_epochs(const Question& question, std::size_t row, double kappa, double datum, bool levelled_both) {
   const SyntheticLibrary& library = question.library;
-  const ReadingFactors& f = *question.comparison.factors;
+  const Sensitivities& from = question.sensitivities;
+  const SceneFactors& intact_factors = from.states[0].scenes[0];
+  const FirstOrderResidual& residual = from.states[0].residual;
   const ModelError& error = question.comparison.model_error;
   const auto p = static_cast<Index>(library.points.size());
   const Scene scene = library.table.scene(row);
-  const SceneFactors change = changed_by(f, scene);
+  const SceneFactors change = changed_by(from, scene);
   VectorXd intact(p), predicted(p);
   for (Index i = 0; i < p; ++i) {
     intact[i] = library.intact()[static_cast<std::size_t>(i)];
@@ -92,12 +104,12 @@ Dense two_epochs(const Question& question, std::size_t row, double kappa, double
     dense.covariance += variance * both * both.transpose();
   };
   const MatrixXd none = MatrixXd::Zero(p, 1);
-  add(f.intact.bridge, f.intact.bridge + change.bridge, kappa);
-  add(f.intact.epoch, MatrixXd::Zero(p, f.of_epoch()), 1.0);
-  add(MatrixXd::Zero(p, f.of_epoch()), f.intact.epoch + change.epoch, 1.0);
-  add(f.residual.bridge, f.residual.bridge, 1.0);
-  add(f.residual.epoch, MatrixXd::Zero(p, f.residual.epoch.cols()), 1.0);
-  add(MatrixXd::Zero(p, f.residual.epoch.cols()), f.residual.epoch, 1.0);
+  add(intact_factors.bridge, intact_factors.bridge + change.bridge, kappa);
+  add(intact_factors.epoch, MatrixXd::Zero(p, from.of_epoch()), 1.0);
+  add(MatrixXd::Zero(p, from.of_epoch()), intact_factors.epoch + change.epoch, 1.0);
+  add(residual.bridge, residual.bridge, 1.0);
+  add(residual.epoch, MatrixXd::Zero(p, residual.epoch.cols()), 1.0);
+  add(MatrixXd::Zero(p, residual.epoch.cols()), residual.epoch, 1.0);
   MatrixXd level = MatrixXd::Ones(p, 1);
   level(0, 0) = 0.0;  // no reading there
   add(levelled_both ? level : none, none, datum * datum);
@@ -106,11 +118,13 @@ Dense two_epochs(const Question& question, std::size_t row, double kappa, double
   add(own.asDiagonal(), own.asDiagonal(), 1.0);
   // What each loss leaves uncertain by itself.
   const auto loss = [&](const SceneFactors& of, const VectorXd& signal) {
-    const VectorXd spread = of.bridge.rowwise().squaredNorm() + of.epoch.rowwise().squaredNorm();
+    const VectorXd spread = of.bridge.rowwise().squaredNorm(), epochs = of.epoch.rowwise().squaredNorm();
     const double alike = error.common * error.common * signal.squaredNorm() / static_cast<double>(p) +
-                         f.residual.common * f.residual.common * spread.mean();
+                         std::pow(residual.common, 2) * spread.mean() +
+                         std::pow(residual.epoch_common, 2) * epochs.mean();
     const VectorXd variance = (error.share * signal).array().square().matrix() +
-                              f.residual.share * f.residual.share * spread + VectorXd::Constant(p, alike);
+                              std::pow(residual.share, 2) * spread +
+                              std::pow(residual.epoch_share, 2) * epochs + VectorXd::Constant(p, alike);
     add(MatrixXd::Zero(p, p), MatrixXd(variance.array().sqrt().matrix().asDiagonal()), 1.0);
   };
   const auto signal_of_block = [&](BlockId block) {
@@ -121,26 +135,27 @@ Dense two_epochs(const Question& question, std::size_t row, double kappa, double
   };
   std::vector<double> shares;
   for (std::size_t b = 0; b < library.blocks; ++b)
-    if (f.change[b].known()) {
+    if (const Scene alone{{BlockId{static_cast<std::int32_t>(b)}}}; from.find(0, alone) != nullptr) {
+      const SceneFactors of = changed_by(from, alone);
       // A block that carries a point gives NaN there; such rows are not compared with these readings' rows.
       VectorXd signal = signal_of_block(BlockId{static_cast<std::int32_t>(b)});
       double square = 0.0, norm = 0.0;
-      for (Index i = 1; i < p; ++i) {
-        square += f.change[b].bridge.row(i).squaredNorm() + f.change[b].epoch.row(i).squaredNorm();
-        if (!std::isnan(signal[i])) norm += signal[i] * signal[i];
+      for (Index i = 0; i < p; ++i) {
+        square += of.bridge.row(i).squaredNorm() + of.epoch.row(i).squaredNorm();
+        if (i > 0 && !std::isnan(signal[i])) norm += signal[i] * signal[i];
       }
       shares.push_back(std::sqrt(square / norm));
     }
   std::sort(shares.begin(), shares.end());
   const double typical = shares[shares.size() / 2];
   VectorXd beyond = predicted - intact;
-  if (f.pairs.front().first == scene) {
-    loss(f.pairs.front().second, beyond);
+  if (scene.missing() == 2 && from.find(0, scene) != nullptr) {
+    loss(change, beyond);
     beyond.setZero();
   } else {
     for (const BlockId block : scene.removed)
-      if (const SceneFactors& one = f.change[static_cast<std::size_t>(value(block))]; one.known()) {
-        loss(one, signal_of_block(block));
+      if (const Scene alone{{block}}; from.find(0, alone) != nullptr) {
+        loss(changed_by(from, alone), signal_of_block(block));
         beyond -= signal_of_block(block);
       }
   }
@@ -199,7 +214,7 @@ TEST_CASE("The evidence of an unknown bridge is that of the dense Gaussian of bo
   const Question question(kind);
   const SceneTable& table = question.library.table;
   const Observation observation = question.observation({0.0, datum, 0.0});
-  const UnknownBridge bridge = unknown_bridge(question.comparison, observation, 0.0, 0.0, epochs);
+  const UnknownBridge bridge = unknown_bridge(question.comparison, observation, 0.0, {.epochs = epochs});
   const auto rows = all_rows(table);
   const auto logs = scatter_logs(bridge, observation, table, rows, 2);
   std::size_t compared = 0;
@@ -215,4 +230,35 @@ TEST_CASE("The evidence of an unknown bridge is that of the dense Gaussian of bo
     ++compared;
   }
   CHECK(compared > 20);
+}
+
+TEST_CASE(
+    "Many columns of the basis count as they are for single blocks, few for what pairs have in common") {
+  const Question question(ReadingKind::change, kLeadingColumns + 20);
+  const SceneTable& table = question.library.table;
+  const Observation observation = question.observation();
+  const UnknownBridge bridge = unknown_bridge(question.comparison, observation, 0.0, {});
+  std::size_t compared = 0;
+  for (std::size_t row = 0; row < table.rows && table.scene(row).missing() < 2; ++row) {
+    const auto predicted = table.row(row);
+    if (std::any_of(predicted.begin(), predicted.end(), [](double value) { return std::isnan(value); }))
+      continue;
+    const std::array<std::size_t, 1> rows = {row};
+    const auto logs = scatter_logs(bridge, observation, table, rows, 1);
+    for (std::size_t k = 0; k < kScatterFactors.size(); ++k)
+      REQUIRE(logs[0][k] ==
+              Approx(oracle(question, row, kScatterFactors[k], 0.0, Epochs::change)).epsilon(1e-8));
+    ++compared;
+  }
+  CHECK(compared >= 8);
+}
+
+TEST_CASE("Over the scatter the density is the weighted mean of those of each factor") {
+  const ScatterLogs logs = {-3.0, -1.0, -2.0, -700.0};
+  double sum = 0.0;
+  for (std::size_t k = 0; k < logs.size(); ++k) sum += kScatterPrior[k] * std::exp(logs[k]);
+  CHECK(over_scatter(logs) == Approx(std::log(sum)).epsilon(1e-14));
+  double weights = 0.0;
+  for (const double weight : kScatterPrior) weights += weight;
+  CHECK(weights == Approx(1.0).epsilon(1e-15));
 }
