@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "lookup/readings/stated_sigmas.h"
+#include "lookup/report/report_words.h"
 
 namespace voussoir {
 namespace {
@@ -76,7 +77,7 @@ Trial ask(const Asking& asking, const ReadingsFile& readings, std::size_t truth)
   trial.set_size = set.size();
   trial.likeliest = *std::ranges::max_element(posterior.probability);
   trial.brier = brier_score(posterior, truth);
-  trial.verdict = verdict_of(posterior, answer.fit && answer.fit->explained);
+  trial.verdict = verdict_of(answer);
   trial.bins = unfinished_bins();
   add_to_bins(posterior, truth, trial.bins);
   return trial;
