@@ -99,6 +99,7 @@ std::string make_measurements(const Options& options) {
   blank.name = "--load";
   blank.two_epochs = options.kind == Kind::epochs;
   ComparisonSettings settings;
+  settings.known_bridge = true;  // what is uncertain is no part of what is measured
   if (!options.history.empty()) settings.history = options.history;
   const Comparison comparison = compare(blank, list, database, settings);
   Random random(options.seed);

@@ -92,8 +92,7 @@ MatrixXd common_noise(const Comparison& comparison, const Observation& observati
   const auto add = [&](const MatrixXd& columns) { noise.noalias() += columns * columns.transpose(); };
   add(of_bridge(rows, residual.bridge));
   add(of_epochs(rows, bridge.epochs, levelling, levelling));
-  if (bridge.conditions == Conditions::uncertain)
-    add(of_epochs(rows, bridge.epochs, residual.epoch, residual.epoch));
+  add(bridge.conditions * of_epochs(rows, bridge.epochs, residual.epoch, residual.epoch));
   return noise;
 }
 
@@ -127,7 +126,7 @@ VectorXd bridge_spread(const LossFactors& factors) {
 }
 VectorXd epoch_spread(const UnknownBridge& bridge, const LossFactors& factors) {
   const VectorXd spread = factors.epoch.rowwise().squaredNorm();
-  return bridge.conditions == Conditions::uncertain ? spread : VectorXd::Zero(spread.size());
+  return bridge.conditions * bridge.conditions * spread;
 }
 
 /// What the first order leaves of a signal, by channel.
@@ -211,16 +210,16 @@ std::vector<const Loss*> known_losses(const UnknownBridge& bridge, const SceneTa
 
 }  // namespace
 
-UnknownBridge unknown_bridge(const Comparison& comparison, const Observation& observation, double level,
-                             const UnknownSettings& settings) {
+UnknownBridge unknown_bridge(const Comparison& comparison, const Observation& observation,
+                             const UnknownCase& one, const UnknownSettings& settings) {
   UnknownBridge bridge;
   bridge.factors = comparison.factors.get();
   bridge.rows = rows_of(comparison, observation, settings.epochs);
   bridge.epochs = bridge.rows.back().before != 0.0 ? 2 : 1;
-  bridge.conditions = settings.conditions;
+  bridge.conditions = one.conditions;
   bridge.scale = settings.scale;
   add_readings(comparison, observation, bridge);
-  bridge.noise = common_noise(comparison, observation, level, bridge);
+  bridge.noise = common_noise(comparison, observation, one.level, bridge);
   add_losses(comparison, observation, bridge);
   bridge.spread = typical_spread(bridge);
   return bridge;
@@ -242,11 +241,9 @@ std::optional<SceneLoss> scene_loss(const UnknownBridge& bridge, const Observati
 
 MatrixXd epoch_columns(const UnknownBridge& bridge, const SceneLoss& loss) {
   const MatrixXd& intact = bridge.factors->intact.epoch;
-  if (bridge.conditions == Conditions::known)
-    return MatrixXd::Zero(static_cast<Index>(bridge.rows.size()), bridge.epochs * intact.cols());
   MatrixXd after = intact;
   for (const Loss* one : loss.known) after += one->factors->epoch;
-  return of_epochs(bridge.rows, bridge.epochs, intact, after);
+  return bridge.conditions * of_epochs(bridge.rows, bridge.epochs, intact, after);
 }
 
 MatrixXd other_columns(const UnknownBridge& bridge, const SceneLoss& loss) {

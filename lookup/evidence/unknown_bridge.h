@@ -14,6 +14,7 @@
 /// block whose loss alone makes a collapse) are told less sharply, not excluded.
 
 #include <Eigen/Core>
+#include <array>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -39,14 +40,27 @@ enum class Epochs {
 
 /// Temperature and movements of supports, which every epoch has of its own.
 enum class Conditions {
-  uncertain,  ///< as the bridge file states
+  uncertain,  ///< as the bridge file states, or less (kConditionSizes)
   known       ///< they are those of the model, or readings have been corrected for them
 };
+
+/// Conditions differ from the model's by this much of what the bridge file states, in every epoch alike: by
+/// all of it, or, each as likely beforehand, hardly. One standard deviation for all would count every epoch
+/// as warm and moved; what heat does to joints is not linear, and its error would drown what a block does.
+/// The readings decide.
+inline constexpr std::array<double, 3> kConditionSizes = {0.03, 0.2, 1.0};
 
 struct UnknownSettings {
   Epochs epochs = Epochs::change;
   Conditions conditions = Conditions::uncertain;
   double scale = 0.0;  ///< Nuisance::scale
+};
+
+/// What is gone through, as it is neither Gaussian nor linear.
+struct UnknownCase {
+  double level = 0.0;  ///< of the noise
+  double conditions =
+      1.0;  ///< of what the bridge file states: one of kConditionSizes, or 0 if they are known
 };
 
 /// The loss of a block, or of a pair with factors of its own, in rows of y.
@@ -68,15 +82,16 @@ struct UnknownBridge {
   Eigen::Index epochs = 1;                    ///< in y, each with its own columns of E
   double spread = 0.0;  ///< [-] standard deviation of a signal as a share of it, where it is not known better
   double scale = 0.0;   ///< [-] of a factor on all movements, as far as it was asked for
-  Conditions conditions = Conditions::uncertain;
+  double conditions = 1.0;  ///< UnknownCase
 
   bool has_first_epoch() const { return rows.front().after == 0.0; }  ///< before the rows of changes
 };
 
-/// The instruments' errors are those of a noise level, in shares of what was read.
-/// Preconditions: the comparison has factors, the observation Gaussian noise and at least one reading.
-UnknownBridge unknown_bridge(const Comparison& comparison, const Observation& observation, double level,
-                             const UnknownSettings& settings);
+/// The instruments' errors are those of a noise level, in shares of what was read; what the first order
+/// leaves of conditions goes with their size. Preconditions: the comparison has factors, the observation
+/// Gaussian noise and at least one reading.
+UnknownBridge unknown_bridge(const Comparison& comparison, const Observation& observation,
+                             const UnknownCase& one, const UnknownSettings& settings);
 
 /// What one scene lacks, in rows of y.
 struct SceneLoss {

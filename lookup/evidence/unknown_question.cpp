@@ -17,6 +17,7 @@ namespace {
 
 constexpr double kImpossible = -std::numeric_limits<double>::infinity();
 constexpr double kSmallestCounted = 1e-3;   // [-] levels below it hide in what else is unknown
+constexpr double kNegligible = 20.0;        // logarithm of how far behind the likeliest a case is given up
 constexpr double kEstimate = 12.0;          // an estimate of a logarithm may be too low by this much
 constexpr std::size_t kAtOnce = 16;         // scenes that are worked out before the next look at what matters
 constexpr std::size_t kMostWorkedOut = 96;  // scenes; others that may matter count by their estimates
@@ -27,6 +28,17 @@ std::vector<double> levels_of(const Observation& observation) {
   std::vector<double> levels;
   for (double level = kSmallestCounted; level <= kLargestLevel; level *= 2.0) levels.push_back(level);
   return levels;
+}
+
+/// All equally likely beforehand.
+std::vector<UnknownCase> cases_of(const Observation& observation, Conditions conditions) {
+  std::vector<UnknownCase> cases;
+  for (const double level : levels_of(observation)) {
+    if (conditions == Conditions::known) cases.push_back({level, 0.0});
+    if (conditions == Conditions::uncertain)
+      for (const double size : kConditionSizes) cases.push_back({level, size});
+  }
+  return cases;
 }
 
 int threads() {
@@ -64,10 +76,10 @@ NoiseModel gaussian_noise(NoiseModel noise) {
 
 UnknownBridgeQuestion::UnknownBridgeQuestion(const Comparison& comparison, const Observation& observation,
                                              const UnknownSettings& settings)
-    : comparison_(comparison), observation_(observation), levels_(levels_of(observation)) {
+    : comparison_(comparison), observation_(observation), cases_(cases_of(observation, settings.conditions)) {
   require_readings(observation);
-  for (const double level : levels_)
-    bridges_.push_back(unknown_bridge(comparison, observation, level, settings));
+  for (const UnknownCase& one : cases_)
+    bridges_.push_back(unknown_bridge(comparison, observation, one, settings));
 }
 
 /// Works out scenes in the order of their estimates, so many at a time, until what is left cannot matter;
@@ -75,8 +87,8 @@ UnknownBridgeQuestion::UnknownBridgeQuestion(const Comparison& comparison, const
 /// show.
 std::vector<double> UnknownBridgeQuestion::screened(const UnknownBridge& bridge,
                                                     std::span<const std::size_t> rows,
-                                                    const std::vector<double>& beforehand,
-                                                    std::size_t count) const {
+                                                    const std::vector<double>& beforehand, std::size_t count,
+                                                    double best_so_far) const {
   const SceneTable& table = comparison_.library.table;
   const UnknownScreen screen(bridge, observation_, table, kReferenceScatter, threads());
   const Ranked scenes = ranked(screen.estimates(rows), beforehand);
@@ -99,6 +111,7 @@ std::vector<double> UnknownBridgeQuestion::screened(const UnknownBridge& bridge,
       shift = best - scenes.estimate[at];
     }
     done = end;
+    if (best < best_so_far - kNegligible) return result;
   }
   for (; done < scenes.order.size() && scenes.estimate[scenes.order[done]] >= least(); ++done) {
     const std::size_t at = scenes.order[done];
@@ -116,8 +129,8 @@ std::vector<double> UnknownBridgeQuestion::log_evidence(const Eligible& eligible
   for (std::size_t i = 0; i < beforehand.size(); ++i) beforehand[i] += by_missing[eligible.missing[i]];
   std::vector<double> result(table.rows, kImpossible);
   double best = kImpossible;
-  for (std::size_t i = 0; i < levels_.size(); ++i) {
-    const std::vector<double> logs = screened(bridges_[i], eligible.rows, beforehand, count);
+  for (std::size_t i = 0; i < cases_.size(); ++i) {
+    const std::vector<double> logs = screened(bridges_[i], eligible.rows, beforehand, count, best);
     double likeliest = kImpossible;
     for (std::size_t k = 0; k < logs.size(); ++k) {
       likeliest = std::max(likeliest, logs[k] + beforehand[k]);
@@ -125,8 +138,8 @@ std::vector<double> UnknownBridgeQuestion::log_evidence(const Eligible& eligible
     }
     if (likeliest > best) best = likeliest, likeliest_ = i;
   }
-  const double log_levels = std::log(static_cast<double>(levels_.size()));
-  for (std::size_t k = 0; k < eligible.rows.size(); ++k) result[eligible.rows[k]] += silence[k] - log_levels;
+  const double log_cases = std::log(static_cast<double>(cases_.size()));
+  for (std::size_t k = 0; k < eligible.rows.size(); ++k) result[eligible.rows[k]] += silence[k] - log_cases;
   return result;
 }
 

@@ -32,9 +32,9 @@ MatrixXd reference_covariance(const UnknownBridge& bridge, double kappa) {
     columns.row(i) = row.of_bridge() * factors.row(static_cast<Index>(row.channel)).head(lead);
     for (Index j = 0; j < n; ++j) {
       const ReadingRow& other = bridge.rows[static_cast<std::size_t>(j)];
-      covariance(i, j) += kappa * row.of_bridge() * other.of_bridge() *
-                          bridge.factors->intact_own(static_cast<Index>(row.channel),
-                                                     static_cast<Index>(other.channel));
+      covariance(i, j) +=
+          kappa * row.of_bridge() * other.of_bridge() *
+          bridge.factors->intact_own(static_cast<Index>(row.channel), static_cast<Index>(other.channel));
     }
   }
   const MatrixXd epoch = epoch_columns(bridge, {});
@@ -70,7 +70,8 @@ struct Kernel {
 
 /// A scene's signal in the directions, and the variance of what is beyond its losses'. NaN: impossible.
 VOUSSOIR_INLINE void project(const Kernel& kernel, const double* prediction,
-                             const UnknownScreen::ReducedLoss* const* losses, std::size_t lane, Group& group) {
+                             const UnknownScreen::ReducedLoss* const* losses, std::size_t lane,
+                             Group& group) {
   constexpr std::size_t kParts = K / kLanes;
   DoubleLanes sums[kParts] = {};
   double beyond = 0.0;
@@ -150,7 +151,8 @@ void estimate(const Kernel& kernel, const double* const* predictions,
       group.covariance[lower_size(i) + j] =
           (i == j ? 1.0 : 0.0) + group.beyond * kernel.points[lower_size(i) + j];
   DoubleLanes intact[K * kFirst];
-  for (std::size_t i = 0; i < K * kFirst; ++i) intact[i] = group.first[i] = DoubleLanes{} + kernel.intact_first[i];
+  for (std::size_t i = 0; i < K * kFirst; ++i)
+    intact[i] = group.first[i] = DoubleLanes{} + kernel.intact_first[i];
   gather(losses, group);
   add_outer(group.first, kFirst, kernel.kappa, group.covariance);
   add_outer(intact, kFirst, -kernel.kappa, group.covariance);
@@ -239,11 +241,9 @@ UnknownScreen::ReducedLoss UnknownScreen::reduced(const Loss& loss) const {
     const MatrixXd cross = kappa_ * (of_bridge_.transpose() * (factors.cross_beyond_first * of_loss_));
     rest += cross + cross.transpose();
   }
-  if (bridge_.conditions == Conditions::uncertain) {
-    MatrixXd epochs = intact_epochs_;
-    epochs.rightCols(factors.epoch.cols()) += of_loss_.transpose() * factors.epoch;
-    rest += epochs * epochs.transpose() - intact_epochs_ * intact_epochs_.transpose();
-  }
+  MatrixXd epochs = intact_epochs_;
+  epochs.rightCols(factors.epoch.cols()) += bridge_.conditions * (of_loss_.transpose() * factors.epoch);
+  rest += epochs * epochs.transpose() - intact_epochs_ * intact_epochs_.transpose();
   rest += directions_.transpose() * variance.asDiagonal() * directions_;
   store_lower(rest, result.rest);
   return result;
@@ -274,8 +274,16 @@ std::vector<double> UnknownScreen::estimates(std::span<const std::size_t> rows) 
   std::vector<double> after;
   for (const ReadingRow& row : bridge_.rows) channel.push_back(row.channel), after.push_back(row.after);
   const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> directions = directions_;
-  const Kernel kernel{reading_.data(), points_.data(), intact_first_.data(), kappa_, bridge_.spread, n,
-                      channel.data(), after.data(), observation_.intact.data(), directions.data(),
+  const Kernel kernel{reading_.data(),
+                      points_.data(),
+                      intact_first_.data(),
+                      kappa_,
+                      bridge_.spread,
+                      n,
+                      channel.data(),
+                      after.data(),
+                      observation_.intact.data(),
+                      directions.data(),
                       static_cast<double>(bridge_.has_first_epoch() ? n / 2 : n)};
   const std::size_t blocks = (rows.size() + kBlockRows - 1) / kBlockRows;
   for_each_index_on_threads(blocks, threads_, [&](std::size_t block) {

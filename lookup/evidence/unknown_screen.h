@@ -1,11 +1,12 @@
 #pragma once
-/// @file Estimates of the evidence of many scenes of a bridge that is not exactly known, from a few combinations
-/// of the readings.
+/// @file Estimates of the evidence of many scenes of a bridge that is not exactly known, from a few
+/// combinations of the readings.
 ///
-/// Readings are whitened by the intact bridge's covariance. Of all directions the readings themselves come first
-/// and then, one by one, the block's signal that is farthest from all directions before; kDirections of them
-/// are kept. In these the scene's Gaussian is worked out for one kappa, with what two blocks' signals have in
-/// common as far as kFirstColumns show it. What lies in no direction counts as the same for all scenes.
+/// Readings are whitened by the intact bridge's covariance. Of all directions the readings themselves come
+/// first and then, one by one, the block's signal that is farthest from all directions before; kDirections of
+/// them are kept. In these the scene's Gaussian is worked out for one kappa, with what two blocks' signals
+/// have in common as far as kFirstColumns show it. What lies in no direction counts as the same for all
+/// scenes.
 
 #include <array>
 #include <vector>
@@ -31,7 +32,7 @@ class UnknownScreen {
   /// A loss in the directions.
   struct ReducedLoss {
     std::array<double, kDirections> signal{};
-    std::array<double, kDirections * static_cast<std::size_t>(kFirstColumns)> first{};  ///< of A
+    std::array<double, kDirections* static_cast<std::size_t>(kFirstColumns)> first{};  ///< of A
     std::array<double, lower_size(kDirections)> rest{};  ///< what it adds to the covariance otherwise
     const double* signal_of_rows = nullptr;              ///< in rows of y
   };
@@ -46,15 +47,15 @@ class UnknownScreen {
   const SceneTable& table_;
   double kappa_;
   int threads_;
-  Eigen::MatrixXd directions_;                     // rows of y x kDirections: T^T
-  Eigen::MatrixXd of_loss_, of_bridge_;            // the same by channel, as losses and the bridge count
-  Eigen::MatrixXd intact_epochs_;                  // directions x columns of E
+  Eigen::MatrixXd directions_;           // rows of y x kDirections: T^T
+  Eigen::MatrixXd of_loss_, of_bridge_;  // the same by channel, as losses and the bridge count
+  Eigen::MatrixXd intact_epochs_;        // directions x columns of E
   std::vector<ReducedLoss> blocks_, pairs_;
   std::vector<double> nothing_;
-  ReducedLoss none_;                               // of scenes with fewer known losses
+  ReducedLoss none_;                                      // of scenes with fewer known losses
   std::array<double, lower_size(kDirections)> points_{};  // what a unit variance at each changed point adds
   std::array<double, kDirections> reading_{};
-  std::array<double, kDirections * static_cast<std::size_t>(kFirstColumns)> intact_first_{};
+  std::array<double, kDirections* static_cast<std::size_t>(kFirstColumns)> intact_first_{};
 };
 
 }  // namespace voussoir

@@ -14,7 +14,7 @@ struct Cause {
   double share = 0.0;  ///< [-] of the sum of squares of the readings less what the nominal intact bridge
                        ///< shows: their product with this part. Shares sum up to one; a part that works
                        ///< against the others has a negative one
-  double size = 0.0;  ///< [m] root mean square of the part
+  double size = 0.0;   ///< [m] root mean square of the part
 };
 
 /// Of changes and of what loads add the readings are those; the first epoch's own do not count.

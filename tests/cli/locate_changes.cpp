@@ -21,8 +21,9 @@ struct Workshop {
   std::string database = (folder / "small.h5").string();
 
   Workshop() {
-    const ProgramResult built = test::run("build-database", {test::example_bridge("small").string(), "-o",
-                                                             database, "--scenes", "singles", "--quiet"});
+    const ProgramResult built =
+        test::run("build-database", {test::example_bridge("small").string(), "-o", database, "--scenes",
+                                     "singles", "--quiet", "--known-bridge"});
     if (built.exit_code != 0) throw std::runtime_error(built.err);
   }
   std::string file(const std::string& name, const std::string& text) const {

@@ -26,8 +26,8 @@ struct Desk {
   std::string database = (folder / "small.h5").string();
 
   Desk() {
-    const ProgramResult built =
-        test::run("build-database", {test::example_bridge("small").string(), "-o", database, "--quiet"});
+    const ProgramResult built = test::run("build-database", {test::example_bridge("small").string(), "-o",
+                                                             database, "--quiet", "--known-bridge"});
     if (built.exit_code != 0) throw std::runtime_error(built.err);
   }
   std::string file(const std::string& text) const {

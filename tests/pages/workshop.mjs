@@ -27,7 +27,7 @@ export class Workshop {
   constructor() {
     this.folder = mkdtempSync(join(tmpdir(), 'voussoir-pages-'));
     this.database = this.path('small.h5');
-    run('build-database', join(source, 'examples', 'bridges', 'small.toml'), '-o', this.database, '--quiet');
+    run('build-database', join(source, 'examples', 'bridges', 'small.toml'), '-o', this.database, '--quiet', '--known-bridge');
   }
   path(name) { return join(this.folder, name); }
   read(name) { return readFileSync(this.path(name), 'utf8'); }

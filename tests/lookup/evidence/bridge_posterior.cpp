@@ -1,10 +1,11 @@
-/// @file What readings say of a bridge. Oracle: the conditional Gaussian of parameters and readings, written down
-/// jointly and solved by Eigen's LU, factor by factor of the scatter.
+/// @file What readings say of a bridge. Oracle: the conditional Gaussian of parameters and readings, written
+/// down jointly and solved by Eigen's LU, factor by factor of the scatter.
 
 #include "lookup/evidence/bridge_posterior.h"
 
 #include <Eigen/LU>
 #include <catch2/catch.hpp>
+#include <cmath>
 
 #include "tests/lookup/evidence/made_up_factors.h"
 
@@ -14,62 +15,82 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-TEST_CASE("Means and spreads of the parameters are those of the joint Gaussian") {
-  const SyntheticLibrary library(3, 4);
-  const Sensitivities sensitivities = made_up_sensitivities_of(library);
-  Comparison comparison = absolute_readings(library.library(), no_measurements(library.points.size()));
-  comparison.factors = factors_of(library, sensitivities);
-  const auto n = static_cast<Index>(library.points.size());
-  const auto intact = library.intact();
-  for (std::size_t i = 0; i < library.points.size(); ++i) {
-    comparison.measured.displacement[i] = intact[i] + 2e-4 * std::cos(static_cast<double>(3 * i));
-    comparison.measured.sigma[i] = 2e-5;
-  }
-  const Observation observation = observe(comparison, {NoiseShape::gaussian, 0.0}, {});
-  const UnknownBridge bridge = unknown_bridge(comparison, observation, 0.0, {});
-  const BridgePosterior posterior = bridge_posterior(bridge, observation, library.table, {{0, 1.0}});
+namespace {
 
-  const SceneFactors& of = sensitivities.states[0].scenes[0];
-  const FirstOrderResidual& residual = sensitivities.states[0].residual;
-  const Index m = of.bridge.cols(), e = of.epoch.cols();
-  VectorXd mean = VectorXd::Zero(m + e);
-  MatrixXd second = MatrixXd::Zero(m + e, m + e);
+constexpr double kSigma = 2e-5;  // [m]
+
+/// Absolute readings of an intact bridge that are off in waves.
+struct Readings {
+  SyntheticLibrary library{3, 4};
+  Sensitivities sensitivities = made_up_sensitivities_of(library);
+  Comparison comparison = absolute_readings(library.library(), no_measurements(library.points.size()));
+
+  Readings() {
+    comparison.factors = factors_of(library, sensitivities);
+    for (std::size_t i = 0; i < library.points.size(); ++i) {
+      comparison.measured.displacement[i] = library.intact()[i] + 2e-4 * std::cos(static_cast<double>(3 * i));
+      comparison.measured.sigma[i] = kSigma;
+    }
+  }
+};
+
+/// Mean and covariance of all parameters, given the readings; kappa by kappa, as far as it `counts`.
+struct Joint {
+  VectorXd mean;
+  MatrixXd covariance;
+};
+
+Joint joint_gaussian(const Sensitivities& from, const VectorXd& reading, const ScatterLogs& counts) {
+  const SceneFactors& of = from.states[0].scenes[0];
+  const FirstOrderResidual& residual = from.states[0].residual;
+  const Index n = reading.size(), m = of.bridge.cols(), e = of.epoch.cols();
+  MatrixXd design(n, m + e);
+  design << of.bridge, of.epoch;
+  const MatrixXd noise = kSigma * kSigma * MatrixXd::Identity(n, n) +
+                         residual.bridge * residual.bridge.transpose() +
+                         residual.epoch * residual.epoch.transpose();
+  Joint joint{VectorXd::Zero(m + e), MatrixXd::Zero(m + e, m + e)};
   double total = 0.0;
-  for (std::size_t k = 0; k < kScatterFactors.size(); ++k) {
+  for (std::size_t k = 0; k < counts.size(); ++k) {
+    if (counts[k] == 0.0) continue;  // parts with little weight are left out
     VectorXd prior(m + e);
     prior << VectorXd::Constant(m, kScatterFactors[k]), VectorXd::Ones(e);
-    MatrixXd design(n, m + e);
-    design << of.bridge, of.epoch;
-    const MatrixXd noise = 4e-10 * MatrixXd::Identity(n, n) + residual.bridge * residual.bridge.transpose() +
-                           residual.epoch * residual.epoch.transpose();
     const MatrixXd covariance = design * prior.asDiagonal() * design.transpose() + noise;
     const Eigen::FullPivLU<MatrixXd> solver(covariance);
     const MatrixXd gain = prior.asDiagonal() * design.transpose() * solver.inverse();
-    const VectorXd own = gain * bridge.reading;
+    const VectorXd own = gain * reading;
     const MatrixXd spread = MatrixXd(prior.asDiagonal()) - gain * design * MatrixXd(prior.asDiagonal());
-    const double weight = kScatterPrior[k] * std::exp(-0.5 * bridge.reading.dot(solver.solve(bridge.reading))) /
+    const double weight = kScatterPrior[k] * std::exp(-0.5 * reading.dot(solver.solve(reading))) /
                           std::sqrt(MatrixXd(1e9 * covariance).determinant());
-    // Parts with less than 2 % of the weight are left out.
-    if (posterior.scatter[k] == 0.0) continue;
     total += weight;
-    mean += weight * own;
-    second += weight * (spread + own * own.transpose());
+    joint.mean += weight * own;
+    joint.covariance += weight * (spread + own * own.transpose());
   }
-  mean /= total;
-  const MatrixXd covariance = second / total - mean * mean.transpose();
-  for (Index i = 0; i < m; ++i) {
-    const ParameterEstimate one = parameter_estimate(posterior, sensitivities.basis.row(i));
+  joint.mean /= total;
+  joint.covariance = joint.covariance / total - joint.mean * joint.mean.transpose();
+  return joint;
+}
+
+}  // namespace
+
+TEST_CASE("Means and spreads of the parameters are those of the joint Gaussian") {
+  const Readings readings;
+  const Observation observation = observe(readings.comparison, {NoiseShape::gaussian, 0.0}, {});
+  const UnknownBridge bridge = unknown_bridge(readings.comparison, observation, {}, {});
+  const BridgePosterior posterior = bridge_posterior(bridge, observation, readings.library.table, {{0, 1.0}});
+  const auto [mean, covariance] = joint_gaussian(readings.sensitivities, bridge.reading, posterior.scatter);
+  const MatrixXd& basis = readings.sensitivities.basis;
+  for (Index i = 0; i < basis.cols(); ++i) {
+    const ParameterEstimate one = parameter_estimate(posterior, basis.row(i));
     CHECK(one.mean == Approx(mean[i]).epsilon(1e-6).margin(1e-9));
     CHECK(one.deviation == Approx(std::sqrt(covariance(i, i))).epsilon(1e-6));
   }
-  // Of a parameter outside the basis the readings say only what they say of the scatter.
-  const ParameterEstimate outside = parameter_estimate(posterior, sensitivities.basis.row(m));
-  CHECK(outside.mean == 0.0);
-  for (Index i = 0; i < e; ++i) {
-    CHECK(posterior.epoch_mean[i] == Approx(mean[m + i]).epsilon(1e-6).margin(1e-9));
-    CHECK(posterior.epoch_covariance(i, i) == Approx(covariance(m + i, m + i)).epsilon(1e-6));
+  for (Index i = 0; i < posterior.epoch_mean.size(); ++i) {
+    const Index at = basis.cols() + i;
+    CHECK(posterior.epoch_mean[i] == Approx(mean[at]).epsilon(1e-6).margin(1e-9));
+    CHECK(posterior.epoch_covariance(i, i) == Approx(covariance(at, at)).epsilon(1e-6));
   }
-  const VectorXd sum = posterior.signal + posterior.from_bridge + posterior.from_epochs.rowwise().sum() +
-                       posterior.left;
+  const VectorXd sum =
+      posterior.signal + posterior.from_bridge + posterior.from_epochs.rowwise().sum() + posterior.left;
   CHECK((sum - bridge.reading).norm() < 1e-15);
 }

@@ -76,100 +76,122 @@ SceneFactors changed_by(const Sensitivities& from, const Scene& scene) {
 }
 
 /// The whole state of two epochs' displacements (first all points before, then all after) as one Gaussian of
-/// independent causes, then the rows that are read.
-struct Dense {
+/// independent causes.
+class TwoEpochs {
+ public:
+  TwoEpochs(const Question& question, std::size_t row, double kappa, double datum)
+      : question_(question), scene_(question.library.table.scene(row)), p_(points())) {
+    intact_ = displacements(0);
+    signal_ = displacements(row) - intact_;
+    mean.resize(2 * p_);
+    mean << intact_, intact_ + signal_;
+    covariance = MatrixXd::Zero(2 * p_, 2 * p_);
+    add_parameters(kappa);
+    add_common(datum);
+    add_losses();
+  }
   MatrixXd covariance;
   VectorXd mean;
-};
 
-Dense two_epochs(const Question& question, std::size_t row, double kappa, double datum, bool levelled_both) {
-  const SyntheticLibrary& library = question.library;
-  const Sensitivities& from = question.sensitivities;
-  const SceneFactors& intact_factors = from.states[0].scenes[0];
-  const FirstOrderResidual& residual = from.states[0].residual;
-  const ModelError& error = question.comparison.model_error;
-  const auto p = static_cast<Index>(library.points.size());
-  const Scene scene = library.table.scene(row);
-  const SceneFactors change = changed_by(from, scene);
-  VectorXd intact(p), predicted(p);
-  for (Index i = 0; i < p; ++i) {
-    intact[i] = library.intact()[static_cast<std::size_t>(i)];
-    predicted[i] = library.table.row(row)[static_cast<std::size_t>(i)];
+ private:
+  Index points() const { return static_cast<Index>(question_.library.points.size()); }
+  VectorXd displacements(std::size_t row) const {
+    const auto values = question_.library.table.row(row);
+    return Eigen::Map<const VectorXd>(values.data(), p_);
   }
-  Dense dense{MatrixXd::Zero(2 * p, 2 * p), VectorXd(2 * p)};
-  dense.mean << intact, predicted;
-  const auto add = [&](const MatrixXd& before, const MatrixXd& after, double variance) {
-    MatrixXd both(2 * p, before.cols());
+  void add(const MatrixXd& before, const MatrixXd& after, double variance = 1.0) {
+    MatrixXd both(2 * p_, before.cols());
     both << before, after;
-    dense.covariance += variance * both * both.transpose();
-  };
-  const MatrixXd none = MatrixXd::Zero(p, 1);
-  add(intact_factors.bridge, intact_factors.bridge + change.bridge, kappa);
-  add(intact_factors.epoch, MatrixXd::Zero(p, from.of_epoch()), 1.0);
-  add(MatrixXd::Zero(p, from.of_epoch()), intact_factors.epoch + change.epoch, 1.0);
-  add(residual.bridge, residual.bridge, 1.0);
-  add(residual.epoch, MatrixXd::Zero(p, residual.epoch.cols()), 1.0);
-  add(MatrixXd::Zero(p, residual.epoch.cols()), residual.epoch, 1.0);
-  MatrixXd level = MatrixXd::Ones(p, 1);
-  level(0, 0) = 0.0;  // no reading there
-  add(levelled_both ? level : none, none, datum * datum);
-  add(none, level, datum * datum);
-  VectorXd own = VectorXd::Constant(p, error.intact.front());
-  add(own.asDiagonal(), own.asDiagonal(), 1.0);
-  // What each loss leaves uncertain by itself.
-  const auto loss = [&](const SceneFactors& of, const VectorXd& signal) {
-    const VectorXd spread = of.bridge.rowwise().squaredNorm(), epochs = of.epoch.rowwise().squaredNorm();
-    const double alike = error.common * error.common * signal.squaredNorm() / static_cast<double>(p) +
-                         std::pow(residual.common, 2) * spread.mean() +
-                         std::pow(residual.epoch_common, 2) * epochs.mean();
-    const VectorXd variance = (error.share * signal).array().square().matrix() +
-                              std::pow(residual.share, 2) * spread +
-                              std::pow(residual.epoch_share, 2) * epochs + VectorXd::Constant(p, alike);
-    add(MatrixXd::Zero(p, p), MatrixXd(variance.array().sqrt().matrix().asDiagonal()), 1.0);
-  };
-  const auto signal_of_block = [&](BlockId block) {
-    VectorXd signal(p);
-    const auto single = library.table.row(library.row_of({{block}}));
-    for (Index i = 0; i < p; ++i) signal[i] = single[static_cast<std::size_t>(i)] - intact[i];
-    return signal;
-  };
-  std::vector<double> shares;
-  for (std::size_t b = 0; b < library.blocks; ++b)
-    if (const Scene alone{{BlockId{static_cast<std::int32_t>(b)}}}; from.find(0, alone) != nullptr) {
-      const SceneFactors of = changed_by(from, alone);
-      // A block that carries a point gives NaN there; such rows are not compared with these readings' rows.
-      VectorXd signal = signal_of_block(BlockId{static_cast<std::int32_t>(b)});
-      double square = 0.0, norm = 0.0;
-      for (Index i = 0; i < p; ++i) {
-        square += of.bridge.row(i).squaredNorm() + of.epoch.row(i).squaredNorm();
-        if (i > 0 && !std::isnan(signal[i])) norm += signal[i] * signal[i];
-      }
-      shares.push_back(std::sqrt(square / norm));
-    }
-  std::sort(shares.begin(), shares.end());
-  const double typical = shares[shares.size() / 2];
-  VectorXd beyond = predicted - intact;
-  if (scene.missing() == 2 && from.find(0, scene) != nullptr) {
-    loss(change, beyond);
-    beyond.setZero();
-  } else {
-    for (const BlockId block : scene.removed)
-      if (const Scene alone{{block}}; from.find(0, alone) != nullptr) {
-        loss(changed_by(from, alone), signal_of_block(block));
-        beyond -= signal_of_block(block);
-      }
+    covariance += variance * both * both.transpose();
   }
-  add(none, typical * beyond, 1.0);
-  const double rms = beyond.tail(p - 1).norm() / std::sqrt(static_cast<double>(p - 1));
-  add(MatrixXd::Zero(p, p), MatrixXd(typical * rms * MatrixXd::Identity(p, p)), 1.0);
-  return dense;
-}
+  void add_after(const MatrixXd& after) { add(MatrixXd::Zero(p_, after.cols()), after); }
+  void add_each(const MatrixXd& before, const MatrixXd& after) {
+    add(before, MatrixXd::Zero(p_, before.cols()));
+    add_after(after);
+  }
+
+  void add_parameters(double kappa) {
+    const SceneFactors& intact = from().states[0].scenes[0];
+    const SceneFactors change = changed_by(from(), scene_);
+    add(intact.bridge, intact.bridge + change.bridge, kappa);
+    add_each(intact.epoch, intact.epoch + change.epoch);
+  }
+
+  void add_common(double datum) {
+    const FirstOrderResidual& residual = from().states[0].residual;
+    add(residual.bridge, residual.bridge);
+    add_each(residual.epoch, residual.epoch);
+    MatrixXd level = datum * MatrixXd::Ones(p_, 1);
+    level(0, 0) = 0.0;  // no reading there
+    add_each(level, level);
+    const MatrixXd own = question_.comparison.model_error.intact.front() * MatrixXd::Identity(p_, p_);
+    add(own, own);
+  }
+
+  /// What a loss leaves uncertain by itself.
+  void add_loss(const SceneFactors& of, const VectorXd& signal) {
+    const FirstOrderResidual& residual = from().states[0].residual;
+    const ModelError& error = question_.comparison.model_error;
+    const VectorXd bridge = of.bridge.rowwise().squaredNorm(), epoch = of.epoch.rowwise().squaredNorm();
+    const double alike = std::pow(error.common, 2) * signal.squaredNorm() / static_cast<double>(p_) +
+                         std::pow(residual.common, 2) * bridge.mean() +
+                         std::pow(residual.epoch_common, 2) * epoch.mean();
+    const VectorXd variance = (error.share * signal).array().square().matrix() +
+                              std::pow(residual.share, 2) * bridge +
+                              std::pow(residual.epoch_share, 2) * epoch + VectorXd::Constant(p_, alike);
+    add_after(variance.array().sqrt().matrix().asDiagonal());
+  }
+
+  VectorXd signal_of(BlockId block) const {
+    return displacements(question_.library.row_of({{block}})) - intact_;
+  }
+
+  /// The median of what single losses' signals spread, as a share of them, at the points with readings.
+  double typical_spread() const {
+    std::vector<double> shares;
+    for (std::size_t b = 0; b < question_.library.blocks; ++b) {
+      const BlockId block{static_cast<std::int32_t>(b)};
+      if (from().find(0, {{block}}) == nullptr) continue;
+      const SceneFactors of = changed_by(from(), {{block}});
+      double norm = 0.0;
+      for (const double one : signal_of(block).tail(p_ - 1)) norm += std::isnan(one) ? 0.0 : one * one;
+      shares.push_back(std::sqrt((of.bridge.squaredNorm() + of.epoch.squaredNorm()) / norm));
+    }
+    std::sort(shares.begin(), shares.end());
+    return shares[shares.size() / 2];
+  }
+
+  void add_losses() {
+    VectorXd beyond = signal_;
+    if (scene_.missing() == 2 && from().find(0, scene_) != nullptr) {
+      add_loss(changed_by(from(), scene_), signal_);
+      beyond.setZero();
+    } else {
+      for (const BlockId block : scene_.removed) {
+        if (from().find(0, {{block}}) == nullptr) continue;
+        add_loss(changed_by(from(), {{block}}), signal_of(block));
+        beyond -= signal_of(block);
+      }
+    }
+    const double spread = typical_spread();
+    add_after(spread * beyond);
+    const double rms = beyond.tail(p_ - 1).norm() / std::sqrt(static_cast<double>(p_ - 1));
+    add_after(spread * rms * MatrixXd::Identity(p_, p_));
+  }
+
+  const Sensitivities& from() const { return question_.sensitivities; }
+
+  const Question& question_;
+  Scene scene_;
+  Index p_;
+  VectorXd intact_, signal_;
+};
 
 /// log density of what was read.
 double oracle(const Question& question, std::size_t row, double kappa, double datum, Epochs epochs) {
   const auto p = static_cast<Index>(question.library.points.size());
   const Comparison& c = question.comparison;
-  Dense dense = two_epochs(question, row, kappa, datum, is_change(c.kind));
+  TwoEpochs dense(question, row, kappa, datum);
   const Index n = p - 1;
   const bool both = is_change(c.kind) && epochs == Epochs::both;
   MatrixXd take = MatrixXd::Zero(both ? 2 * n : n, 2 * p);
@@ -214,7 +236,7 @@ TEST_CASE("The evidence of an unknown bridge is that of the dense Gaussian of bo
   const Question question(kind);
   const SceneTable& table = question.library.table;
   const Observation observation = question.observation({0.0, datum, 0.0});
-  const UnknownBridge bridge = unknown_bridge(question.comparison, observation, 0.0, {.epochs = epochs});
+  const UnknownBridge bridge = unknown_bridge(question.comparison, observation, {}, {.epochs = epochs});
   const auto rows = all_rows(table);
   const auto logs = scatter_logs(bridge, observation, table, rows, 2);
   std::size_t compared = 0;
@@ -237,7 +259,7 @@ TEST_CASE(
   const Question question(ReadingKind::change, kLeadingColumns + 20);
   const SceneTable& table = question.library.table;
   const Observation observation = question.observation();
-  const UnknownBridge bridge = unknown_bridge(question.comparison, observation, 0.0, {});
+  const UnknownBridge bridge = unknown_bridge(question.comparison, observation, {}, {});
   std::size_t compared = 0;
   for (std::size_t row = 0; row < table.rows && table.scene(row).missing() < 2; ++row) {
     const auto predicted = table.row(row);

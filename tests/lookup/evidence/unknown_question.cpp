@@ -1,5 +1,5 @@
-/// @file Questions about a bridge that is not exactly known. Oracle: the evidence of every scene, worked out one by
-/// one.
+/// @file Questions about a bridge that is not exactly known. Oracle: the evidence of every scene, worked out
+/// one by one.
 
 #include "lookup/evidence/unknown_question.h"
 
@@ -31,10 +31,11 @@ struct Trial {
     for (std::size_t i = 0; i < library.points.size(); ++i) {
       double shown = library.table.row(truth)[i] + sigma * random.gaussian();
       for (std::size_t k = 0; k < theta.size(); ++k)
-        shown += theta[k] * (factors.bridge(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k)) -
-                             (is_change(kind) ? comparison.factors->intact.bridge(
-                                                    static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k))
-                                              : 0.0));
+        shown +=
+            theta[k] * (factors.bridge(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k)) -
+                        (is_change(kind) ? comparison.factors->intact.bridge(static_cast<Eigen::Index>(i),
+                                                                             static_cast<Eigen::Index>(k))
+                                         : 0.0));
       comparison.measured.displacement[i] = shown;
       comparison.measured.sigma[i] = sigma;
       comparison.measured.silent[i] = std::isnan(shown);
@@ -54,10 +55,11 @@ TEST_CASE("What the screen leaves out or estimates changes no probability by mor
   for (const ReadingKind kind : {ReadingKind::absolute, ReadingKind::change})
     for (const double sigma : {3e-6, 3e-5, 3e-4})
       for (int repeat = 0; repeat < 4; ++repeat) {
-        const std::size_t truth = repeat == 0 ? 0 : std::size_t{random.below(static_cast<std::uint32_t>(table.rows))};
+        const std::size_t truth =
+            repeat == 0 ? 0 : std::size_t{random.below(static_cast<std::uint32_t>(table.rows))};
         trial.measure(kind, table.outcome[truth] == 0 ? truth : 0, sigma, random);
         const Observation observation = observe(trial.comparison, {NoiseShape::gaussian, 0.0}, {});
-        UnknownBridgeQuestion question(trial.comparison, observation, {});
+        UnknownBridgeQuestion question(trial.comparison, observation, {.conditions = Conditions::known});
         const auto screened = question.log_evidence(eligible, prior, 10);
         const auto logs = scatter_logs(question.bridge(), observation, table, eligible.rows, 2);
         const auto silence = log_chance_of_silence(observation, table, eligible.rows);
@@ -68,8 +70,8 @@ TEST_CASE("What the screen leaves out or estimates changes no probability by mor
         const Posterior wanted = posterior(table, eligible, exact, prior, trial.library.blocks);
         for (std::size_t block = 0; block < trial.library.blocks; ++block)
           worst = std::max(worst, std::abs(found.block_probability[block] - wanted.block_probability[block]));
-        worst = std::max(worst, std::abs(found.missing_probability.front() -
-                                                wanted.missing_probability.front()));
+        worst =
+            std::max(worst, std::abs(found.missing_probability.front() - wanted.missing_probability.front()));
       }
   INFO(worst);
   CHECK(worst < 1e-3);
