@@ -76,7 +76,7 @@ void add_motion_options(CLI::App& app, DynamicSettings& motion) {
       ->capture_default_str();
 }
 
-void add_variant_options(CLI::App& app, BuildOptions& options) {
+void add_uncertainty_options(CLI::App& app, BuildOptions& options) {
   app.add_option(
          "--variants", options.variants,
          "also solve so many bridges with parameters drawn from the bridge file's [uncertainty]: their "
@@ -85,6 +85,9 @@ void add_variant_options(CLI::App& app, BuildOptions& options) {
       ->capture_default_str();
   app.add_option("--variant-seed", options.variant_seed, "other seeds draw other bridges")
       ->capture_default_str();
+  app.add_flag("--known-bridge", options.request.known_bridge,
+               "leave out how displacements change with what is uncertain of the bridge: for readings of "
+               "bridges that are just as the file says");
 }
 
 /// What is given as a word.
@@ -109,7 +112,7 @@ void add_options(CLI::App& app, BuildOptions& options, Words& words) {
   app.add_option("--loads", options.request.loads,
                  "all, none, or names of the bridge's load cases, which act after each history")
       ->capture_default_str();
-  add_variant_options(app, options);
+  add_uncertainty_options(app, options);
   app.add_option("--threads", options.request.threads, "threads, 0: one for each core")
       ->check(CLI::Range(0, kMostThreads))
       ->capture_default_str();
@@ -130,9 +133,6 @@ void add_options(CLI::App& app, BuildOptions& options, Words& words) {
                  "what is normally skipped or shared is done for every scene, see below")
       ->delimiter(',')
       ->check(CLI::IsMember(switch_names()));
-  app.add_flag("--known-bridge", options.request.known_bridge,
-               "leave out how displacements change with what is uncertain of the bridge: for readings of "
-               "bridges that are just as the file says");
   app.add_flag("--force", options.request.force, "build anew even if the file is up to date");
   app.add_flag("--quiet", options.quiet, "no progress and no messages");
 }

@@ -96,6 +96,7 @@ DamagedTruth solve_damaged(const BridgeFile& bridge, const SampledTruth& truth, 
   BuildRequest request{.bridge = bridge, .output = folder / (truth.name + ".h5"), .scenes = scenes};
   request.histories = "built,lost";
   request.fields = KeepField::no;
+  request.known_bridge = true;  // nothing is looked up in it
   request.other_variants =
       sampled_variants(make_model(bridge.description), truth.uncertainty, truth.bridges, truth.seed);
   Progress progress(Progress::Mode::automatic);
