@@ -51,11 +51,10 @@ void try_given(Run& run) {
     run.damaged({std::filesystem::path(truth).stem().string(), read_true_bridges(Database::open(truth))});
 }
 
-/// Scattered joints, and all that the bridge file says is uncertain.
-void try_solved(Run& run) {
+/// Scattered joints, and all that the bridge file says is uncertain, with blocks missing.
+void try_damaged(Run& run) {
   const IrregularOptions& options = run.options;
   const BlockLayout& layout = run.database.layout();
-  const Uncertainty& all = run.bridge.description.uncertainty;
   const auto damaged = [&](const std::string& name, const Uncertainty& uncertainty, std::uint64_t seed,
                            const std::string& scenes) {
     run.damaged(
@@ -63,9 +62,14 @@ void try_solved(Run& run) {
   };
   for (const double scatter : options.scatters)
     damaged(fmt::format("joints {}", scatter), scattered_joints(scatter), kDamagedSeed, wall_singles(layout));
-  damaged("everything", all, kDamagedSeed, wall_singles(layout));
+  damaged("everything", run.bridge.description.uncertainty, kDamagedSeed, wall_singles(layout));
   damaged(fmt::format("joints {} pairs", kScatter), scattered_joints(kScatter), kPairsSeed,
           random_pairs(layout, kPairs, kPairsSeed));
+}
+
+/// The same, intact at two times.
+void try_intact(Run& run) {
+  const IrregularOptions& options = run.options;
   const auto intact = [&](const std::string& name, const Uncertainty& uncertainty, const Between& between) {
     run.intact(solve_intact(run.bridge.description, {name, uncertainty, options.intact_bridges, kIntactSeed},
                             between));
@@ -74,7 +78,7 @@ void try_solved(Run& run) {
     intact(fmt::format("joints {}", scatter), scattered_joints(scatter), {});
   intact("20 K warmer", scattered_joints(kScatter), {.warmer = kWarmer});
   intact("foot 1 mm lower", scattered_joints(kScatter), {.settlement = kSettlement});
-  intact("everything", all, {.at_random = true});
+  intact("everything", run.bridge.description.uncertainty, {.at_random = true});
 }
 
 }  // namespace
@@ -86,10 +90,11 @@ std::string benchmark_irregular(const std::filesystem::path& path, const Irregul
           parse_bridge_file(database.bridge_text(), database.bridge_name()),
           {path.string(), database.digest(), database.bridge_name(), {}, options.settings}};
   fmt::print("{}", heading_text());
-  if (options.truths.empty())
-    try_solved(run);
-  else
+  if (!options.truths.empty())
     try_given(run);
+  else if (!options.intact_only)
+    try_damaged(run);
+  if (options.truths.empty()) try_intact(run);
   if (!options.json.empty()) write_file(options.json, to_json(run.source, run.rows));
   if (!options.page.empty()) write_file(options.page, to_page(run.source, run.rows));
   return reliability_text(run.rows);

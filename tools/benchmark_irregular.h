@@ -15,6 +15,7 @@ struct IrregularOptions {
   std::string folder = "build/irregular";               ///< where their databases are
   int bridges = 20;                                     ///< of each kind, with blocks missing
   int intact_bridges = 200;                             ///< of each kind, intact
+  bool intact_only = false;
   StudySettings settings;
   std::string json;  ///< file; empty: none
   std::string page;  ///< file; empty: none

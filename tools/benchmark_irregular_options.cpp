@@ -33,7 +33,14 @@ void add_irregular_options(CLI::App& app, IrregularOptions& options) {
          "of --irregular: errors of readings [mm], default .01,.03,.1")
       ->delimiter(',')
       ->check(CLI::PositiveNumber);
-  app.add_option("--every", options.settings.every,
+  add_choice(app, "--conditions", options.settings.conditions,
+             {{"known", Conditions::known}, {"uncertain", Conditions::uncertain}},
+             "of --irregular: what the lookup is told of temperature and supports");
+  app.add_flag("--intact-only", options.intact_only, "of --irregular: intact bridges only");
+  app.add_option("--every", options.settings.every, "of --irregular: take one of so many singles")
+      ->check(CLI::Range(1, kMost))
+      ->capture_default_str();
+  app.add_option("--every-all", options.settings.every_all,
                  "of --irregular: one of so many singles is looked for among all scenes")
       ->check(CLI::Range(1, kMost))
       ->capture_default_str();

@@ -180,7 +180,7 @@ TEST_CASE("True bridges are the variants of a file; one without variants is refu
 TEST_CASE("A study of bridges that are the database's own finds every block and writes what it found") {
   const Site site;
   const Database database = site.write({1.0, 1.0}, "own.h5");
-  StudySettings settings{.sigmas = {1e-6}, .every = 7};
+  StudySettings settings{.sigmas = {1e-6}, .every_all = 7};
   std::size_t shown = 0;
   const std::vector<StudyRow> rows = study_damaged(database, {"own", read_true_bridges(database)}, settings,
                                                    [&](const StudyRow&) { ++shown; });

@@ -93,7 +93,10 @@ Uncertainty scattered_joints(double scatter) {
 DamagedTruth solve_damaged(const BridgeFile& bridge, const SampledTruth& truth, const std::string& scenes,
                            const std::filesystem::path& folder) {
   std::filesystem::create_directories(folder);
-  BuildRequest request{.bridge = bridge, .output = folder / (truth.name + ".h5"), .scenes = scenes};
+  BuildRequest request;
+  request.bridge = bridge;
+  request.output = folder / (truth.name + ".h5");
+  request.scenes = scenes;
   request.histories = "built,lost";
   request.fields = KeepField::no;
   request.known_bridge = true;  // nothing is looked up in it

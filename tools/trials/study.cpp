@@ -14,18 +14,17 @@ constexpr std::array kAllTaken = {ReadingsTaken::change, ReadingsTaken::two_epoc
 /// Who is looked for among whom.
 struct LookFor {
   const char* name;
-  int missing;           ///< blocks of the truth
-  bool among_all;        ///< else among scenes with as many missing blocks
-  bool thinned = false;  ///< only some scenes of a bridge
+  int missing;     ///< blocks of the truth
+  bool among_all;  ///< else among scenes with as many missing blocks
 };
 
 constexpr std::array kLookFor = {LookFor{"singles among singles", 1, false},
-                                 LookFor{"singles among all", 1, true, true},
-                                 LookFor{"pairs among all", 2, true}};
+                                 LookFor{"singles among all", 1, true}, LookFor{"pairs among all", 2, true}};
 
 Asking asking_for(const Database& database, const SensorList& sensors, const LookFor& search,
-                  bool known_bridge) {
+                  const StudySettings& settings, bool known_bridge) {
   Asking asking{database, sensors, {}, known_bridge};
+  if (!known_bridge) asking.lookup.conditions = settings.conditions;
   if (!search.among_all) asking.lookup.prior.missing = {search.missing};
   return asking;
 }
@@ -46,6 +45,12 @@ void run_row(StudyRow row, const Asking& asking, const Taking& taking, const Tri
   rows.push_back(std::move(row));
 }
 
+/// Of so many scenes one is looked for.
+std::size_t every_of(const LookFor& search, const StudySettings& settings) {
+  if (search.missing != 1) return 1;
+  return search.among_all ? settings.every_all : settings.every;
+}
+
 void run_search(const Database& database, const std::string& truth, const LookFor& search,
                 const StudySettings& settings, const Trials& trials, const RowDone& done,
                 std::vector<StudyRow>& rows) {
@@ -56,8 +61,8 @@ void run_search(const Database& database, const std::string& truth, const LookFo
         if (known_bridge && taken == ReadingsTaken::two_epochs)
           continue;  // the first teaches nothing: a change
         run_row({truth, search.name, taken, sigma, known_bridge, {}},
-                asking_for(database, sensors, search, known_bridge),
-                {taken, sigma, settings.seed, search.thinned ? settings.every : 1}, trials, done, rows);
+                asking_for(database, sensors, search, settings, known_bridge),
+                {taken, sigma, settings.seed, every_of(search, settings)}, trials, done, rows);
       }
 }
 

@@ -24,7 +24,9 @@ struct IntactTruth {
 struct StudySettings {
   std::vector<double> sigmas = {1e-5, 3e-5, 1e-4};  ///< [m]
   std::uint64_t seed = 1;                           ///< of the readings' errors
-  std::size_t every = 10;  ///< of the singles, where they are looked for among all scenes
+  std::size_t every = 1;                            ///< one of so many singles is looked for among singles
+  Conditions conditions = Conditions::uncertain;    ///< as the lookup is told where the bridge is unknown
+  std::size_t every_all = 10;                       ///< and among all scenes
 };
 
 /// One row of the tables.

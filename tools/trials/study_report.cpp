@@ -107,7 +107,8 @@ std::string to_json(const StudySource& source, const std::vector<StudyRow>& rows
                                    {"bridge", source.bridge},
                                    {"truths", source.truths},
                                    {"seed", source.settings.seed},
-                                   {"every", source.settings.every}}},
+                                   {"every", source.settings.every},
+                                   {"every_all", source.settings.every_all}}},
                                  {"rows", nlohmann::ordered_json::array()}};
   for (const StudyRow& row : rows) json["rows"].push_back(row_json(row));
   return json.dump(1) + "\n";
