@@ -42,4 +42,11 @@ double Random::gaussian() {
   }
 }
 
+std::uint64_t series_seed(std::uint64_t seed, std::uint64_t number) {
+  std::uint64_t mixed = seed + 0x9e3779b97f4a7c15u * (number + 1);
+  mixed = (mixed ^ (mixed >> 30)) * 0xbf58476d1ce4e5b9u;
+  mixed = (mixed ^ (mixed >> 27)) * 0x94d049bb133111ebu;
+  return mixed ^ (mixed >> 31);
+}
+
 }  // namespace voussoir

@@ -21,4 +21,9 @@ class Random {
   std::uint64_t state_ = 0;
 };
 
+/// A seed for each number of a series that has a seed of its own: neighbouring numbers and seeds give
+/// unrelated ones (Steele, Lea and Flood, "Fast splittable pseudorandom number generators", 2014:
+/// SplitMix64).
+std::uint64_t series_seed(std::uint64_t seed, std::uint64_t number);
+
 }  // namespace voussoir

@@ -38,6 +38,19 @@ Provenance provenance_of(const BuildRequest& request, const SolverChoice& solver
   return make_provenance(request.bridge, settings, results_key(request.bridge.description, settings));
 }
 
+/// The keys of all scenes that are asked for, in the order of rows.
+std::vector<RecordKey> wanted_keys(const BuildRequest& request, std::size_t variants,
+                                   const BlockLayout& layout) {
+  const auto of_nominal = parse_scene_list(request.scenes, layout);
+  const auto of_others =
+      request.scenes_of_variants.empty() ? of_nominal : parse_scene_list(request.scenes_of_variants, layout);
+  std::vector<RecordKey> wanted;
+  for (std::size_t variant = 0; variant < variants; ++variant)
+    std::ranges::move(keys_of(static_cast<std::int32_t>(variant), variant == 0 ? of_nominal : of_others),
+                      std::back_inserter(wanted));
+  return wanted;
+}
+
 Build prepare(const BuildRequest& request, const SolverChoice& solver, Progress& progress) {
   std::vector<Model> bridges = {make_model(request.bridge.description)};
   std::vector<VariantParameters> variants = {parameters_of(bridges.front())};
@@ -45,10 +58,7 @@ Build prepare(const BuildRequest& request, const SolverChoice& solver, Progress&
     bridges.push_back(variant_of(bridges.front(), parameters));
     variants.push_back(parameters);
   }
-  const auto scenes = parse_scene_list(request.scenes, bridges.front().layout);
-  std::vector<RecordKey> wanted;
-  for (std::size_t variant = 0; variant < variants.size(); ++variant)
-    std::ranges::move(keys_of(static_cast<std::int32_t>(variant), scenes), std::back_inserter(wanted));
+  std::vector<RecordKey> wanted = wanted_keys(request, variants.size(), bridges.front().layout);
   const BridgeDescription& description = request.bridge.description;
   StatePlan states = plan_states(state_names(request.histories, request.loads, description.loads),
                                  bridges.front(), description);

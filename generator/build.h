@@ -15,7 +15,8 @@ namespace voussoir {
 struct BuildRequest {
   BridgeFile bridge;
   std::filesystem::path output = "bridge.h5";
-  std::string scenes = "all";       ///< as parse_scene_list reads it; the same of every variant
+  std::string scenes = "all";       ///< as parse_scene_list reads it
+  std::string scenes_of_variants;   ///< of variants 1, 2..; empty: the same as of variant 0
   std::string histories = "built";  ///< as state_names reads it
   std::string loads = "none";       ///< as state_names reads it
   /// Variants 1, 2..: the bridge with other parameters (see variant_of). Variant 0 is the bridge as it is.

@@ -6,6 +6,7 @@
 #include "core/error.h"
 #include "generator/build_options.h"
 #include "generator/summary.h"
+#include "generator/variants.h"
 
 using namespace voussoir;
 
@@ -13,6 +14,10 @@ namespace {
 
 int run(BuildOptions options) {
   options.request.bridge = options.bridge ? read_bridge_file(*options.bridge) : reference_bridge_file();
+  const BridgeDescription& description = options.request.bridge.description;
+  if (options.variants > 0)
+    options.request.other_variants = sampled_variants(make_model(description), description.uncertainty,
+                                                      options.variants, options.variant_seed);
   if (options.version) {
     std::cout << version_text("build-database") << '\n'
               << describe(provenance_of(options.request, options.solver));

@@ -12,10 +12,12 @@ namespace voussoir {
 namespace {
 
 constexpr int kMostThreads = 4096;
+constexpr int kMostVariants = 10000;
 constexpr int kBadUsage = 2;
 
 constexpr const char* kFooter =
-    "Example: build-database examples/bridges/small.toml -o small.h5 --scenes 'singles;4,2+5,1..3'\n\n"
+    "Examples: build-database examples/bridges/small.toml -o small.h5 --scenes 'singles;4,2+5,1..3'\n"
+    "          build-database -o irregular.h5 --variants 20 --scenes singles --history built,lost\n\n"
     "--scenes takes all, singles, pairs, or items separated by ';': intact, a scene (10,4 or 10,4+6,4), or a "
     "scene with\n"
     "ranges (10,1..20  0,*  10,4+2..4,*). An interrupted build goes on when the same command is run again; a "
@@ -74,6 +76,20 @@ void add_motion_options(CLI::App& app, DynamicSettings& motion) {
       ->capture_default_str();
 }
 
+void add_uncertainty_options(CLI::App& app, BuildOptions& options) {
+  app.add_option(
+         "--variants", options.variants,
+         "also solve so many bridges with parameters drawn from the bridge file's [uncertainty]: their "
+         "singles, or the scenes that --scenes names")
+      ->check(CLI::Range(0, kMostVariants))
+      ->capture_default_str();
+  app.add_option("--variant-seed", options.variant_seed, "other seeds draw other bridges")
+      ->capture_default_str();
+  app.add_flag("--known-bridge", options.request.known_bridge,
+               "leave out how displacements change with what is uncertain of the bridge: for readings of "
+               "bridges that are just as the file says");
+}
+
 /// What is given as a word.
 struct Words {
   std::string solver = "quasi-static";
@@ -96,6 +112,7 @@ void add_options(CLI::App& app, BuildOptions& options, Words& words) {
   app.add_option("--loads", options.request.loads,
                  "all, none, or names of the bridge's load cases, which act after each history")
       ->capture_default_str();
+  add_uncertainty_options(app, options);
   app.add_option("--threads", options.request.threads, "threads, 0: one for each core")
       ->check(CLI::Range(0, kMostThreads))
       ->capture_default_str();
@@ -116,9 +133,6 @@ void add_options(CLI::App& app, BuildOptions& options, Words& words) {
                  "what is normally skipped or shared is done for every scene, see below")
       ->delimiter(',')
       ->check(CLI::IsMember(switch_names()));
-  app.add_flag("--known-bridge", options.request.known_bridge,
-               "leave out how displacements change with what is uncertain of the bridge: for readings of "
-               "bridges that are just as the file says");
   app.add_flag("--force", options.request.force, "build anew even if the file is up to date");
   app.add_flag("--quiet", options.quiet, "no progress and no messages");
 }
@@ -138,6 +152,7 @@ BuildOptions parse_build_options(int argc, char** argv) {
     options.exit_code = app.exit(error) == 0 ? 0 : kBadUsage;
   }
   options.json = words.format == "json";
+  if (options.variants > 0 && app.count("--scenes") == 0) options.request.scenes_of_variants = "singles";
   options.request.fields = words.fields == "all" ? KeepField::yes : KeepField::no;
   for (const std::string& name : words.without)
     build_switch(name).switch_off(options.request.rules, options.motion.skips);

@@ -9,8 +9,10 @@ namespace voussoir {
 
 struct BuildOptions {
   std::optional<std::filesystem::path> bridge;  ///< nothing: the reference bridge
-  BuildRequest request;                         ///< all but the bridge
-  DynamicSettings motion;                       ///< of scenes in motion
+  BuildRequest request;                         ///< all but the bridge and its variants
+  int variants = 0;                             ///< bridges to draw beside the nominal one
+  std::uint64_t variant_seed = 1;
+  DynamicSettings motion;  ///< of scenes in motion
   SolverChoice solver;
   bool version = false;  ///< only tell what would be built with what
   bool quiet = false;

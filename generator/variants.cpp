@@ -4,6 +4,8 @@
 #include <map>
 
 #include "core/error.h"
+#include "core/random.h"
+#include "core/structure/uncertain_parameters.h"
 
 namespace voussoir {
 namespace {
@@ -108,6 +110,15 @@ Model variant_of(const Model& bridge, const VariantParameters& parameters) {
   if (variant.symmetry && !are_symmetric(parameters, bridge.joints, *variant.symmetry))
     variant.symmetry.reset();
   return variant;
+}
+
+std::vector<VariantParameters> sampled_variants(const Model& bridge, const Uncertainty& uncertainty,
+                                                int count, std::uint64_t seed) {
+  std::vector<VariantParameters> variants;
+  for (int number = 0; number < count; ++number)
+    variants.push_back(
+        parameters_of(sampled(bridge, uncertainty, series_seed(seed, static_cast<std::uint64_t>(number)))));
+  return variants;
 }
 
 bool are_symmetric(const VariantParameters& parameters, const std::vector<Joint>& joints,

@@ -17,14 +17,6 @@ constexpr double kLowestLevel = 0.01;  // of the noise in calibration and false 
 constexpr double kHighestLevel = 0.20;
 constexpr double kWorthCounting = 1e-3;  // probabilities below it do not enter the reliability table
 
-/// The place of the truth in the order of probabilities, from 0 (equal ones count half behind it).
-std::size_t place_of(std::size_t truth, const Posterior& posterior) {
-  std::size_t ahead = 0;
-  for (std::size_t row = 0; row < posterior.probability.size(); ++row)
-    if (posterior.probability[row] > posterior.probability[truth]) ++ahead;
-  return posterior.probability[truth] > 0.0 ? ahead : posterior.probability.size();
-}
-
 void count_place(std::size_t place, Success& success) {
   ++success.trials;
   success.first += place == 0 ? 1 : 0;
@@ -53,28 +45,6 @@ std::size_t draw_scene(const std::vector<Eligible>& by_missing, Random& random) 
   return rows[random.below(static_cast<std::uint32_t>(rows.size()))];
 }
 
-void add_to_bins(const Posterior& posterior, const Eligible& eligible, std::size_t truth,
-                 std::vector<ReliabilityBin>& bins) {
-  for (const std::size_t row : eligible.rows) {
-    const double p = posterior.probability[row];
-    if (p < kWorthCounting) continue;
-    ReliabilityBin& bin = bins[std::min(kBins - 1, static_cast<std::size_t>(p * kBins))];
-    ++bin.scenes;
-    bin.mean_probability += p;
-    bin.frequency += row == truth ? 1.0 : 0.0;
-    bin.standard_error += p * (1.0 - p);
-  }
-}
-
-void finish_bins(std::vector<ReliabilityBin>& bins) {
-  for (ReliabilityBin& bin : bins) {
-    const auto n = static_cast<double>(std::max<std::size_t>(1, bin.scenes));
-    bin.mean_probability /= n;
-    bin.frequency /= n;
-    bin.standard_error = std::sqrt(bin.standard_error) / n;
-  }
-}
-
 }  // namespace
 
 std::size_t row_of(const Library& library, const std::string& text) {
@@ -87,6 +57,13 @@ Posterior posterior_of(const Library& library, const Measurements& measured, con
   const Observation observation = observe(absolute_readings(library, measured), noise);
   return posterior(library.table, eligible, log_evidence_of_rows(observation, library.table, eligible.rows),
                    prior, library.layout.size());
+}
+
+std::size_t place_of(std::size_t truth, const Posterior& posterior) {
+  std::size_t ahead = 0;
+  for (std::size_t row = 0; row < posterior.probability.size(); ++row)
+    if (posterior.probability[row] > posterior.probability[truth]) ++ahead;
+  return posterior.probability[truth] > 0.0 ? ahead : posterior.probability.size();
 }
 
 void count_posterior(std::size_t truth, const Posterior& posterior, Success& success) {
@@ -129,13 +106,48 @@ CaseResult run_case(const Library& library, const PaperCase& paper_case, int tri
   return result;
 }
 
+std::vector<ReliabilityBin> unfinished_bins() {
+  return std::vector<ReliabilityBin>(kBins);
+}
+
+void add_to_bins(const Posterior& posterior, std::size_t truth, std::vector<ReliabilityBin>& bins) {
+  for (std::size_t row = 0; row < posterior.probability.size(); ++row) {
+    const double p = posterior.probability[row];
+    if (p < kWorthCounting) continue;
+    ReliabilityBin& bin = bins[std::min(kBins - 1, static_cast<std::size_t>(p * kBins))];
+    ++bin.scenes;
+    bin.mean_probability += p;
+    bin.frequency += row == truth ? 1.0 : 0.0;
+    bin.standard_error += p * (1.0 - p);
+  }
+}
+
+void add_finished(const std::vector<ReliabilityBin>& finished, std::vector<ReliabilityBin>& sum) {
+  for (std::size_t i = 0; i < finished.size(); ++i) {
+    const auto n = static_cast<double>(finished[i].scenes);
+    sum[i].scenes += finished[i].scenes;
+    sum[i].mean_probability += n * finished[i].mean_probability;
+    sum[i].frequency += n * finished[i].frequency;
+    sum[i].standard_error += std::pow(n * finished[i].standard_error, 2);
+  }
+}
+
+void finish_bins(std::vector<ReliabilityBin>& bins) {
+  for (ReliabilityBin& bin : bins) {
+    const auto n = static_cast<double>(std::max<std::size_t>(1, bin.scenes));
+    bin.mean_probability /= n;
+    bin.frequency /= n;
+    bin.standard_error = std::sqrt(bin.standard_error) / n;
+  }
+}
+
 Calibration calibrate(const Library& library, NoiseShape drawn, NoiseShape assumed, bool stated, int trials,
                       std::uint64_t seed) {
   const Eligible all = eligible_rows(library.table, {0, 1, 2});
   const std::vector<Eligible> by_missing = {eligible_rows(library.table, {0}),
                                             eligible_rows(library.table, {1}),
                                             eligible_rows(library.table, {2})};
-  Calibration result{{}, 0.0, std::vector<ReliabilityBin>(kBins)};
+  Calibration result{{}, 0.0, unfinished_bins()};
   Random random(seed);
   for (int trial = 0; trial < trials; ++trial) {
     const std::size_t truth = draw_scene(by_missing, random);
@@ -146,7 +158,7 @@ Calibration calibrate(const Library& library, NoiseShape drawn, NoiseShape assum
     const Posterior answer = posterior_of(library, measured, all, noise, kEqual);
     count_posterior(truth, answer, result.success);
     result.mean_set_size += static_cast<double>(answer.credible.size()) / trials;
-    add_to_bins(answer, all, truth, result.bins);
+    add_to_bins(answer, truth, result.bins);
   }
   finish_bins(result.bins);
   return result;

@@ -36,6 +36,10 @@ std::size_t row_of(const Library& library, const std::string& scene);
 Posterior posterior_of(const Library& library, const Measurements& measured, const Eligible& eligible,
                        const NoiseModel& noise, const Prior& prior);
 
+/// The place of the truth in the order of probabilities, from 0: scenes that are likelier come before it.
+/// That of all rows if the truth is impossible.
+std::size_t place_of(std::size_t truth, const Posterior& posterior);
+
 /// Counts where the truth comes in the order of probabilities and whether it is in the credible set.
 void count_posterior(std::size_t truth, const Posterior& posterior, Success& success);
 
@@ -57,10 +61,23 @@ struct ReliabilityBin {
   double standard_error = 0.0;  ///< of the frequency, if the probabilities are right
 };
 
+/// Ten bins of equal width without scenes. Until finish_bins they hold sums: of probabilities, of truths and,
+/// in the place of the standard error, of variances.
+std::vector<ReliabilityBin> unfinished_bins();
+
+/// Enters an answer's probabilities, but for very small ones.
+void add_to_bins(const Posterior& posterior, std::size_t truth, std::vector<ReliabilityBin>& bins);
+
+/// Adds finished bins to unfinished ones.
+void add_finished(const std::vector<ReliabilityBin>& finished, std::vector<ReliabilityBin>& sum);
+
+/// From sums to means. Precondition: the bins are unfinished.
+void finish_bins(std::vector<ReliabilityBin>& bins);
+
 struct Calibration {
   Success success;
-  double mean_set_size = 0.0;        ///< scenes in the 95 % set
-  std::vector<ReliabilityBin> bins;  ///< ten, of equal width
+  double mean_set_size = 0.0;  ///< scenes in the 95 % set
+  std::vector<ReliabilityBin> bins;
 };
 
 /// Random scenes (numbers of missing blocks equally often) with noise levels even in 1..20 % and sensors that

@@ -2,6 +2,7 @@
 
 #include "core/error.h"
 #include "lookup/command_line.h"
+#include "tools/benchmark_irregular_options.h"
 #include "tools/benchmark_localisation.h"
 
 namespace {
@@ -17,6 +18,8 @@ struct Options {
   int trials = 200;
   int scenes = 2000;
   std::uint64_t seed = 1;
+  bool irregular = false;
+  voussoir::IrregularOptions bridges;
 };
 
 double share(int count, const Success& success) {
@@ -76,7 +79,7 @@ void print_calibration(const Library& library, const std::string& title, NoiseSh
   fmt::print("\n");
 }
 
-std::string benchmark(const Options& options) {
+std::string benchmark_paper(const Options& options) {
   const auto database = voussoir::Database::open(voussoir::find_database(options.database));
   const voussoir::PaperCases cases = voussoir::read_paper_cases(voussoir::paper_cases_file());
   const Library library = library_of(database);
@@ -104,7 +107,9 @@ std::string benchmark(const Options& options) {
 
 int main(int argc, char** argv) {
   CLI::App app("Measures how often noisy readings lead to the truth.", "benchmark-localisation");
-  app.footer("Example: benchmark-localisation -d bridge.h5");
+  app.footer(
+      "Example: benchmark-localisation -d bridge.h5\n"
+      "         benchmark-localisation -d bridge.h5 --irregular --page irregular.html");
   Options options;
   app.add_option("-d,--database", options.database, "default: $VOUSSOIR_DATABASE, else ./bridge.h5");
   app.add_option("--trials", options.trials, "noisy trials of each of the paper's cases, default 200")
@@ -112,5 +117,13 @@ int main(int argc, char** argv) {
   app.add_option("--scenes", options.scenes, "random scenes of the calibration, default 2000")
       ->check(CLI::Range(1, 1000000));
   app.add_option("--seed", options.seed, "default 1");
-  return voussoir::run_program(app, argc, argv, [&] { return benchmark(options); });
+  app.add_flag(
+      "--irregular", options.irregular,
+      "instead: bridges that the database does not hold, with the bridge taken as known and as unknown");
+  voussoir::add_irregular_options(app, options.bridges);
+  return voussoir::run_program(app, argc, argv, [&] {
+    return options.irregular
+               ? voussoir::benchmark_irregular(voussoir::find_database(options.database), options.bridges)
+               : benchmark_paper(options);
+  });
 }

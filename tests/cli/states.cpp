@@ -102,4 +102,32 @@ TEST_CASE("States and numbers that cannot be are bad usage") {
       CHECK(test::run("verify-database", {site.database, option, number}).exit_code == 2);
 }
 
+TEST_CASE(
+    "build-database draws variants by their seed and solves their singles; verify-database finds them "
+    "right") {
+  const test::TemporaryFolder folder;
+  const std::string bridge = test::example_bridge("small").string();
+  const auto build = [&](const std::string& name, std::vector<std::string> options) {
+    options.insert(options.begin(), {bridge, "-o", (folder / name).string(), "--format", "json", "--quiet",
+                                     "--variants", "2", "--history", "built,lost"});
+    return nlohmann::json::parse(test::run("build-database", options).out);
+  };
+  const std::vector<std::string> few = {"--scenes", "intact;4,2..3;4,2+4,3"};
+  auto other = few, threads = few;
+  other.insert(other.end(), {"--variant-seed", "2"});
+  threads.insert(threads.end(), {"--threads", "1"});
+  const auto summary = build("few.h5", few);
+  CHECK(summary["scenes"] == 3 * 4);
+  CHECK(build("threads.h5", threads)["digest"] == summary["digest"]);
+  CHECK(build("other.h5", other)["digest"] != summary["digest"]);
+  const Database database = Database::open(folder / "few.h5");
+  CHECK(database.variant_count() == 3);
+  CHECK(Database::open(folder / "other.h5").variants()[1] != database.variants()[1]);
+  const auto verified = nlohmann::json::parse(
+      test::run("verify-database", {(folder / "few.h5").string(), "--recompute", "12", "--format", "json"})
+          .out);
+  CHECK(verified["ok"] == true);
+  CHECK(verified["recomputed"] == 12);
+}
+
 }  // namespace voussoir

@@ -1,6 +1,7 @@
 /// @file Databases of several variants of a bridge.
 
 #include <catch2/catch.hpp>
+#include <set>
 
 #include "core/error.h"
 #include "database/records/database.h"
@@ -117,6 +118,37 @@ TEST_CASE("Variants that the old file has are taken over, whatever their number 
   CHECK(summary.reused == 3 * scenes);
   CHECK(summary.computed == scenes);
   CHECK(summary.digest == Site({0.5, 2.0, 1.2}).build().digest);
+}
+
+TEST_CASE("Variants may have fewer scenes than the nominal bridge; each is what it is alone") {
+  Site site({1.2, 0.5});
+  site.request.scenes = "singles;4,1+4,2";
+  site.request.scenes_of_variants = "intact;4,2..3";
+  CHECK(site.build(quasi_static()).outcomes.scenes == 40 + 2 * 3);
+  const Database database = site.open();
+  CHECK(database.table(0, 0).rows == 40);
+  for (const std::int32_t variant : {1, 2}) REQUIRE(database.table(variant, 0).rows == 3);
+  Site alone({});
+  alone.request.scenes = site.request.scenes_of_variants;
+  alone.request.bridge = with_stiffness(alone.request.bridge, 0.5);
+  alone.build(quasi_static());
+  const Database expected = alone.open();
+  for (std::size_t row = 0; row < 3; ++row)
+    check_same(database.record(database.table(2, 0).first_record + row), expected.record(row));
+  CHECK(site.build(quasi_static()).up_to_date);
+  CHECK(verify_database({site.request.output, 5}).problems == std::vector<std::string>{});
+}
+
+TEST_CASE("The digest of variants is the same for 1, 2 and 5 threads") {
+  std::set<std::string> digests;
+  for (const int threads : {1, 2, 5}) {
+    Site site({1.2, 0.5, 0.7});
+    site.request.scenes_of_variants = "singles";
+    site.request.histories = "built,lost";
+    site.request.threads = threads;
+    digests.insert(site.build().digest);
+  }
+  CHECK(digests.size() == 1);
 }
 
 TEST_CASE("A scene of a variant whose field is not that variant's is found by solving it anew") {

@@ -108,4 +108,36 @@ TEST_CASE("Parameters are symmetric if and only if those of images are the same"
   CHECK(symmetric(changed));
 }
 
+TEST_CASE("Drawn variants depend on their seed and number only, not on how many there are") {
+  const Model bridge = test::small_bridge();
+  const auto three = sampled_variants(bridge, {}, 3, 7);
+  const auto two = sampled_variants(bridge, {}, 2, 7);
+  REQUIRE(three.size() == 3);
+  CHECK(three[0] == two[0]);
+  CHECK(three[1] == two[1]);
+  CHECK_FALSE(three[0] == three[1]);
+  CHECK_FALSE(sampled_variants(bridge, {}, 1, 8)[0] == three[0]);
+  CHECK_FALSE(variant_of(bridge, three[0]).symmetry.has_value());
+}
+
+TEST_CASE("Drawn joints scatter as they are said to: mean 1, coefficient of variation, p_t with p_n") {
+  const Model bridge = test::small_bridge();
+  Uncertainty only_joints{0.2, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
+  const VariantParameters nominal = parameters_of(bridge);
+  double sum = 0.0, squares = 0.0, count = 0.0;
+  for (const VariantParameters& variant : sampled_variants(bridge, only_joints, 100, 1)) {
+    CHECK(variant.density == nominal.density);
+    CHECK(variant.friction_coefficient == nominal.friction_coefficient);
+    for (std::size_t j = 0; j < bridge.joints.size(); ++j) {
+      const double factor = variant.normal_stiffness[j] / nominal.normal_stiffness[j];
+      REQUIRE(variant.tangential_stiffness[j] == Approx(factor * nominal.tangential_stiffness[j]));
+      sum += factor, squares += factor * factor, ++count;
+    }
+  }
+  const double mean = sum / count;
+  // The factors are some 7,000 independent ones: five standard errors.
+  CHECK(mean == Approx(1.0).margin(5.0 * 0.2 / std::sqrt(0.9 * count)));
+  CHECK(std::sqrt(squares / count - mean * mean) == Approx(0.2).epsilon(0.06));
+}
+
 }  // namespace voussoir

@@ -1,0 +1,305 @@
+/// @file Trials on irregular bridges: readings, counting, and the whole study on made-up bridges.
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <numeric>
+#include <set>
+
+#include "core/error.h"
+#include "core/structure/uncertain_parameters.h"
+#include "tests/support/made_up_database.h"
+#include "tests/support/temporary_folder.h"
+#include "tools/trials/sampled_truth.h"
+#include "tools/trials/study_report.h"
+
+using namespace voussoir;
+using Catch::Matchers::Contains;
+
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+/// Mean and standard deviation.
+std::pair<double, double> moments(const std::vector<double>& values) {
+  const auto n = static_cast<double>(values.size());
+  const double mean = std::accumulate(values.begin(), values.end(), 0.0) / n;
+  double squares = 0.0;
+  for (const double value : values) squares += (value - mean) * (value - mean);
+  return {mean, std::sqrt(squares / n)};
+}
+
+Trial trial(std::size_t bridge, bool first, double likeliest) {
+  Trial result;
+  result.bridge = bridge;
+  result.first = first;
+  result.likeliest = likeliest;
+  result.verdict = first ? Verdict::located : Verdict::cannot_tell;
+  result.bins = unfinished_bins();
+  return result;
+}
+
+/// The small bridge, its own rows in a second variant as the truth.
+struct Site {
+  test::TemporaryFolder folder;
+  BridgeFile file = test::small_bridge_file();
+  Model bridge = make_model(file.description);
+  std::vector<Scene> scenes = all_scenes(bridge.layout.size(), 1);
+
+  /// Variants that show this many times what the nominal bridge shows. Everything stands.
+  Database write(const std::vector<double>& factors, const std::string& name) const {
+    DatabaseContent content = test::made_up_content(file, bridge, scenes, KeepField::yes, factors.size(), 2);
+    content.states = {kBuiltState, kLostState};
+    write_database(folder / name, content, [&](std::size_t row) {
+      const RecordKey& key = content.keys[row];
+      std::vector<Solution> solutions(2, test::made_up_solution(bridge, key.scene));
+      for (Solution& solution : solutions) {
+        solution.outcome = Outcome::standing;
+        solution.moving.clear();
+        solution.extent = CollapseExtent::none;
+        solution.displacement =
+            to_storage_precision(factors[static_cast<std::size_t>(key.variant)] * solution.displacement);
+      }
+      return make_record(key, solutions, bridge.control_points, KeepField::yes, KeepField::yes);
+    });
+    return Database::open(folder / name);
+  }
+};
+
+}  // namespace
+
+TEST_CASE("Readings of trials are what the bridge shows, with the stated scatter (mean, deviation)") {
+  constexpr std::size_t kMany = 20000;
+  const std::vector<double> before(kMany, -1e-3), after(kMany, -3e-3);
+  for (const ReadingsTaken taken :
+       {ReadingsTaken::change, ReadingsTaken::two_epochs, ReadingsTaken::absolute}) {
+    Random random(1);
+    const ReadingsFile file = take_readings({before, after}, taken, 1e-5, random);
+    std::vector<double> values, firsts;
+    for (const Reading& reading : file.readings) {
+      values.push_back(reading.value);
+      firsts.push_back(reading.before);
+      if (file.two_epochs) REQUIRE(reading.after - reading.before == reading.value);
+      REQUIRE(reading.sigma == 1e-5);
+    }
+    const auto [mean, deviation] = moments(values);
+    CHECK(mean == Approx(taken == ReadingsTaken::absolute ? -3e-3 : -2e-3).margin(3e-7));
+    CHECK(deviation == Approx(1e-5).epsilon(0.02));
+    if (file.two_epochs) CHECK(moments(firsts).second == Approx(1e-5 / std::sqrt(2.0)).epsilon(0.02));
+    CHECK(file.two_epochs == (taken == ReadingsTaken::two_epochs));
+    CHECK((file.kind == ReadingKind::absolute) == (taken == ReadingsTaken::absolute));
+  }
+}
+
+TEST_CASE("A sensor on a block that is gone is silent, in every kind of readings") {
+  const std::vector<double> before = {-1e-3, -2e-3}, after = {kNan, -2e-3};
+  for (const ReadingsTaken taken :
+       {ReadingsTaken::change, ReadingsTaken::two_epochs, ReadingsTaken::absolute}) {
+    Random random(1);
+    const ReadingsFile file = take_readings({before, after}, taken, 1e-5, random);
+    CHECK(file.readings.at(0).silent);
+    CHECK(std::isnan(file.readings.at(0).value));
+    CHECK_FALSE(file.readings.at(1).silent);
+  }
+}
+
+TEST_CASE("Shares of trials come with the standard error between bridges (worked out by hand)") {
+  // Bridge 0: 3 of 4 count, bridge 1: 1 of 4, bridge 2: 2 of 2. Share 0.6; sum of squares of k - 0.6 n:
+  // 0.6^2 + 1.4^2 + 0.8^2 = 2.96, times 3 / 2, root, over 10.
+  std::vector<Trial> trials;
+  for (const auto& [bridge, first] : std::vector<std::pair<std::size_t, bool>>{{0, true},
+                                                                               {0, true},
+                                                                               {0, true},
+                                                                               {0, false},
+                                                                               {1, true},
+                                                                               {1, false},
+                                                                               {1, false},
+                                                                               {1, false},
+                                                                               {2, true},
+                                                                               {2, true}})
+    trials.push_back(trial(bridge, first, 0.95));
+  const TrialRates rates = rates_of(trials);
+  CHECK(rates.trials == 10);
+  CHECK(rates.bridges == 3);
+  CHECK(rates.first.value == Approx(0.6));
+  CHECK(rates.first.standard_error == Approx(std::sqrt(2.96 * 1.5) / 10.0));
+  CHECK(rates.wrong_and_sure.value == Approx(0.4));
+  CHECK(rates.alarm.value == Approx(0.6));
+  CHECK(rates.verdicts[static_cast<std::size_t>(Verdict::located)] == 6);
+  CHECK(rates.verdicts[static_cast<std::size_t>(Verdict::cannot_tell)] == 4);
+}
+
+TEST_CASE("One trial a bridge has the standard error of independent trials (binomial)") {
+  std::vector<Trial> trials;
+  for (std::size_t bridge = 0; bridge < 200; ++bridge) trials.push_back(trial(bridge, bridge % 4 == 0, 0.5));
+  const Share first = rates_of(trials).first;
+  CHECK(first.value == Approx(0.25));
+  CHECK(first.standard_error == Approx(std::sqrt(0.25 * 0.75 / 199.0)));
+}
+
+TEST_CASE("Bins of several series joined are those of all answers at once") {
+  Posterior answer;
+  answer.probability = {0.05, 0.15, 0.8};
+  std::vector<ReliabilityBin> first = unfinished_bins(), second = unfinished_bins(), both = unfinished_bins();
+  for (auto* bins : {&first, &both}) add_to_bins(answer, 2, *bins);
+  answer.probability = {0.0005, 0.1995, 0.8};
+  for (auto* bins : {&second, &both}) add_to_bins(answer, 1, *bins);
+  for (auto* bins : {&first, &second, &both}) finish_bins(*bins);
+  std::vector<StudyRow> rows(3);
+  rows[0].rates.bins = first;
+  rows[1].rates.bins = second;
+  rows[2].rates.bins = second;
+  rows[2].known_bridge = true;
+  const std::vector<ReliabilityBin> joined = joined_bins(rows, false);
+  CHECK(joined[8].scenes == 2);
+  CHECK(joined[8].frequency == Approx(0.5));
+  CHECK(joined[0].scenes == 1);
+  for (std::size_t i = 0; i < both.size(); ++i) {
+    CHECK(joined[i].scenes == both[i].scenes);
+    CHECK(joined[i].mean_probability == Approx(both[i].mean_probability));
+    CHECK(joined[i].frequency == Approx(both[i].frequency));
+    CHECK(joined[i].standard_error == Approx(both[i].standard_error));
+  }
+}
+
+TEST_CASE("True bridges are the variants of a file; one without variants is refused") {
+  const Site site;
+  const Database database = site.write({1.0, 1.1, 0.8}, "bridges.h5");
+  const std::vector<TrueBridge> bridges = read_true_bridges(database);
+  REQUIRE(bridges.size() == 2);
+  for (std::size_t b = 0; b < 2; ++b) {
+    REQUIRE(bridges[b].damaged.size() == site.bridge.layout.size());
+    const SceneTable table = database.table(static_cast<std::int32_t>(b) + 1, 0);
+    for (std::size_t point = 0; point < table.points; ++point)
+      REQUIRE(bridges[b].intact[point] == table.row(0)[point]);
+  }
+  CHECK_THROWS_WITH(read_true_bridges(site.write({1.0}, "none.h5")), Contains("no variants"));
+}
+
+TEST_CASE("A study of bridges that are the database's own finds every block and writes what it found") {
+  const Site site;
+  const Database database = site.write({1.0, 1.0}, "own.h5");
+  StudySettings settings{.sigmas = {1e-6}, .every_all = 7};
+  std::size_t shown = 0;
+  const std::vector<StudyRow> rows = study_damaged(database, {"own", read_true_bridges(database)}, settings,
+                                                   [&](const StudyRow&) { ++shown; });
+  REQUIRE(rows.size() == 10);  // among singles and among all: three kinds of readings, two with known bridge
+  CHECK(shown == rows.size());
+  for (const StudyRow& row : rows) {
+    INFO(to_text(row));
+    CHECK(row.rates.trials == (row.looked_for == "singles among singles" ? 38 : 6));
+    if (row.known_bridge) CHECK(row.rates.first.value == 1.0);
+  }
+  const auto json = nlohmann::json::parse(to_json({"own.h5", "digest", "small", {"own"}, settings}, rows));
+  REQUIRE(json["rows"].size() == rows.size());
+  CHECK(json["rows"][0]["first"]["share"] == rows[0].rates.first.value);
+  CHECK(json["rows"][0]["sigma_mm"] == Approx(1e-3));
+  const std::string page = to_page({"own.h5", "digest", "small", {"own"}, settings}, rows);
+  CHECK_THAT(page, Contains("Reliability") && Contains("singles among singles") && Contains("own.h5"));
+}
+
+TEST_CASE("Trials do not depend on what else is asked; other seeds draw other errors") {
+  const Site site;
+  const Database database = site.write({1.0, 1.02}, "bridges.h5");
+  const SensorList sensors = control_point_sensors(database.control_points());
+  Asking asking{database, sensors, {}, true};
+  asking.lookup.prior.missing = {1};
+  const auto bridges = read_true_bridges(database);
+  const auto likeliest = [&](std::uint64_t seed) {
+    std::vector<double> values;
+    for (const Trial& each : look_for_damage(asking, bridges, 1, {ReadingsTaken::change, 1e-4, seed}))
+      values.push_back(each.likeliest);
+    return values;
+  };
+  CHECK(likeliest(1) == likeliest(1));
+  CHECK(likeliest(1) != likeliest(2));
+}
+
+TEST_CASE("Between two epochs intact bridges stay as they are, or rise with the warmth") {
+  const BridgeDescription description = test::small_bridge_file().description;
+  const Model bridge = make_model(description);
+  const SampledTruth truth{"joints", scattered_joints(0.2), 3, 1};
+  const IntactTruth same = solve_intact(description, truth, {});
+  const IntactTruth warmer = solve_intact(description, truth, {.warmer = 20.0});
+  REQUIRE(same.bridges.size() == 3);
+  CHECK(same.bridges[0].before != same.bridges[1].before);
+  for (std::size_t b = 0; b < same.bridges.size(); ++b) {
+    double rise = 0.0, free = 0.0;
+    for (std::size_t point = 0; point < bridge.control_points.size(); ++point) {
+      CHECK(same.bridges[b].after[point] == Approx(same.bridges[b].before[point]).margin(1e-12));
+      CHECK(warmer.bridges[b].before[point] == same.bridges[b].before[point]);
+      rise += warmer.bridges[b].after[point] - warmer.bridges[b].before[point];
+      free += description.material.thermal_expansion * 20.0 * bridge.control_points[point].position.y();
+    }
+    // A free column rises by alpha dT y; sides that hold push up, an arch rises more in its middle.
+    CHECK(rise > 0.8 * free);
+    CHECK(rise < 2.0 * free);
+  }
+}
+
+TEST_CASE("A foot that settles takes the points above it along, those of the other foot hardly") {
+  const BridgeDescription description = test::small_bridge_file().description;
+  const Model bridge = make_model(description);
+  const IntactTruth truth =
+      solve_intact(description, {"joints", scattered_joints(0.1), 1, 1}, {.settlement = 1e-3});
+  const auto change = [&](std::size_t point) {
+    return truth.bridges[0].after[point] - truth.bridges[0].before[point];
+  };
+  std::size_t left = 0, right = 0;
+  for (std::size_t i = 0; i < bridge.control_points.size(); ++i) {
+    if (bridge.control_points[i].position.x() < bridge.control_points[left].position.x()) left = i;
+    if (bridge.control_points[i].position.x() > bridge.control_points[right].position.x()) right = i;
+  }
+  CHECK(change(left) == Approx(-1e-3).epsilon(0.3));
+  CHECK(std::abs(change(right)) < 3e-4);
+}
+
+TEST_CASE("Epochs at random are others for each bridge and epoch, the same in every run") {
+  const BridgeDescription description = test::small_bridge_file().description;
+  const SampledTruth truth{"everything", {}, 2, 1};
+  const IntactTruth once = solve_intact(description, truth, {.at_random = true});
+  const IntactTruth again = solve_intact(description, truth, {.at_random = true});
+  for (std::size_t b = 0; b < 2; ++b) {
+    CHECK(once.bridges[b].before == again.bridges[b].before);
+    CHECK(once.bridges[b].after == again.bridges[b].after);
+    CHECK(once.bridges[b].before != once.bridges[b].after);
+  }
+}
+
+TEST_CASE("Random pairs are so many different ones of the wall, with the intact bridge") {
+  const Model bridge = make_model(test::small_bridge_file().description);
+  const std::string list = random_pairs(bridge.layout, 20, 3);
+  CHECK(list == random_pairs(bridge.layout, 20, 3));
+  CHECK(list != random_pairs(bridge.layout, 20, 4));
+  std::set<Scene> scenes;
+  for (std::size_t begin = 0; begin < list.size();) {
+    const std::size_t end = std::min(list.find(';', begin), list.size());
+    const Scene scene = parse_scene(list.substr(begin, end - begin), bridge.layout);
+    for (const BlockId block : scene.removed) CHECK(bridge.layout[block].role == BlockRole::wall);
+    scenes.insert(scene);
+    begin = end + 1;
+  }
+  CHECK(scenes.size() == 21);
+  CHECK(scenes.begin()->removed.empty());
+  CHECK(std::ranges::all_of(scenes, [](const Scene& scene) { return scene.missing() != 1; }));
+}
+
+TEST_CASE("Damaged truths are solved once, and taken from their file then") {
+  test::TemporaryFolder folder;
+  const BridgeFile file = test::small_bridge_file();
+  const SampledTruth truth{"joints", scattered_joints(0.2), 2, 1};
+  const DamagedTruth solved = solve_damaged(file, truth, "intact;4,2..3", folder.path());
+  const auto written = std::filesystem::last_write_time(folder / "joints.h5");
+  const DamagedTruth read = solve_damaged(file, truth, "intact;4,2..3", folder.path());
+  CHECK(std::filesystem::last_write_time(folder / "joints.h5") == written);
+  REQUIRE(read.bridges.size() == 2);
+  REQUIRE(read.bridges[0].damaged.size() == 2);
+  CHECK(read.bridges[0].intact == solved.bridges[0].intact);
+  CHECK(read.bridges[0].intact != read.bridges[1].intact);
+  // The intact bridge of the file is the one that solve_intact finds by itself.
+  const IntactTruth intact = solve_intact(file.description, truth, {});
+  for (std::size_t b = 0; b < 2; ++b)
+    for (std::size_t point = 0; point < read.bridges[b].intact.size(); ++point)
+      CHECK(read.bridges[b].intact[point] == Approx(intact.bridges[b].before[point]).epsilon(1e-6));
+}

@@ -1,0 +1,150 @@
+#include "tools/trials/sampled_truth.h"
+
+#include <set>
+
+#include "core/error.h"
+#include "core/random.h"
+#include "core/statics/quasi_static_solver.h"
+#include "core/structure/uncertain_parameters.h"
+#include "generator/build.h"
+#include "generator/variants.h"
+
+namespace voussoir {
+namespace {
+
+/// The bridges' equilibria after a stage, side by side; `before` are the states that they start from.
+std::vector<State> solve_all(QuasiStaticSolver& solver, const std::vector<Model>& bridges,
+                             const std::vector<Stage>& stages, const std::vector<State>& before,
+                             const std::string& name) {
+  std::vector<StageTask> tasks;
+  for (std::size_t b = 0; b < bridges.size(); ++b)
+    tasks.push_back({.stage = stages[b],
+                     .start = before.empty() ? nullptr : &before[b].displacement,
+                     .before = before.empty() ? nullptr : &before[b],
+                     .parameters = &bridges[b].parameters});
+  std::vector<State> states;
+  for (Solution& solution : solver.solve(tasks)) {
+    if (solution.outcome != Outcome::standing)
+      throw Failure(
+          fmt::format("{}: intact bridge {} is {}", name, states.size() + 1, to_string(solution.outcome)));
+    states.push_back(std::move(solution));
+  }
+  return states;
+}
+
+constexpr std::uint64_t kEpochs =
+    1u << 30;  // beyond the numbers of bridges, which have seeds of the same series
+
+/// What an epoch does to the bridges.
+std::vector<Stage> stages_of_epoch(const Model& bridge, const SampledTruth& truth, const Between& between,
+                                   int epoch) {
+  const UncertainParameters uncertain = uncertain_parameters(bridge, truth.uncertainty);
+  std::vector<Stage> stages;
+  for (int b = 0; b < truth.bridges; ++b) {
+    Stage stage;
+    if (between.at_random) {
+      const std::uint64_t epochs = series_seed(truth.seed, kEpochs + static_cast<std::uint64_t>(epoch));
+      stage = in_epoch(
+          stage, bridge, uncertain,
+          sampled_theta(uncertain.of_epoch.size(), series_seed(epochs, static_cast<std::uint64_t>(b))));
+    } else if (epoch > 1) {
+      stage.temperature = between.warmer;
+      if (between.settlement != 0.0)
+        stage.support_movement = rigid_movement(bridge, 0, {0.0, -between.settlement}, 0.0);
+    }
+    stages.push_back(std::move(stage));
+  }
+  return stages;
+}
+
+std::vector<double> shown(const State& state, const Model& bridge) {
+  const Eigen::VectorXd vertical = vertical_displacements(state.displacement, bridge.control_points);
+  return {vertical.begin(), vertical.end()};
+}
+
+std::vector<BlockId> wall_blocks(const BlockLayout& layout) {
+  std::vector<BlockId> wall;
+  for (std::size_t b = 0; b < layout.size(); ++b)
+    if (layout.blocks[b].role == BlockRole::wall) wall.push_back(BlockId{static_cast<std::int32_t>(b)});
+  return wall;
+}
+
+std::string list_of(const std::vector<Scene>& scenes, const BlockLayout& layout) {
+  std::string text;
+  for (const Scene& scene : scenes) text += (text.empty() ? "" : ";") + to_string(scene, layout);
+  return text;
+}
+
+}  // namespace
+
+Uncertainty scattered_joints(double scatter) {
+  return {.joint_stiffness = scatter,
+          .common_stiffness = 0.0,
+          .stiffness_ratio = 0.0,
+          .friction = 0.0,
+          .young_modulus = 0.0,
+          .density = 0.0,
+          .temperature = 0.0,
+          .foot_movement = 0.0,
+          .foot_rotation = 0.0,
+          .side_movement = 0.0};
+}
+
+DamagedTruth solve_damaged(const BridgeFile& bridge, const SampledTruth& truth, const std::string& scenes,
+                           const std::filesystem::path& folder) {
+  std::filesystem::create_directories(folder);
+  BuildRequest request;
+  request.bridge = bridge;
+  request.output = folder / (truth.name + ".h5");
+  request.scenes = scenes;
+  request.histories = "built,lost";
+  request.fields = KeepField::no;
+  request.known_bridge = true;  // nothing is looked up in it
+  request.other_variants =
+      sampled_variants(make_model(bridge.description), truth.uncertainty, truth.bridges, truth.seed);
+  Progress progress(Progress::Mode::automatic);
+  build_database(request, quasi_static(), progress);
+  return {truth.name, read_true_bridges(Database::open(request.output))};
+}
+
+IntactTruth solve_intact(const BridgeDescription& description, const SampledTruth& truth,
+                         const Between& between) {
+  const Model nominal = make_model(description);
+  std::vector<Model> bridges;
+  for (const VariantParameters& parameters :
+       sampled_variants(nominal, truth.uncertainty, truth.bridges, truth.seed))
+    bridges.push_back(variant_of(nominal, parameters));
+  QuasiStaticSolver solver(nominal);
+  const std::vector<Stage> at_rest(bridges.size());
+  const auto built = solve_all(solver, bridges, at_rest, {}, truth.name);
+  const auto before =
+      solve_all(solver, bridges, stages_of_epoch(nominal, truth, between, 1), built, truth.name);
+  const auto after =
+      solve_all(solver, bridges, stages_of_epoch(nominal, truth, between, 2), before, truth.name);
+  IntactTruth result{truth.name, {}};
+  for (std::size_t b = 0; b < bridges.size(); ++b)
+    result.bridges.push_back({shown(before[b], nominal), shown(after[b], nominal)});
+  return result;
+}
+
+std::string wall_singles(const BlockLayout& layout) {
+  std::vector<Scene> scenes = {Scene{}};
+  for (const BlockId block : wall_blocks(layout)) scenes.push_back(Scene{{block}});
+  return list_of(scenes, layout);
+}
+
+std::string random_pairs(const BlockLayout& layout, int count, std::uint64_t seed) {
+  const std::vector<BlockId> wall = wall_blocks(layout);
+  const auto draw = [&](Random& random) {
+    return wall[random.below(static_cast<std::uint32_t>(wall.size()))];
+  };
+  Random random(seed);
+  std::set<Scene> scenes = {Scene{}};
+  while (static_cast<int>(scenes.size()) <= count) {
+    const BlockId first = draw(random), second = draw(random);
+    if (first != second) scenes.insert(Scene{{std::min(first, second), std::max(first, second)}});
+  }
+  return list_of({scenes.begin(), scenes.end()}, layout);
+}
+
+}  // namespace voussoir

@@ -1,0 +1,46 @@
+#pragma once
+/// @file Making the true bridges of trials: drawn at random, solved nonlinearly.
+
+#include <filesystem>
+
+#include "core/structure/bridge_file.h"
+#include "core/structure/uncertainty.h"
+#include "tools/trials/study.h"
+
+namespace voussoir {
+
+/// Bridges to draw.
+struct SampledTruth {
+  std::string name;
+  Uncertainty uncertainty;  ///< that they are drawn from
+  int bridges = 20;
+  std::uint64_t seed = 1;
+};
+
+/// Nothing is uncertain but every joint's own stiffness, with this coefficient of variation.
+Uncertainty scattered_joints(double scatter);
+
+/// Solves scenes of the bridges (as parse_scene_list reads them) into a database of that name in the folder,
+/// unless it is there and up to date; as built and as lost, without fields.
+DamagedTruth solve_damaged(const BridgeFile& bridge, const SampledTruth& truth, const std::string& scenes,
+                           const std::filesystem::path& folder);
+
+/// What happens to an intact bridge between two epochs.
+struct Between {
+  double warmer = 0.0;      ///< [K] the whole bridge
+  double settlement = 0.0;  ///< [m] of the first foot
+  bool at_random =
+      false;  ///< instead, each epoch has its own temperature and movements, as uncertain as they are
+};
+
+/// Solves the intact bridges at two times, the second from the state of the first. Throws Failure if one does
+/// not stand.
+IntactTruth solve_intact(const BridgeDescription& bridge, const SampledTruth& truth, const Between& between);
+
+/// The intact bridge and all singles of the wall, as parse_scene_list reads them: those of the arch collapse.
+std::string wall_singles(const BlockLayout& layout);
+
+/// The same with so many random pairs of wall blocks in the place of singles.
+std::string random_pairs(const BlockLayout& layout, int count, std::uint64_t seed);
+
+}  // namespace voussoir

@@ -1,0 +1,63 @@
+#pragma once
+/// @file One question to the lookup whose right answer is known, and what many of them say of it.
+
+#include <array>
+#include <vector>
+
+#include "lookup/lookup.h"
+#include "lookup/report/verdict.h"
+#include "tools/benchmark_localisation.h"
+
+namespace voussoir {
+
+/// How the lookup is asked.
+struct Asking {
+  const Database& database;
+  const SensorList& sensors;
+  LookupSettings lookup;
+  bool known_bridge = false;
+};
+
+/// How an answer stands to the truth.
+struct Trial {
+  std::size_t bridge = 0;    ///< that the readings come from
+  bool first = false;        ///< no other scene is as likely as the truth
+  bool in_credible = false;  ///< the truth is in the 95 % set
+  std::size_t set_size = 0;  ///< scenes in it
+  double likeliest = 0.0;    ///< probability of the likeliest scene
+  double brier = 0.0;        ///< sum over all scenes of (probability - whether it is the truth)^2
+  Verdict verdict = Verdict::cannot_tell;
+  std::vector<ReliabilityBin> bins;  ///< of this trial's probabilities, unfinished
+};
+
+/// Asks and compares with the truth, a row of the database's nominal variant.
+Trial ask(const Asking& asking, const ReadingsFile& readings, std::size_t truth);
+
+inline constexpr std::size_t kVerdicts = 5;
+
+/// All verdicts in their order.
+std::array<Verdict, kVerdicts> all_verdicts();
+
+/// A share of trials. Those of one bridge are not independent of each other, so the standard error is that
+/// between bridges: sqrt(sum_b (k_b - n_b p)^2 B / (B - 1)) / N, k_b of n_b trials of bridge b counting.
+struct Share {
+  double value = 0.0;
+  double standard_error = 0.0;
+};
+
+struct TrialRates {
+  std::size_t trials = 0;
+  std::size_t bridges = 0;
+  Share first, in_credible;
+  Share wrong_and_sure;  ///< the likeliest scene is not the truth and has more than kCertain
+  Share alarm;           ///< the verdict says that blocks are missing
+  double mean_set_size = 0.0;
+  double mean_brier = 0.0;
+  std::array<std::size_t, kVerdicts> verdicts{};  ///< how often each was given
+  std::vector<ReliabilityBin> bins;
+};
+
+/// Precondition: at least one trial.
+TrialRates rates_of(const std::vector<Trial>& trials);
+
+}  // namespace voussoir

@@ -1,0 +1,66 @@
+#include "tools/trials/trial_series.h"
+
+#include <oneapi/tbb/parallel_for.h>
+
+#include <functional>
+#include <optional>
+
+namespace voussoir {
+namespace {
+
+/// A question and its right answer.
+struct Question {
+  std::size_t bridge = 0;
+  Shown shown;
+  std::size_t truth = 0;  ///< row in the database
+};
+
+std::vector<Trial> ask_all(const Asking& asking, const std::vector<Question>& questions,
+                           const Taking& taking) {
+  std::vector<Trial> trials(questions.size());
+  tbb::parallel_for(std::size_t{0}, questions.size(), [&](std::size_t i) {
+    Random random(series_seed(taking.seed, i));
+    trials[i] = ask(asking, take_readings(questions[i].shown, taking.taken, taking.sigma, random),
+                    questions[i].truth);
+    trials[i].bridge = questions[i].bridge;
+  });
+  return trials;
+}
+
+/// The database's row of a scene that stands in the state that these readings are compared with.
+std::optional<std::size_t> standing_row(const Database& database, ReadingsTaken taken, const Scene& scene) {
+  const auto row = database.find(scene);
+  const char* history = taken == ReadingsTaken::absolute ? kBuiltState : kLostState;
+  if (!row) return std::nullopt;
+  const SceneTable table = database.table(kNominalVariant, database.find_state(history).value());
+  const bool stands = table.outcome[*row] == static_cast<std::uint8_t>(Outcome::standing);
+  return stands ? row : std::nullopt;
+}
+
+}  // namespace
+
+std::vector<Trial> look_for_damage(const Asking& asking, const std::vector<TrueBridge>& bridges, int missing,
+                                   const Taking& taking) {
+  std::vector<Question> questions;
+  for (std::size_t b = 0; b < bridges.size(); ++b) {
+    std::size_t number = b;  // so that bridges begin with different scenes
+    for (const TrueScene& scene : bridges[b].damaged) {
+      const auto row = standing_row(asking.database, taking.taken, scene.scene);
+      if (scene.scene.missing() != missing || !row || number++ % taking.every != 0) continue;
+      const bool absolute = taking.taken == ReadingsTaken::absolute;
+      questions.push_back({b, {bridges[b].intact, absolute ? scene.built : scene.lost}, *row});
+    }
+  }
+  return ask_all(asking, questions, taking);
+}
+
+std::vector<Trial> look_at_intact(const Asking& asking, const std::vector<IntactBridge>& bridges,
+                                  const Taking& taking) {
+  const std::size_t truth = asking.database.find(Scene{}).value();
+  std::vector<Question> questions;
+  for (std::size_t b = 0; b < bridges.size(); ++b)
+    questions.push_back({b, {bridges[b].before, bridges[b].after}, truth});
+  return ask_all(asking, questions, taking);
+}
+
+}  // namespace voussoir
