@@ -66,7 +66,7 @@ SceneGaussian scene_gaussian(const UnknownBridge& bridge, const Observation& obs
   scene.difference = bridge.reading - scene.loss.signal;
   scene.bridge = bridge_columns(bridge, table.scene(row));
   scene.epoch = epoch_columns(bridge, scene.loss);
-  scene.noise.diagonal() += loss_variance(bridge, scene.loss);
+  scene.noise.diagonal() += beyond_variance(bridge, scene.loss);
   for (const MatrixXd& columns : {scene.epoch, other_columns(bridge, scene.loss)})
     scene.noise.noalias() += columns * columns.transpose();
   return scene;

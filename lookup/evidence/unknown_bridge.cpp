@@ -4,8 +4,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "lookup/readings/common_variance.h"
-
 namespace voussoir {
 namespace {
 
@@ -92,7 +90,9 @@ MatrixXd common_noise(const Comparison& comparison, const Observation& observati
   const auto add = [&](const MatrixXd& columns) { noise.noalias() += columns * columns.transpose(); };
   add(of_bridge(rows, residual.bridge));
   add(of_epochs(rows, bridge.epochs, levelling, levelling));
-  add(bridge.conditions * of_epochs(rows, bridge.epochs, residual.epoch, residual.epoch));
+  // What heat and moved supports do beyond the first order grows with the square of their size.
+  const double left = bridge.conditions * std::max(1.0, bridge.conditions);
+  add(left * of_epochs(rows, bridge.epochs, residual.epoch, residual.epoch));
   return noise;
 }
 
@@ -129,32 +129,6 @@ VectorXd epoch_spread(const UnknownBridge& bridge, const LossFactors& factors) {
   return bridge.conditions * bridge.conditions * spread;
 }
 
-/// What the first order leaves of a signal, by channel.
-VectorXd left_by_first_order(const UnknownBridge& bridge, const LossFactors& factors) {
-  const FirstOrderResidual& residual = bridge.factors->residual;
-  const VectorXd own = bridge_spread(factors), epoch = epoch_spread(bridge, factors);
-  const double alike =
-      std::pow(residual.common, 2) * own.mean() + std::pow(residual.epoch_common, 2) * epoch.mean();
-  return (std::pow(residual.share, 2) * own + std::pow(residual.epoch_share, 2) * epoch).array() + alike;
-}
-
-/// The loss that makes a row of the comparison's table.
-Loss loss_of(const Comparison& comparison, const Observation& observation, const UnknownBridge& bridge,
-             std::size_t row, const LossFactors& factors) {
-  const std::span<const double> prediction = comparison.library.table.row(row);
-  Loss loss{&factors, signal_of(bridge, observation, prediction), {}};
-  const double common = common_variance(observation.intact, observation.error_common, prediction);
-  loss.variance = (observation.error_share * loss.signal).array().square() + common;
-  const VectorXd left = factors.known() ? left_by_first_order(bridge, factors)
-                                        : VectorXd(VectorXd::Zero(comparison.factors->intact.bridge.rows()));
-  for (Index k = 0; k < loss.variance.size(); ++k) {
-    const ReadingRow& at = bridge.rows[static_cast<std::size_t>(k)];
-    if (at.after == 0.0) loss.variance[k] = 0.0;
-    if (at.after != 0.0) loss.variance[k] += left[static_cast<Index>(at.channel)];
-  }
-  return loss;
-}
-
 void add_losses(const Comparison& comparison, const Observation& observation, UnknownBridge& bridge) {
   const ReadingFactors& factors = *comparison.factors;
   const SceneTable& table = comparison.library.table;
@@ -166,13 +140,13 @@ void add_losses(const Comparison& comparison, const Observation& observation, Un
     if (pair && factors.pairs.empty()) break;  // few missing blocks come first
     if (!pair) {
       const auto block = static_cast<std::size_t>(first);
-      bridge.blocks[block] = loss_of(comparison, observation, bridge, row, factors.blocks[block]);
+      bridge.blocks[block] = Loss{&factors.blocks[block], signal_of(bridge, observation, table.row(row))};
       continue;
     }
     const Scene scene = table.scene(row);
     for (const auto& [own, change] : factors.pairs)
       if (own == scene)
-        bridge.pairs.emplace_back(scene, loss_of(comparison, observation, bridge, row, change));
+        bridge.pairs.emplace_back(scene, Loss{&change, signal_of(bridge, observation, table.row(row))});
   }
 }
 
@@ -218,6 +192,7 @@ UnknownBridge unknown_bridge(const Comparison& comparison, const Observation& ob
   bridge.epochs = bridge.rows.back().before != 0.0 ? 2 : 1;
   bridge.conditions = one.conditions;
   bridge.scale = settings.scale;
+  bridge.model_error = std::hypot(observation.error_share, observation.error_common);
   add_readings(comparison, observation, bridge);
   bridge.noise = common_noise(comparison, observation, one.level, bridge);
   add_losses(comparison, observation, bridge);
@@ -247,16 +222,18 @@ MatrixXd epoch_columns(const UnknownBridge& bridge, const SceneLoss& loss) {
 }
 
 MatrixXd other_columns(const UnknownBridge& bridge, const SceneLoss& loss) {
-  MatrixXd columns(loss.signal.size(), 2);
-  columns << bridge.spread * loss.beyond, bridge.scale * (bridge.movement + loss.signal);
+  MatrixXd columns = MatrixXd::Zero(loss.signal.size(), kOtherColumns);
+  columns.col(0) = bridge.spread * loss.beyond;
+  columns.col(1) = bridge.scale * (bridge.movement + loss.signal);
+  for (std::size_t i = 0; i < loss.known.size(); ++i)
+    columns.col(2 + static_cast<Index>(i)) = bridge.model_error * loss.known[i]->signal;
   return columns;
 }
 
-VectorXd loss_variance(const UnknownBridge& bridge, const SceneLoss& loss) {
+VectorXd beyond_variance(const UnknownBridge& bridge, const SceneLoss& loss) {
   VectorXd variance(loss.signal.size());
   for (Index k = 0; k < variance.size(); ++k)
     variance[k] = bridge.rows[static_cast<std::size_t>(k)].after != 0.0 ? loss.variance_beyond : 0.0;
-  for (const Loss* one : loss.known) variance += one->variance;
   return variance;
 }
 

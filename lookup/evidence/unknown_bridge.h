@@ -5,10 +5,10 @@
 ///
 /// A, E: what a standard deviation of the bridge's and of each epoch's parameters changes (ReadingFactors);
 /// kappa: by how much the bridge's scatter differs from what the bridge file states (scatter_factor.h);
-/// noise: instruments, levellings, the model's own error, and what the first order leaves.
+/// noise: instruments, levellings, the model's own error, and what the first order leaves of the intact bridge.
 ///
 /// A pair's factors are those of the intact bridge and what its two blocks change alone, unless the database
-/// has its own; what the model's error and the first order leave of both adds up. Of what a scene's signal is
+/// has its own; the model's errors in both add up. Of what a scene's signal is
 /// beyond that of its blocks with known factors, the whole counts as uncertain as signals typically are: by
 /// one factor, and once more at each point by itself. So scenes without factors (that collapse, or with a
 /// block whose loss alone makes a collapse) are told less sharply, not excluded.
@@ -48,7 +48,7 @@ enum class Conditions {
 /// all of it, or, each as likely beforehand, hardly. One standard deviation for all would count every epoch
 /// as warm and moved; what heat does to joints is not linear, and its error would drown what a block does.
 /// The readings decide.
-inline constexpr std::array<double, 3> kConditionSizes = {0.03, 0.2, 1.0};
+inline constexpr std::array<double, 4> kConditionSizes = {0.03, 0.2, 1.0, 3.0};
 
 struct UnknownSettings {
   Epochs epochs = Epochs::change;
@@ -67,7 +67,6 @@ struct UnknownCase {
 struct Loss {
   const LossFactors* factors = nullptr;
   Eigen::VectorXd signal{};    ///< [m] NaN at readings that the loss makes impossible
-  Eigen::VectorXd variance{};  ///< [m2] the model's own error in it, and what the first order leaves
   bool known() const { return factors != nullptr && factors->known(); }
 };
 
@@ -82,7 +81,9 @@ struct UnknownBridge {
   Eigen::Index epochs = 1;                    ///< in y, each with its own columns of E
   double spread = 0.0;  ///< [-] standard deviation of a signal as a share of it, where it is not known better
   double scale = 0.0;   ///< [-] of a factor on all movements, as far as it was asked for
-  double conditions = 1.0;  ///< UnknownCase
+  double model_error = 0.0;  ///< [-] standard deviation of the model's own error: a factor of a loss's signal. The
+                             ///< mesh errs to one side; an error of each point by itself would say more than is known
+  double conditions = 1.0;   ///< UnknownCase
 
   bool has_first_epoch() const { return rows.front().after == 0.0; }  ///< before the rows of changes
 };
@@ -108,10 +109,12 @@ std::optional<SceneLoss> scene_loss(const UnknownBridge& bridge, const Observati
 /// E of a scene: a column for each epoch in y and parameter.
 Eigen::MatrixXd epoch_columns(const UnknownBridge& bridge, const SceneLoss& loss);
 
-/// Columns of what else is uncertain of a scene: its signal beyond known losses, and the common factor.
+/// Columns of what else is uncertain of a scene: its signal beyond known losses, the common factor, and the model's own
+/// error in each of its known losses.
+inline constexpr Eigen::Index kOtherColumns = 4;
 Eigen::MatrixXd other_columns(const UnknownBridge& bridge, const SceneLoss& loss);
 
-/// The diagonal of what the scene's losses add to UnknownBridge::noise.
-Eigen::VectorXd loss_variance(const UnknownBridge& bridge, const SceneLoss& loss);
+/// The diagonal of what the signal beyond the known losses adds to UnknownBridge::noise.
+Eigen::VectorXd beyond_variance(const UnknownBridge& bridge, const SceneLoss& loss);
 
 }  // namespace voussoir

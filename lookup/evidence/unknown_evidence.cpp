@@ -78,11 +78,11 @@ void store_others(const UnknownBridge& bridge, const SceneLoss& loss, LowerTrian
 ScatterLogs logs_of(const UnknownBridge& bridge, const SceneLoss& loss, const LowerTriangle& common,
                     Work& work) {
   const std::size_t n = bridge.rows.size();
-  const Eigen::VectorXd difference = bridge.reading - loss.signal, variance = loss_variance(bridge, loss);
+  const Eigen::VectorXd difference = bridge.reading - loss.signal, variance = beyond_variance(bridge, loss);
   work.difference.assign(difference.begin(), difference.end());
   work.noise = common;
   for (std::size_t i = 0; i < n; ++i) work.noise[lower_size(i) + i] += variance[static_cast<Index>(i)];
-  MatrixXd columns(difference.size(), bridge.epochs * bridge.factors->of_epoch() + 2);
+  MatrixXd columns(difference.size(), bridge.epochs * bridge.factors->of_epoch() + kOtherColumns);
   columns << epoch_columns(bridge, loss), other_columns(bridge, loss);
   store_rows(columns, work.columns);
   add_outer_product(work.columns, n, work.noise);

@@ -229,7 +229,6 @@ UnknownScreen::ReducedLoss UnknownScreen::reduced(const Loss& loss) const {
   ReducedLoss result;
   result.signal_of_rows = loss.signal.data();
   const VectorXd counted = loss.signal.array().isNaN().select(0.0, loss.signal);
-  const VectorXd variance = loss.variance.array().isNaN().select(0.0, loss.variance);
   const VectorXd signal = directions_.transpose() * counted;
   std::copy(signal.begin(), signal.end(), result.signal.begin());
   const Index width = std::min(kFirstColumns, factors.lead.cols());
@@ -245,7 +244,7 @@ UnknownScreen::ReducedLoss UnknownScreen::reduced(const Loss& loss) const {
   MatrixXd epochs = intact_epochs_;
   epochs.rightCols(factors.epoch.cols()) += bridge_.conditions * (of_loss_.transpose() * factors.epoch);
   rest += epochs * epochs.transpose() - intact_epochs_ * intact_epochs_.transpose();
-  rest += directions_.transpose() * variance.asDiagonal() * directions_;
+  rest += bridge_.model_error * bridge_.model_error * signal * signal.transpose();
   store_lower(rest, result.rest);
   return result;
 }

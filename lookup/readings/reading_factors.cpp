@@ -1,6 +1,7 @@
 #include "lookup/readings/reading_factors.h"
 
 #include <algorithm>
+#include <cmath>
 #include <thread>
 
 #include "core/threads.h"
@@ -41,10 +42,18 @@ void subtract(const SceneFactors& intact, SceneFactors& factors) {
   }
 }
 
+/// What the first order leaves of a signal goes along what it knows: as an error of every point by itself it would make
+/// scenes likely that scatter little.
+void widen(const FirstOrderResidual& residual, SceneFactors& change) {
+  change.bridge *= std::sqrt(1.0 + std::pow(residual.share, 2) + std::pow(residual.common, 2));
+  change.epoch *= std::sqrt(1.0 + std::pow(residual.epoch_share, 2) + std::pow(residual.epoch_common, 2));
+}
+
 LossFactors loss_factors(const ReadingFactors& factors, const Scene& scene) {
   SceneFactors change = factors_of(factors, scene);
   if (!change.known()) return {};
   subtract(factors.intact, change);
+  widen(factors.residual, change);
   const Index lead = std::min(kLeadingColumns, change.bridge.cols());
   const auto others = change.bridge.rightCols(change.bridge.cols() - lead);
   LossFactors loss{change.bridge.leftCols(lead), std::move(change.epoch), {}, {}, {}, {}};

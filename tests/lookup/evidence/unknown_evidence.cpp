@@ -112,7 +112,7 @@ class TwoEpochs {
 
   void add_parameters(double kappa) {
     const SceneFactors& intact = from().states[0].scenes[0];
-    const SceneFactors change = changed_by(from(), scene_);
+    const SceneFactors change = widened(changed_by(from(), scene_));
     add(intact.bridge, intact.bridge + change.bridge, kappa);
     add_each(intact.epoch, intact.epoch + change.epoch);
   }
@@ -128,18 +128,18 @@ class TwoEpochs {
     add(own, own);
   }
 
-  /// What a loss leaves uncertain by itself.
-  void add_loss(const SceneFactors& of, const VectorXd& signal) {
+  /// The first order, and what it leaves along it.
+  SceneFactors widened(SceneFactors change) const {
     const FirstOrderResidual& residual = from().states[0].residual;
+    change.bridge *= std::sqrt(1.0 + std::pow(residual.share, 2) + std::pow(residual.common, 2));
+    change.epoch *= std::sqrt(1.0 + std::pow(residual.epoch_share, 2) + std::pow(residual.epoch_common, 2));
+    return change;
+  }
+
+  /// The model's own error in a loss: one factor of its signal.
+  void add_loss(const VectorXd& signal) {
     const ModelError& error = question_.comparison.model_error;
-    const VectorXd bridge = of.bridge.rowwise().squaredNorm(), epoch = of.epoch.rowwise().squaredNorm();
-    const double alike = std::pow(error.common, 2) * signal.squaredNorm() / static_cast<double>(p_) +
-                         std::pow(residual.common, 2) * bridge.mean() +
-                         std::pow(residual.epoch_common, 2) * epoch.mean();
-    const VectorXd variance = (error.share * signal).array().square().matrix() +
-                              std::pow(residual.share, 2) * bridge +
-                              std::pow(residual.epoch_share, 2) * epoch + VectorXd::Constant(p_, alike);
-    add_after(variance.array().sqrt().matrix().asDiagonal());
+    add_after(std::sqrt(error.share * error.share + error.common * error.common) * signal);
   }
 
   VectorXd signal_of(BlockId block) const {
@@ -152,7 +152,7 @@ class TwoEpochs {
     for (std::size_t b = 0; b < question_.library.blocks; ++b) {
       const BlockId block{static_cast<std::int32_t>(b)};
       if (from().find(0, {{block}}) == nullptr) continue;
-      const SceneFactors of = changed_by(from(), {{block}});
+      const SceneFactors of = widened(changed_by(from(), {{block}}));
       double norm = 0.0;
       const VectorXd signal = signal_of(block).tail(p_ - 1);
       for (const double one : signal) norm += std::isnan(one) ? 0.0 : one * one;
@@ -165,12 +165,12 @@ class TwoEpochs {
   void add_losses() {
     VectorXd beyond = signal_;
     if (scene_.missing() == 2 && from().find(0, scene_) != nullptr) {
-      add_loss(changed_by(from(), scene_), signal_);
+      add_loss(signal_);
       beyond.setZero();
     } else {
       for (const BlockId block : scene_.removed) {
         if (from().find(0, {{block}}) == nullptr) continue;
-        add_loss(changed_by(from(), {{block}}), signal_of(block));
+        add_loss(signal_of(block));
         beyond -= signal_of(block);
       }
     }
