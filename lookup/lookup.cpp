@@ -18,7 +18,7 @@ namespace {
 constexpr double kSameReadings = 0.1;
 constexpr double kSolverPrecision = 1e-9;      // [m] predictions are not compared more closely
 constexpr std::size_t kMostChecked = 20;       // scenes whose fit is checked
-constexpr std::size_t kMostMixed = 5;          // scenes that say together what the bridge is like
+constexpr std::size_t kMostMixed = 3;          // scenes that say together what the bridge is like
 constexpr std::size_t kMostComparisons = 500;  // rows looked at for scenes that cannot be told apart
 
 std::vector<ScoredRow> run_genetic(const Library& library, const Observation& observation,

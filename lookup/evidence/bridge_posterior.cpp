@@ -1,7 +1,9 @@
 #include "lookup/evidence/bridge_posterior.h"
 
+#include <algorithm>
 #include <boost/math/special_functions/gamma.hpp>
 #include <cmath>
+#include <optional>
 
 namespace voussoir {
 namespace {
@@ -123,8 +125,12 @@ BridgePosterior bridge_posterior(const UnknownBridge& bridge, const Observation&
   for (const WeightedScene& scene : scenes) rows.push_back(scene.row);
   BridgePosterior result = empty_posterior(bridge);
   const std::vector<Part> parts = parts_of(scenes, scatter_logs(bridge, observation, table, rows, 1));
+  std::optional<SceneGaussian> likeliest;
   for (std::size_t i = 0; i < scenes.size(); ++i) {
+    if (i > 0 && std::none_of(parts.begin(), parts.end(), [&](const Part& part) { return part.scene == i; }))
+      continue;
     const SceneGaussian scene = scene_gaussian(bridge, observation, table, rows[i]);
+    if (i == 0) likeliest = scene;
     const MatrixXd scatter = scene.bridge * scene.bridge.transpose();
     for (const Part& part : parts) {
       if (part.scene != i) continue;
@@ -133,7 +139,7 @@ BridgePosterior bridge_posterior(const UnknownBridge& bridge, const Observation&
     }
   }
   result.epoch_covariance -= result.epoch_mean * result.epoch_mean.transpose();
-  explain(bridge, scene_gaussian(bridge, observation, table, rows.front()), result);
+  explain(bridge, *likeliest, result);
   return result;
 }
 

@@ -64,6 +64,27 @@ Ranked ranked(const std::vector<double>& logs, const std::vector<double>& before
   return result;
 }
 
+/// The largest over some kappa.
+std::vector<double> estimates(const UnknownBridge& bridge, const Observation& observation,
+                              const SceneTable& table, std::span<const std::size_t> rows) {
+  std::vector<double> result(rows.size(), kImpossible);
+  for (const double kappa : kEstimatedScatter) {
+    const UnknownScreen screen(bridge, observation, table, kappa, threads());
+    const std::vector<double> logs = screen.estimates(rows);
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      if (std::isnan(logs[i]) || logs[i] > result[i]) result[i] = logs[i];
+  }
+  return result;
+}
+
+/// Whose estimate is right but for what lies in no direction.
+void put_intact_first(const SceneTable& table, std::span<const std::size_t> rows, Ranked& scenes) {
+  const auto intact = std::find_if(scenes.order.begin(), scenes.order.end(), [&](std::size_t position) {
+    return table.removed[rows[position] * table.most_missing] < 0;
+  });
+  if (intact != scenes.order.end()) std::rotate(scenes.order.begin(), intact, intact + 1);
+}
+
 }  // namespace
 
 NoiseModel gaussian_noise(NoiseModel noise) {
@@ -90,13 +111,14 @@ std::vector<double> UnknownBridgeQuestion::screened(const UnknownBridge& bridge,
                                                     const std::vector<double>& beforehand, std::size_t count,
                                                     double best_so_far) const {
   const SceneTable& table = comparison_.library.table;
-  const UnknownScreen screen(bridge, observation_, table, kReferenceScatter, threads());
-  const Ranked scenes = ranked(screen.estimates(rows), beforehand);
+  Ranked scenes = ranked(estimates(bridge, observation_, table, rows), beforehand);
+  put_intact_first(table, rows, scenes);
   std::vector<double> result(rows.size(), kImpossible);
   const double negligible = std::log(kScreenedAway / static_cast<double>(rows.size()));
   double best = kImpossible, shift = 0.0;  // of exact less estimate, of the likeliest
+  double most_shift = kImpossible;         // and of any
   std::size_t done = 0;
-  const auto least = [&] { return best + negligible - shift - kEstimate; };
+  const auto least = [&] { return best + negligible - most_shift - kEstimate; };
   while (done < scenes.order.size() && done < std::max(count, kMostWorkedOut) &&
          (done < std::max(count, kAtOnce) || scenes.estimate[scenes.order[done]] >= least())) {
     const std::size_t end = std::min(scenes.order.size(), done + kAtOnce);
@@ -106,6 +128,8 @@ std::vector<double> UnknownBridgeQuestion::screened(const UnknownBridge& bridge,
     for (std::size_t i = done; i < end; ++i) {
       const std::size_t at = scenes.order[i];
       result[at] = over_scatter(logs[i - done]);
+      if (std::isfinite(scenes.estimate[at]))
+        most_shift = std::max(most_shift, result[at] + beforehand[at] - scenes.estimate[at]);
       if (result[at] + beforehand[at] <= best) continue;
       best = result[at] + beforehand[at];
       shift = best - scenes.estimate[at];

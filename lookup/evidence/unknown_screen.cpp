@@ -173,6 +173,7 @@ UnknownScreen::UnknownScreen(const UnknownBridge& bridge, const Observation& obs
     : bridge_(bridge), observation_(observation), table_(table), kappa_(kappa), threads_(threads) {
   const Eigen::LLT<MatrixXd> reference(reference_covariance(bridge, kappa));
   choose_directions(reference);
+  offset_ = -reference.matrixLLT().diagonal().array().log().sum();
   const auto channels = static_cast<Index>(observation.reading.size());
   of_loss_ = of_bridge_ = MatrixXd::Zero(channels, K);
   MatrixXd changed = directions_;
@@ -300,7 +301,7 @@ std::vector<double> UnknownScreen::estimates(std::span<const std::size_t> rows) 
       std::array<double, kLanes> logs{};
       estimate(kernel, predictions.data(), losses.data(), group, logs.data());
       for (std::size_t l = 0; l < kLanes && first + l < end; ++l)
-        result[first + l] = std::isnan(group.beyond[l]) ? kImpossible : logs[l];
+        result[first + l] = std::isnan(group.beyond[l]) ? kImpossible : logs[l] + offset_;
     }
   });
   return result;

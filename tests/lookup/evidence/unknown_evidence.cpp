@@ -80,7 +80,7 @@ SceneFactors changed_by(const Sensitivities& from, const Scene& scene) {
 class TwoEpochs {
  public:
   TwoEpochs(const Question& question, std::size_t row, double kappa, double datum)
-      : question_(question), scene_(question.library.table.scene(row)), p_(points())) {
+      : question_(question), scene_(question.library.table.scene(row)), p_(points()) {
     intact_ = displacements(0);
     signal_ = displacements(row) - intact_;
     mean.resize(2 * p_);
@@ -154,7 +154,8 @@ class TwoEpochs {
       if (from().find(0, {{block}}) == nullptr) continue;
       const SceneFactors of = changed_by(from(), {{block}});
       double norm = 0.0;
-      for (const double one : signal_of(block).tail(p_ - 1)) norm += std::isnan(one) ? 0.0 : one * one;
+      const VectorXd signal = signal_of(block).tail(p_ - 1);
+      for (const double one : signal) norm += std::isnan(one) ? 0.0 : one * one;
       shares.push_back(std::sqrt((of.bridge.squaredNorm() + of.epoch.squaredNorm()) / norm));
     }
     std::sort(shares.begin(), shares.end());
@@ -247,6 +248,7 @@ TEST_CASE("The evidence of an unknown bridge is that of the dense Gaussian of bo
       continue;
     }
     if (std::isnan(predicted[0])) continue;  // the oracle has no prediction for the point without a reading
+    CAPTURE(to_string(table.scene(row), question.library.layout));
     for (std::size_t k = 0; k < kScatterFactors.size(); ++k)
       REQUIRE(logs[row][k] == Approx(oracle(question, row, kScatterFactors[k], datum, epochs)).epsilon(1e-8));
     ++compared;

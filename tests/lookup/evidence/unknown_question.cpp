@@ -18,14 +18,14 @@ namespace {
 
 struct Trial {
   SyntheticLibrary library{4, 6};
-  Sensitivities sensitivities = made_up_sensitivities_of(library, 12, 3e-5);
+  Sensitivities sensitivities = made_up_sensitivities_of(library, 8, 3e-5);
   Comparison comparison = absolute_readings(library.library(), no_measurements(library.points.size()));
 
   void measure(ReadingKind kind, std::size_t truth, double sigma, Random& random) {
     comparison.kind = kind;
     comparison.factors = factors_of(library, sensitivities);
     comparison.model_error = {0.02, 0.02, {}};
-    std::vector<double> theta(12);
+    std::vector<double> theta(8);
     for (double& one : theta) one = random.gaussian();
     const SceneFactors factors = comparison.factors->of(library.table.scene(truth));
     for (std::size_t i = 0; i < library.points.size(); ++i) {
