@@ -14,7 +14,7 @@ namespace voussoir {
 /// 0.2 % of what the signals have in common (median; at most 7 %, of neighbours).
 inline constexpr Eigen::Index kLeadingColumns = 64;
 
-/// The first of them, which leave out 1 % (median; at most 11 %): enough to estimate with.
+/// The first of them, which leave out 1 % (median; at most 17 %): enough to estimate with.
 inline constexpr Eigen::Index kFirstColumns = 8;
 
 /// What one loss changes in the channels' factors, in a form whose size does not grow with the basis. Rows
