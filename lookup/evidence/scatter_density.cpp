@@ -131,6 +131,7 @@ std::array<double, kScatterFactors.size()> ScatterDensity::operator()(const std:
 
 double over_scatter(const std::array<double, kScatterFactors.size()>& logs) {
   const double largest = *std::max_element(logs.begin(), logs.end());
+  if (!std::isfinite(largest)) return largest;  // impossible under all
   double sum = 0.0;
   for (std::size_t k = 0; k < logs.size(); ++k) sum += kScatterPrior[k] * std::exp(logs[k] - largest);
   return largest + std::log(sum);

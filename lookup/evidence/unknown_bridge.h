@@ -5,7 +5,8 @@
 ///
 /// A, E: what a standard deviation of the bridge's and of each epoch's parameters changes (ReadingFactors);
 /// kappa: by how much the bridge's scatter differs from what the bridge file states (scatter_factor.h);
-/// noise: instruments, levellings, the model's own error, and what the first order leaves of the intact bridge.
+/// noise: instruments, levellings, the model's own error, and what the first order leaves of the intact
+/// bridge.
 ///
 /// A pair's factors are those of the intact bridge and what its two blocks change alone, unless the database
 /// has its own; the model's errors in both add up. Of what a scene's signal is
@@ -66,7 +67,7 @@ struct UnknownCase {
 /// The loss of a block, or of a pair with factors of its own, in rows of y.
 struct Loss {
   const LossFactors* factors = nullptr;
-  Eigen::VectorXd signal{};    ///< [m] NaN at readings that the loss makes impossible
+  Eigen::VectorXd signal{};  ///< [m] NaN at readings that the loss makes impossible
   bool known() const { return factors != nullptr && factors->known(); }
 };
 
@@ -81,9 +82,10 @@ struct UnknownBridge {
   Eigen::Index epochs = 1;                    ///< in y, each with its own columns of E
   double spread = 0.0;  ///< [-] standard deviation of a signal as a share of it, where it is not known better
   double scale = 0.0;   ///< [-] of a factor on all movements, as far as it was asked for
-  double model_error = 0.0;  ///< [-] standard deviation of the model's own error: a factor of a loss's signal. The
-                             ///< mesh errs to one side; an error of each point by itself would say more than is known
-  double conditions = 1.0;   ///< UnknownCase
+  double model_error =
+      0.0;  ///< [-] standard deviation of the model's own error: a factor of a loss's signal. The
+            ///< mesh errs to one side; an error of each point by itself would say more than is known
+  double conditions = 1.0;  ///< UnknownCase
 
   bool has_first_epoch() const { return rows.front().after == 0.0; }  ///< before the rows of changes
 };
@@ -109,8 +111,8 @@ std::optional<SceneLoss> scene_loss(const UnknownBridge& bridge, const Observati
 /// E of a scene: a column for each epoch in y and parameter.
 Eigen::MatrixXd epoch_columns(const UnknownBridge& bridge, const SceneLoss& loss);
 
-/// Columns of what else is uncertain of a scene: its signal beyond known losses, the common factor, and the model's own
-/// error in each of its known losses.
+/// Columns of what else is uncertain of a scene: its signal beyond known losses, the common factor, and the
+/// model's own error in each of its known losses.
 inline constexpr Eigen::Index kOtherColumns = 4;
 Eigen::MatrixXd other_columns(const UnknownBridge& bridge, const SceneLoss& loss);
 

@@ -119,7 +119,8 @@ std::vector<double> UnknownBridgeQuestion::screened(const UnknownBridge& bridge,
   double most_shift = kImpossible;         // and of any
   std::size_t done = 0;
   const auto least = [&] { return best + negligible - most_shift - kEstimate; };
-  while (done < scenes.order.size() && done < std::max(count, kMostWorkedOut) &&
+  const auto has_estimate = [&] { return std::isfinite(scenes.estimate[scenes.order[done]]); };
+  while (done < scenes.order.size() && (done < std::max(count, kMostWorkedOut) || !has_estimate()) &&
          (done < std::max(count, kAtOnce) || scenes.estimate[scenes.order[done]] >= least())) {
     const std::size_t end = std::min(scenes.order.size(), done + kAtOnce);
     std::vector<std::size_t> next;

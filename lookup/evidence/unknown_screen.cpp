@@ -18,6 +18,7 @@ using Eigen::VectorXd;
 constexpr std::size_t K = kDirections;
 constexpr auto kFirst = static_cast<std::size_t>(kFirstColumns);
 constexpr std::size_t kBlockRows = 256;  // that a thread takes at a time
+constexpr double kRounding = 1e-10;      // share of a square
 constexpr double kImpossible = -std::numeric_limits<double>::infinity();
 
 /// The covariance of the intact bridge's readings.
@@ -211,13 +212,14 @@ void UnknownScreen::choose_directions(const Eigen::LLT<MatrixXd>& reference) {
     left.col(static_cast<Index>(block) + 1) = counts ? signal : VectorXd::Zero(left.rows());
   }
   reference.matrixL().solveInPlace(left);
-  const VectorXd weight = (1.0 + left.colwise().squaredNorm().array()).inverse();
+  const VectorXd whole = left.colwise().squaredNorm();
+  const VectorXd weight = (1.0 + whole.array()).inverse();
   MatrixXd chosen = MatrixXd::Zero(left.rows(), K);
   for (Index k = 0; k < std::min<Index>(K, left.rows()); ++k) {
     Index farthest = 0;
     const VectorXd sizes = left.colwise().squaredNorm();
     if (k > 0) sizes.cwiseProduct(weight).maxCoeff(&farthest);
-    if (sizes[farthest] <= 0.0) continue;
+    if (sizes[farthest] <= kRounding * whole[farthest]) continue;  // nothing but rounding is left
     chosen.col(k) = left.col(farthest) / std::sqrt(sizes[farthest]);
     left.noalias() -= chosen.col(k) * (chosen.col(k).transpose() * left).eval();
   }

@@ -4,9 +4,9 @@
 ///
 /// Readings are whitened by the intact bridge's covariance. Of all directions the readings themselves come
 /// first and then, one by one, the block's signal that is farthest from all directions before; kDirections of
-/// them are kept. In these the scene's Gaussian is worked out for one kappa at a time, with what two blocks' signals
-/// have in common as far as kFirstColumns show it. What lies in no direction counts as the same for all
-/// scenes.
+/// them are kept. In these the scene's Gaussian is worked out for one kappa at a time, with what two blocks'
+/// signals have in common as far as kFirstColumns show it. What lies in no direction counts as the same for
+/// all scenes.
 
 #include <array>
 #include <vector>
@@ -25,8 +25,8 @@ class UnknownScreen {
   UnknownScreen(const UnknownBridge& bridge, const Observation& observation, const SceneTable& table,
                 double kappa, int threads);
 
-  /// log p(readings | scene, kappa) but for a constant that is the same for all kappa, of these rows of the table; -infinity for impossible
-  /// scenes, NaN where the estimate fails.
+  /// log p(readings | scene, kappa) but for a constant that is the same for all kappa, of these rows of the
+  /// table; -infinity for impossible scenes, NaN where the estimate fails.
   std::vector<double> estimates(std::span<const std::size_t> rows) const;
 
   /// A loss in the directions.

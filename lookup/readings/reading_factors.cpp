@@ -42,8 +42,8 @@ void subtract(const SceneFactors& intact, SceneFactors& factors) {
   }
 }
 
-/// What the first order leaves of a signal goes along what it knows: as an error of every point by itself it would make
-/// scenes likely that scatter little.
+/// What the first order leaves of a signal goes along what it knows: as an error of every point by itself it
+/// would make scenes likely that scatter little.
 void widen(const FirstOrderResidual& residual, SceneFactors& change) {
   change.bridge *= std::sqrt(1.0 + std::pow(residual.share, 2) + std::pow(residual.common, 2));
   change.epoch *= std::sqrt(1.0 + std::pow(residual.epoch_share, 2) + std::pow(residual.epoch_common, 2));

@@ -14,11 +14,11 @@ namespace voussoir {
 /// 0.2 % of what the signals have in common (median; at most 7 %, of neighbours).
 inline constexpr Eigen::Index kLeadingColumns = 64;
 
-/// The first of them, which leave out 1 % (median; at most 11 %): enough to estimate with.
+/// The first of them, which leave out 1 % (median; at most 17 %): enough to estimate with.
 inline constexpr Eigen::Index kFirstColumns = 8;
 
-/// What one loss changes in the channels' factors, widened by what the first order leaves of it, in a form whose size
-/// does not grow with the basis. Rows are channels; zero where the loss leaves no reading.
+/// What one loss changes in the channels' factors, widened by what the first order leaves of it, in a form
+/// whose size does not grow with the basis. Rows are channels; zero where the loss leaves no reading.
 struct LossFactors {
   Eigen::MatrixXd lead;   ///< of the basis's leading columns
   Eigen::MatrixXd epoch;  ///< of the parameters of an epoch
