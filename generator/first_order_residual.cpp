@@ -8,12 +8,12 @@
 
 #include "generator/error_fit.h"
 #include "generator/parallel.h"
+#include "generator/scene_list.h"
 
 namespace voussoir {
 namespace {
 
 constexpr std::size_t kIntact = 0;  // the first scene
-constexpr std::size_t kBuilt = 0;   // the first state
 constexpr std::size_t kBridgesAtOnce = 8;
 
 /// A bridge drawn at random, in an epoch.
@@ -73,18 +73,15 @@ class CaseSolving {
     Moved moved(cases.size());
     for (std::size_t i = 0; i < cases.size(); ++i)
       for (const Solution& solution : found[i])
-        moved[i].push_back(solution.outcome == Outcome::standing
+        moved[i].push_back(stands(solution)
                                ? vertical_displacements(solution.displacement, study_.bridge.control_points)
                                : Eigen::VectorXd());
     return moved;
   }
 
  private:
-  bool is_loss(std::size_t state) const {
-    return study_.states[state].before && !study_.states[state].is_load;
-  }
   bool loses_nothing(const Case& one, std::size_t state) const {
-    return is_loss(state) && one.scene == kIntact;
+    return study_.states[state].is_loss() && one.scene == kIntact;
   }
 
   /// Nothing if the state is another one's or what comes before it does not stand.
@@ -93,8 +90,9 @@ class CaseSolving {
     const PlannedState& planned = study_.states[state];
     if (loses_nothing(one, state)) return std::nullopt;
     const Solution* before = nullptr;
-    if (planned.before) before = is_loss(state) ? &found[one.intact][kBuilt] : &found[place][*planned.before];
-    if (before != nullptr && before->outcome != Outcome::standing) return std::nullopt;
+    if (planned.before)
+      before = planned.is_loss() ? &found[one.intact][kBuilt] : &found[place][*planned.before];
+    if (before != nullptr && !stands(*before)) return std::nullopt;
     Stage stage = one.bridge->epoch;
     stage.scene = first_order_.scenes[one.scene];
     stage.load = planned.load;
@@ -146,10 +144,8 @@ std::vector<std::size_t> sampled_scenes(const FirstOrder& first_order) {
     if (std::ranges::all_of(first_order.derivatives,
                             [&](const auto& state) { return state[scene].size() > 0; }))
       standing.push_back(scene);
-  std::vector<std::size_t> scenes = {kIntact};
-  const std::size_t count = std::min(kSampledSingles, standing.size());
-  for (std::size_t i = 0; i < count; ++i)
-    scenes.push_back(standing[(2 * i + 1) * standing.size() / (2 * count)]);
+  std::vector<std::size_t> scenes = evenly_chosen(standing, kSampledSingles);
+  scenes.insert(scenes.begin(), kIntact);
   return scenes;
 }
 

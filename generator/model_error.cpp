@@ -6,6 +6,7 @@
 #include "core/structure/block_layout.h"
 #include "database/records/state_name.h"
 #include "generator/error_fit.h"
+#include "generator/scene_list.h"
 #include "generator/state_solving.h"
 
 namespace voussoir {
@@ -20,7 +21,7 @@ Settlements settlements_of(const SceneGroup& group, const StatePlan& plan, const
   Settlements settlements;
   for (const std::size_t state : kept_states(plan)) {
     const Solution& solution = *group.states[state];
-    settlements.push_back(solution.outcome == Outcome::standing
+    settlements.push_back(stands(solution)
                               ? vertical_displacements(solution.displacement, bridge.control_points)
                               : Eigen::VectorXd());
   }
@@ -35,15 +36,10 @@ std::vector<Settlements> solve_probes(const ErrorProbes& probes, const Model& br
   for (const std::size_t state : kept_states(probes.states)) names.push_back(probes.states[state].name);
   const StatePlan plan = plan_states(names, bridge, description);
   const StateSolving solving(bridge, plan);
-  const SceneSolver solver = probes.solver.make_equilibrium_solver(bridge);
-  StartingFields starts;
-  SceneGroup intact{.solved = {}, .states = {}, .image = {}};
-  solving.solve(solver, solving.basis(solver, starts, true), std::span(&intact, 1));
-  for (std::size_t state = 0; state < plan.size(); ++state) starts.add({}, state, *intact.states[state]);
-  std::vector<SceneGroup> groups;
+  std::vector<SceneGroup> groups = {{.solved = {}, .states = {}, .image = {}}};
   for (const Scene& single : singles) groups.push_back({.solved = single, .states = {}, .image = {}});
-  solving.solve(solver, solving.basis(solver, std::move(starts), true), groups);
-  std::vector<Settlements> result = {settlements_of(intact, plan, bridge)};
+  solving.solve_from_intact(probes.solver.make_equilibrium_solver(bridge), groups);
+  std::vector<Settlements> result;
   for (const SceneGroup& group : groups) result.push_back(settlements_of(group, plan, bridge));
   return result;
 }
@@ -54,11 +50,7 @@ std::vector<Scene> probed_singles(const BlockLayout& layout) {
   for (std::size_t b = 0; b < layout.size(); ++b)
     if (layout.blocks[b].role == BlockRole::wall)
       singles.push_back(Scene{{BlockId{static_cast<std::int32_t>(b)}}});
-  std::vector<Scene> scenes;
-  const std::size_t count = std::min(kMostProbes, singles.size());
-  for (std::size_t i = 0; i < count; ++i)
-    scenes.push_back(singles[(2 * i + 1) * singles.size() / (2 * count)]);
-  return scenes;
+  return evenly_chosen(singles, kMostProbes);
 }
 
 ModelError error_of_state(const std::vector<Settlements>& coarse, const std::vector<Settlements>& fine,

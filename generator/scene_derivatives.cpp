@@ -5,15 +5,9 @@
 namespace voussoir {
 namespace {
 
-constexpr std::size_t kBuilt = 0;
-
 /// A stored field solves a step if no more of the forces is unbalanced [largest nodal weight]: that moves a
 /// joint by a fraction of a micrometre.
 constexpr double kSameEquilibrium = 1e-2;
-
-bool stands(const std::optional<Solution>& solution) {
-  return solution && solution->outcome == Outcome::standing;
-}
 
 }  // namespace
 
@@ -28,22 +22,22 @@ std::optional<SolvedHistory> SceneDerivatives::history_of(const Scene& scene, st
                                                           const SceneStates& states,
                                                           const SceneStates& intact) const {
   const PlannedState& planned = study_.states[state];
-  const bool is_loss = planned.before && !planned.is_load;
-  if (!stands(states[state])) return std::nullopt;
-  if (is_loss && scene.removed.empty()) return history_of(scene, kBuilt, states, intact);
+  if (!states[state] || !stands(*states[state])) return std::nullopt;
+  if (planned.is_loss() && scene.removed.empty()) return history_of(scene, kBuilt, states, intact);
   std::optional<SolvedHistory> history = SolvedHistory{};
   if (planned.before)
-    history = is_loss ? history_of(Scene{}, kBuilt, intact, intact)
-                      : history_of(scene, *planned.before, states, intact);
-  if (history) append(scene, planned, *states[state], is_loss, *history);
+    history = planned.is_loss() ? history_of(Scene{}, kBuilt, intact, intact)
+                                : history_of(scene, *planned.before, states, intact);
+  if (history) append(scene, planned, *states[state], *history);
   return history;
 }
 
 void SceneDerivatives::append(const Scene& scene, const PlannedState& planned, const Solution& solution,
-                              bool is_loss, SolvedHistory& history) const {
+                              SolvedHistory& history) const {
   const Stage stage{.scene = scene, .load = planned.load};
   append_stage(equations_.system, equations_.coefficients, stage, solution, 1, history);
-  if (!is_loss || unbalanced_force(history.back().equations, history.back().displacement) <= kSameEquilibrium)
+  if (!planned.is_loss() ||
+      unbalanced_force(history.back().equations, history.back().displacement) <= kSameEquilibrium)
     return;
   history.pop_back();
   const State before{history.back().displacement,
@@ -56,7 +50,7 @@ void SceneDerivatives::append(const Scene& scene, const PlannedState& planned, c
                        .keeps_steps = true};
   const std::vector<Solution> anew = solver({&task, 1});
   const bool has_steps = anew.front().steps.size() + 1 == kStepsOfLoss;  // not every solver keeps them
-  if (anew.front().outcome == Outcome::standing && has_steps)
+  if (stands(anew.front()) && has_steps)
     append_stage(equations_.system, equations_.coefficients, stage, anew.front(), kStepsOfLoss, history);
   else
     append_stage(equations_.system, equations_.coefficients, stage, solution, 1, history);

@@ -35,7 +35,7 @@ class SceneDerivatives {
  private:
   std::optional<SolvedHistory> history_of(const Scene& scene, std::size_t state, const SceneStates& states,
                                           const SceneStates& intact) const;
-  void append(const Scene& scene, const PlannedState& planned, const Solution& solution, bool is_loss,
+  void append(const Scene& scene, const PlannedState& planned, const Solution& solution,
               SolvedHistory& history) const;
 
   const SensitivityStudy& study_;

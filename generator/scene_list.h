@@ -1,6 +1,7 @@
 #pragma once
 /// @file The value of --scenes: which scenes to build.
 
+#include <algorithm>
 #include <string_view>
 #include <vector>
 
@@ -24,5 +25,14 @@ std::vector<Scene> parse_scene_list(std::string_view text, const BlockLayout& la
 /// Sorts scenes into the order of all_scenes (few missing blocks first, then lexicographic); repeated ones
 /// are dropped.
 std::vector<Scene> in_order(std::vector<Scene> scenes);
+
+/// So many of them, evenly spread from the first to the last; all if there are fewer.
+template <class Value>
+std::vector<Value> evenly_chosen(const std::vector<Value>& values, std::size_t most) {
+  const std::size_t count = std::min(most, values.size());
+  std::vector<Value> chosen;
+  for (std::size_t i = 0; i < count; ++i) chosen.push_back(values[(2 * i + 1) * values.size() / (2 * count)]);
+  return chosen;
+}
 
 }  // namespace voussoir

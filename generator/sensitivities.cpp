@@ -8,25 +8,17 @@
 #include "generator/first_order_residual.h"
 #include "generator/parallel.h"
 #include "generator/scene_derivatives.h"
+#include "generator/scene_list.h"
 
 namespace voussoir {
 namespace {
-
-constexpr std::size_t kBuilt = 0;
-
-bool stands(const std::optional<Solution>& solution) {
-  return solution && solution->outcome == Outcome::standing;
-}
 
 /// Intact, and the singles of the list, in their order.
 std::vector<Scene> studied_scenes(const std::vector<Scene>& scenes) {
   std::vector<Scene> studied = {Scene{}};
   std::ranges::copy_if(scenes, std::back_inserter(studied),
                        [](const Scene& scene) { return scene.missing() == 1; });
-  std::ranges::sort(studied);
-  const auto twice = std::ranges::unique(studied);
-  studied.erase(twice.begin(), twice.end());
-  return studied;
+  return in_order(std::move(studied));
 }
 
 /// The states of the scenes, solved where they are not known.
@@ -43,12 +35,7 @@ std::vector<SceneStates> states_of(const SensitivityStudy& study, const std::vec
   }
   if (!all_known) {
     const StateSolving solving(study.bridge, study.states);
-    const SceneSolver solver = study.solver.make_solver(study.bridge, study.settings);
-    StartingFields starts;
-    solving.solve(solver, solving.basis(solver, starts, true), std::span(groups).first(1));
-    for (std::size_t state = 0; state < study.states.size(); ++state)
-      starts.add({}, state, *groups.front().states[state]);
-    solving.solve(solver, solving.basis(solver, std::move(starts), true), std::span(groups).subspan(1));
+    solving.solve_from_intact(study.solver.make_solver(study.bridge, study.settings), groups);
   }
   std::vector<SceneStates> states;
   for (SceneGroup& group : groups) states.push_back(std::move(group.states));
@@ -125,7 +112,8 @@ std::optional<Sensitivities> find_sensitivities(const SensitivityStudy& study,
   if (result.parameters.empty()) return std::nullopt;
   result.scenes = studied_scenes(scenes);
   const std::vector<SceneStates> states = states_of(study, result.scenes, known);
-  if (!stands(states.front()[kBuilt])) return std::nullopt;
+  const std::optional<Solution>& intact = states.front()[kBuilt];
+  if (!intact || !stands(*intact)) return std::nullopt;
   auto derivatives = derivatives_of(study, equations, result.scenes, states);
   const auto of_bridge = static_cast<Eigen::Index>(equations.uncertain.of_bridge.size());
   result.basis = sensitivity_basis(derivatives, of_bridge);

@@ -12,8 +12,6 @@
 namespace voussoir {
 namespace {
 
-constexpr std::size_t kBuilt = 0;  ///< number of the state `built` in every plan
-
 std::vector<std::string> chosen_histories(const std::string& text) {
   const std::vector<std::string_view> words = split(text, ',');
   std::vector<std::string> histories;

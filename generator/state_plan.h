@@ -15,6 +15,9 @@ namespace voussoir {
 std::vector<std::string> state_names(const std::string& histories, const std::string& loads,
                                      const std::vector<LoadDescription>& bridge_loads);
 
+/// The number of the state `built` in every plan.
+inline constexpr std::size_t kBuilt = 0;
+
 /// How a state of any scene comes about.
 struct PlannedState {
   std::string name;  ///< as in a database
@@ -25,6 +28,9 @@ struct PlannedState {
   Field load{};         ///< [N] on the nodes; empty for histories' own states
   bool mirrors = true;  ///< the state of a scene's mirror image is the mirror image of its state
   bool kept = true;     ///< in the database
+
+  /// Is it a history's own state in which blocks go?
+  bool is_loss() const { return before && !is_load; }
 };
 
 /// Precondition of all that takes one: it comes from plan_states.

@@ -5,12 +5,6 @@
 namespace voussoir {
 namespace {
 
-constexpr std::size_t kBuilt = 0;
-
-bool stands(const Solution& solution) {
-  return solution.outcome == Outcome::standing;
-}
-
 template <class Search>
 std::vector<Solution> solve_searches(const SceneSolver& solver, const std::vector<Search>& searches) {
   std::vector<StageTask> tasks;
@@ -113,7 +107,7 @@ StateSolving::Search StateSolving::one_step_search(const Scene& scene, std::size
 StateSolving::Search StateSolving::search_for(const Scene& scene, std::size_t state, SceneStates& states,
                                               const SearchBasis& basis) const {
   Search search = one_step_search(scene, state, states, basis);
-  if (is_loss(state)) search.lose_in(basis.steps.of(scene), *basis.starts.intact(kBuilt));
+  if (plan_[state].is_loss()) search.lose_in(basis.steps.of(scene), *basis.starts.intact(kBuilt));
   return search;
 }
 
@@ -134,7 +128,7 @@ std::vector<StateSolving::Search> StateSolving::searches_of(std::size_t state, s
 }
 
 void StateSolving::take(std::size_t state, Solution&& solution, SceneStates& states) const {
-  const bool falls_as_built = is_loss(state) && !stands(solution) && !stands(*states[kBuilt]);
+  const bool falls_as_built = plan_[state].is_loss() && !stands(solution) && !stands(*states[kBuilt]);
   states[state] = falls_as_built ? without_memory(*states[kBuilt]) : std::move(solution);
 }
 
@@ -187,8 +181,17 @@ void StateSolving::solve(const SceneSolver& solver, const SearchBasis& basis,
     for (SceneGroup& group : groups)
       if (group.image && plan_[state].mirrors)
         group.image_states[state] = mirrored_solution(*group.states[state], *bridge_.symmetry);
-    if (is_loss(state)) find_lacking_memory(solver, state, groups, basis);
+    if (plan_[state].is_loss()) find_lacking_memory(solver, state, groups, basis);
   }
+}
+
+void StateSolving::solve_from_intact(const SceneSolver& solver, std::span<SceneGroup> groups) const {
+  StartingFields starts;
+  const std::span<SceneGroup> intact = groups.first(1);
+  solve(solver, basis(solver, starts, true), intact);
+  for (std::size_t state = 0; state < plan_.size(); ++state)
+    starts.add({}, state, *intact.front().states[state]);
+  solve(solver, basis(solver, std::move(starts), true), groups.subspan(1));
 }
 
 SearchBasis StateSolving::basis(const SceneSolver& solver, StartingFields starts, bool warm_starts) const {

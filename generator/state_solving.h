@@ -13,6 +13,10 @@
 
 namespace voussoir {
 
+inline bool stands(const Solution& solution) {
+  return solution.outcome == Outcome::standing;
+}
+
 /// What is known or found of a scene, for each state of the plan.
 using SceneStates = std::vector<std::optional<Solution>>;
 
@@ -53,6 +57,10 @@ class StateSolving {
   /// States of many steps come with what the joints remember of them.
   void solve(const SceneSolver& solver, const SearchBasis& basis, std::span<SceneGroup> groups) const;
 
+  /// The same without a basis: the first group is the intact bridge, from whose states the others' follow.
+  /// What of them is known is not searched for again.
+  void solve_from_intact(const SceneSolver& solver, std::span<SceneGroup> groups) const;
+
   /// What the joints remember when a state of a scene begins; of a stage of many steps, when its first step
   /// does. Precondition: the states before it are there, which then keep what is remembered of them.
   std::vector<JointMemory> memory_before(const Scene& scene, std::size_t state, SceneStates& states,
@@ -67,7 +75,6 @@ class StateSolving {
   std::vector<JointMemory> memory_of_intact(const Field* intact) const;
   std::optional<Solution> without_search(const Scene& scene, std::size_t state, const SceneStates& states,
                                          const StartingFields& starts) const;
-  bool is_loss(std::size_t state) const { return plan_[state].before && !plan_[state].is_load; }
   Search one_step_search(const Scene& scene, std::size_t state, SceneStates& states,
                          const SearchBasis& basis) const;
   Search search_for(const Scene& scene, std::size_t state, SceneStates& states,

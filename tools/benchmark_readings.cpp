@@ -17,8 +17,7 @@ constexpr double kCalledDamaged = 0.5;
 
 std::optional<std::size_t> standing_row(const Library& library, const Scene& scene) {
   const auto row = library.table.find(scene);
-  const bool stands = row && library.table.outcome[*row] == static_cast<std::uint8_t>(Outcome::standing);
-  return stands ? row : std::nullopt;
+  return row && library.table.stands(*row) ? row : std::nullopt;
 }
 
 Comparison take_readings(const TwoBridges& bridges, std::size_t true_row, const Instrument& instrument,

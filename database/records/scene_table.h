@@ -23,6 +23,7 @@ struct SceneTable {
   std::size_t first_record = 0;              ///< the database's row of row 0: 0 for the nominal variant
 
   std::span<const double> row(std::size_t scene) const { return vertical.subspan(scene * points, points); }
+  bool stands(std::size_t scene) const;
   Scene scene(std::size_t row) const;
   std::optional<std::size_t> find(const Scene& scene) const;  ///< its row
 };

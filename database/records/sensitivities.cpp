@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "database/format/names.h"
+#include "database/records/record_key.h"
 #include "database/records/schema.h"
 
 namespace voussoir {
@@ -38,8 +39,7 @@ struct Filling {
 };
 
 bool precedes(const Scene& first, const Scene& second) {
-  return first.missing() != second.missing() ? first.missing() < second.missing()
-                                             : first.removed < second.removed;
+  return row_order(kNominalVariant, first.removed, kNominalVariant, second.removed) < 0;
 }
 
 void append_parameters(const Sensitivities& from, std::vector<DatasetValue>& datasets) {

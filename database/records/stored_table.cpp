@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/statics/solution.h"
 #include "database/records/schema.h"
 
 namespace voussoir {
@@ -35,6 +36,10 @@ std::optional<Ids> scene_in(Ids row, std::size_t blocks) {
 }
 
 }  // namespace
+
+bool SceneTable::stands(std::size_t scene) const {
+  return outcome[scene] == static_cast<std::uint8_t>(Outcome::standing);
+}
 
 Scene SceneTable::scene(std::size_t row) const {
   Scene scene;

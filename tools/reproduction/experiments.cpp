@@ -61,7 +61,7 @@ class Trial {
 std::vector<std::size_t> standing_rows(const SceneTable& table, const Eligible& eligible) {
   std::vector<std::size_t> rows;
   for (const std::size_t row : eligible.rows)
-    if (table.outcome[row] == static_cast<std::uint8_t>(Outcome::standing)) rows.push_back(row);
+    if (table.stands(row)) rows.push_back(row);
   return rows;
 }
 

@@ -33,8 +33,7 @@ std::optional<std::size_t> standing_row(const Database& database, ReadingsTaken 
   const char* history = taken == ReadingsTaken::absolute ? kBuiltState : kLostState;
   if (!row) return std::nullopt;
   const SceneTable table = database.table(kNominalVariant, database.find_state(history).value());
-  const bool stands = table.outcome[*row] == static_cast<std::uint8_t>(Outcome::standing);
-  return stands ? row : std::nullopt;
+  return table.stands(*row) ? row : std::nullopt;
 }
 
 }  // namespace

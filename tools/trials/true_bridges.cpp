@@ -11,16 +11,12 @@ std::vector<double> shown(const SceneTable& table, std::size_t row) {
   return {values.begin(), values.end()};
 }
 
-bool stands(const SceneTable& table, std::size_t row) {
-  return table.outcome[row] == static_cast<std::uint8_t>(Outcome::standing);
-}
-
 TrueBridge read_bridge(const Database& database, std::int32_t variant, std::size_t built, std::size_t lost) {
   const SceneTable as_built = database.table(variant, built);
   const SceneTable as_lost = database.table(variant, lost);
   TrueBridge bridge;
   for (std::size_t row = 0; row < as_built.rows; ++row) {
-    if (!stands(as_built, row) || !stands(as_lost, row)) continue;
+    if (!as_built.stands(row) || !as_lost.stands(row)) continue;
     const Scene scene = as_built.scene(row);
     if (scene.removed.empty())
       bridge.intact = shown(as_built, row);
