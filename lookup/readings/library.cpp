@@ -6,8 +6,8 @@
 #include <thread>
 
 #include "core/error.h"
+#include "core/solve/state_name.h"
 #include "core/threads.h"
-#include "database/records/state_name.h"
 
 namespace voussoir {
 namespace {
