@@ -27,6 +27,7 @@ struct Build {
   std::vector<Model> bridges;  ///< the variants
   std::vector<VariantParameters> variants;
   std::vector<RecordKey> wanted;
+  KeepField fields;  ///< of its file
   StatePlan states;
   Provenance provenance;
 
@@ -36,6 +37,14 @@ struct Build {
 Provenance provenance_of(const BuildRequest& request, const SolverChoice& solver, const Model& bridge) {
   const std::string settings = build_settings(solver, bridge, request.rules);
   return make_provenance(request.bridge, settings, results_key(request.bridge.description, settings));
+}
+
+/// What the file of a part says; nothing for a whole database.
+std::optional<ShardStatement> shard_statement(const BuildRequest& request) {
+  if (!request.shard) return std::nullopt;
+  return ShardStatement{*request.shard,      request.scenes, request.scenes_of_variants,
+                        request.histories,   request.loads,  request.fields == KeepField::yes,
+                        request.known_bridge};
 }
 
 /// The keys of all scenes that are asked for, in the order of rows.
@@ -63,12 +72,14 @@ Build prepare(const BuildRequest& request, const SolverChoice& solver, Progress&
   StatePlan states = plan_states(state_names(request.histories, request.loads, description.loads),
                                  bridges.front(), description);
   Provenance provenance = provenance_of(request, solver, bridges.front());
+  if (request.shard) wanted = keys_of_shard(wanted, {bridges, request.rules, states}, *request.shard);
   return {request,
           solver,
           progress,
           std::move(bridges),
           std::move(variants),
           std::move(wanted),
+          request.shard ? KeepField::yes : request.fields,
           std::move(states),
           std::move(provenance)};
 }
@@ -92,7 +103,7 @@ std::string journal_key(const Build& build) {
   std::string key = build.provenance.results_key + " " + to_hexadecimal(hash.finish());
   for (const ControlPoint& point : build.bridge().control_points)
     key += fmt::format(" {}", value(point.node));
-  return key + (build.request.fields == KeepField::yes ? " with fields" : " without fields");
+  return key + (build.fields == KeepField::yes ? " with fields" : " without fields");
 }
 
 KnownRecords open_records(const Build& build) {
@@ -108,13 +119,17 @@ KnownRecords open_records(const Build& build) {
   return known;
 }
 
+/// Records that another file has.
+std::unique_ptr<ReusedRecords> records_in(const Build& build, Database old, const KnownRecords& known) {
+  return std::make_unique<ReusedRecords>(std::move(old),
+                                         NewRecords{build.bridges, build.variants, build.wanted, build.fields,
+                                                    build.states, build.request.bridge.description},
+                                         known.journal());
+}
+
 /// How many records the old database gives.
 std::size_t reuse(const Build& build, Database old, KnownRecords& known) {
-  auto reused = std::make_unique<ReusedRecords>(
-      std::move(old),
-      NewRecords{build.bridges, build.variants, build.wanted, build.request.fields, build.states,
-                 build.request.bridge.description},
-      known.journal());
+  auto reused = records_in(build, std::move(old), known);
   const std::size_t count = reused->size();
   if (count > 0)
     build.progress.say(fmt::format("{} scenes of the old file are still valid and are kept", count));
@@ -128,7 +143,7 @@ std::size_t reuse(const Build& build, Database old, KnownRecords& known) {
 
 /// Of the nominal variant, unless the bridge is said to be known.
 std::optional<Sensitivities> sensitivities_of(const Build& build, const KnownRecords& known) {
-  if (build.request.known_bridge) return std::nullopt;
+  if (build.request.known_bridge || build.request.shard) return std::nullopt;
   std::vector<Scene> scenes;
   for (const RecordKey& key : build.wanted)
     if (key.variant == kNominalVariant) scenes.push_back(key.scene);
@@ -137,19 +152,25 @@ std::optional<Sensitivities> sensitivities_of(const Build& build, const KnownRec
                             scenes, known);
 }
 
+std::vector<ModelError> model_errors_of(const Build& build) {
+  if (build.request.shard) return std::vector<ModelError>(kept_states(build.states).size());
+  return estimate_model_errors(
+      {build.request.bridge.description, build.bridge(), build.states, build.solver});
+}
+
 void write(const Build& build, const KnownRecords& known, BuildSummary& summary) {
-  const ErrorProbes probes{build.request.bridge.description, build.bridge(), build.states, build.solver};
   const DatabaseContent content{build.provenance,
                                 build.bridge(),
                                 build.variants,
                                 build.wanted,
                                 kept_names(build.states),
-                                build.request.fields,
-                                estimate_model_errors(probes),
-                                sensitivities_of(build, known)};
+                                build.fields,
+                                model_errors_of(build),
+                                sensitivities_of(build, known),
+                                shard_statement(build.request)};
   summary.outcomes = OutcomeCounts(content.states);
   const WrittenDatabase written = write_database(build.request.output, content, [&](std::size_t row) {
-    Record record = known.kept_record(build.wanted[row], build.request.fields);
+    Record record = known.kept_record(build.wanted[row], build.fields);
     summary.outcomes.add(record, build.bridge().layout);
     return record;
   });
@@ -157,24 +178,14 @@ void write(const Build& build, const KnownRecords& known, BuildSummary& summary)
   summary.bytes = written.bytes;
 }
 
-/// Computes what is not known and writes the file.
-void run(const Build& build, std::optional<Database> old, BuildSummary& summary) {
-  KnownRecords known = open_records(build);
-  summary.resumed = known.journal().size();
-  if (summary.resumed > 0)
-    build.progress.say(
-        fmt::format("going on with an interrupted build: {} scenes are done", summary.resumed));
-  if (old) summary.reused = reuse(build, std::move(*old), known);
-  const BuildPlan plan = plan_build(build.wanted, {build.bridges, build.request.rules, build.states},
-                                    {[&](const RecordKey& key) { return known.has_record(key); },
-                                     [&](const RecordKey& key) { return known.can_start(key); }});
-  summary.computed = plan.records();
-  build.progress.start(summary.resumed + summary.reused + summary.computed, summary.resumed + summary.reused);
-  run_plan(plan,
-           {build.bridges, build.solver, build.provenance.solver_settings, build.request.rules, build.states,
-            build.request.fields, build.request.threads, build.progress},
-           known);
-  build.progress.finish();
+BuildPlan plan_of(const Build& build, const KnownRecords& known) {
+  return plan_build(build.wanted, {build.bridges, build.request.rules, build.states},
+                    {[&](const RecordKey& key) { return known.has_record(key); },
+                     [&](const RecordKey& key) { return known.can_start(key); }});
+}
+
+/// Writes the file of known records, which outlive a failure in the journal.
+void finish(const Build& build, KnownRecords& known, BuildSummary& summary) {
   try {
     write(build, known, summary);
   } catch (const Failure& failure) {
@@ -185,10 +196,80 @@ void run(const Build& build, std::optional<Database> old, BuildSummary& summary)
   known.journal().remove();
 }
 
+/// Computes what is not known and writes the file.
+void run(const Build& build, std::optional<Database> old, BuildSummary& summary) {
+  KnownRecords known = open_records(build);
+  summary.resumed = known.journal().size();
+  if (summary.resumed > 0)
+    build.progress.say(
+        fmt::format("going on with an interrupted build: {} scenes are done", summary.resumed));
+  if (old) summary.reused = reuse(build, std::move(*old), known);
+  const BuildPlan plan = plan_of(build, known);
+  summary.computed = plan.records();
+  build.progress.start(summary.resumed + summary.reused + summary.computed, summary.resumed + summary.reused);
+  run_plan(plan,
+           {build.bridges, build.solver, build.provenance.solver_settings, build.request.rules, build.states,
+            build.fields, build.request.threads, build.progress},
+           known);
+  build.progress.finish();
+  finish(build, known, summary);
+}
+
+/// Takes all records from the parts and writes the file.
+void gather(const Build& build, std::vector<Database> parts, BuildSummary& summary) {
+  KnownRecords known = open_records(build);
+  for (Database& part : parts) known.add(records_in(build, std::move(part), known));
+  for (const RecordKey& key : build.wanted)
+    if (!known.has_record(key)) {
+      known.journal().remove();
+      throw Failure(fmt::format("no part has scene {}, or its record is damaged there: build the part anew",
+                                to_string(key, build.bridge().layout)));
+    }
+  summary.reused = build.wanted.size();
+  finish(build, known, summary);
+}
+
 void write_index(const Build& build) {
   if (build.request.xdmf_scenes.empty()) return;
   write_index(Database::open(build.request.output),
               parse_scene_list(build.request.xdmf_scenes, build.bridge().layout));
+}
+
+ExistingDatabase examine(const Build& build) {
+  const BuildRequest& request = build.request;
+  return examine_existing(
+      request.output,
+      {build.provenance, build.variants, build.wanted, kept_names(build.states), build.fields,
+       !request.known_bridge && !request.shard && is_uncertain(request.bridge.description.uncertainty),
+       shard_statement(request)},
+      request.force);
+}
+
+/// From the parts, if there are any.
+BuildSummary build(const BuildRequest& request, const SolverChoice& solver, Progress& progress,
+                   std::vector<Database> parts) {
+  const auto started = std::chrono::steady_clock::now();
+  const Build build = prepare(request, solver, progress);
+  BuildSummary summary;
+  summary.output = request.output;
+  summary.blocks = build.bridge().layout.size();
+  summary.small_pieces = build.bridge().layout.small_pieces;
+  ExistingDatabase existing = examine(build);
+  summary.changes = existing.changes;
+  if (existing.up_to_date) {
+    summary.up_to_date = true;
+    summarise_existing(*existing.database, summary);
+  } else {
+    for (const std::string& change : existing.changes)
+      progress.say(fmt::format("{} is built anew: {}", request.output.string(), change));
+    if (parts.empty())
+      run(build, existing.reusable ? std::move(existing.database) : std::nullopt, summary);
+    else
+      gather(build, std::move(parts), summary);
+  }
+  write_index(build);
+  summary.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
+  return summary;
 }
 
 }  // namespace
@@ -198,29 +279,12 @@ Provenance provenance_of(const BuildRequest& request, const SolverChoice& solver
 }
 
 BuildSummary build_database(const BuildRequest& request, const SolverChoice& solver, Progress& progress) {
-  const auto started = std::chrono::steady_clock::now();
-  const Build build = prepare(request, solver, progress);
-  BuildSummary summary;
-  summary.output = request.output;
-  summary.blocks = build.bridge().layout.size();
-  summary.small_pieces = build.bridge().layout.small_pieces;
-  ExistingDatabase existing = examine_existing(
-      request.output,
-      {build.provenance, build.variants, build.wanted, kept_names(build.states), request.fields,
-       !request.known_bridge && is_uncertain(request.bridge.description.uncertainty)},
-      request.force);
-  summary.changes = existing.changes;
-  if (existing.up_to_date) {
-    summary.up_to_date = true;
-    summarise_existing(*existing.database, summary);
-  } else {
-    for (const std::string& change : existing.changes)
-      progress.say(fmt::format("{} is built anew: {}", request.output.string(), change));
-    run(build, existing.reusable ? std::move(existing.database) : std::nullopt, summary);
-  }
-  write_index(build);
-  summary.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
-  return summary;
+  return build(request, solver, progress, {});
+}
+
+BuildSummary build_from_parts(const BuildRequest& request, const SolverChoice& solver,
+                              std::vector<Database> parts, Progress& progress) {
+  return build(request, solver, progress, std::move(parts));
 }
 
 }  // namespace voussoir

@@ -4,9 +4,7 @@
 #include <filesystem>
 
 #include "core/structure/bridge_file.h"
-#include "database/records/provenance.h"
-#include "database/records/record.h"
-#include "database/records/variant_parameters.h"
+#include "database/records/database.h"
 #include "generator/outcome_counts.h"
 #include "generator/plan_run.h"
 
@@ -24,9 +22,10 @@ struct BuildRequest {
   int threads = 0;  ///< 0: one for each core
   KeepField fields = KeepField::yes;
   PlanRules rules;
-  std::string xdmf_scenes;    ///< scenes of the XDMF index beside the database; empty: no index
-  bool known_bridge = false;  ///< leave out the sensitivities to what is uncertain of the bridge
-  bool force = false;         ///< build anew even if the file is up to date
+  std::string xdmf_scenes;     ///< scenes of the XDMF index beside the database; empty: no index
+  std::optional<Shard> shard;  ///< compute this part only, for merge_databases (generator/merge.h)
+  bool known_bridge = false;   ///< leave out the sensitivities to what is uncertain of the bridge
+  bool force = false;          ///< build anew even if the file is up to date
 };
 
 struct BuildSummary {
@@ -51,5 +50,10 @@ Provenance provenance_of(const BuildRequest& request, const SolverChoice& solver
 /// held before. Throws InputError for a bad list of scenes, states or variants and Failure if files cannot be
 /// written; every scene computed until then is kept in the journal and the same call goes on from there.
 BuildSummary build_database(const BuildRequest& request, const SolverChoice& solver, Progress& progress);
+
+/// The same with all records from the parts, which have the request's results key, variants and states.
+/// Throws Failure naming a scene that no part has or of which the record is damaged.
+BuildSummary build_from_parts(const BuildRequest& request, const SolverChoice& solver,
+                              std::vector<Database> parts, Progress& progress);
 
 }  // namespace voussoir

@@ -90,6 +90,19 @@ void add_uncertainty_options(CLI::App& app, BuildOptions& options) {
                "bridges that are just as the file says");
 }
 
+void add_shard_option(CLI::App& app, BuildOptions& options) {
+  app.add_option_function<std::string>(
+         "--shard", [&options](const std::string& text) { options.request.shard = parse_shard(text); },
+         "I/N: compute part I of N only, for merge-databases; --fields none acts when parts are merged")
+      ->check(CLI::Validator(
+          [](std::string& text) {
+            return parse_shard(text)
+                       ? std::string()
+                       : fmt::format("is {}: expected a part such as 3/16", voussoir::quoted(text));
+          },
+          "PART/PARTS"));
+}
+
 /// What is given as a word.
 struct Words {
   std::string solver = "quasi-static";
@@ -146,6 +159,7 @@ BuildOptions parse_build_options(int argc, char** argv) {
   app.footer(kFooter);
   Words words;
   add_options(app, options, words);
+  add_shard_option(app, options);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

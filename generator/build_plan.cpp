@@ -85,4 +85,21 @@ BuildPlan plan_build(const std::vector<RecordKey>& wanted, const PlanBasis& basi
   return plan;
 }
 
+std::vector<RecordKey> keys_of_shard(const std::vector<RecordKey>& wanted, const PlanBasis& basis,
+                                     const Shard& shard) {
+  const std::set<RecordKey> whole(wanted.begin(), wanted.end());
+  const auto nothing = [](const RecordKey&) { return false; };
+  std::set<RecordKey> keys = {{kNominalVariant, Scene{}}};
+  int dealt = 0;
+  for (const auto& stage : plan_build(wanted, basis, {nothing, nothing}).stages)
+    for (const SolvingTask& task : stage) {
+      std::vector<RecordKey> own;
+      if (task.records_solved) own.push_back({task.variant, task.solved});
+      if (task.image) own.push_back({task.variant, *task.image});
+      std::erase_if(own, [&](const RecordKey& key) { return !whole.contains(key); });
+      if (!own.empty() && dealt++ % shard.count == shard.number - 1) keys.insert(own.begin(), own.end());
+    }
+  return {keys.begin(), keys.end()};
+}
+
 }  // namespace voussoir

@@ -9,6 +9,7 @@
 #include "core/solve/state_plan.h"
 #include "core/structure/model.h"
 #include "database/records/record_key.h"
+#include "database/records/shard.h"
 
 namespace voussoir {
 
@@ -62,5 +63,10 @@ struct KnownKeys {
 /// lexicographically smaller of a scene and its image is solved, whatever records are wanted, so that a
 /// record does not depend on the rest of the list.
 BuildPlan plan_build(const std::vector<RecordKey>& wanted, const PlanBasis& basis, const KnownKeys& known);
+
+/// Those of the keys that this part of the whole holds, in their order. Tasks of the whole are dealt out one
+/// after the other, so every part has its share of what is hard; the intact bridge is in every part.
+std::vector<RecordKey> keys_of_shard(const std::vector<RecordKey>& wanted, const PlanBasis& basis,
+                                     const Shard& shard);
 
 }  // namespace voussoir

@@ -31,6 +31,7 @@ std::vector<std::string> find_changes(const Database& database, const WantedData
         fmt::format("other scenes are wanted ({}, was {})", wanted.keys.size(), database.rows()));
   if (database.has_fields() != (wanted.fields == KeepField::yes))
     changes.push_back(wanted.fields == KeepField::yes ? "fields are wanted" : "fields are no longer wanted");
+  if (database.shard() != wanted.shard) changes.push_back("another part of a database is wanted");
   const bool has_sensitivities = database.sensitivities() != nullptr;
   if (wanted.sensitivities != has_sensitivities && (has_sensitivities || stands_intact(database)))
     changes.push_back(wanted.sensitivities ? "sensitivities are wanted"

@@ -23,6 +23,7 @@ struct WantedDatabase {
   std::vector<std::string> states;  ///< names
   KeepField fields;
   bool sensitivities;  ///< those of an uncertain bridge, if it stands
+  std::optional<ShardStatement> shard;
 };
 
 /// Looks at the file; `force` makes any file out of date and its records worthless. Throws Failure for a file

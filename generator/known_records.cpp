@@ -1,16 +1,20 @@
 #include "generator/known_records.h"
 
+#include <algorithm>
+
 #include "core/error.h"
 #include "database/format/field_codec.h"
 
 namespace voussoir {
 
 bool KnownRecords::has_record(const RecordKey& key) const {
-  return journal_.contains(key) || (reused_ && reused_->has_record(key));
+  return journal_.contains(key) ||
+         std::ranges::any_of(reused_, [&](const auto& reused) { return reused->has_record(key); });
 }
 
 bool KnownRecords::can_start(const RecordKey& key) const {
-  return journal_.contains(key) || (reused_ && reused_->can_start(key));
+  return journal_.contains(key) ||
+         std::ranges::any_of(reused_, [&](const auto& reused) { return reused->can_start(key); });
 }
 
 Field KnownRecords::field_of(const RecordedState& state) const {
@@ -20,7 +24,9 @@ Field KnownRecords::field_of(const RecordedState& state) const {
 }
 
 Record KnownRecords::kept_record(const RecordKey& key, KeepField fields) const {
-  if (!journal_.contains(key)) return reused_->kept_record(key);
+  if (!journal_.contains(key))
+    return (*std::ranges::find_if(reused_, [&](const auto& reused) { return reused->has_record(key); }))
+        ->kept_record(key);
   Record record = journal_.read(key);
   const std::vector<std::size_t> kept = kept_states(*plan_);
   if (kept.size() == record.states.size()) return record;
@@ -37,7 +43,9 @@ Record KnownRecords::kept_record(const RecordKey& key, KeepField fields) const {
 }
 
 SceneStates KnownRecords::old_states(const RecordKey& key) const {
-  return reused_ ? reused_->states(key) : SceneStates(plan_->size());
+  for (const auto& reused : reused_)
+    if (reused->has_states(key)) return reused->states(key);
+  return SceneStates(plan_->size());
 }
 
 SceneStates KnownRecords::states(const RecordKey& key) const {

@@ -1,6 +1,6 @@
 #pragma once
 /// @file What need not be computed: the records of the build's journal, among them an interrupted build's,
-/// and the states that an older database gives.
+/// and the states that older databases or parts of this one give.
 
 #include <memory>
 #include <vector>
@@ -17,7 +17,8 @@ class KnownRecords {
   KnownRecords(Journal journal, const StatePlan& plan, Eigen::Index nodes)
       : journal_(std::move(journal)), plan_(&plan), nodes_(nodes) {}
 
-  void add(std::unique_ptr<ReusedRecords> reused) { reused_ = std::move(reused); }
+  /// Asked after those that were added before.
+  void add(std::unique_ptr<ReusedRecords> reused) { reused_.push_back(std::move(reused)); }
 
   Journal& journal() { return journal_; }
   const Journal& journal() const { return journal_; }
@@ -29,7 +30,7 @@ class KnownRecords {
 
   /// The record as the database keeps it. Precondition: has_record(key).
   Record kept_record(const RecordKey& key, KeepField fields) const;
-  /// The states that the older database has of a scene. Thread-safe.
+  /// The states that one of the older databases has of a scene. Thread-safe.
   SceneStates old_states(const RecordKey& key) const;
   /// All states. Precondition: can_start(key). Throws Failure if a field is damaged.
   SceneStates states(const RecordKey& key) const;
@@ -40,7 +41,7 @@ class KnownRecords {
   Journal journal_;
   const StatePlan* plan_;
   Eigen::Index nodes_;
-  std::unique_ptr<ReusedRecords> reused_;
+  std::vector<std::unique_ptr<ReusedRecords>> reused_;
 };
 
 }  // namespace voussoir

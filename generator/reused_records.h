@@ -35,6 +35,7 @@ class ReusedRecords {
   std::vector<std::string> state_names() const;
 
   bool has_record(const RecordKey& key) const { return has_kept_ && keys_.contains(key); }
+  bool has_states(const RecordKey& key) const { return keys_.contains(key); }
   bool can_start(const RecordKey& key) const { return has_all_ && keys_.contains(key); }
   /// The record as the new database keeps it. Precondition: has_record(key). Throws Failure if the old file
   /// changed meanwhile.

@@ -22,6 +22,10 @@ voussoir::SensorList sensors_of(const voussoir::Database& database,
 std::string locate(const voussoir::LocateDamageOptions& options) {
   voussoir::LookupSettings settings = finish(options);
   const auto database = voussoir::Database::open(voussoir::find_database(options.database));
+  if (const auto& part = database.shard())
+    throw voussoir::Failure(
+        fmt::format("{}: is part {} of a database, expected the whole: see merge-databases",
+                    database.path().string(), to_string(part->shard)));
   const voussoir::SensorList sensors = sensors_of(database, options);
   const voussoir::Comparison comparison =
       voussoir::compare(voussoir::read_readings(options.measurements, sensors), sensors, database,

@@ -15,7 +15,7 @@ struct Options {
   std::vector<std::string> studies;
   bool quick = false;
   bool list = false;
-  int threads = hardware_threads();
+  int threads = voussoir::hardware_threads();
   std::string format = "text";
   std::string page;
 };

@@ -53,10 +53,19 @@ class OnFirstUse {
   std::optional<T> value_;
 };
 
+std::optional<ShardStatement> read_shard(const Hdf5File& file) {
+  if (!file.has(dataset::kShard)) return std::nullopt;
+  const auto statement = parse_shard_statement(file.text(dataset::kShard));
+  file.require(statement.has_value(),
+               fmt::format("dataset '{}' says nothing of a shard such as 3/16", dataset::kShard));
+  return statement;
+}
+
 }  // namespace
 
 struct Database::Implementation {
   Hdf5File file;
+  std::optional<ShardStatement> shard = read_shard(file);
   std::string digest = file.text_attribute(attribute::kDigest);
   std::string bridge_name = file.text_attribute(attribute::kBridgeName);
   std::vector<StoredPoint> points = read_control_points(file);
@@ -219,6 +228,10 @@ std::optional<std::size_t> Database::find(std::int32_t variant, const Scene& sce
 
 std::optional<std::size_t> Database::find(const Scene& scene) const {
   return find(kNominalVariant, scene);
+}
+
+const std::optional<ShardStatement>& Database::shard() const {
+  return implementation_->shard;
 }
 
 Provenance Database::provenance() const {

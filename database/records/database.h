@@ -16,6 +16,7 @@
 #include "database/records/record.h"
 #include "database/records/scene_table.h"
 #include "database/records/sensitivities.h"
+#include "database/records/shard.h"
 #include "database/records/variant_parameters.h"
 #include "database/search/search_index.h"
 
@@ -48,6 +49,7 @@ class Database {
   const std::vector<std::string>& states() const;          ///< names, at least one
   const std::vector<ModelError>& model_errors() const;     ///< one for each state
   const std::vector<VariantParameters>& variants() const;  ///< read on first use
+  const std::optional<ShardStatement>& shard() const;      ///< nothing: it is whole
   const Sensitivities* sensitivities() const;              ///< null if it holds none; read on first use
   std::optional<std::size_t> find_state(std::string_view name) const;  ///< its number, or nothing
   std::size_t variant_count() const;                                   ///< at least one

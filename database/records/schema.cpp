@@ -15,13 +15,6 @@ Bytes bytes_of(ByteView view) {
   return {view.begin(), view.end()};
 }
 
-DatasetValue text_dataset(const char* path, const std::string& text, const char* meaning) {
-  DatasetValue value{path, ElementType::text, {}, std::max<std::size_t>(text.size(), 1), "text", meaning, {}};
-  value.bytes = bytes_of(view_bytes(text));
-  value.bytes.resize(value.text_width);  // an empty text is one zero
-  return value;
-}
-
 DatasetValue int_dataset(const char* path, const std::vector<std::int32_t>& values, std::uint64_t columns,
                          const char* meaning) {
   return dataset_of(path, ElementType::int32, values, columns, "1", meaning);
@@ -146,6 +139,13 @@ void append_points(const std::vector<ControlPoint>& points, std::vector<DatasetV
 }
 
 }  // namespace
+
+DatasetValue text_dataset(const char* path, const std::string& text, const char* meaning) {
+  DatasetValue value{path, ElementType::text, {}, std::max<std::size_t>(text.size(), 1), "text", meaning, {}};
+  value.bytes = bytes_of(view_bytes(text));
+  value.bytes.resize(value.text_width);  // an empty text is one zero
+  return value;
+}
 
 std::vector<DatasetValue> shared_datasets(const Provenance& provenance, const Model& bridge,
                                           const std::vector<VariantParameters>& variants,

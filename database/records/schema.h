@@ -64,6 +64,7 @@ inline constexpr char kEpochFactors[] = "sensitivity/epoch_factors";
 inline constexpr char kResidualBridge[] = "sensitivity/residual_bridge";
 inline constexpr char kResidualEpoch[] = "sensitivity/residual_epoch";
 inline constexpr char kResidualShare[] = "sensitivity/residual_share";
+inline constexpr char kShard[] = "shard/statement";
 inline constexpr char kYoungModulus[] = "variants/young_modulus";
 inline constexpr char kPoissonRatio[] = "variants/poisson_ratio";
 inline constexpr char kDensity[] = "variants/density";
@@ -96,6 +97,9 @@ inline constexpr char kCompileFlags[] = "compile_flags";
 inline constexpr char kSolverRevision[] = "solver_revision";
 inline constexpr char kResultsKey[] = "results_key";
 }  // namespace attribute
+
+/// A scalar text; `meaning` stands beside it.
+DatasetValue text_dataset(const char* path, const std::string& text, const char* meaning);
 
 /// The datasets that all records share (bridge text, settings, geometry, control points, states, model error,
 /// sensitivities unless they are null, variants) in the order in which the content digest takes them. Those

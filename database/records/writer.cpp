@@ -128,6 +128,9 @@ std::string write_content(const std::filesystem::path& path, const DatabaseConte
   Columns columns(content, output);
   for (std::size_t row = 0; row < content.keys.size(); ++row) columns.put(row, record_of_row(row));
   columns.write();
+  if (content.shard)
+    output.add_dataset(
+        text_dataset(dataset::kShard, to_text(*content.shard), "which part of a database this is"));
   write_search_indices(content, columns.bytes(dataset::kVertical), output);
   std::string digest = digest_of(shared, columns.bytes(dataset::kChecksum));
   write_attributes(content.provenance, digest, output);

@@ -10,6 +10,7 @@
 #include "database/records/provenance.h"
 #include "database/records/record.h"
 #include "database/records/sensitivities.h"
+#include "database/records/shard.h"
 #include "database/records/variant_parameters.h"
 
 namespace voussoir {
@@ -24,6 +25,7 @@ struct DatabaseContent {
   KeepField fields = KeepField::yes;
   std::vector<ModelError> model_errors{};  ///< of the states; zero for those that are left out
   std::optional<Sensitivities> sensitivities{};
+  std::optional<ShardStatement> shard{};  ///< nothing: the database is whole
 };
 
 struct WrittenDatabase {
