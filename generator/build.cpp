@@ -225,7 +225,7 @@ void gather(const Build& build, std::vector<Database> parts, BuildSummary& summa
       throw Failure(fmt::format("no part has scene {}, or its record is damaged there: build the part anew",
                                 to_string(key, build.bridge().layout)));
     }
-  summary.reused = build.wanted.size();
+  summary.merged = build.wanted.size();
   finish(build, known, summary);
 }
 

@@ -37,7 +37,8 @@ struct BuildSummary {
   std::size_t computed = 0;          ///< records made by this run (with those that only start others)
   std::size_t resumed = 0;           ///< records kept from an interrupted build
   std::size_t reused = 0;            ///< records taken over from the file that was replaced
-  std::vector<std::string> changes;  ///< what differs from that file
+  std::size_t merged = 0;            ///< records taken from parts
+  std::vector<std::string> changes;  ///< what differs from the file that was replaced
   double seconds = 0.0;
   std::uintmax_t bytes = 0;
   std::string digest;

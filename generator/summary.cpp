@@ -11,6 +11,7 @@ std::string origin_text(const BuildSummary& summary) {
   if (summary.up_to_date) return "nothing to do: the file is up to date";
   std::string text = fmt::format("{} computed", summary.computed);
   if (summary.resumed > 0) text += fmt::format(", {} from the interrupted build", summary.resumed);
+  if (summary.merged > 0) text += fmt::format(", {} from the parts", summary.merged);
   if (summary.reused > 0) text += fmt::format(", {} from the old file", summary.reused);
   return text;
 }
@@ -47,6 +48,7 @@ std::string to_json(const BuildSummary& summary) {
   json.update({{"computed", summary.computed},
                {"resumed", summary.resumed},
                {"reused", summary.reused},
+               {"merged", summary.merged},
                {"changes", summary.changes},
                {"seconds", summary.seconds},
                {"bytes", summary.bytes},

@@ -1,7 +1,7 @@
 /// @file build-database --shard and merge-databases as a user runs them. Oracle: the digest of one build.
 
-#include <catch2/catch.hpp>
 #include <fmt/format.h>
+#include <catch2/catch.hpp>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
@@ -20,7 +20,8 @@ struct Site {
   /// The digest of what is built.
   std::string build(const std::string& name, std::vector<std::string> more) const {
     std::vector<std::string> arguments = {test::example_bridge("small").string(), "-o", file(name)};
-    for (const char* word : {"--scenes", "singles;4,1+*,1..2", "--history", "built,lost", "--quiet", "--format", "json"})
+    for (const char* word :
+         {"--scenes", "singles;4,1+*,1..2", "--history", "built,lost", "--quiet", "--format", "json"})
       arguments.emplace_back(word);
     arguments.insert(arguments.end(), more.begin(), more.end());
     const test::ProgramResult result = test::run("build-database", arguments);

@@ -104,8 +104,7 @@ TEST_CASE("Parts of a build with variants, without fields or of few scenes give 
   Site site;
   SECTION("variants") {
     const Model bridge = make_model(site.request.bridge.description);
-    site.request.other_variants =
-        sampled_variants(bridge, site.request.bridge.description.uncertainty, 2, 5);
+    site.request.other_variants = sampled_variants(bridge, site.request.bridge.description.uncertainty, 2, 5);
     site.request.scenes = "intact;4,*";
     site.request.scenes_of_variants = "singles";
   }
@@ -113,8 +112,12 @@ TEST_CASE("Parts of a build with variants, without fields or of few scenes give 
     site.request.fields = KeepField::no;
     site.request.known_bridge = true;
   }
-  SECTION("no intact bridge") { site.request.scenes = "4,*+5,*"; }
-  SECTION("blocks lost only") { site.request.histories = "lost"; }
+  SECTION("no intact bridge") {
+    site.request.scenes = "4,*+5,*";
+  }
+  SECTION("blocks lost only") {
+    site.request.histories = "lost";
+  }
   const BuildSummary whole = site.build("whole.h5");
   site.build_parts(3);
   CHECK(site.merge().digest == whole.digest);
@@ -156,9 +159,9 @@ TEST_CASE("Parts that do not fit together are named and refused") {
   SECTION("another version of the program") {
     site.build_parts(2);
     Progress quiet(Progress::Mode::quiet);
-    CHECK_THROWS_WITH(
-        merge_databases(site.merging, [](const std::string&) { return quasi_static(); }, quiet),
-        Contains("another version of the program"));
+    CHECK_THROWS_WITH(merge_databases(
+                          site.merging, [](const std::string&) { return quasi_static(); }, quiet),
+                      Contains("another version of the program"));
   }
 }
 
