@@ -16,31 +16,58 @@ namespace {
 /// One scene of one variant under examination.
 class Examination {
  public:
-  Examination(const CheckedVariant& checked, std::size_t row, const SceneSolver& solver)
-      : checked_(checked), row_(row), solver_(solver), key_(checked.database.key(row)) {}
+  Examination(const CheckedVariant& checked, std::size_t row)
+      : checked_(checked),
+        row_(row),
+        lost_(place_of_lost(checked.plan)),
+        planned_states_(kept_states(checked.plan)),
+        key_(checked.database.key(row)) {
+    guarded([&] {
+      record_ = checked_.database.record(row_);
+      fields_ = take_fields(record_);
+      check_checksum(record_, fields_);
+      states_.resize(checked_.plan.size());
+      for (std::size_t state = 0; state < fields_.size(); ++state)
+        states_[planned_states_[state]] = solution_of(record_.states[state], fields_[state]);
+    });
+  }
+
+  /// The scene as lost to be solved again if its blocks went in many steps: fields do not tell what the
+  /// joints remember of these.
+  std::optional<SceneGroup> many_steps() const {
+    const bool is_searched = lost_ && !fields_.empty() && states_[*lost_] && stands(*states_[*lost_]);
+    if (!is_searched || checked_.basis.steps.of(key_.scene) == 1) return std::nullopt;
+    SceneGroup group{.solved = key_.scene, .states = states_, .image = {}};
+    group.states[*lost_].reset();
+    return group;
+  }
+
+  /// Forces at the end of the steps are the same with the memory before the last one and after it.
+  void take_memory(std::vector<JointMemory> memory) { states_[*lost_]->memory = std::move(memory); }
 
   SceneCheck run() {
-    try {
-      const Record record = checked_.database.record(row_);
-      const std::vector<Field> fields = take_fields(record);
-      check_checksum(record, fields);
-      const std::vector<std::size_t> planned = kept_states(checked_.plan);
-      states_.resize(checked_.plan.size());
-      for (std::size_t state = 0; state < fields.size(); ++state)
-        states_[planned[state]] = solution_of(record.states[state], fields[state]);
-      for (std::size_t state = 0; state < record.states.size(); ++state) {
+    guarded([&] {
+      for (std::size_t state = 0; state < record_.states.size(); ++state) {
         place_ = state;
-        planned_ = planned[state];
-        check_collapse(record.states[state]);
-        if (!fields.empty()) check_field(record.states[state], fields[state]);
+        planned_ = planned_states_[state];
+        check_collapse(record_.states[state]);
+        if (!fields_.empty()) check_field(record_.states[state], fields_[state]);
       }
-    } catch (const InputError& error) {
-      report(error.what());
-    }
+    });
     return std::move(check_);
   }
 
  private:
+  template <class Check>
+  void guarded(const Check& check) {
+    try {
+      check();
+    } catch (const InputError& error) {
+      report(error.what());
+      record_.states.clear();
+      fields_.clear();
+    }
+  }
   void report(const std::string& what) {
     check_.problems.push_back(fmt::format("scene {}: {}", to_string(key_, checked_.bridge.layout), what));
   }
@@ -121,20 +148,9 @@ class Examination {
       report_state("its control displacements are not those of its field");
   }
 
-  /// What the joints remember of the state under examination if its blocks go in many steps, which have to be
-  /// solved again: fields do not tell it. Forces at its end are the same with the memory before that and
-  /// after.
-  std::vector<JointMemory> memory_of_many_steps() {
-    if (checked_.basis.steps.of(key_.scene) == 1) return {};
-    SceneGroup group{.solved = key_.scene, .states = states_, .image = {}};
-    group.states[planned_].reset();
-    checked_.equations.solve(solver_, checked_.basis, std::span(&group, 1));
-    return states_[planned_]->memory = group.states[planned_]->memory;
-  }
-
   void check_equilibrium(const Field& field) {
     std::vector<JointMemory> memory;
-    if (planned_ == place_of_lost(checked_.plan)) memory = memory_of_many_steps();
+    if (planned_ == lost_) memory = states_[planned_]->memory;
     if (memory.empty())
       memory = checked_.equations.memory_before(key_.scene, planned_, states_, checked_.basis.of_intact);
     const double unbalance =
@@ -166,10 +182,13 @@ class Examination {
 
   const CheckedVariant& checked_;
   std::size_t row_;
-  const SceneSolver& solver_;
-  SceneStates states_;       ///< as stored, in the order of the plan
-  std::size_t place_ = 0;    ///< of the state under examination, in the database
-  std::size_t planned_ = 0;  ///< the same in the plan
+  std::optional<std::size_t> lost_;          ///< number of `lost` in the plan
+  std::vector<std::size_t> planned_states_;  ///< of each state of the record its number in the plan
+  Record record_;
+  std::vector<Field> fields_;  ///< of the record's states
+  SceneStates states_;         ///< as stored, in the order of the plan
+  std::size_t place_ = 0;      ///< of the state under examination, in the database
+  std::size_t planned_ = 0;    ///< the same in the plan
   RecordKey key_;
   SceneCheck check_;
 };
@@ -193,8 +212,23 @@ double most_stored_unbalance(const Model& bridge, std::string_view settings) {
          0.5 * kStorageStep * row_sums.maxCoeff() / equations.largest_load;
 }
 
-SceneCheck check_scene(const CheckedVariant& checked, std::size_t row, const SceneSolver& solver) {
-  return Examination(checked, row, solver).run();
+std::vector<SceneCheck> check_scenes(const CheckedVariant& checked, std::span<const std::size_t> rows,
+                                     const SceneSolver& solver) {
+  std::vector<Examination> scenes;
+  std::vector<SceneGroup> again;
+  std::vector<std::size_t> places;
+  for (const std::size_t row : rows) {
+    if (auto group = scenes.emplace_back(checked, row).many_steps()) {
+      again.push_back(std::move(*group));
+      places.push_back(scenes.size() - 1);
+    }
+  }
+  if (!again.empty()) checked.equations.solve(solver, checked.basis, again);
+  for (std::size_t i = 0; i < again.size(); ++i)
+    scenes[places[i]].take_memory(again[i].states[*place_of_lost(checked.plan)]->memory);
+  std::vector<SceneCheck> checks;
+  for (Examination& scene : scenes) checks.push_back(scene.run());
+  return checks;
 }
 
 }  // namespace voussoir

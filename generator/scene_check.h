@@ -1,7 +1,8 @@
 #pragma once
-/// @file Checks of one stored scene.
+/// @file Checks of stored scenes.
 
 #include <optional>
+#include <span>
 
 #include "database/records/database.h"
 #include "generator/state_solving.h"
@@ -32,8 +33,9 @@ struct SceneCheck {
 /// (the largest sum of absolute values in a row of the tangent). From a motion: what is taken for rest.
 double most_stored_unbalance(const Model& bridge, std::string_view settings);
 
-/// `solver` is the variant's: where blocks went in many steps, these are solved again. Never throws for what
-/// is wrong with the scene's data.
-SceneCheck check_scene(const CheckedVariant& checked, std::size_t row, const SceneSolver& solver);
+/// One check a row, in the rows' order. `solver` is the variant's: where blocks went in many steps, these are
+/// solved again, several scenes side by side. Never throws for what is wrong with the scenes' data.
+std::vector<SceneCheck> check_scenes(const CheckedVariant& checked, std::span<const std::size_t> rows,
+                                     const SceneSolver& solver);
 
 }  // namespace voussoir

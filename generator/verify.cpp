@@ -3,6 +3,8 @@
 #include <oneapi/tbb/enumerable_thread_specific.h>
 
 #include <algorithm>
+#include <numeric>
+#include <ranges>
 
 #include "core/error.h"
 #include "core/solve/state_name.h"
@@ -19,6 +21,9 @@
 
 namespace voussoir {
 namespace {
+
+/// Of these some need to be solved again: enough to fill a solver's lanes.
+constexpr std::size_t kCheckedTogether = 64;
 
 void check_digest(const Database& database, const std::vector<DatasetValue>& expected, VerifyReport& report) {
   std::vector<DigestPart> parts;
@@ -65,12 +70,17 @@ ThreadSolvers thread_solvers(const Database& database, const Model& bridge) {
 }
 
 void check_scenes(const CheckedVariant& checked, const SceneTable& table, int threads, VerifyReport& report) {
-  std::vector<SceneCheck> checks(table.rows);
+  std::vector<std::size_t> rows(table.rows);
+  std::iota(rows.begin(), rows.end(), table.first_record);
+  std::vector<std::vector<SceneCheck>> checks((rows.size() + kCheckedTogether - 1) / kCheckedTogether);
   ThreadSolvers solvers = thread_solvers(checked.database, checked.bridge);
   Crew(threads).for_each_index(checks.size(), [&](std::size_t i) {
-    checks[i] = check_scene(checked, table.first_record + i, solvers.local());
+    const std::size_t first = i * kCheckedTogether;
+    checks[i] =
+        check_scenes(checked, std::span(rows).subspan(first, std::min(kCheckedTogether, rows.size() - first)),
+                     solvers.local());
   });
-  for (const SceneCheck& check : checks) {
+  for (const SceneCheck& check : checks | std::views::join) {
     report.fields += check.fields;
     report.mirror_pairs += check.mirror_compared ? 1 : 0;
     report.largest_unbalance = std::max(report.largest_unbalance, check.unbalance);
