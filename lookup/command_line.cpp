@@ -84,12 +84,15 @@ CLI::Validator number_in_range(double least, double most, const std::string& nam
       name);
 }
 
-int run_program(CLI::App& app, int argc, char** argv, const std::function<std::string()>& program) {
+int run_program(CLI::App& app, int argc, char** argv, const std::function<ProgramOutput()>& program) {
   prepare_heap();
   try {
     app.parse(argc, argv);
-    write_out(program());
-    leave(kDone);
+    const ProgramOutput output = program();
+    write_out(output.text);
+    if (output.complaint.empty()) leave(kDone);
+    fmt::print(stderr, "{}: {}\n", app.get_name(), output.complaint);
+    leave(kFailed);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
     fmt::print(stderr, "{}: {} (see {} --help)\n", app.get_name(), error.what(), app.get_name());

@@ -16,10 +16,19 @@ namespace voussoir {
 /// Throws Failure naming the command that builds one if there is none.
 std::filesystem::path find_database(const std::optional<std::string>& given);
 
+/// What a program says.
+struct ProgramOutput {
+  ProgramOutput(std::string answer) : text(std::move(answer)) {}
+  ProgramOutput(std::string answer, std::string what_lacks)
+      : text(std::move(answer)), complaint(std::move(what_lacks)) {}
+  std::string text;
+  std::string complaint{};  ///< why a part of the answer is not there; then the exit code is 1
+};
+
 /// Parses the command line, runs the program and turns exceptions into messages on the standard error and
 /// exit codes: 0 done, 1 could not be done, 2 bad usage or bad input. An answer goes to the standard output
 /// only when it is whole.
-int run_program(CLI::App& app, int argc, char** argv, const std::function<std::string()>& program);
+int run_program(CLI::App& app, int argc, char** argv, const std::function<ProgramOutput()>& program);
 
 /// An option with one of a few named values. --help names them as "{a,b}", which completions are made from.
 template <typename Value>

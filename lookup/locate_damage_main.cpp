@@ -1,6 +1,7 @@
 /// @file locate-damage: which blocks are missing, from measured displacements.
 
 #include "core/error.h"
+#include "core/threads.h"
 #include "lookup/command_line.h"
 #include "lookup/locate_damage_options.h"
 #include "lookup/lookup.h"
@@ -8,6 +9,7 @@
 #include "lookup/readings/sensors_file.h"
 #include "lookup/readings/stated_sigmas.h"
 #include "lookup/report/report.h"
+#include "lookup/report/survey_report.h"
 #include "lookup/report/text_file.h"
 
 namespace {
@@ -19,26 +21,73 @@ voussoir::SensorList sensors_of(const voussoir::Database& database,
   return list;
 }
 
-std::string locate(const voussoir::LocateDamageOptions& options) {
-  voussoir::LookupSettings settings = finish(options);
-  const auto database = voussoir::Database::open(voussoir::find_database(options.database));
-  if (const auto& part = database.shard())
+/// What a question needs beside its readings.
+struct Desk {
+  const voussoir::LocateDamageOptions& options;
+  voussoir::LookupSettings settings;
+  voussoir::Database database;
+  voussoir::SensorList sensors;
+};
+
+/// A question with its answer.
+struct Answered {
+  voussoir::Comparison comparison;
+  voussoir::LookupSettings settings;
+  voussoir::Answer answer;
+};
+
+Answered ask(const Desk& desk, const std::string& file) {
+  Answered asked{voussoir::compare(voussoir::read_readings(file, desk.sensors), desk.sensors, desk.database,
+                                   comparison_settings(desk.options)),
+                 desk.settings,
+                 {}};
+  asked.settings.noise = voussoir::noise_of(asked.comparison.measured, asked.settings.noise);
+  asked.answer = voussoir::locate_damage(asked.comparison, asked.settings);
+  return asked;
+}
+
+std::string report_one(const Desk& desk) {
+  const std::string& file = desk.options.measurements.front();
+  const auto [comparison, settings, answer] = ask(desk, file);
+  const voussoir::Source source{file, desk.database.path().string(), desk.database.bridge_name(),
+                                desk.database.digest()};
+  if (const auto& page = desk.options.page)
+    voussoir::write_file(*page, page->extension() == ".svg"
+                                    ? voussoir::picture_report(answer, comparison)
+                                    : voussoir::page_report(answer, settings, comparison, source));
+  return voussoir::report(answer, settings, comparison, source, desk.options.format);
+}
+
+/// A file that cannot be answered has a row, too, and does not stop the others.
+voussoir::SurveyRow row_of(const Desk& desk, const std::string& file) {
+  try {
+    const auto [comparison, settings, answer] = ask(desk, file);
+    return voussoir::survey_row(file, answer, settings, comparison);
+  } catch (const std::exception& error) {
+    return {file, error.what()};
+  }
+}
+
+voussoir::ProgramOutput report_all(const Desk& desk) {
+  const std::vector<std::string>& files = desk.options.measurements;
+  std::vector<voussoir::SurveyRow> rows(files.size());
+  voussoir::for_each_index_on_threads(files.size(), voussoir::hardware_threads(),
+                                      [&](std::size_t i) { rows[i] = row_of(desk, files[i]); });
+  const auto failed = std::ranges::count_if(rows, [](const auto& row) { return !row.error.empty(); });
+  return {voussoir::survey_report(rows, desk.options.format),
+          failed == 0 ? std::string() : fmt::format("{} of {} files have no answer", failed, rows.size())};
+}
+
+voussoir::ProgramOutput locate(const voussoir::LocateDamageOptions& options) {
+  Desk desk{
+      options, finish(options), voussoir::Database::open(voussoir::find_database(options.database)), {}};
+  if (const auto& part = desk.database.shard())
     throw voussoir::Failure(
         fmt::format("{}: is part {} of a database, expected the whole: see merge-databases",
-                    database.path().string(), to_string(part->shard)));
-  const voussoir::SensorList sensors = sensors_of(database, options);
-  const voussoir::Comparison comparison =
-      voussoir::compare(voussoir::read_readings(options.measurements, sensors), sensors, database,
-                        comparison_settings(options));
-  settings.noise = voussoir::noise_of(comparison.measured, settings.noise);
-  const voussoir::Answer answer = voussoir::locate_damage(comparison, settings);
-  const voussoir::Source source{options.measurements, database.path().string(), database.bridge_name(),
-                                database.digest()};
-  if (options.page)
-    voussoir::write_file(*options.page, options.page->extension() == ".svg"
-                                            ? voussoir::picture_report(answer, comparison)
-                                            : voussoir::page_report(answer, settings, comparison, source));
-  return voussoir::report(answer, settings, comparison, source, options.format);
+                    desk.database.path().string(), to_string(part->shard)));
+  desk.sensors = sensors_of(desk.database, options);
+  if (options.measurements.size() == 1) return report_one(desk);
+  return report_all(desk);
 }
 
 }  // namespace
@@ -46,7 +95,9 @@ std::string locate(const voussoir::LocateDamageOptions& options) {
 int main(int argc, char** argv) {
   CLI::App app("Finds the missing blocks of a masonry arch bridge from measured displacements.",
                "locate-damage");
-  app.footer("Example: locate-damage readings.csv -d bridge.h5 --noise 5%");
+  app.footer(
+      "Example: locate-damage readings.csv -d bridge.h5 --noise 5%\n"
+      "         locate-damage survey/*.csv -d bridge.h5 --format csv > survey.csv");
   app.set_version_flag("--version", voussoir::version_text("locate-damage"));
   voussoir::LocateDamageOptions options;
   voussoir::add_options(app, options);

@@ -45,9 +45,10 @@ void add_reading_options(CLI::App& app, LocateDamageOptions& options) {
   app.add_option("MEASUREMENTS", options.measurements,
                  "CSV with a header: point (or x_m,y_m), and uy_mm, uy_m, settlement_mm or value_mm, or "
                  "change_mm, or "
-                 "before_mm and after_mm; optionally sigma_mm, load; - reads the standard input")
+                 "before_mm and after_mm; optionally sigma_mm, load; - reads the standard input. Several "
+                 "files: a row each, from all cores")
       ->required()
-      ->option_text("FILE");
+      ->option_text("FILE...");
   app.add_option("-d,--database", options.database, "default: $VOUSSOIR_DATABASE, else ./bridge.h5")
       ->option_text("FILE");
   app.add_option("--sensors", options.sensors,
@@ -169,6 +170,8 @@ void add_options(CLI::App& app, LocateDamageOptions& options) {
 
 LookupSettings finish(const LocateDamageOptions& options) {
   LookupSettings settings = options.settings;
+  if (options.measurements.size() > 1 && options.page)
+    throw InputError("--report is of one file of readings, expected no others beside it");
   std::vector<int> numbers = settings.prior.missing;
   std::sort(numbers.begin(), numbers.end());
   if (std::adjacent_find(numbers.begin(), numbers.end()) != numbers.end())

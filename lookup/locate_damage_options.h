@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "lookup/lookup.h"
 #include "lookup/report/report.h"
@@ -12,7 +13,7 @@
 namespace voussoir {
 
 struct LocateDamageOptions {
-  std::string measurements;
+  std::vector<std::string> measurements;  ///< files, at least one
   std::optional<std::string> database;
   std::optional<std::filesystem::path> sensors;  ///< file of sensors beside the control points
   LookupSettings settings;

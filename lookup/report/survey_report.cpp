@@ -1,0 +1,62 @@
+#include "lookup/report/survey_report.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+
+#include "lookup/report/drawing/table.h"
+#include "lookup/report/verdict.h"
+
+namespace voussoir {
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+Table table_of(const std::vector<SurveyRow>& rows) {
+  Table table{{"file", "verdict", "scene", "posterior", "intact_probability", "misfit", "readings", "error"},
+              {}};
+  for (const SurveyRow& row : rows) {
+    const bool answered = row.error.empty();
+    table.rows.push_back({row.file, row.verdict, row.scene, answered ? row.posterior : kNan,
+                          answered ? row.intact_probability : kNan, answered ? row.misfit : kNan,
+                          answered ? static_cast<double>(row.readings) : kNan, row.error});
+  }
+  return table;
+}
+
+std::string line_of(const SurveyRow& row) {
+  if (!row.error.empty()) return fmt::format("{}: no answer: {}\n", row.file, row.error);
+  if (std::isnan(row.posterior)) return fmt::format("{}: smallest misfit {}\n", row.file, row.scene);
+  return fmt::format("{}: {}; first {} ({:.1f} %), intact {:.1f} %\n", row.file, row.verdict, row.scene,
+                     100.0 * row.posterior, 100.0 * row.intact_probability);
+}
+
+}  // namespace
+
+SurveyRow survey_row(const std::string& file, const Answer& answer, const LookupSettings& settings,
+                     const Comparison& comparison) {
+  SurveyRow row{.file = file, .error = {}, .posterior = kNan, .intact_probability = kNan, .misfit = kNan};
+  row.readings = answer.readings;
+  if (answer.posterior) {
+    const bool explained = answer.fit && answer.fit->explained;
+    row.verdict = to_string(verdict_of(*answer.posterior, explained, counts_as_known(comparison, settings)));
+    row.intact_probability = intact_probability(*answer.posterior);
+  }
+  if (answer.candidates.empty()) return row;
+  const Candidate& first = answer.candidates.front();
+  row.scene = to_string(first.scene, comparison.library.layout);
+  row.posterior = first.posterior.value_or(kNan);
+  row.misfit = first.misfit;
+  return row;
+}
+
+std::string survey_report(const std::vector<SurveyRow>& rows, ReportFormat format) {
+  if (format == ReportFormat::json) return to_json(table_of(rows));
+  if (format == ReportFormat::csv) return to_csv(table_of(rows));
+  std::string text;
+  for (const SurveyRow& row : rows) text += line_of(row);
+  return text;
+}
+
+}  // namespace voussoir

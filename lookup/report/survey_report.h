@@ -1,0 +1,30 @@
+#pragma once
+/// @file The answers to many files of readings, a row each.
+
+#include <string>
+#include <vector>
+
+#include "lookup/report/report.h"
+
+namespace voussoir {
+
+/// What one file says, in a row.
+struct SurveyRow {
+  std::string file;
+  std::string error;       ///< why there is no answer; empty if there is one, and then the rest counts
+  std::string verdict{};   ///< with a posterior
+  std::string scene{};     ///< the first candidate
+  double posterior = 0.0;  ///< of it; NaN without a posterior
+  double intact_probability = 0.0;  ///< NaN without a posterior
+  double misfit = 0.0;              ///< Eq. 1
+  std::size_t readings = 0;
+};
+
+SurveyRow survey_row(const std::string& file, const Answer& answer, const LookupSettings& settings,
+                     const Comparison& comparison);
+
+/// file,verdict,scene,posterior,intact_probability,misfit,readings,error as CSV, the same as a list of
+/// objects in JSON, or a line a file for people.
+std::string survey_report(const std::vector<SurveyRow>& rows, ReportFormat format);
+
+}  // namespace voussoir
