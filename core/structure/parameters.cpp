@@ -9,7 +9,10 @@ Parameters uniform_parameters(const Structure& structure, const Material& materi
   return {.gravity = gravity,
           .blocks = std::vector<Material>(structure.layout.size(), material),
           .joints = std::vector<JointMaterial>(structure.joints.size(), joints),
-          .contact = joints};
+          .contact = {.normal_stiffness = joints.normal_stiffness,
+                      .tangential_stiffness = joints.tangential_stiffness,
+                      .friction_angle = joints.friction_angle},
+          .contact_share = {}};
 }
 
 double joint_thickness(const Joint& joint, const Parameters& parameters) {
