@@ -2,6 +2,7 @@
 /// @file Work side by side on the standard library's threads, for programs that start too quickly to load
 /// another library.
 
+#include <algorithm>
 #include <atomic>
 #include <cstddef>
 #include <exception>
@@ -10,6 +11,11 @@
 #include <vector>
 
 namespace voussoir {
+
+/// How many the machine runs side by side; at least one.
+inline int hardware_threads() {
+  return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+}
 
 /// Calls work(0) to work(count - 1) on so many threads, in any order. An exception ends the others' work soon
 /// and is thrown on.

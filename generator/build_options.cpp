@@ -4,8 +4,8 @@
 #include <map>
 
 #include "core/error.h"
+#include "core/solve/state_name.h"
 #include "core/text.h"
-#include "database/records/state_name.h"
 #include "generator/build_switches.h"
 
 namespace voussoir {

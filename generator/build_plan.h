@@ -6,9 +6,9 @@
 #include <span>
 #include <vector>
 
+#include "core/solve/state_plan.h"
 #include "core/structure/model.h"
 #include "database/records/record_key.h"
-#include "generator/state_plan.h"
 
 namespace voussoir {
 

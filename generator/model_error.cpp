@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/solve/state_name.h"
 #include "core/structure/block_layout.h"
-#include "database/records/state_name.h"
 #include "generator/error_fit.h"
 #include "generator/scene_list.h"
 #include "generator/state_solving.h"

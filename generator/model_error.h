@@ -2,10 +2,10 @@
 /// @file How far a bridge's own signals are off: what a finer mesh changes of them, and that nobody knows how
 /// suddenly blocks were lost.
 
+#include "core/solve/state_plan.h"
 #include "database/records/model_error.h"
 #include "database/records/record.h"
 #include "generator/scene_solving.h"
-#include "generator/state_plan.h"
 
 namespace voussoir {
 

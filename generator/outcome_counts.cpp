@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "database/records/state_name.h"
+#include "core/solve/state_name.h"
 
 namespace voussoir {
 namespace {

@@ -3,9 +3,9 @@
 #include <algorithm>
 
 #include "core/error.h"
+#include "core/solve/state_name.h"
 #include "database/format/field_codec.h"
-#include "database/records/state_name.h"
-#include "generator/stored_bridge.h"
+#include "database/records/stored_bridge.h"
 
 namespace voussoir {
 namespace {

@@ -1,9 +1,8 @@
 #pragma once
 /// @file Derivatives of one scene's states by what is uncertain of the bridge.
 
-#include "core/statics/sensitivity.h"
+#include "core/solve/state_history.h"
 #include "generator/sensitivities.h"
-#include "generator/state_solving.h"
 
 namespace voussoir {
 
@@ -24,8 +23,7 @@ struct SensitivityEquations {
 /// One a thread. The study and the equations outlive it.
 class SceneDerivatives {
  public:
-  SceneDerivatives(const SensitivityStudy& study, const SensitivityEquations& equations)
-      : study_(study), equations_(equations), derivatives_(equations.system, equations.uncertain) {}
+  SceneDerivatives(const SensitivityStudy& study, const SensitivityEquations& equations);
 
   /// Points x parameters [m per standard deviation], in the state of the plan; empty if the scene does not
   /// stand. `states` are the scene's and `intact` the intact bridge's.
@@ -33,13 +31,8 @@ class SceneDerivatives {
                      const SceneStates& intact);
 
  private:
-  std::optional<SolvedHistory> history_of(const Scene& scene, std::size_t state, const SceneStates& states,
-                                          const SceneStates& intact) const;
-  void append(const Scene& scene, const PlannedState& planned, const Solution& solution,
-              SolvedHistory& history) const;
-
-  const SensitivityStudy& study_;
-  const SensitivityEquations& equations_;
+  StateEquations equations_;
+  const Eigen::MatrixXd& readings_;
   SensitivitySolver derivatives_;
 };
 

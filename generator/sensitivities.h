@@ -2,10 +2,10 @@
 /// @file Sensitivities of the intact bridge and the singles to what is uncertain of the bridge, for a
 /// database.
 
+#include "core/solve/state_plan.h"
 #include "database/records/sensitivities.h"
 #include "generator/known_records.h"
 #include "generator/scene_solving.h"
-#include "generator/state_plan.h"
 
 namespace voussoir {
 

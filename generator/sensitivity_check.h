@@ -1,8 +1,8 @@
 #pragma once
 /// @file Are a database's sensitivities those of its fields?
 
+#include "core/solve/state_plan.h"
 #include "database/records/database.h"
-#include "generator/state_plan.h"
 
 namespace voussoir {
 

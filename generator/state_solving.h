@@ -5,20 +5,13 @@
 /// in storage precision and the memory before it, and where blocks went in many steps from solving these
 /// again. So a record is the same whatever was computed before it, interrupted or taken over.
 
+#include "core/solve/state_plan.h"
 #include "core/statics/equilibrium.h"
 #include "generator/scene_solving.h"
 #include "generator/start_field.h"
-#include "generator/state_plan.h"
 #include "generator/steps_of_loss.h"
 
 namespace voussoir {
-
-inline bool stands(const Solution& solution) {
-  return solution.outcome == Outcome::standing;
-}
-
-/// What is known or found of a scene, for each state of the plan.
-using SceneStates = std::vector<std::optional<Solution>>;
 
 /// A scene and, if it is wanted, its mirror image, which are solved together.
 struct SceneGroup {

@@ -5,16 +5,16 @@
 #include <algorithm>
 
 #include "core/error.h"
+#include "core/solve/state_name.h"
 #include "database/records/content_digest.h"
 #include "database/records/schema.h"
-#include "database/records/state_name.h"
+#include "database/records/stored_bridge.h"
 #include "database/search/stored_index.h"
 #include "generator/build_settings.h"
 #include "generator/parallel.h"
 #include "generator/recompute.h"
 #include "generator/scene_check.h"
 #include "generator/sensitivity_check.h"
-#include "generator/stored_bridge.h"
 #include "generator/variants.h"
 
 namespace voussoir {
@@ -181,6 +181,16 @@ StatePlan plan_of(const Database& database, const Model& nominal) {
   }
 }
 
+/// A variant of the bridge. Throws InputError for parameters that variant_of does not take.
+Model variant_in(const Database& database, const Model& nominal, std::int32_t variant) {
+  if (variant == kNominalVariant) return nominal;
+  try {
+    return variant_of(nominal, database.variants().at(static_cast<std::size_t>(variant)));
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}: variant {}: {}", database.path().string(), variant, error.what()));
+  }
+}
+
 void check_content(const VerifyRequest& request, VerifyReport& report) {
   const Database database = Database::open(request.database);
   report.digest = database.digest();
@@ -190,7 +200,7 @@ void check_content(const VerifyRequest& request, VerifyReport& report) {
   check_search(database, report);
   const StatePlan plan = plan_of(database, nominal);
   for (std::int32_t variant = 0; static_cast<std::size_t>(variant) < database.variant_count(); ++variant)
-    check_variant(request, database, bridge_of(database, nominal, variant), variant, plan, report);
+    check_variant(request, database, variant_in(database, nominal, variant), variant, plan, report);
   if (!report.ok()) return;  // of damaged fields nothing can be said
   const SensitivityCheck sensitivities =
       check_sensitivities(database, nominal, description_of(database).uncertainty, plan);

@@ -1,12 +1,14 @@
-/// @file query-field: the displacement field of a scene.
+/// @file query-field: the displacements of a scene and the forces in it.
 
 #include "core/error.h"
-#include "database/records/state_name.h"
+#include "core/solve/state_name.h"
 #include "lookup/command_line.h"
 #include "lookup/report/field_query.h"
 #include "lookup/report/field_report.h"
+#include "lookup/report/forces_report.h"
 
 using voussoir::FieldFormat;
+using voussoir::FieldQuantity;
 
 namespace {
 
@@ -16,32 +18,31 @@ struct Options {
   std::optional<std::string> at;
   std::optional<std::string> history;
   std::optional<std::string> load;
+  FieldQuantity show = FieldQuantity::displacements;
   FieldFormat format = FieldFormat::csv;
 };
 
 std::string query(const Options& options) {
   if (options.at && (options.format == FieldFormat::vtu || options.format == FieldFormat::svg))
     throw voussoir::InputError("--format vtu and svg are of the whole field, expected no --at beside them");
+  if (options.at && options.show != FieldQuantity::displacements)
+    throw voussoir::InputError("--at gives displacements, expected no --show of something else beside it");
   const auto database = voussoir::Database::open(voussoir::find_database(options.database));
   const std::size_t row = voussoir::find_row(database, options.scene);
   const std::size_t state = voussoir::find_state(database, options.history, options.load);
+  if (options.show != FieldQuantity::displacements)
+    return voussoir::forces_report(database, row, state, options.show, options.format);
   const auto outcome =
       static_cast<voussoir::Outcome>(database.table(voussoir::kNominalVariant, state).outcome[row]);
   if (outcome != voussoir::Outcome::standing)
     fmt::print(stderr, "query-field: note: scene {} is {} as {}, its field is no equilibrium\n",
                options.scene, voussoir::to_string(outcome), database.states()[state]);
   if (!options.at) return voussoir::field_report(database, row, state, options.format);
-  const auto places = voussoir::displacements_at(database, row, state, *options.at);
-  return options.format == FieldFormat::json ? voussoir::places_json(places) : voussoir::places_csv(places);
+  return voussoir::places_report(voussoir::displacements_at(database, row, state, *options.at),
+                                 options.format);
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  CLI::App app("Prints the displacements of a scene: all nodes, or chosen places.", "query-field");
-  app.footer("Example: query-field 10,4+6,4 -d bridge.h5 --at T12,A3 --format json");
-  app.set_version_flag("--version", voussoir::version_text("query-field"));
-  Options options;
+void add_options(CLI::App& app, Options& options) {
   app.add_option("SCENE", options.scene, "missing blocks: intact, 10,4 or 10,4+6,4")
       ->required()
       ->option_text("SCENE");
@@ -59,12 +60,32 @@ int main(int argc, char** argv) {
   app.add_option("--load", options.load,
                  "with this load case, or at this step of it (truck@2); default: none")
       ->option_text("NAME");
-  voussoir::add_choice<FieldFormat>(
-      app, "--format", options.format,
-      {{"csv", FieldFormat::csv},
-       {"json", FieldFormat::json},
-       {"vtu", FieldFormat::vtu},
-       {"svg", FieldFormat::svg}},
-      "csv (default), json, vtu for ParaView, or svg: a picture of the deformed bridge");
+  voussoir::add_choice<FieldQuantity>(
+      app, "--show", options.show,
+      {{"displacements", FieldQuantity::displacements},
+       {"stresses", FieldQuantity::stresses},
+       {"joints", FieldQuantity::joints},
+       {"thrust", FieldQuantity::thrust}},
+      "displacements (default); stresses: of every triangle; joints: pressure, shear, opening and state "
+      "(open, "
+      "sticking, sliding) of every joint; thrust: where the resultant crosses each joint of a ring");
+  voussoir::add_choice<FieldFormat>(app, "--format", options.format,
+                                    {{"csv", FieldFormat::csv},
+                                     {"json", FieldFormat::json},
+                                     {"vtu", FieldFormat::vtu},
+                                     {"svg", FieldFormat::svg}},
+                                    "csv (default), json, vtu for ParaView, or svg: a picture");
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("Prints displacements, stresses, joints or thrust lines of a scene.", "query-field");
+  app.footer(
+      "Example: query-field 10,4+6,4 -d bridge.h5 --at T12,A3 --format json\n"
+      "         query-field 10,4 --history lost --show joints --format svg > joints.svg");
+  app.set_version_flag("--version", voussoir::version_text("query-field"));
+  Options options;
+  add_options(app, options);
   return voussoir::run_program(app, argc, argv, [&] { return query(options); });
 }

@@ -2,9 +2,9 @@
 
 #include <CLI/CLI.hpp>
 #include <iostream>
-#include <thread>
 
 #include "core/error.h"
+#include "core/threads.h"
 #include "lookup/command_line.h"
 #include "lookup/report/text_file.h"
 #include "tools/validation/report.h"
@@ -15,7 +15,7 @@ struct Options {
   std::vector<std::string> studies;
   bool quick = false;
   bool list = false;
-  int threads = static_cast<int>(std::thread::hardware_concurrency());
+  int threads = hardware_threads();
   std::string format = "text";
   std::string page;
 };

@@ -83,6 +83,11 @@ JointForceParts joint_force_parts(const JointStiffness& joint, const JointMemory
           force(below - above, 1, 0, joint.cap)};
 }
 
+JointContact joint_contact(const JointStiffness& joint, const JointMemory& memory, const JointState& state) {
+  const StretchContact contact = contact_of(joint, elastic(state, memory));
+  return {contact.closed.length, contact.excess.above.length + contact.excess.below.length};
+}
+
 MemoryDerivatives memory_derivatives(const JointStiffness& joint, const JointMemory& memory,
                                      const JointState& state) {
   MemoryDerivatives result;

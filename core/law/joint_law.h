@@ -111,6 +111,14 @@ struct JointForceParts {
 JointForceParts joint_force_parts(const JointStiffness& joint, const JointMemory& memory,
                                   const JointState& state);
 
+/// Where the faces of a stretch touch, and where friction gives way there. Shares of the stretch.
+struct JointContact {
+  double closed = 0.0;
+  double sliding = 0.0;  ///< at most `closed`; the rest of it sticks
+};
+
+JointContact joint_contact(const JointStiffness& joint, const JointMemory& memory, const JointState& state);
+
 /// What the joint remembers when a stage ends in this state.
 JointMemory updated_memory(const JointStiffness& joint, const JointMemory& memory, const JointState& state);
 

@@ -1,5 +1,7 @@
 #include "core/law/triangle.h"
 
+#include <Eigen/LU>
+
 #include "core/geometry/polygon.h"
 
 namespace voussoir {
@@ -54,6 +56,13 @@ TriangleShape triangle_shape(const Point& a, const Point& b, const Point& c) {
 
 Eigen::Vector3d triangle_stress(const TriangleShape& shape, const PlaneModuli& moduli, const Vector6d& q) {
   return stress_of(displacement_gradient(shape, q), moduli, 0.0);
+}
+
+Eigen::Vector3d cauchy_stress(const TriangleShape& shape, const PlaneModuli& moduli, const Vector6d& q) {
+  const Eigen::Matrix2d h = displacement_gradient(shape, q);
+  const Eigen::Matrix2d f = Eigen::Matrix2d::Identity() + h;
+  const Eigen::Matrix2d cauchy = f * tensor(stress_of(h, moduli, 0.0)) * f.transpose() / f.determinant();
+  return {cauchy(0, 0), cauchy(1, 1), cauchy(0, 1)};
 }
 
 Vector6d triangle_force(const TriangleShape& shape, const PlaneModuli& moduli, double thickness,

@@ -43,6 +43,9 @@ struct TriangleResponse {
 /// Second Piola-Kirchhoff stress (S_xx, S_yy, S_xy) [Pa] at corner displacements q = (x0,y0,x1,y1,x2,y2) [m].
 Eigen::Vector3d triangle_stress(const TriangleShape& shape, const PlaneModuli& moduli, const Vector6d& q);
 
+/// Cauchy stress (xx, yy, xy) [Pa], per area of the deformed triangle: F S F^T / det F.
+Eigen::Vector3d cauchy_stress(const TriangleShape& shape, const PlaneModuli& moduli, const Vector6d& q);
+
 /// Internal forces only. `pressure` [Pa]: of a material that is heated and would expand.
 Vector6d triangle_force(const TriangleShape& shape, const PlaneModuli& moduli, double thickness,
                         const Vector6d& q, double pressure = 0.0);

@@ -32,4 +32,8 @@ struct Solution : State {
   std::vector<State> steps{};  ///< at the ends of all implicit steps but the last, if the task asked for them
 };
 
+inline bool stands(const Solution& solution) {
+  return solution.outcome == Outcome::standing;
+}
+
 }  // namespace voussoir

@@ -243,20 +243,6 @@ const SceneFactors* Sensitivities::find(std::size_t state, const Scene& scene) c
   return stored.known() ? &stored : nullptr;
 }
 
-SceneFactors Sensitivities::factors(std::size_t state, const Scene& scene) const {
-  if (const SceneFactors* stored = find(state, scene)) return *stored;
-  const SceneFactors* intact = find(state, Scene{});
-  if (intact == nullptr || scene.missing() < 2) return {};
-  SceneFactors sum = *intact;
-  for (const BlockId block : scene.removed) {
-    const SceneFactors* alone = find(state, Scene{{block}});
-    if (alone == nullptr) return {};
-    sum.bridge += alone->bridge - intact->bridge;
-    sum.epoch += alone->epoch - intact->epoch;
-  }
-  return sum;
-}
-
 std::vector<DatasetValue> sensitivity_datasets(const Sensitivities& sensitivities) {
   std::vector<DatasetValue> datasets;
   append_parameters(sensitivities, datasets);

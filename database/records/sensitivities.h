@@ -64,10 +64,6 @@ struct Sensitivities {
 
   /// What is stored of a scene in a state; null if nothing is known of it. Precondition: the state exists.
   const SceneFactors* find(std::size_t state, const Scene& scene) const;
-
-  /// The scene's factors: those that are stored, or the sum of what each of its blocks changes alone,
-  /// A_ab = A_a + A_b - A_intact. Empty (not known) if a block's own are not known.
-  SceneFactors factors(std::size_t state, const Scene& scene) const;
 };
 
 /// The datasets of sensitivities; datasets that would have no elements are left out.

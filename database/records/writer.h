@@ -4,12 +4,12 @@
 #include <filesystem>
 #include <functional>
 
+#include "core/solve/state_name.h"
 #include "core/structure/model.h"
 #include "database/records/model_error.h"
 #include "database/records/provenance.h"
 #include "database/records/record.h"
 #include "database/records/sensitivities.h"
-#include "database/records/state_name.h"
 #include "database/records/variant_parameters.h"
 
 namespace voussoir {

@@ -39,20 +39,6 @@ std::vector<Part> parts_of(const std::vector<WeightedScene>& scenes, const std::
   return parts;
 }
 
-/// A of a scene with all its columns, in rows of y.
-MatrixXd bridge_columns(const UnknownBridge& bridge, const Scene& scene) {
-  const MatrixXd& intact = bridge.factors->intact.bridge;
-  const MatrixXd after = bridge.factors->of(scene).bridge;
-  MatrixXd columns(static_cast<Index>(bridge.rows.size()), intact.cols());
-  for (Index k = 0; k < columns.rows(); ++k) {
-    const ReadingRow& row = bridge.rows[static_cast<std::size_t>(k)];
-    const auto channel = static_cast<Index>(row.channel);
-    columns.row(k) = row.after * after.row(channel);
-    if (row.before != 0.0) columns.row(k) += row.before * intact.row(channel);
-  }
-  return columns;
-}
-
 /// One scene's Gaussian, but for kappa.
 struct SceneGaussian {
   SceneLoss loss;
@@ -64,7 +50,8 @@ SceneGaussian scene_gaussian(const UnknownBridge& bridge, const Observation& obs
                              const SceneTable& table, std::size_t row) {
   SceneGaussian scene{*scene_loss(bridge, observation, table, row), {}, {}, {}, bridge.noise};
   scene.difference = bridge.reading - scene.loss.signal;
-  scene.bridge = bridge_columns(bridge, table.scene(row));
+  scene.bridge =
+      in_rows(bridge.rows, bridge.factors->intact.bridge, bridge.factors->of(table.scene(row)).bridge);
   scene.epoch = epoch_columns(bridge, scene.loss);
   scene.noise.diagonal() += beyond_variance(bridge, scene.loss);
   for (const MatrixXd& columns : {scene.epoch, other_columns(bridge, scene.loss)})

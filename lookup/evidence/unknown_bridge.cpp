@@ -26,15 +26,6 @@ std::vector<ReadingRow> rows_of(const Comparison& comparison, const Observation&
   return rows;
 }
 
-/// What is the same in both epochs, from a matrix whose rows are channels.
-MatrixXd of_bridge(const std::vector<ReadingRow>& rows, const MatrixXd& channels) {
-  MatrixXd result(static_cast<Index>(rows.size()), channels.cols());
-  for (std::size_t k = 0; k < rows.size(); ++k)
-    result.row(static_cast<Index>(k)) =
-        rows[k].of_bridge() * channels.row(static_cast<Index>(rows[k].channel));
-  return result;
-}
-
 /// What each epoch has of its own: columns of the first, if it is in y, and of the second.
 MatrixXd of_epochs(const std::vector<ReadingRow>& rows, Index epochs, const MatrixXd& before,
                    const MatrixXd& after) {
@@ -88,7 +79,7 @@ MatrixXd common_noise(const Comparison& comparison, const Observation& observati
                                  ? MatrixXd(observation.levelling / std::numbers::sqrt2)
                                  : observation.levelling;
   const auto add = [&](const MatrixXd& columns) { noise.noalias() += columns * columns.transpose(); };
-  add(of_bridge(rows, residual.bridge));
+  add(in_rows(rows, residual.bridge, residual.bridge));
   add(of_epochs(rows, bridge.epochs, levelling, levelling));
   // What heat and moved supports do beyond the first order grows with the square of their size.
   const double left = bridge.conditions * std::max(1.0, bridge.conditions);
@@ -120,19 +111,17 @@ VectorXd signal_of(const UnknownBridge& bridge, const Observation& observation,
   return signal;
 }
 
-/// Variance that parameters of the bridge give each channel, and that of an epoch's.
-VectorXd bridge_spread(const LossFactors& factors) {
-  return factors.lead.rowwise().squaredNorm() + factors.own.diagonal();
-}
-VectorXd epoch_spread(const UnknownBridge& bridge, const LossFactors& factors) {
-  const VectorXd spread = factors.epoch.rowwise().squaredNorm();
-  return bridge.conditions * bridge.conditions * spread;
+/// The sum over channels of the variances that parameters of the bridge and of an epoch give a loss.
+double spread_of(const UnknownBridge& bridge, const LossFactors& factors) {
+  return factors.lead.squaredNorm() + factors.own.trace() +
+         bridge.conditions * bridge.conditions * factors.epoch.squaredNorm();
 }
 
 void add_losses(const Comparison& comparison, const Observation& observation, UnknownBridge& bridge) {
   const ReadingFactors& factors = *comparison.factors;
   const SceneTable& table = comparison.library.table;
-  bridge.blocks.resize(factors.blocks.size());
+  bridge.blocks = factors.blocks.size();
+  bridge.losses.resize(bridge.blocks);
   for (std::size_t row = 0; row < table.rows; ++row) {
     const std::int32_t first = table.removed[row * table.most_missing];
     const bool pair = table.most_missing > 1 && table.removed[row * table.most_missing + 1] >= 0;
@@ -140,46 +129,30 @@ void add_losses(const Comparison& comparison, const Observation& observation, Un
     if (pair && factors.pairs.empty()) break;  // few missing blocks come first
     if (!pair) {
       const auto block = static_cast<std::size_t>(first);
-      bridge.blocks[block] = Loss{&factors.blocks[block], signal_of(bridge, observation, table.row(row))};
+      bridge.losses[block] = Loss{&factors.blocks[block], signal_of(bridge, observation, table.row(row))};
       continue;
     }
     const Scene scene = table.scene(row);
     for (const auto& [own, change] : factors.pairs)
-      if (own == scene)
-        bridge.pairs.emplace_back(scene, Loss{&change, signal_of(bridge, observation, table.row(row))});
+      if (own == scene) {
+        bridge.pairs.push_back(scene);
+        bridge.losses.push_back({&change, signal_of(bridge, observation, table.row(row))});
+      }
   }
 }
 
 /// The median over the known losses; 1 if there are none.
 double typical_spread(const UnknownBridge& bridge) {
   std::vector<double> shares;
-  for (const Loss& loss : bridge.blocks) {
+  for (const Loss& loss : std::span(bridge.losses).first(bridge.blocks)) {
     if (!loss.known()) continue;
     const double size = loss.signal.array().isNaN().select(0.0, loss.signal).norm();
-    if (size > 0.0)
-      shares.push_back(std::sqrt((bridge_spread(*loss.factors) + epoch_spread(bridge, *loss.factors)).sum()) /
-                       size);
+    if (size > 0.0) shares.push_back(std::sqrt(spread_of(bridge, *loss.factors)) / size);
   }
   if (shares.empty()) return 1.0;
   const auto middle = shares.begin() + static_cast<std::ptrdiff_t>(shares.size() / 2);
   std::nth_element(shares.begin(), middle, shares.end());
   return *middle;
-}
-
-/// The losses that a scene is made of, of which factors are known.
-std::vector<const Loss*> known_losses(const UnknownBridge& bridge, const SceneTable& table, std::size_t row) {
-  if (!bridge.pairs.empty()) {
-    const Scene scene = table.scene(row);
-    const auto own =
-        std::lower_bound(bridge.pairs.begin(), bridge.pairs.end(), scene,
-                         [](const auto& pair, const Scene& wanted) { return pair.first < wanted; });
-    if (own != bridge.pairs.end() && own->first == scene) return {&own->second};
-  }
-  std::vector<const Loss*> losses;
-  for (const std::int32_t block : table.removed.subspan(row * table.most_missing, table.most_missing))
-    if (block >= 0 && bridge.blocks[static_cast<std::size_t>(block)].known())
-      losses.push_back(&bridge.blocks[static_cast<std::size_t>(block)]);
-  return losses;
 }
 
 }  // namespace
@@ -200,12 +173,37 @@ UnknownBridge unknown_bridge(const Comparison& comparison, const Observation& ob
   return bridge;
 }
 
+MatrixXd in_rows(const std::vector<ReadingRow>& rows, const MatrixXd& before, const MatrixXd& after) {
+  MatrixXd result(static_cast<Index>(rows.size()), after.cols());
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    const auto channel = static_cast<Index>(rows[k].channel);
+    result.row(static_cast<Index>(k)) =
+        rows[k].before * before.row(channel) + rows[k].after * after.row(channel);
+  }
+  return result;
+}
+
+KnownLosses known_losses(const UnknownBridge& bridge, const SceneTable& table, std::size_t row) {
+  KnownLosses found;
+  if (!bridge.pairs.empty()) {
+    const Scene scene = table.scene(row);
+    const auto own = std::lower_bound(bridge.pairs.begin(), bridge.pairs.end(), scene);
+    if (own != bridge.pairs.end() && *own == scene)
+      return {{bridge.blocks + static_cast<std::size_t>(own - bridge.pairs.begin())}, 1};
+  }
+  for (const std::int32_t block : table.removed.subspan(row * table.most_missing, table.most_missing))
+    if (block >= 0 && bridge.losses[static_cast<std::size_t>(block)].known() && found.count < kMostLosses)
+      found.place[found.count++] = static_cast<std::size_t>(block);
+  return found;
+}
+
 std::optional<SceneLoss> scene_loss(const UnknownBridge& bridge, const Observation& observation,
                                     const SceneTable& table, std::size_t row) {
   SceneLoss loss;
   loss.signal = signal_of(bridge, observation, table.row(row));
   if (loss.signal.hasNaN()) return std::nullopt;
-  loss.known = known_losses(bridge, table, row);
+  const KnownLosses known = known_losses(bridge, table, row);
+  for (std::size_t i = 0; i < known.count; ++i) loss.known.push_back(&bridge.losses[known.place[i]]);
   loss.beyond = loss.signal;
   for (const Loss* one : loss.known) loss.beyond -= one->signal;
   const Index changed = bridge.has_first_epoch() ? loss.signal.size() / 2 : loss.signal.size();

@@ -64,6 +64,10 @@ struct UnknownCase {
       1.0;  ///< of what the bridge file states: one of kConditionSizes, or 0 if they are known
 };
 
+/// In rows of y what a matrix whose rows are channels shows before and after.
+Eigen::MatrixXd in_rows(const std::vector<ReadingRow>& rows, const Eigen::MatrixXd& before,
+                        const Eigen::MatrixXd& after);
+
 /// The loss of a block, or of a pair with factors of its own, in rows of y.
 struct Loss {
   const LossFactors* factors = nullptr;
@@ -74,12 +78,13 @@ struct Loss {
 struct UnknownBridge {
   const ReadingFactors* factors = nullptr;
   std::vector<ReadingRow> rows;
-  Eigen::VectorXd reading;                    ///< [m] less what the intact bridge shows
-  Eigen::VectorXd movement;                   ///< [m] of the intact bridge, as a common factor counts it
-  Eigen::MatrixXd noise;                      ///< [m2] of all scenes
-  std::vector<Loss> blocks;                   ///< by block
-  std::vector<std::pair<Scene, Loss>> pairs;  ///< with factors of their own, in ascending order
-  Eigen::Index epochs = 1;                    ///< in y, each with its own columns of E
+  Eigen::VectorXd reading;   ///< [m] less what the intact bridge shows
+  Eigen::VectorXd movement;  ///< [m] of the intact bridge, as a common factor counts it
+  Eigen::MatrixXd noise;     ///< [m2] of all scenes
+  std::vector<Loss> losses;  ///< by block, then of `pairs`
+  std::vector<Scene> pairs;  ///< with factors of their own, in ascending order
+  std::size_t blocks = 0;
+  Eigen::Index epochs = 1;  ///< in y, each with its own columns of E
   double spread = 0.0;  ///< [-] standard deviation of a signal as a share of it, where it is not known better
   double scale = 0.0;   ///< [-] of a factor on all movements, as far as it was asked for
   double model_error =
@@ -95,6 +100,14 @@ struct UnknownBridge {
 /// Gaussian noise and at least one reading.
 UnknownBridge unknown_bridge(const Comparison& comparison, const Observation& observation,
                              const UnknownCase& one, const UnknownSettings& settings);
+
+/// The losses with factors that a scene is made of: places in UnknownBridge::losses.
+inline constexpr std::size_t kMostLosses = 2;
+struct KnownLosses {
+  std::array<std::size_t, kMostLosses> place{};
+  std::size_t count = 0;
+};
+KnownLosses known_losses(const UnknownBridge& bridge, const SceneTable& table, std::size_t row);
 
 /// What one scene lacks, in rows of y.
 struct SceneLoss {

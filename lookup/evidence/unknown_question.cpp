@@ -5,8 +5,8 @@
 #include <functional>
 #include <limits>
 #include <numeric>
-#include <thread>
 
+#include "core/threads.h"
 #include "lookup/evidence/evidence.h"
 #include "lookup/evidence/evidence_screen.h"
 #include "lookup/evidence/scene_evidence.h"
@@ -41,10 +41,6 @@ std::vector<UnknownCase> cases_of(const Observation& observation, Conditions con
   return cases;
 }
 
-int threads() {
-  return static_cast<int>(std::thread::hardware_concurrency());
-}
-
 /// Scenes in the order of estimates, and what is known of them.
 struct Ranked {
   std::vector<std::size_t> order;  // positions in the eligible rows, best first
@@ -69,7 +65,7 @@ std::vector<double> estimates(const UnknownBridge& bridge, const Observation& ob
                               const SceneTable& table, std::span<const std::size_t> rows) {
   std::vector<double> result(rows.size(), kImpossible);
   for (const double kappa : kEstimatedScatter) {
-    const UnknownScreen screen(bridge, observation, table, kappa, threads());
+    const UnknownScreen screen(bridge, observation, table, kappa, hardware_threads());
     const std::vector<double> logs = screen.estimates(rows);
     for (std::size_t i = 0; i < rows.size(); ++i)
       if (std::isnan(logs[i]) || logs[i] > result[i]) result[i] = logs[i];
@@ -125,7 +121,7 @@ std::vector<double> UnknownBridgeQuestion::screened(const UnknownBridge& bridge,
     const std::size_t end = std::min(scenes.order.size(), done + kAtOnce);
     std::vector<std::size_t> next;
     for (std::size_t i = done; i < end; ++i) next.push_back(rows[scenes.order[i]]);
-    const std::vector<ScatterLogs> logs = scatter_logs(bridge, observation_, table, next, threads());
+    const std::vector<ScatterLogs> logs = scatter_logs(bridge, observation_, table, next, hardware_threads());
     for (std::size_t i = done; i < end; ++i) {
       const std::size_t at = scenes.order[i];
       result[at] = over_scatter(logs[i - done]);

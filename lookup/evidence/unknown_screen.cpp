@@ -25,12 +25,11 @@ constexpr double kImpossible = -std::numeric_limits<double>::infinity();
 MatrixXd reference_covariance(const UnknownBridge& bridge, double kappa) {
   const MatrixXd& factors = bridge.factors->intact.bridge;
   const auto n = static_cast<Index>(bridge.rows.size());
-  const Index lead = std::min(kLeadingColumns, factors.cols());
-  MatrixXd columns(n, lead);
+  const MatrixXd lead = factors.leftCols(std::min(kLeadingColumns, factors.cols()));
+  const MatrixXd columns = in_rows(bridge.rows, lead, lead);
   MatrixXd covariance = bridge.noise;
   for (Index i = 0; i < n; ++i) {
     const ReadingRow& row = bridge.rows[static_cast<std::size_t>(i)];
-    columns.row(i) = row.of_bridge() * factors.row(static_cast<Index>(row.channel)).head(lead);
     for (Index j = 0; j < n; ++j) {
       const ReadingRow& other = bridge.rows[static_cast<std::size_t>(j)];
       covariance(i, j) +=
@@ -196,18 +195,17 @@ UnknownScreen::UnknownScreen(const UnknownBridge& bridge, const Observation& obs
   intact_epochs_ = directions_.transpose() * epoch_columns(bridge, {});
   nothing_.assign(bridge.rows.size(), 0.0);
   none_.signal_of_rows = nothing_.data();
-  blocks_.resize(bridge.blocks.size());
-  for_each_index_on_threads(blocks_.size(), threads, [&](std::size_t block) {
-    if (bridge_.blocks[block].known()) blocks_[block] = reduced(bridge_.blocks[block]);
+  losses_.resize(bridge.losses.size());
+  for_each_index_on_threads(losses_.size(), threads, [&](std::size_t place) {
+    if (bridge_.losses[place].known()) losses_[place] = reduced(bridge_.losses[place]);
   });
-  for (const auto& [scene, loss] : bridge.pairs) pairs_.push_back(reduced(loss));
 }
 
 void UnknownScreen::choose_directions(const Eigen::LLT<MatrixXd>& reference) {
-  MatrixXd left(bridge_.reading.size(), 1 + static_cast<Index>(bridge_.blocks.size()));
+  MatrixXd left(bridge_.reading.size(), 1 + static_cast<Index>(bridge_.blocks));
   left.col(0) = bridge_.reading;
-  for (std::size_t block = 0; block < bridge_.blocks.size(); ++block) {
-    const VectorXd& signal = bridge_.blocks[block].signal;
+  for (std::size_t block = 0; block < bridge_.blocks; ++block) {
+    const VectorXd& signal = bridge_.losses[block].signal;
     const bool counts = signal.size() > 0 && !signal.hasNaN();
     left.col(static_cast<Index>(block) + 1) = counts ? signal : VectorXd::Zero(left.rows());
   }
@@ -251,24 +249,6 @@ UnknownScreen::ReducedLoss UnknownScreen::reduced(const Loss& loss) const {
   return result;
 }
 
-void UnknownScreen::find_losses(std::size_t row, const ReducedLoss** losses) const {
-  losses[0] = losses[1] = &none_;
-  if (!pairs_.empty()) {
-    const Scene scene = table_.scene(row);
-    const auto own = std::find_if(bridge_.pairs.begin(), bridge_.pairs.end(),
-                                  [&](const auto& pair) { return pair.first == scene; });
-    if (own != bridge_.pairs.end()) {
-      losses[0] = &pairs_[static_cast<std::size_t>(own - bridge_.pairs.begin())];
-      return;
-    }
-  }
-  for (std::size_t k = 0; k < std::min<std::size_t>(2, table_.most_missing); ++k) {
-    const std::int32_t block = table_.removed[row * table_.most_missing + k];
-    if (block >= 0 && bridge_.blocks[static_cast<std::size_t>(block)].known())
-      losses[k] = &blocks_[static_cast<std::size_t>(block)];
-  }
-}
-
 std::vector<double> UnknownScreen::estimates(std::span<const std::size_t> rows) const {
   std::vector<double> result(rows.size());
   const std::size_t n = bridge_.rows.size();
@@ -292,11 +272,13 @@ std::vector<double> UnknownScreen::estimates(std::span<const std::size_t> rows) 
     const std::size_t end = std::min(rows.size(), (block + 1) * kBlockRows);
     for (std::size_t first = block * kBlockRows; first < end; first += kLanes) {
       alignas(sizeof(DoubleLanes)) Group group{};
-      std::array<const ReducedLoss*, 2 * kLanes> losses{};
+      std::array<const ReducedLoss*, kMostLosses * kLanes> losses{};
       std::array<const double*, kLanes> predictions{};
       for (std::size_t l = 0; l < kLanes; ++l) {
         const std::size_t row = rows[std::min(first + l, end - 1)];
-        find_losses(row, losses.data() + 2 * l);
+        const KnownLosses known = known_losses(bridge_, table_, row);
+        for (std::size_t k = 0; k < kMostLosses; ++k)
+          losses[kMostLosses * l + k] = k < known.count ? &losses_[known.place[k]] : &none_;
         predictions[l] = table_.row(row).data();
       }
       std::array<double, kLanes> logs{};

@@ -40,7 +40,6 @@ class UnknownScreen {
  private:
   void choose_directions(const Eigen::LLT<Eigen::MatrixXd>& reference);
   ReducedLoss reduced(const Loss& loss) const;
-  void find_losses(std::size_t row, const ReducedLoss** losses) const;
 
   const UnknownBridge& bridge_;
   const Observation& observation_;
@@ -51,7 +50,7 @@ class UnknownScreen {
   Eigen::MatrixXd directions_;           // rows of y x kDirections: T^T
   Eigen::MatrixXd of_loss_, of_bridge_;  // the same by channel, as losses and the bridge count
   Eigen::MatrixXd intact_epochs_;        // directions x columns of E
-  std::vector<ReducedLoss> blocks_, pairs_;
+  std::vector<ReducedLoss> losses_;      // of UnknownBridge::losses
   std::vector<double> nothing_;
   ReducedLoss none_;                                      // of scenes with fewer known losses
   std::array<double, lower_size(kDirections)> points_{};  // what a unit variance at each changed point adds

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "database/records/state_name.h"
+#include "core/solve/state_name.h"
 #include "lookup/readings/library.h"
 #include "lookup/readings/measurements.h"
 #include "lookup/readings/reading_factors.h"

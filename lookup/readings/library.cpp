@@ -3,11 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <thread>
 
 #include "core/error.h"
+#include "core/solve/state_name.h"
 #include "core/threads.h"
-#include "database/records/state_name.h"
 
 namespace voussoir {
 namespace {
@@ -36,7 +35,7 @@ class Predictions {
   LibraryStorage compute() const {
     const std::size_t rows = base().rows;
     LibraryStorage storage{std::vector<double>(rows * channels_.size()), std::vector<std::uint8_t>(rows)};
-    const int threads = with_fields_ ? static_cast<int>(std::thread::hardware_concurrency()) : 1;
+    const int threads = with_fields_ ? hardware_threads() : 1;
     for_each_index_on_threads(rows, threads, [&](std::size_t row) {
       storage.outcome[row] = outcome(row);
       fill(row, std::span(storage.predictions).subspan(row * channels_.size(), channels_.size()));

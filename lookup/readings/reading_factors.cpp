@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <thread>
 
 #include "core/threads.h"
 
@@ -119,10 +118,9 @@ std::shared_ptr<const ReadingFactors> reading_factors(const Sensitivities& sensi
   result.intact_own = others * others.transpose();
   result.residual = residual_of(result);
   result.blocks.resize(blocks);
-  for_each_index_on_threads(
-      blocks, static_cast<int>(std::thread::hardware_concurrency()), [&](std::size_t block) {
-        result.blocks[block] = loss_factors(result, {{BlockId{static_cast<std::int32_t>(block)}}});
-      });
+  for_each_index_on_threads(blocks, hardware_threads(), [&](std::size_t block) {
+    result.blocks[block] = loss_factors(result, {{BlockId{static_cast<std::int32_t>(block)}}});
+  });
   for (const Scene& scene : sensitivities.scenes)
     if (scene.missing() > 1)
       if (LossFactors own = loss_factors(result, scene); own.known())

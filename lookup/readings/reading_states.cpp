@@ -4,8 +4,8 @@
 #include <variant>
 
 #include "core/error.h"
+#include "core/solve/state_name.h"
 #include "core/text.h"
-#include "database/records/state_name.h"
 
 namespace voussoir {
 namespace {

@@ -4,6 +4,9 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "core/solve/history.h"
+#include "core/statics/joint_forces.h"
+#include "core/structure/loads.h"
 #include "database/records/database.h"
 #include "tests/support/bridges.h"
 #include "tests/support/file_text.h"
@@ -80,6 +83,65 @@ TEST_CASE("query-field shows the field of the state that is asked for (compared 
       test::run("query-field", {"4,2", "-d", site.database, "--load", "lorry"});
   CHECK(unknown.exit_code == 2);
   CHECK_THAT(unknown.err, Catch::Contains("'built:lorry'") && Catch::Contains("built:lorry@1"));
+}
+
+TEST_CASE("query-field shows joints as the solver leaves them that remembers every step") {
+  const Site site;
+  REQUIRE(site.build({"--history", "lost", "--loads", "lorry"}).exit_code == 0);
+  const BridgeDescription description = read_bridge_file(site.bridge).description;
+  const Model bridge = make_model(description);
+  const EquilibriumSystem system(bridge);
+  const Coefficients coefficients(system, bridge.parameters);
+  QuasiStaticSolver solver(bridge);
+  const std::vector<LoadStage> stages =
+      load_stages(description.loads.front(), bridge, description.material.thickness);
+  int looked_at = 0;
+  for (int block = 0; block < bridge.block_count(); block += 3) {
+    const Scene scene{{BlockId{block}}};
+    const History history = followed_by(lost(scene), "lorry@1", stages.front().force);
+    const std::vector<Solution> solved = solve_history(solver, history);
+    if (solved.size() < 3 || !stands(solved.back())) continue;
+    ++looked_at;
+    const StageEquations equations(system, coefficients, history.stages.back().stage, solved[1].memory);
+    const std::vector<JointForces> expected =
+        joint_forces(equations, bridge.parameters, test::without_nan(solved.back().displacement));
+    const auto shown = nlohmann::json::parse(
+        test::run("query-field", {to_string(scene, bridge.layout), "-d", site.database, "--load", "lorry@1",
+                                  "--show", "joints", "--format", "json"})
+            .out);
+    REQUIRE(shown.size() == expected.size());
+    double largest = 0.0;
+    for (const JointForces& joint : expected) largest = std::max(largest, joint.normal);
+    for (std::size_t i = 0; i < expected.size(); ++i) {  // the database rounds displacements
+      CHECK(std::abs(shown[i]["normal_N"].get<double>() - expected[i].normal) < 1e-3 * largest);
+      CHECK(std::abs(shown[i]["shear_N"].get<double>() - expected[i].shear) < 1e-3 * largest);
+    }
+  }
+  CHECK(looked_at > 3);
+}
+
+TEST_CASE("query-field shows stresses, joints and thrust lines in every format, of scenes that stand") {
+  const Site site;
+  REQUIRE(site.build({"--history", "built,lost"}).exit_code == 0);
+  const auto show = [&](const char* what, const char* format, const char* scene = "4,2") {
+    return test::run("query-field",
+                     {scene, "-d", site.database, "--history", "lost", "--show", what, "--format", format});
+  };
+  CHECK_THAT(show("stresses", "csv").out, Catch::StartsWith("block,x_m,y_m,stress_xx_Pa"));
+  CHECK_THAT(show("stresses", "svg").out, Catch::Contains("Tresca stress [MPa]"));
+  CHECK_THAT(show("joints", "csv").out, Catch::StartsWith("first,second,x0_m"));
+  CHECK_THAT(show("joints", "svg").out, Catch::Contains("joint-sticking") && Catch::Contains("thrust line"));
+  CHECK_THAT(show("joints", "vtu").out, Catch::Contains("normal_N"));
+  CHECK_THAT(show("thrust", "vtu").out, Catch::Contains("<VTKFile"));
+  const auto thrust = nlohmann::json::parse(show("thrust", "json").out);
+  CHECK(thrust.size() > 5);
+  CHECK(thrust[0]["ring"] == 1);
+  const test::ProgramResult fallen = show("joints", "csv", "0,4");
+  CHECK(fallen.exit_code == 1);
+  CHECK_THAT(fallen.err, Catch::Contains("expected one that stands"));
+  const test::ProgramResult mixed =
+      test::run("query-field", {"4,2", "-d", site.database, "--show", "joints", "--at", "T1"});
+  CHECK(mixed.exit_code == 2);
 }
 
 TEST_CASE("States and numbers that cannot be are bad usage") {

@@ -110,9 +110,11 @@ TEST_CASE("VTK finds in query-field's VTU file the points, triangles and displac
   const BuiltBridge built;
   const Database database = Database::open(built.database);
   const std::string script = std::string(VOUSSOIR_SOURCE_DIR) + "/tests/readers/vtu_contents.py";
-  for (const char* scene : {"intact", "4,1"}) {
+  using Case = std::pair<const char*, const char*>;
+  for (const auto& [scene, show] :
+       {Case{"intact", "displacements"}, Case{"4,1", "displacements"}, Case{"4,1", "stresses"}}) {
     const test::ProgramResult vtu =
-        test::run("query-field", {scene, "-d", built.database, "--format", "vtu"});
+        test::run("query-field", {scene, "-d", built.database, "--show", show, "--format", "vtu"});
     const test::ProgramResult csv =
         test::run("query-field", {scene, "-d", built.database, "--format", "csv"});
     const std::string file = (built.folder / "scene.vtu").string();

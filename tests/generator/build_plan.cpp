@@ -3,8 +3,8 @@
 #include <iterator>
 #include <set>
 
+#include "core/solve/state_name.h"
 #include "core/structure/mirror_symmetry.h"
-#include "database/records/state_name.h"
 #include "generator/build_plan.h"
 #include "generator/scene_list.h"
 #include "tests/support/made_up_database.h"

@@ -7,9 +7,9 @@
 
 #include "core/solve/history.h"
 #include "core/structure/uncertain_parameters.h"
+#include "database/records/stored_bridge.h"
 #include "generator/build.h"
 #include "generator/sensitivity_check.h"
-#include "generator/stored_bridge.h"
 #include "tests/support/bridges.h"
 #include "tests/support/made_up_database.h"
 #include "tests/support/temporary_folder.h"

@@ -1,7 +1,7 @@
 #include "tools/trials/true_bridges.h"
 
 #include "core/error.h"
-#include "database/records/state_name.h"
+#include "core/solve/state_name.h"
 
 namespace voussoir {
 namespace {

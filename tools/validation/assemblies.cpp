@@ -6,8 +6,8 @@
 #include <numbers>
 #include <random>
 
-#include "core/law/joint_kinematics.h"
 #include "core/law/triangle.h"
+#include "core/statics/joint_forces.h"
 
 namespace voussoir::validation {
 
@@ -136,21 +136,15 @@ Field boundary_tractions(const Model& bridge, const Eigen::Vector3d& stress) {
 }
 
 Point joint_force(const Model& bridge, const Field& displacement, BlockId first, BlockId second) {
+  const EquilibriumSystem system(bridge);
+  const Coefficients coefficients(system, bridge.parameters);
+  const StageEquations equations(system, coefficients, {});
   Point force = Point::Zero();
-  for (std::size_t j = 0; j < bridge.joints.size(); ++j) {
-    const Joint& joint = bridge.joints[j];
-    const double area = joint.length * joint_thickness(joint, bridge.parameters);
-    const bool forward = joint.first == first && joint.second == second;
-    if (!forward && !(joint.first == second && joint.second == first)) continue;
-    Vector8d q;
-    q << displacement.col(value(joint.first_edge.from)), displacement.col(value(joint.first_edge.to)),
-        displacement.col(value(joint.second_edge.from)), displacement.col(value(joint.second_edge.to));
-    const JointKinematics kinematics = joint_kinematics(make_joint_frame(joint, bridge.mesh), q);
-    const Vector8d nodal =
-        kinematics.gradient.transpose() *
-        integrate_joint(joint_stiffness(bridge.parameters.joints[j], area), {}, kinematics.state).force;
-    const Point on_second = -(nodal.segment<2>(4) + nodal.segment<2>(6));
-    force += forward ? on_second : Point(-on_second);
+  for (const JointForces& found : joint_forces(equations, bridge.parameters, displacement)) {
+    const Joint& joint = bridge.joints[found.joint];
+    const Point on_second = found.on_second[0] + found.on_second[1];
+    if (joint.first == first && joint.second == second) force += on_second;
+    if (joint.first == second && joint.second == first) force -= on_second;
   }
   return force;
 }

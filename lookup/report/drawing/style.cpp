@@ -30,6 +30,10 @@ svg text.strong{font-weight:600}
 svg text.tiny{font-size:8.5px;fill:var(--muted);pointer-events:none}
 .mesh{fill-opacity:.3;stroke:var(--edge);stroke-width:.6}
 svg text.label{font-size:12px;font-weight:600;paint-order:stroke;stroke:var(--page);stroke-width:3.5px;pointer-events:none}
+.joint-sticking{fill:var(--muted)}
+.joint-sliding{fill:var(--s2)}
+.joint-open{fill:none;stroke:var(--s4);stroke-width:1.4;stroke-dasharray:3 2}
+.thrust{stroke:var(--s1);stroke-width:2.4}
 .silent{fill:var(--page);stroke:var(--muted);stroke-width:1.2}
 .line{fill:none;stroke-width:1.8;stroke-linejoin:round}
 .dashed{stroke-dasharray:6 4}

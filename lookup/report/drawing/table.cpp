@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "lookup/report/drawing/svg.h"
 
@@ -55,6 +56,22 @@ std::string to_csv(const Table& table) {
     text += '\n';
   }
   return text;
+}
+
+std::string to_json(const Table& table) {
+  auto list = nlohmann::ordered_json::array();
+  for (const std::vector<TableCell>& row : table.rows) {
+    nlohmann::ordered_json& object = list.emplace_back(nlohmann::ordered_json::object());
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      const auto* number = std::get_if<double>(&row[i]);
+      if (number == nullptr)
+        object[table.columns[i]] = std::get<std::string>(row[i]);
+      else
+        object[table.columns[i]] =
+            std::isnan(*number) ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(*number);
+    }
+  }
+  return list.dump(1) + "\n";
 }
 
 std::string to_html(const Table& table, int digits) {

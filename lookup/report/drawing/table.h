@@ -18,6 +18,9 @@ struct Table {
 /// Comma-separated, numbers with all their digits, texts quoted where they need to be.
 std::string to_csv(const Table& table);
 
+/// A list of objects, one a row, with the columns' names; NaN is null.
+std::string to_json(const Table& table);
+
 /// <table>, numbers with `digits` significant digits.
 std::string to_html(const Table& table, int digits = 4);
 

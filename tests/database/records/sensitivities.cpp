@@ -104,23 +104,6 @@ TEST_CASE("A database without sensitivities says so") {
   CHECK(small.write(std::nullopt).sensitivities() == nullptr);
 }
 
-TEST_CASE("What is not stored of a scene is the sum of what its blocks change alone") {
-  const SmallDatabase small;
-  const auto block = [](int number) { return BlockId{number}; };
-  const Scene pair{{block(7), block(9)}};
-  const auto alone = [&](int number) { return small.made.find(0, Scene{{block(number)}}); };
-  const SceneFactors* intact = small.made.find(0, Scene{});
-  REQUIRE(alone(7) != nullptr);
-  REQUIRE(alone(9) != nullptr);
-  const SceneFactors composed = small.made.factors(0, pair);
-  CHECK(composed.bridge.isApprox(alone(7)->bridge + alone(9)->bridge - intact->bridge, 1e-12));
-  CHECK(composed.epoch.isApprox(alone(7)->epoch + alone(9)->epoch - intact->epoch, 1e-12));
-  check_same(small.made.factors(0, Scene{{block(7)}}), *alone(7));
-  CHECK(small.made.find(0, pair) == nullptr);
-  CHECK_FALSE(small.made.factors(1, Scene{{block(3)}}).known());  // the fourth single has none there
-  CHECK_FALSE(small.made.factors(1, Scene{{block(3), block(9)}}).known());
-}
-
 TEST_CASE("Sensitivities that do not fit together are refused and named") {
   SmallDatabase small;
   CHECK(small.refusal(small.made).empty());

@@ -14,7 +14,4 @@ BridgeDescription description_of(const Database& database);
 /// text is no bridge file.
 Model bridge_of(const Database& database);
 
-/// A variant of it. Throws InputError for parameters that variant_of does not take.
-Model bridge_of(const Database& database, const Model& nominal, std::int32_t variant);
-
 }  // namespace voussoir

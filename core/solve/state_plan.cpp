@@ -1,13 +1,13 @@
-#include "generator/state_plan.h"
+#include "core/solve/state_plan.h"
 
 #include <algorithm>
 #include <map>
 
 #include "core/error.h"
+#include "core/solve/state_name.h"
 #include "core/structure/loads.h"
 #include "core/structure/mirror_symmetry.h"
 #include "core/text.h"
-#include "database/records/state_name.h"
 
 namespace voussoir {
 namespace {

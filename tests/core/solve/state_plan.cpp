@@ -1,4 +1,4 @@
-#include "generator/state_plan.h"
+#include "core/solve/state_plan.h"
 
 #include <catch2/catch.hpp>
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/statics/solution.h"
 #include "core/structure/model.h"
 
 namespace voussoir {
@@ -35,6 +36,9 @@ struct PlannedState {
 
 /// Precondition of all that takes one: it comes from plan_states.
 using StatePlan = std::vector<PlannedState>;
+
+/// What is known or found of a scene, for each state of the plan.
+using SceneStates = std::vector<std::optional<Solution>>;
 
 /// The states of these names, as state_names gives them or a database states them. `built`, from which all
 /// others are found, comes first even if it is not kept. Throws InputError for a name that is none, an order

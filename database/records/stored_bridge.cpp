@@ -1,9 +1,8 @@
-#include "generator/stored_bridge.h"
+#include "database/records/stored_bridge.h"
 
 #include "core/error.h"
 #include "core/structure/bridge_file.h"
 #include "database/records/schema.h"
-#include "generator/variants.h"
 
 namespace voussoir {
 namespace {
@@ -42,15 +41,6 @@ Model bridge_of(const Database& database) {
   structure.control_points = stored_points(database);
   structure.symmetry = find_mirror_symmetry(structure.layout, structure.mesh, 0.5 * description.wall.length);
   return with_nominal_parameters(std::move(structure), description);
-}
-
-Model bridge_of(const Database& database, const Model& nominal, std::int32_t variant) {
-  if (variant == kNominalVariant) return nominal;
-  try {
-    return variant_of(nominal, database.variants().at(static_cast<std::size_t>(variant)));
-  } catch (const InputError& error) {
-    throw InputError(fmt::format("{}: variant {}: {}", database.path().string(), variant, error.what()));
-  }
 }
 
 }  // namespace voussoir
