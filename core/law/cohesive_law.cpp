@@ -12,10 +12,10 @@ constexpr int kMostNewtonSteps = 100;  ///< quadratic from one side: about six a
 
 /// The bond before slip wears it further, and its derivative by the gap.
 struct Opening {
-  double w;         ///< inelastic opening now [m]
-  double bond;      ///< exp(-w / l_1) times what slip has left before
-  double by_gap;    ///< of `bond` [1/m]
-  double ratio;     ///< g / (g_0 + w) where open, 0 where closed
+  double w;       ///< inelastic opening now [m]
+  double bond;    ///< exp(-w / l_1) times what slip has left before
+  double by_gap;  ///< of `bond` [1/m]
+  double ratio;   ///< g / (g_0 + w) where open, 0 where closed
   double ratio_by_gap;
 };
 
@@ -58,8 +58,8 @@ ShearBound shear_bound(const CohesiveStiffness& joint, const Opening& opening, d
 }
 
 /// dlambda of p_t (x - dlambda) = worn exp(-dlambda / l_2) + lasting, which x = 0 .. exceeds at dlambda = 0.
-/// From the bond that is gone Newton's method comes down to it without a turn: the left minus the right side is
-/// concave.
+/// From the bond that is gone Newton's method comes down to it without a turn: the left minus the right side
+/// is concave.
 double plastic_length(const CohesiveStiffness& joint, const ShearBound& bound, double x) {
   double length = x - bound.lasting / joint.dry.tangential;
   for (int step = 0; step < kMostNewtonSteps; ++step) {
@@ -105,7 +105,8 @@ void for_bond_points(const CohesiveStiffness& joint, const JointMemory& memory, 
   for (std::size_t i = 0; i < kBondPoints; ++i) {
     const double s = points[i].at;
     visit(points[i], i,
-          bond_response(joint, memory_at(memory, i), along(state[0], state[2], s), along(state[1], state[3], s)));
+          bond_response(joint, memory_at(memory, i), along(state[0], state[2], s),
+                        along(state[1], state[3], s)));
   }
 }
 
@@ -124,7 +125,8 @@ CohesiveStiffness cohesive_stiffness(const JointMaterial& material, double area)
           .slip_length = mortar.slip_energy / mortar.cohesion};
 }
 
-BondResponse bond_response(const CohesiveStiffness& joint, const BondMemory& memory, double gap, double slip) {
+BondResponse bond_response(const CohesiveStiffness& joint, const BondMemory& memory, double gap,
+                           double slip) {
   const Opening opening = opening_at(joint, memory, gap);
   const ShearBound bound = shear_bound(joint, opening, gap);
   const double xi = slip - memory.plastic_slip;
@@ -167,17 +169,19 @@ double bond_left(const CohesiveStiffness& joint, const BondMemory& memory) {
   return std::exp(-memory.opening / joint.opening_length - memory.slipped / joint.slip_length);
 }
 
-JointResponse integrate_bond(const CohesiveStiffness& joint, const JointMemory& memory, const JointState& state) {
+JointResponse integrate_bond(const CohesiveStiffness& joint, const JointMemory& memory,
+                             const JointState& state) {
   JointResponse response{Eigen::Vector4d::Zero(), Eigen::Matrix4d::Zero()};
-  for_bond_points(joint, memory, state, [&](const BondPoint& point, std::size_t, const BondResponse& at_point) {
-    const StretchMass mass = mass_of_point(point.at, point.weight);
-    for (int row = 0; row < 2; ++row)
-      for (int column = 0; column < 2; ++column)
-        add_mass(response.tangent, mass, row, column, at_point.tangent(row, column));
-    const Eigen::Vector2d stress = point.weight * Eigen::Vector2d(at_point.normal, at_point.shear);
-    response.force.head<2>() += (1.0 - point.at) * stress;
-    response.force.tail<2>() += point.at * stress;
-  });
+  for_bond_points(
+      joint, memory, state, [&](const BondPoint& point, std::size_t, const BondResponse& at_point) {
+        const StretchMass mass = mass_of_point(point.at, point.weight);
+        for (int row = 0; row < 2; ++row)
+          for (int column = 0; column < 2; ++column)
+            add_mass(response.tangent, mass, row, column, at_point.tangent(row, column));
+        const Eigen::Vector2d stress = point.weight * Eigen::Vector2d(at_point.normal, at_point.shear);
+        response.force.head<2>() += (1.0 - point.at) * stress;
+        response.force.tail<2>() += point.at * stress;
+      });
   return response;
 }
 
@@ -192,9 +196,10 @@ JointMemory updated_bond(const CohesiveStiffness& joint, const JointMemory& memo
 
 double dissipated_energy(const CohesiveStiffness& joint, const JointMemory& memory, const JointState& state) {
   double sum = 0.0;
-  for_bond_points(joint, memory, state, [&](const BondPoint& point, std::size_t, const BondResponse& at_point) {
-    sum += point.weight * at_point.dissipated;
-  });
+  for_bond_points(joint, memory, state,
+                  [&](const BondPoint& point, std::size_t, const BondResponse& at_point) {
+                    sum += point.weight * at_point.dissipated;
+                  });
   return sum;
 }
 

@@ -23,8 +23,8 @@ struct StateEquations {
 };
 
 /// The steps that end in this state of the scene, of which the last one's equations hold what its joints
-/// remember. `states` are the scene's and `intact` the intact bridge's. A loss that is solved again has all its
-/// steps if the stored field is nearer to equilibrium with what they leave in the joints. Nothing if the
+/// remember. `states` are the scene's and `intact` the intact bridge's. A loss that is solved again has all
+/// its steps if the stored field is nearer to equilibrium with what they leave in the joints. Nothing if the
 /// state or one before it does not stand.
 std::optional<SolvedHistory> history_of_state(const StateEquations& equations, const Scene& scene,
                                               std::size_t state, const SceneStates& states,

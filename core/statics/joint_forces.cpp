@@ -23,8 +23,8 @@ std::array<Point, 2> ends_of(const Joint& joint, const Mesh& mesh) {
   return {from + joint.first_at[0] * (to - from), from + joint.first_at[1] * (to - from)};
 }
 
-/// The force along the joint as it has turned: `force` is (along the normal, along the joint) [N]. Gap and slip
-/// of an end change with a movement of the second block by just these directions.
+/// The force along the joint as it has turned: `force` is (along the normal, along the joint) [N]. Gap and
+/// slip of an end change with a movement of the second block by just these directions.
 Point pulled_by(const JointKinematics& kinematics, const Eigen::Vector2d& force) {
   const Eigen::Matrix<double, 2, 8> rows = kinematics.gradient.topRows<2>();
   return (rows.middleCols<2>(4) + rows.middleCols<2>(6)).transpose() * force;
@@ -59,8 +59,7 @@ std::vector<JointForces> joint_forces(const StageEquations& equations, const Par
     found.normal = 0.0 - force[0] - force[2];
     found.shear = force[1] + force[3];
     for (int end = 0; end < 2; ++end)
-      found.on_second.at(static_cast<std::size_t>(end)) =
-          -pulled_by(kinematics, force.segment<2>(2 * end));
+      found.on_second.at(static_cast<std::size_t>(end)) = -pulled_by(kinematics, force.segment<2>(2 * end));
     found.closed_share = contact.closed;
     found.sliding_share = contact.sliding;
     found.condition = condition_of(contact);

@@ -11,12 +11,12 @@ namespace voussoir {
 namespace {
 
 constexpr int kMostHalvings = 5;
-constexpr std::size_t kRecent = 4;         ///< a Newton step may rise to the worst of so many residuals
-constexpr double kProbe = 1e-3;            ///< share of a movement by which its forces are differentiated
-constexpr double kFirstDrag = 1e-2;        ///< of the tangent's mean diagonal
+constexpr std::size_t kRecent = 4;   ///< a Newton step may rise to the worst of so many residuals
+constexpr double kProbe = 1e-3;      ///< share of a movement by which its forces are differentiated
+constexpr double kFirstDrag = 1e-2;  ///< of the tangent's mean diagonal
 constexpr double kLeastDrag = 1e-9;
 constexpr double kMostDrag = 1e3;
-constexpr double kDragFactor = 4.0;        ///< weaker after a step of a snap, stronger where one fails
+constexpr double kDragFactor = 4.0;  ///< weaker after a step of a snap, stronger where one fails
 
 double mixed(double from, double to, double share) {
   return from + share * (to - from);
@@ -100,7 +100,8 @@ class PathFollower {
     const StageEquations equations = equations_at(next);
     if (last_step_ > 0.0) {
       const Field guess = state_.displacement + (next - share_) / last_step_ * change_;
-      if (const auto found = newton(equations, admissible(equations, guess), {})) return commit(equations, *found, next);
+      if (const auto found = newton(equations, admissible(equations, guess), {}))
+        return commit(equations, *found, next);
     }
     const auto guess = tangent_guess(equations);
     if (!guess) return false;
@@ -110,6 +111,7 @@ class PathFollower {
 
   bool commit(const StageEquations& equations, const Field& found, double next) {
     dissipated_ += dissipated_by_mortar(equations, found);
+    largest_force_ = force_unit(equations, found);
     change_ = found - state_.displacement;
     last_step_ = next - share_;
     state_.memory = updated_memory(equations, found);
@@ -169,10 +171,10 @@ class PathFollower {
     return forces;
   }
 
-  /// Largest force that a support or the load exerts [N].
+  /// Largest force that a support or the load has exerted yet [N].
   double force_unit(const StageEquations& equations, const Field& place) const {
-    return std::max(equations.load.cwiseAbs().maxCoeff(),
-                    support_forces(equations, place).cwiseAbs().maxCoeff());
+    return std::max({largest_force_, equations.load.cwiseAbs().maxCoeff(),
+                     support_forces(equations, place).cwiseAbs().maxCoeff()});
   }
 
   std::optional<Field> newton(const StageEquations& equations, Field place, const Drag& drag) {
@@ -181,7 +183,8 @@ class PathFollower {
     recent.push_back(unbalanced.norm());
     for (int iteration = 0; iteration < settings_.most_iterations; ++iteration) {
       if (!std::isfinite(recent.back())) return std::nullopt;
-      if (unbalanced.cwiseAbs().maxCoeff() <= settings_.tolerance * force_unit(equations, place)) return place;
+      if (unbalanced.cwiseAbs().maxCoeff() <= settings_.tolerance * force_unit(equations, place))
+        return place;
       const auto change = solve(unbalanced);
       if (!change) return std::nullopt;
       const auto begin = recent.size() > kRecent ? recent.end() - kRecent : recent.begin();
@@ -243,6 +246,7 @@ class PathFollower {
   double last_step_ = 0.0;  ///< share; 0: the last step does not show the way
   double share_ = 0.0;
   double dissipated_ = 0.0;
+  double largest_force_ = 0.0;
   int iterations_ = 0;
 };
 

@@ -17,8 +17,8 @@ struct TriangleStress {
   double tresca = xx;  ///< largest less smallest principal stress, that out of plane among them
 };
 
-/// Cauchy stresses of every triangle, at the temperature at which the bridge was built. `parameters` are those
-/// that the equations' coefficients come from.
+/// Cauchy stresses of every triangle, at the temperature at which the bridge was built. `parameters` are
+/// those that the equations' coefficients come from.
 std::vector<TriangleStress> triangle_stresses(const StageEquations& equations, const Parameters& parameters,
                                               const Field& displacement);
 

@@ -47,8 +47,7 @@ ThrustPoint resultant(const std::vector<const JointForces*>& stretches, const Po
       moment += normal * point.outward.dot(stretch->ends.at(end) - point.centre);
     }
   }
-  point.eccentricity =
-      point.normal > 0.0 ? moment / point.normal : std::numeric_limits<double>::quiet_NaN();
+  point.eccentricity = point.normal > 0.0 ? moment / point.normal : std::numeric_limits<double>::quiet_NaN();
   return point;
 }
 
@@ -61,7 +60,8 @@ std::vector<ThrustPoint> thrust_lines(const Structure& structure, const std::vec
   for (const JointForces& stretch : joints) {
     const Joint& joint = structure.joints[stretch.joint];
     const int ring = structure.layout.blocks[static_cast<std::size_t>(value(joint.first))].ring;
-    if (ring == kNoRing || structure.layout.blocks[static_cast<std::size_t>(value(joint.second))].ring != ring)
+    if (ring == kNoRing ||
+        structure.layout.blocks[static_cast<std::size_t>(value(joint.second))].ring != ring)
       continue;
     of_pair[{ring, joint.first, joint.second}].push_back(&stretch);
   }

@@ -10,12 +10,13 @@ namespace voussoir {
 struct ThrustPoint {
   int ring = 0;
   BlockId first, second;
-  Point centre;               ///< of the joint [m]
-  Point outward;              ///< unit vector along the joint, from the intrados to the extrados
-  double thickness = 0.0;     ///< of the ring there [m]
-  double normal = 0.0;        ///< [N] compression
-  double shear = 0.0;         ///< [N] on `second` along `outward`
-  double eccentricity = 0.0;  ///< [m] of the resultant from the centre along `outward`; NaN without compression
+  Point centre;            ///< of the joint [m]
+  Point outward;           ///< unit vector along the joint, from the intrados to the extrados
+  double thickness = 0.0;  ///< of the ring there [m]
+  double normal = 0.0;     ///< [N] compression
+  double shear = 0.0;      ///< [N] on `second` along `outward`
+  double eccentricity =
+      0.0;  ///< [m] of the resultant from the centre along `outward`; NaN without compression
 
   Point at() const { return centre + eccentricity * outward; }
 };

@@ -14,8 +14,9 @@ struct Extent {
 
 /// From the left to the right side of a block [m].
 Extent extent(const Block& block) {
-  const auto [left, right] = std::minmax_element(block.polygon.begin(), block.polygon.end(),
-                                                 [](const Point& a, const Point& b) { return a.x() < b.x(); });
+  const auto [left, right] =
+      std::minmax_element(block.polygon.begin(), block.polygon.end(),
+                          [](const Point& a, const Point& b) { return a.x() < b.x(); });
   return {left->x(), right->x()};
 }
 

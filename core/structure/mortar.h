@@ -22,7 +22,7 @@ struct Mortar {
 
 /// Joints that have a mortar of their own, and stiffnesses if these are given.
 struct MortarRegion {
-  Mortar mortar;  ///< may be none: these joints are dry
+  Mortar mortar;                                 ///< may be none: these joints are dry
   std::optional<double> normal_stiffness{};      ///< [Pa/m]
   std::optional<double> tangential_stiffness{};  ///< [Pa/m]
   bool within_blocks = false;          ///< the joints in the middle of halved blocks, instead of all others

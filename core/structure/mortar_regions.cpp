@@ -26,8 +26,9 @@ bool is_role(const std::string& name) {
 void check_names(const MortarRegion& region, const BlockLayout& layout) {
   for (const std::string& name : region.between)
     if (!is_role(name) && !layout.find_label(name))
-      throw InputError(fmt::format("between in [[mortar]]: '{}' is no block: expected a label of a block or one of {}",
-                                   name, fmt::join(kRoleNames, ", ")));
+      throw InputError(
+          fmt::format("between in [[mortar]]: '{}' is no block: expected a label of a block or one of {}",
+                      name, fmt::join(kRoleNames, ", ")));
 }
 
 }  // namespace
@@ -47,7 +48,8 @@ void lay_mortar(const BridgeDescription& description, const Structure& structure
       JointMaterial& joint = parameters.joints[j];
       joint.mortar = region.mortar;
       joint.normal_stiffness = region.normal_stiffness.value_or(description.joints.normal_stiffness);
-      joint.tangential_stiffness = region.tangential_stiffness.value_or(description.joints.tangential_stiffness);
+      joint.tangential_stiffness =
+          region.tangential_stiffness.value_or(description.joints.tangential_stiffness);
     }
   }
 }

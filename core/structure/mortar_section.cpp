@@ -26,9 +26,10 @@ void read_strength(TomlSection& section, const JointMaterial& joints, MortarRegi
   const double elastic_slip = mortar.cohesion * mortar.cohesion / tangential;
   const double least_cohesion = mortar.friction_coefficient() * mortar.tensile_strength;
   if (mortar.opening_energy <= elastic_opening)
-    section.refuse("opening_energy_J_m2",
-                   fmt::format("is {:g}: expected more than f_t^2 / (2 p_n) = {:g}, what is stored at the strength",
-                               mortar.opening_energy, elastic_opening));
+    section.refuse(
+        "opening_energy_J_m2",
+        fmt::format("is {:g}: expected more than f_t^2 / (2 p_n) = {:g}, what is stored at the strength",
+                    mortar.opening_energy, elastic_opening));
   if (mortar.slip_energy <= elastic_slip)
     section.refuse("slip_energy_J_m2",
                    fmt::format("is {:g}: expected more than c^2 / p_t = {:g}: the joint would break at once",
@@ -42,8 +43,9 @@ void read_strength(TomlSection& section, const JointMaterial& joints, MortarRegi
 void read_names(TomlSection& section, std::vector<std::string>& names) {
   names = section.texts("between");
   if (section.has("between") && names.size() != 2)
-    section.refuse("between", fmt::format("has {} names: expected two of roles or blocks, as in [\"ring\", \"wall\"]",
-                                          names.size()));
+    section.refuse("between",
+                   fmt::format("has {} names: expected two of roles or blocks, as in [\"ring\", \"wall\"]",
+                               names.size()));
 }
 
 MortarRegion read_region(TomlSection section, const BridgeDescription& description) {
@@ -54,8 +56,10 @@ MortarRegion read_region(TomlSection section, const BridgeDescription& descripti
   read_names(section, region.between);
   for (const auto& [key, target] : {std::pair{"normal_stiffness_Pa_per_m", &region.normal_stiffness},
                                     std::pair{"tangential_stiffness_Pa_per_m", &region.tangential_stiffness}})
-    if (section.has(key)) section.positive(key, target->emplace());
-    else section.know(key);
+    if (section.has(key))
+      section.positive(key, target->emplace());
+    else
+      section.know(key);
   bool dry = false;
   section.flag("dry", dry);
   if (!dry) read_strength(section, description.joints, region);

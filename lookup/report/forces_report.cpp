@@ -38,28 +38,28 @@ Table stress_table(const ForcesView& view) {
 }
 
 Table joint_table(const ForcesView& view) {
-  Table table{{"first", "second", "x0_m", "y0_m", "x1_m", "y1_m", "state", "pressure0_Pa", "pressure1_Pa",
-               "normal_N", "shear_N", "gap0_m", "gap1_m", "slip0_m", "slip1_m", "touching_share",
-               "sliding_share"},
-              {}};
+  Table table{
+      {"first", "second", "x0_m", "y0_m", "x1_m", "y1_m", "state", "pressure0_Pa", "pressure1_Pa", "normal_N",
+       "shear_N", "gap0_m", "gap1_m", "slip0_m", "slip1_m", "touching_share", "sliding_share"},
+      {}};
   for (const JointForces& found : view.forces.joints) {
     const Joint& joint = view.database.joints()[found.joint];
     table.rows.push_back({view.label(joint.first), view.label(joint.second), found.ends[0].x(),
                           found.ends[0].y(), found.ends[1].x(), found.ends[1].y(),
                           std::string(to_string(found.condition)), found.pressure[0], found.pressure[1],
-                          found.normal, found.shear, found.gap[0], found.gap[1], found.slip[0],
-                          found.slip[1], found.closed_share, found.sliding_share});
+                          found.normal, found.shear, found.gap[0], found.gap[1], found.slip[0], found.slip[1],
+                          found.closed_share, found.sliding_share});
   }
   return table;
 }
 
 Table thrust_table(const ForcesView& view) {
-  Table table{{"ring", "first", "second", "x_m", "y_m", "normal_N", "shear_N", "eccentricity_m", "thickness_m"},
-              {}};
+  Table table{
+      {"ring", "first", "second", "x_m", "y_m", "normal_N", "shear_N", "eccentricity_m", "thickness_m"}, {}};
   for (const ThrustPoint& point : view.forces.thrust)
     table.rows.push_back({static_cast<double>(point.ring + 1), view.label(point.first),
-                          view.label(point.second), point.at().x(), point.at().y(), point.normal,
-                          point.shear, point.eccentricity, point.thickness});
+                          view.label(point.second), point.at().x(), point.at().y(), point.normal, point.shear,
+                          point.eccentricity, point.thickness});
   return table;
 }
 
@@ -78,8 +78,7 @@ VtkGrid stress_grid(const ForcesView& view, const Field& field) {
     if (view.forces.scene.lacks(BlockId{static_cast<std::int32_t>(block)})) continue;
     for (int t = mesh.block_triangles[block].begin; t < mesh.block_triangles[block].end; ++t) {
       const TriangleStress& stress = view.forces.triangles[static_cast<std::size_t>(t)];
-      for (const double component : {stress.xx, stress.yy, stress.xy})
-        stresses.values.push_back(component);
+      for (const double component : {stress.xx, stress.yy, stress.xy}) stresses.values.push_back(component);
       tresca.values.push_back(stress.tresca);
     }
   }

@@ -29,17 +29,17 @@ SceneStates intact_states(const Database& database, const StatePlan& plan, Quasi
 SceneForces scene_forces(const Database& database, std::size_t row, std::size_t state) {
   const Scene scene = database.key(row).scene;
   if (const Solution stored = database.solution(row, state); !stands(stored))
-    throw Failure(fmt::format("{}: scene {} is {} as {}, expected one that stands: its field is no equilibrium",
-                              database.path().string(), to_string(scene, database.layout()),
-                              to_string(stored.outcome), database.states()[state]));
+    throw Failure(
+        fmt::format("{}: scene {} is {} as {}, expected one that stands: its field is no equilibrium",
+                    database.path().string(), to_string(scene, database.layout()), to_string(stored.outcome),
+                    database.states()[state]));
   const Model bridge = bridge_of(database);
   const StatePlan plan = plan_states(database.states(), bridge, description_of(database));
   const EquilibriumSystem system(bridge);
   const Coefficients coefficients(system, bridge.parameters);
   QuasiStaticSolver solver(bridge);
   const StateEquations equations{system, coefficients, plan,
-                                 [&solver](const StageTask& task) { return solver.solve(task); },
-                                 0.0};
+                                 [&solver](const StageTask& task) { return solver.solve(task); }, 0.0};
   const auto planned = std::ranges::find(plan, database.states()[state], &PlannedState::name);
   const auto history =
       history_of_state(equations, scene, static_cast<std::size_t>(planned - plan.begin()),
@@ -48,8 +48,10 @@ SceneForces scene_forces(const Database& database, std::size_t row, std::size_t 
     throw Failure(fmt::format("{}: a state before {} of scene {} does not stand", database.path().string(),
                               database.states()[state], to_string(scene, database.layout())));
   const SolvedStep& last = history->back();
-  SceneForces forces{scene, triangle_stresses(last.equations, bridge.parameters, last.displacement),
-                     joint_forces(last.equations, bridge.parameters, last.displacement), {}};
+  SceneForces forces{scene,
+                     triangle_stresses(last.equations, bridge.parameters, last.displacement),
+                     joint_forces(last.equations, bridge.parameters, last.displacement),
+                     {}};
   forces.thrust = thrust_lines(bridge, forces.joints);
   return forces;
 }

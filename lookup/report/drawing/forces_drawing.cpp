@@ -67,13 +67,12 @@ std::string_view css_class(JointCondition condition) {
 }
 
 std::string joint_tip(const JointForces& joint) {
-  return fmt::format("{}\npressure {:.3g} and {:.3g} MPa at its ends\nnormal force {:.4g} kN, shear {:.4g} kN\n"
-                     "opening {:.3g} and {:.3g} mm\ntouching {:.0f} %, sliding {:.0f} % of its length",
-                     to_string(joint.condition), kMegapascals * joint.pressure[0],
-                     kMegapascals * joint.pressure[1], kKilonewtons * joint.normal,
-                     kKilonewtons * joint.shear, kMillimetres * std::max(0.0, joint.gap[0]),
-                     kMillimetres * std::max(0.0, joint.gap[1]), 100.0 * joint.closed_share,
-                     100.0 * joint.sliding_share);
+  return fmt::format(
+      "{}\npressure {:.3g} and {:.3g} MPa at its ends\nnormal force {:.4g} kN, shear {:.4g} kN\n"
+      "opening {:.3g} and {:.3g} mm\ntouching {:.0f} %, sliding {:.0f} % of its length",
+      to_string(joint.condition), kMegapascals * joint.pressure[0], kMegapascals * joint.pressure[1],
+      kKilonewtons * joint.normal, kKilonewtons * joint.shear, kMillimetres * std::max(0.0, joint.gap[0]),
+      kMillimetres * std::max(0.0, joint.gap[1]), 100.0 * joint.closed_share, 100.0 * joint.sliding_share);
 }
 
 /// A line from end to end, as thick at each as the pressure there.
@@ -97,7 +96,8 @@ std::string thrust_elements(std::span<const ThrustPoint> thrust, const BridgeFra
     if (point.normal > 0.0) lines[point.ring].push_back(frame(point.at()));
   std::string elements;
   for (const auto& [ring, points] : lines)
-    elements += path_element("line thrust", open_path(points), fmt::format("thrust line of ring {}", ring + 1));
+    elements +=
+        path_element("line thrust", open_path(points), fmt::format("thrust line of ring {}", ring + 1));
   return elements;
 }
 
@@ -124,17 +124,15 @@ std::string legend(double width, double y, double highest, bool has_thrust) {
 Drawing draw_stresses(const ForcesPicture& picture, std::span<const TriangleStress> triangles) {
   const BridgeFrame frame = frame_of(picture);
   const double height = frame.height + kColourBarHeight;
-  const double highest =
-      std::max(largest_in({0, static_cast<int>(triangles.size())}, triangles), 1e-300);
-  std::string elements =
-      background(picture, frame) + triangles_by_level(picture, frame, triangles, highest);
+  const double highest = std::max(largest_in({0, static_cast<int>(triangles.size())}, triangles), 1e-300);
+  std::string elements = background(picture, frame) + triangles_by_level(picture, frame, triangles, highest);
   elements += block_elements(picture.layout, frame, [&](BlockId id) {
     const Block& block = picture.layout.blocks[static_cast<std::size_t>(value(id))];
     if (picture.scene.lacks(id)) return BlockLook{"gone", missing_tip(block)};
     const double largest =
         largest_in(picture.mesh.block_triangles[static_cast<std::size_t>(value(id))], triangles);
-    return BlockLook{"outline", fmt::format("({})\nTresca stress up to {:.3g} MPa", block.label,
-                                            kMegapascals * largest)};
+    return BlockLook{
+        "outline", fmt::format("({})\nTresca stress up to {:.3g} MPa", block.label, kMegapascals * largest)};
   });
   std::vector<std::string> marks;
   for (int i = 0; i < kBarMarks; ++i)
@@ -147,8 +145,7 @@ Drawing draw_joints(const ForcesPicture& picture, std::span<const JointForces> j
                     std::span<const ThrustPoint> thrust) {
   const BridgeFrame frame = frame_of(picture);
   double highest = 1e-300;
-  for (const JointForces& joint : joints)
-    highest = std::max({highest, joint.pressure[0], joint.pressure[1]});
+  for (const JointForces& joint : joints) highest = std::max({highest, joint.pressure[0], joint.pressure[1]});
   std::string elements = background(picture, frame);
   elements += block_elements(picture.layout, frame, [&](BlockId id) {
     const Block& block = picture.layout.blocks[static_cast<std::size_t>(value(id))];

@@ -20,8 +20,8 @@ JointMaterial mortared(double residual_friction = 0.6) {
                      .friction_angle = std::atan(0.75)}};
 }
 
-/// Goes from one (gap, slip) to another in equal steps; adds up work by the trapezoidal rule and what the law calls
-/// dissipated.
+/// Goes from one (gap, slip) to another in equal steps; adds up work by the trapezoidal rule and what the law
+/// calls dissipated.
 struct Walk {
   CohesiveStiffness joint;
   BondMemory memory{};
@@ -123,9 +123,9 @@ TEST_CASE("The mortar's tangent is the derivative of its force (finite differenc
     Eigen::Matrix4d difference;
     for (int k = 0; k < 4; ++k) {
       const JointState dx = h * JointState::Unit(k);
-      difference.col(k) =
-          (integrate_bond(joint, memory, state + dx).force - integrate_bond(joint, memory, state - dx).force) /
-          (2 * h);
+      difference.col(k) = (integrate_bond(joint, memory, state + dx).force -
+                           integrate_bond(joint, memory, state - dx).force) /
+                          (2 * h);
     }
     const JointMemory after = updated_bond(joint, memory, state);
     for (std::size_t i = 0; i < kBondPoints; ++i) {
@@ -143,7 +143,7 @@ TEST_CASE("Energy is never made: 10,000 random paths (first law, work by the tra
   std::mt19937 generator(12);
   std::normal_distribution<double> normal(0.0, 1.0);
   const CohesiveStiffness joint = cohesive_stiffness(mortared(), 1.0);
-  double made = 0.0;       // most that a step has made
+  double made = 0.0;        // most that a step has made
   double unbalanced = 0.0;  // work that is neither stored nor dissipated, over the work
   for (int path = 0; path < 10000; ++path) {
     Walk walk{joint};

@@ -39,9 +39,7 @@ struct Solved {
     displacement = test::without_nan(solutions.back().displacement);
   }
 
-  std::vector<JointForces> joints() const {
-    return joint_forces(equations, bridge.parameters, displacement);
-  }
+  std::vector<JointForces> joints() const { return joint_forces(equations, bridge.parameters, displacement); }
 };
 
 double cross_product(const Point& a, const Point& b) {
@@ -140,8 +138,8 @@ TEST_CASE("The mean stress of a column's blocks is that of what stands on them (
     description.wall.length = 2.0;  // a roller at the left only
     description.material.plane = plane;
     const Model column = validation::assemble_blocks(
-        description, {validation::rectangle(Point(0.0, 0.0), 1.0, 0.5),
-                      validation::rectangle(Point(0.0, 0.5), 1.0, 0.5)});
+        description,
+        {validation::rectangle(Point(0.0, 0.0), 1.0, 0.5), validation::rectangle(Point(0.0, 0.5), 1.0, 0.5)});
     const Solved solved(column, built({}));
     const std::vector<TriangleStress> stresses =
         triangle_stresses(solved.equations, column.parameters, solved.displacement);
@@ -202,8 +200,8 @@ TEST_CASE("A thrust line goes through the centre of pressure (closed form) and i
     CHECK(thrust[i].normal == Approx(image.normal).epsilon(1e-7));
     CHECK(std::abs(thrust[i].eccentricity) < 0.5 * thrust[i].thickness);
   }
-  // Pressures p_0 and p_1 at the ends of one closed stretch of length h press at h (p_1 - p_0) / (6 (p_1 + p_0))
-  // from its middle.
+  // Pressures p_0 and p_1 at the ends of one closed stretch of length h press at h (p_1 - p_0) / (6 (p_1 +
+  // p_0)) from its middle.
   int looked_at = 0;
   for (const JointForces& joint : joints) {
     const Joint& where = bridge.joints[joint.joint];
@@ -212,8 +210,8 @@ TEST_CASE("A thrust line goes through the centre of pressure (closed form) and i
     });
     const double length = (joint.ends[1] - joint.ends[0]).norm();
     if (found == thrust.end() || joint.closed_share < 1.0 || length < 0.999 * found->thickness) continue;
-    const double along = length * (joint.pressure[1] - joint.pressure[0]) /
-                         (6.0 * (joint.pressure[1] + joint.pressure[0]));
+    const double along =
+        length * (joint.pressure[1] - joint.pressure[0]) / (6.0 * (joint.pressure[1] + joint.pressure[0]));
     const double outward = (joint.ends[1] - joint.ends[0]).dot(found->outward) > 0.0 ? along : -along;
     CHECK(found->eccentricity == Approx(outward).epsilon(1e-3));  // forces turn with the joint, by less
     ++looked_at;
