@@ -38,9 +38,11 @@ std::string material_text(const Material& material) {
 
 /// Nothing for dry joints.
 std::string mortar_text(const Mortar& mortar) {
-  const auto& [tensile_strength, opening_energy, cohesion, slip_energy, friction_angle] = mortar;
+  const auto& [tensile_strength, opening_energy, cohesion, slip_energy, friction_angle,
+               compressive_strength] = mortar;
   if (!mortar.is_there()) return "";
-  return row("mortar", tensile_strength, opening_energy, cohesion, slip_energy, friction_angle);
+  return row("mortar", tensile_strength, opening_energy, cohesion, slip_energy, friction_angle,
+             compressive_strength);
 }
 
 std::string joint_text(const JointMaterial& joints) {

@@ -88,6 +88,47 @@ double dissipation(const CohesiveStiffness& joint, const BondMemory& before, con
          bound.worn * joint.slip_length * share_worn + bound.lasting * length;
 }
 
+/// `gap` counts from where crushing has left the joint.
+BondResponse uncrushed_response(const CohesiveStiffness& joint, const BondMemory& memory, double gap,
+                                double slip) {
+  const Opening opening = opening_at(joint, memory, gap);
+  const ShearBound bound = shear_bound(joint, opening, gap);
+  const double xi = slip - memory.plastic_slip;
+  const double sign = xi < 0.0 ? -1.0 : 1.0;
+  const double stiffness = joint.dry.tangential;
+
+  double length = 0.0;
+  double length_by_gap = 0.0;
+  double length_by_slip = 0.0;  // by |xi|
+  if (stiffness * std::abs(xi) > bound.worn + bound.lasting) {
+    length = plastic_length(joint, bound, std::abs(xi));
+    const double left = std::exp(-length / joint.slip_length);
+    const double slope = stiffness - bound.worn * left / joint.slip_length;
+    length_by_slip = stiffness / slope;
+    length_by_gap = -(bound.worn_by_gap * left + bound.lasting_by_gap) / slope;
+  }
+
+  BondResponse response;
+  response.shear = stiffness * (xi - sign * length);
+  response.tangent(1, 1) = stiffness * (1.0 - length_by_slip);
+  response.tangent(1, 0) = -sign * stiffness * length_by_gap;
+  if (gap > 0.0) {
+    const double left = std::exp(-length / joint.slip_length);
+    response.normal = joint.tension * opening.bond * left * opening.ratio;
+    response.tangent(0, 0) =
+        joint.tension * left * (opening.by_gap * opening.ratio + opening.bond * opening.ratio_by_gap) -
+        response.normal / joint.slip_length * length_by_gap;
+    response.tangent(0, 1) = -sign * response.normal / joint.slip_length * length_by_slip;
+  } else {
+    response.normal = joint.dry.normal * gap;
+    response.tangent(0, 0) = joint.dry.normal;
+    response.tangent(0, 1) = 0.0;
+  }
+  response.memory = {memory.plastic_slip + sign * length, opening.w, memory.slipped + length, 0.0};
+  response.dissipated = dissipation(joint, memory, opening, bound, length);
+  return response;
+}
+
 const BondMemory& memory_at(const JointMemory& memory, std::size_t point) {
   static const BondMemory kUnhurt;
   return memory.bond.empty() ? kUnhurt : memory.bond[point];
@@ -122,46 +163,22 @@ CohesiveStiffness cohesive_stiffness(const JointMaterial& material, double area)
           .residual_friction = material.friction_coefficient(),
           .elastic_opening = elastic_opening,
           .opening_length = mortar.opening_energy / mortar.tensile_strength - 0.5 * elastic_opening,
+          .deepest = mortar.compressive_strength / material.normal_stiffness,
           .slip_length = mortar.slip_energy / mortar.cohesion};
 }
 
 BondResponse bond_response(const CohesiveStiffness& joint, const BondMemory& memory, double gap,
                            double slip) {
-  const Opening opening = opening_at(joint, memory, gap);
-  const ShearBound bound = shear_bound(joint, opening, gap);
-  const double xi = slip - memory.plastic_slip;
-  const double sign = xi < 0.0 ? -1.0 : 1.0;
-  const double stiffness = joint.dry.tangential;
-
-  double length = 0.0;
-  double length_by_gap = 0.0;
-  double length_by_slip = 0.0;  // by |xi|
-  if (stiffness * std::abs(xi) > bound.worn + bound.lasting) {
-    length = plastic_length(joint, bound, std::abs(xi));
-    const double left = std::exp(-length / joint.slip_length);
-    const double slope = stiffness - bound.worn * left / joint.slip_length;
-    length_by_slip = stiffness / slope;
-    length_by_gap = -(bound.worn_by_gap * left + bound.lasting_by_gap) / slope;
+  const double excess = -(gap + memory.crushed) - joint.deepest;
+  if (!(excess > 0.0)) {
+    BondResponse response = uncrushed_response(joint, memory, gap + memory.crushed, slip);
+    response.memory.crushed = memory.crushed;
+    return response;
   }
-
-  BondResponse response;
-  response.shear = stiffness * (xi - sign * length);
-  response.tangent(1, 1) = stiffness * (1.0 - length_by_slip);
-  response.tangent(1, 0) = -sign * stiffness * length_by_gap;
-  if (gap > 0.0) {
-    const double left = std::exp(-length / joint.slip_length);
-    response.normal = joint.tension * opening.bond * left * opening.ratio;
-    response.tangent(0, 0) =
-        joint.tension * left * (opening.by_gap * opening.ratio + opening.bond * opening.ratio_by_gap) -
-        response.normal / joint.slip_length * length_by_gap;
-    response.tangent(0, 1) = -sign * response.normal / joint.slip_length * length_by_slip;
-  } else {
-    response.normal = joint.dry.normal * gap;
-    response.tangent(0, 0) = joint.dry.normal;
-    response.tangent(0, 1) = 0.0;
-  }
-  response.memory = {memory.plastic_slip + sign * length, opening.w, memory.slipped + length};
-  response.dissipated = dissipation(joint, memory, opening, bound, length);
+  BondResponse response = uncrushed_response(joint, memory, -joint.deepest, slip);
+  response.tangent.col(0).setZero();
+  response.memory.crushed = memory.crushed + excess;
+  response.dissipated += joint.dry.normal * joint.deepest * excess;
   return response;
 }
 

@@ -16,6 +16,10 @@
 ///   w = max(w before, g - g_0),     sigma = f_t b g / (g_0 + w):
 /// elastic up to f_t, then exponential softening; unloading goes straight to the origin.
 ///
+/// Crushing. Pressure is bounded by f_m; what the bound cuts off makes the joint thinner for good, by q, and
+/// g counts from there: all of the above holds for g + q. (Perfectly plastic, of its own; the bond does not
+/// mind.)
+///
 /// Slip. tau is bounded to |tau| <= b (c - mu sigma) + (1 - b) mu_r p, pressure being the negative part of
 /// sigma: Coulomb's line of the intact mortar (c, mu) turns into that of the dry joint (mu_r) as the bond
 /// goes. What the bound cuts off is plastic slip of length dlambda, which wears the bond in turn, so dlambda
@@ -53,6 +57,7 @@ struct CohesiveStiffness {
   double residual_friction = 0.0;  ///< mu_r of the dry joint [-]
   double elastic_opening = 0.0;    ///< g_0 [m]
   double opening_length = 0.0;     ///< l_1 [m]
+  double deepest = 0.0;            ///< elastic penetration at f_m [m]
   double slip_length = 0.0;        ///< l_2 [m]
 };
 

@@ -12,6 +12,7 @@ struct BondMemory {
   double plastic_slip = 0.0;  ///< s_p [m]
   double opening = 0.0;       ///< w, the largest inelastic one [m]
   double slipped = 0.0;       ///< kappa, length of all plastic slip that wore the bond [m]
+  double crushed = 0.0;       ///< by how much the joint has become thinner [m]
   friend bool operator==(const BondMemory&, const BondMemory&) = default;
 };
 

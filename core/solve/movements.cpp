@@ -56,7 +56,8 @@ class Mover {
         moved_(Field::Zero(2, model.mesh.node_count())),
         state_{moved_, {}} {
     const Path path = go({.gravity_share = 0.0, .support_movement = moved_}, moved_, 1);
-    if (!path.complete) throw InputError("the structure does not stand under its weight before supports move");
+    if (!path.complete)
+      throw InputError("the structure does not stand under its weight before supports move");
     state_ = path.points.back().state;
   }
 
@@ -98,8 +99,7 @@ class Mover {
       Field target = moved_;
       move(support, {0.0, -way}, target);
       const Path path = go(from, target, 1);
-      const double reached =
-          path.complete ? -force_of(support, path.points.back().support_forces).y() : 0.0;
+      const double reached = path.complete ? -force_of(support, path.points.back().support_forces).y() : 0.0;
       if (!(reached > 0.0)) break;
       if (std::abs(reached / goal - 1.0) <= kPressureTolerance) return {0.0, -way};
       way *= goal / reached;

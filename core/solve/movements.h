@@ -21,9 +21,9 @@ struct MovedStructure {
   bool complete = false;  ///< false: no equilibrium was found beyond the last point
 };
 
-/// Gravity first, all supports where they are; then the movements one after the other. A pressure is reached by
-/// moving the support until its mean over the top is met to a millionth. Throws InputError if a movement's support does not
-/// exist or if gravity or a pressure finds no equilibrium.
+/// Gravity first, all supports where they are; then the movements one after the other. A pressure is reached
+/// by moving the support until its mean over the top is met to a millionth. Throws InputError if a movement's
+/// support does not exist or if gravity or a pressure finds no equilibrium.
 MovedStructure follow_movements(const Model& model, const std::vector<MovementDescription>& movements,
                                 const PathSettings& settings = {});
 

@@ -2,6 +2,7 @@
 /// @file What glues the faces of a joint, and which joints have it.
 
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -10,11 +11,12 @@ namespace voussoir {
 
 /// Glue until it is worn away; then the joint is dry (core/law/cohesive_law.h).
 struct Mortar {
-  double tensile_strength = 0.0;  ///< f_t [Pa]; 0: no mortar
-  double opening_energy = 0.0;    ///< G_I [J/m2], mode I
-  double cohesion = 0.0;          ///< c [Pa]
-  double slip_energy = 0.0;       ///< G_II [J/m2], mode II
-  double friction_angle = 0.0;    ///< of the intact mortar [rad]
+  double tensile_strength = 0.0;                                          ///< f_t [Pa]; 0: no mortar
+  double opening_energy = 0.0;                                            ///< G_I [J/m2], mode I
+  double cohesion = 0.0;                                                  ///< c [Pa]
+  double slip_energy = 0.0;                                               ///< G_II [J/m2], mode II
+  double friction_angle = 0.0;                                            ///< of the intact mortar [rad]
+  double compressive_strength = std::numeric_limits<double>::infinity();  ///< f_m [Pa]
 
   bool is_there() const { return tensile_strength > 0.0; }
   double friction_coefficient() const { return std::tan(friction_angle); }

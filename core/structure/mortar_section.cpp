@@ -20,6 +20,7 @@ void read_strength(TomlSection& section, const JointMaterial& joints, MortarRegi
   double degrees = joints.friction_angle / kDegree;
   section.number("friction_angle_deg", degrees, joints.friction_angle / kDegree, 89.0, true);
   mortar.friction_angle = degrees * kDegree;
+  section.positive("compressive_strength_Pa", mortar.compressive_strength);
   const double normal = region.normal_stiffness.value_or(joints.normal_stiffness);
   const double tangential = region.tangential_stiffness.value_or(joints.tangential_stiffness);
   const double elastic_opening = 0.5 * mortar.tensile_strength * mortar.tensile_strength / normal;

@@ -21,6 +21,11 @@ JointMaterial softened(JointMaterial joint, double share) {
   return joint;
 }
 
+bool has_mortar(const Parameters& parameters) {
+  return std::ranges::any_of(parameters.joints,
+                             [](const JointMaterial& joint) { return joint.mortar.is_there(); });
+}
+
 double joint_thickness(const Joint& joint, const Parameters& parameters) {
   const auto of = [&](BlockId block) {
     return parameters.blocks[static_cast<std::size_t>(value(block))].thickness;

@@ -24,6 +24,9 @@ Parameters uniform_parameters(const Structure& structure, const Material& materi
 /// The joint with this share of both its stiffnesses and all of its friction.
 JointMaterial softened(JointMaterial joint, double share);
 
+/// Has any joint mortar?
+bool has_mortar(const Parameters& parameters);
+
 /// How deep the joint is out of plane: as deep as the thinner of its blocks [m].
 double joint_thickness(const Joint& joint, const Parameters& parameters);
 

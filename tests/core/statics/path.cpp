@@ -1,4 +1,5 @@
-/// @file Paths of prescribed movement. Oracles: closed forms of a joint pulled and slid, the first law, refined meshes.
+/// @file Paths of prescribed movement. Oracles: closed forms of a joint pulled and slid, the first law,
+/// refined meshes.
 
 #include "core/statics/path.h"
 
@@ -66,9 +67,9 @@ Field movement(const Model& model, const Point& way, double angle) {
 Outside follow(const Model& model, const Field& from, const Field& to, const State& start, int steps) {
   const EquilibriumSystem system(model);
   const Coefficients coefficients(system, model.parameters);
-  const Path path = follow_path(system, coefficients,
-                                {.from = {.support_movement = from}, .to = {.support_movement = to}, .start = start},
-                                {.steps = steps});
+  const Path path = follow_path(
+      system, coefficients,
+      {.from = {.support_movement = from}, .to = {.support_movement = to}, .start = start}, {.steps = steps});
   Outside outside;
   outside.complete = path.complete;
   Field force = support_forces(StageEquations(system, coefficients, {.support_movement = from}, start.memory),
@@ -81,7 +82,8 @@ Outside follow(const Model& model, const Field& from, const Field& to, const Sta
     CHECK(sum.norm() < 1e-4 * kStrength * kArea);
     outside.strongest_x = std::max(outside.strongest_x, top.x());
     outside.strongest_y = std::max(outside.strongest_y, top.y());
-    outside.work += (point.share - share) * (0.5 * (force + point.support_forces)).cwiseProduct(to - from).sum();
+    outside.work +=
+        (point.share - share) * (0.5 * (force + point.support_forces)).cwiseProduct(to - from).sum();
     outside.largest_rise = std::min(outside.largest_rise, point.dissipated - outside.dissipated);
     outside.dissipated = point.dissipated;
     force = point.support_forces;
@@ -97,7 +99,8 @@ State at_rest(const Model& model) {
 
 }  // namespace
 
-TEST_CASE("A couplet pulled apart: strength f_t and energy G_I (closed form), on every mesh", "[mortar][path]") {
+TEST_CASE("A couplet pulled apart: strength f_t and energy G_I (closed form), on every mesh",
+          "[mortar][path]") {
   for (const int refinement : {0, 1, 2}) {
     const Model model = couplet(refinement);
     const Outside pulled =
@@ -112,7 +115,8 @@ TEST_CASE("A couplet pulled apart: strength f_t and energy G_I (closed form), on
 
 TEST_CASE("A couplet slid under pressure: strength c + mu p and energy G_II beside friction (closed form)",
           "[mortar][path]") {
-  constexpr double kPressure = 0.3e6, kFar = 4e-3, kStiff = 1e12;  // bricks hardly bend: the joint is loaded evenly
+  constexpr double kPressure = 0.3e6, kFar = 4e-3,
+                   kStiff = 1e12;  // bricks hardly bend: the joint is loaded evenly
   constexpr double kWay = kPressure * (1.0 / kNormal + 2.0 * kHeight / kStiff);
   for (const int refinement : {0, 1, 2}) {
     const Model model = couplet(refinement, kStiff);
@@ -123,7 +127,8 @@ TEST_CASE("A couplet slid under pressure: strength c + mu p and energy G_II besi
     REQUIRE(outside.complete);
     CHECK(outside.strongest_x == Approx((kCohesion + kFriction * kPressure) * kArea).epsilon(0.01));
     const double friction = kFriction * kPressure * kFar * kArea;
-    const double elastic = std::pow(kFriction * kPressure, 2) / 36e9 * kArea;  // at the end, with its friction
+    const double elastic =
+        std::pow(kFriction * kPressure, 2) / 36e9 * kArea;  // at the end, with its friction
     const double left = kSlipEnergy * std::exp(-kCohesion * kFar / kSlipEnergy) * kArea;
     CHECK(outside.dissipated - friction + elastic + left == Approx(kSlipEnergy * kArea).epsilon(0.01));
   }

@@ -1,4 +1,5 @@
-/// @file Which joints have mortar, halved blocks and held tops. Oracles: counts and places of the bond by hand.
+/// @file Which joints have mortar, halved blocks and held tops. Oracles: counts and places of the bond by
+/// hand.
 
 #include <catch2/catch.hpp>
 
@@ -24,8 +25,8 @@ BridgeDescription description_of(const std::string& text) {
 
 /// Joints of a bridge with mortar.
 int mortared(const Model& model) {
-  return static_cast<int>(std::ranges::count_if(model.parameters.joints,
-                                                [](const JointMaterial& joint) { return joint.mortar.is_there(); }));
+  return static_cast<int>(std::ranges::count_if(
+      model.parameters.joints, [](const JointMaterial& joint) { return joint.mortar.is_there(); }));
 }
 
 std::string refusal(const std::string& text) {
@@ -54,8 +55,8 @@ TEST_CASE("Mortar is laid between the roles and blocks that a region names", "[m
   CHECK(!model.parameters.contact.mortar.is_there());
   const Model everywhere = make_model(description_of(kStiffJoints + "[[mortar]]\n" + kMortar));
   CHECK(mortared(everywhere) == static_cast<int>(everywhere.joints.size()));
-  const Model one = make_model(
-      description_of(kStiffJoints + "[[mortar]]\nbetween = [\"1,1\", \"2,1\"]\n" + kMortar));
+  const Model one =
+      make_model(description_of(kStiffJoints + "[[mortar]]\nbetween = [\"1,1\", \"2,1\"]\n" + kMortar));
   CHECK(mortared(one) == 1);
   const Model but_one = make_model(description_of(kStiffJoints + "[[mortar]]\n" + kMortar +
                                                   "[[mortar]]\nbetween = [\"1,1\", \"2,1\"]\ndry = true\n"));
@@ -114,7 +115,8 @@ TEST_CASE("A bridge whose mortar is said to be none is the dry bridge to the las
   const Scene scene{.removed = {*a.layout.find({3, 1})}};
   CHECK((first.solve(scene).displacement.array().isNaN() == second.solve(scene).displacement.array().isNaN())
             .all());
-  CHECK(test::without_nan(first.solve(scene).displacement) == test::without_nan(second.solve(scene).displacement));
+  CHECK(test::without_nan(first.solve(scene).displacement) ==
+        test::without_nan(second.solve(scene).displacement));
 }
 
 TEST_CASE("Movements are read, and what they cannot be is refused", "[mortar][bridge-file]") {
