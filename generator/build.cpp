@@ -62,6 +62,9 @@ std::vector<RecordKey> wanted_keys(const BuildRequest& request, std::size_t vari
 
 Build prepare(const BuildRequest& request, const SolverChoice& solver, Progress& progress) {
   std::vector<Model> bridges = {make_model(request.bridge.description)};
+  if (has_mortar(bridges.front().parameters))
+    throw InputError(fmt::format("{}: has [[mortar]]: expected dry joints, others a database cannot hold yet",
+                                 request.bridge.name));
   std::vector<VariantParameters> variants = {parameters_of(bridges.front())};
   for (const VariantParameters& parameters : request.other_variants) {
     bridges.push_back(variant_of(bridges.front(), parameters));

@@ -19,8 +19,10 @@ std::string row(const char* name, const Numbers&... numbers) {
 }
 
 std::string wall_text(const WallDescription& wall) {
-  const auto& [length, courses, course_height, block_length, bond, smallest_piece, smallest_block] = wall;
-  return row("wall", length, courses, course_height, block_length, bond, smallest_piece, smallest_block);
+  const auto& [length, courses, course_height, block_length, bond, smallest_piece, smallest_block, halved] =
+      wall;
+  return row("wall", length, courses, course_height, block_length, bond, smallest_piece, smallest_block) +
+         (halved ? "halved\n" : "");
 }
 
 std::string span_text(const SpanDescription& span) {
@@ -34,9 +36,24 @@ std::string material_text(const Material& material) {
   return row("material", young_modulus, poisson_ratio, density, thickness, plane);
 }
 
+/// Nothing for dry joints.
+std::string mortar_text(const Mortar& mortar) {
+  const auto& [tensile_strength, opening_energy, cohesion, slip_energy, friction_angle,
+               compressive_strength] = mortar;
+  if (!mortar.is_there()) return "";
+  return row("mortar", tensile_strength, opening_energy, cohesion, slip_energy, friction_angle,
+             compressive_strength);
+}
+
 std::string joint_text(const JointMaterial& joints) {
-  const auto& [normal_stiffness, tangential_stiffness, friction_angle] = joints;
-  return row("joints", normal_stiffness, tangential_stiffness, friction_angle);
+  const auto& [normal_stiffness, tangential_stiffness, friction_angle, mortar] = joints;
+  return row("joints", normal_stiffness, tangential_stiffness, friction_angle) + mortar_text(mortar);
+}
+
+std::string region_text(const MortarRegion& region) {
+  const auto& [mortar, normal_stiffness, tangential_stiffness, within_blocks, between] = region;
+  return row("region", normal_stiffness.value_or(0.0), tangential_stiffness.value_or(0.0), within_blocks) +
+         fmt::format("{}\n", fmt::join(between, " | ")) + mortar_text(mortar);
 }
 
 std::string mesh_text(const MeshDescription& mesh) {
@@ -45,19 +62,22 @@ std::string mesh_text(const MeshDescription& mesh) {
 }
 
 std::string support_text(const SupportDescription& supports) {
-  const auto& [base, sides] = supports;
-  return row("supports", base, sides);
+  const auto& [base, sides, top, embedded_courses] = supports;
+  const bool held_above = top != SupportKind::free || embedded_courses > 0;
+  return row("supports", base, sides) + (held_above ? row("held", top, embedded_courses) : "");
 }
 
 std::string physics_text(const BridgeDescription& description) {
-  const auto& [name, wall, spans, material, joints, supports, control_points, mesh, gravity, joint_tolerance,
-               loads, uncertainty] = description;
+  const auto& [name, wall, spans, material, joints, mortar, supports, control_points, mesh, gravity,
+               joint_tolerance, loads, movements, uncertainty] = description;
+  static_cast<void>(movements);    // no scene is solved under them
   static_cast<void>(uncertainty);  // no solution depends on it
   static_cast<void>(loads);        // whose states are told apart by load case
   static_cast<void>(name);
   static_cast<void>(control_points);
   std::string text = wall_text(wall);
   for (const SpanDescription& span : spans) text += span_text(span);
+  for (const MortarRegion& region : mortar) text += region_text(region);
   return text + material_text(material) + joint_text(joints) + support_text(supports) + mesh_text(mesh) +
          row("load", gravity) + row("tolerance", joint_tolerance);
 }

@@ -35,6 +35,9 @@ int main(int argc, char** argv) {
       ->check(CLI::Range(1, 100000));
   app.add_option("--random-scenes", options.settings.random_scenes, "of the operating curves, default 150")
       ->check(CLI::Range(1, 100000));
+  app.add_option(
+      "--wall", options.settings.wall,
+      "bridge file of the wall of Fig. 3, examples/bridges/eindhoven-wall.toml; default: left out");
   app.add_option("--seed", options.settings.seed, "default 1");
   return voussoir::run_program(app, argc, argv, [&] { return reproduce(options); });
 }

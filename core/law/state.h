@@ -7,11 +7,21 @@
 
 namespace voussoir {
 
-/// Plastic slip of a joint at the two ends of its stretch [m]: what friction has given way by. Linear in
-/// between.
+/// What a point of a joint with mortar remembers (cohesive_law.h).
+struct BondMemory {
+  double plastic_slip = 0.0;  ///< s_p [m]
+  double opening = 0.0;       ///< w, the largest inelastic one [m]
+  double slipped = 0.0;       ///< kappa, length of all plastic slip that wore the bond [m]
+  double crushed = 0.0;       ///< by how much the joint has become thinner [m]
+  friend bool operator==(const BondMemory&, const BondMemory&) = default;
+};
+
+/// Plastic slip of a dry joint at the two ends of its stretch [m]: what friction has given way by. Linear in
+/// between. Of a joint with mortar its points instead.
 struct JointMemory {
   double slip_0 = 0.0;
   double slip_1 = 0.0;
+  std::vector<BondMemory> bond{};  ///< at bond_points(); empty: no mortar, or nothing has happened to it
   friend bool operator==(const JointMemory&, const JointMemory&) = default;
 };
 

@@ -5,10 +5,12 @@ namespace voussoir {
 CombinedSolver::CombinedSolver(const Model& model, const SolverSettings& settings)
     : settings_(settings),
       newton_(model, settings.newton),
-      motion_(model, newton_.system(), settings.motion) {}
+      motion_(model, newton_.system(), settings.motion),
+      moves_(!has_mortar(model.parameters)) {}
 
 std::vector<Solution> CombinedSolver::solve(std::span<const StageTask> tasks) {
   std::vector<Solution> solutions = newton_.solve(tasks);
+  if (!moves_) return solutions;
   follow(settings_.motion.decision, tasks, solutions);
   follow(settings_.patient, tasks, solutions);
   return solutions;

@@ -34,6 +34,7 @@ class CombinedSolver {
   SolverSettings settings_;
   QuasiStaticSolver newton_;
   DynamicSolver motion_;
+  bool moves_;  ///< motion knows no mortar: with it, Newton has the last word
 };
 
 }  // namespace voussoir

@@ -158,6 +158,12 @@ SolverSettings acting_settings(SolverSettings settings, const Model& model) {
   // not needed takes a hundred times as long as those.
   constexpr double kStiffJoints = 0.1;
   constexpr int kMostOfStiffJoints = 60;
+  if (has_mortar(model.parameters)) {
+    if (settings.kind == SolverKind::dynamic)
+      throw InputError(
+          "motion knows no mortar: expected a bridge without [[mortar]] or the quasi-static solver");
+    settings.newton.follow_falls = true;
+  }
   double stiffest = model.parameters.contact.normal_stiffness;
   for (const JointMaterial& joint : model.parameters.joints)
     stiffest = std::max(stiffest, joint.normal_stiffness);

@@ -26,7 +26,8 @@ struct SolverSettings {
 };
 
 /// The settings that act on this model: where joints are stiffer than blocks, Newton's search is not given up
-/// early.
+/// early; where they have mortar, which motion does not know, it follows falls itself. Throws InputError if
+/// motion is asked for with mortar.
 SolverSettings acting_settings(SolverSettings settings, const Model& model);
 
 /// "key = value" lines, a key for every setting that acts, named for its phase: "newton.tolerance",

@@ -81,6 +81,18 @@ void add_local(const std::array<int, N>& slots, const Matrix& local, TangentTarg
     if (slots[k] >= 0) tangent.first[static_cast<std::size_t>(slots[k]) * tangent.stride] += local.data()[k];
 }
 
+/// The joint's mortar, or null if it is dry.
+const CohesiveStiffness* mortar_of(const Coefficients& with, std::size_t joint) {
+  return with.mortar.empty() || !with.mortar[joint] ? nullptr : &*with.mortar[joint];
+}
+
+JointResponse joint_response(const StageEquations& equations, std::size_t j, const JointState& state) {
+  const Coefficients& with = *equations.coefficients;
+  if (const CohesiveStiffness* mortar = mortar_of(with, j))
+    return integrate_bond(*mortar, equations.memory[j], state);
+  return integrate_joint(with.joints[j], equations.memory[j], state, equations.system->joint_rule);
+}
+
 /// Gives the unknowns of removed blocks an equation of their own: 1 * change = 0.
 void pin_removed(const StageEquations& equations, TangentTarget tangent) {
   const EquilibriumSystem& system = *equations.system;
@@ -99,6 +111,26 @@ void pin_removed(const StageEquations& equations, TangentTarget tangent) {
 void clear_held(const EquilibriumSystem& system, Field& forces) {
   for (std::size_t c = 0; c < system.unknown.size(); ++c)
     if (system.unknown[c] < 0) forces.data()[c] = 0.0;
+}
+
+/// Unbalanced forces, at held components, too.
+Field all_forces(const StageEquations& equations, const Field& displacement) {
+  const EquilibriumSystem& system = *equations.system;
+  const Coefficients& with = *equations.coefficients;
+  Field forces = equations.load;
+  for_present_triangles(equations, [&](std::size_t t, std::size_t block) {
+    const auto& nodes = system.structure->mesh.triangles[t].nodes;
+    subtract_at(forces, nodes,
+                triangle_force(system.triangles[t], with.moduli[block], with.thickness[block],
+                               gathered(displacement, nodes), equations.temperature * with.thermal[block]));
+  });
+  for_present_joints(equations, [&](const Joint& joint, std::size_t j) {
+    const JointKinematics kinematics =
+        joint_kinematics(system.joints[j], gathered(displacement, corners(joint)));
+    const JointResponse response = joint_response(equations, j, kinematics.state);
+    subtract_at(forces, corners(joint), kinematics.gradient.transpose().lazyProduct(response.force).eval());
+  });
+  return forces;
 }
 
 }  // namespace
@@ -130,8 +162,11 @@ Coefficients::Coefficients(const EquilibriumSystem& system, const Parameters& pa
   }
   for (std::size_t j = 0; j < structure.joints.size(); ++j) {
     const Joint& joint = structure.joints[j];
-    joints.push_back(
-        joint_stiffness(parameters.joints[j], joint.length * joint_thickness(joint, parameters)));
+    const double area = joint.length * joint_thickness(joint, parameters);
+    joints.push_back(joint_stiffness(parameters.joints[j], area));
+    if (!parameters.joints[j].mortar.is_there()) continue;
+    mortar.resize(structure.joints.size());
+    mortar[j] = cohesive_stiffness(parameters.joints[j], area);
   }
 }
 
@@ -154,23 +189,14 @@ StageEquations::StageEquations(const EquilibriumSystem& system_, const Coefficie
 }
 
 Field unbalanced_forces(const StageEquations& equations, const Field& displacement) {
-  const EquilibriumSystem& system = *equations.system;
-  const Coefficients& with = *equations.coefficients;
-  Field forces = equations.load;
-  for_present_triangles(equations, [&](std::size_t t, std::size_t block) {
-    const auto& nodes = system.structure->mesh.triangles[t].nodes;
-    subtract_at(forces, nodes,
-                triangle_force(system.triangles[t], with.moduli[block], with.thickness[block],
-                               gathered(displacement, nodes), equations.temperature * with.thermal[block]));
-  });
-  for_present_joints(equations, [&](const Joint& joint, std::size_t j) {
-    const JointKinematics kinematics =
-        joint_kinematics(system.joints[j], gathered(displacement, corners(joint)));
-    const JointResponse response =
-        integrate_joint(with.joints[j], equations.memory[j], kinematics.state, system.joint_rule);
-    subtract_at(forces, corners(joint), kinematics.gradient.transpose().lazyProduct(response.force).eval());
-  });
-  clear_held(system, forces);
+  Field forces = all_forces(equations, displacement);
+  clear_held(*equations.system, forces);
+  return forces;
+}
+
+Field support_forces(const StageEquations& equations, const Field& displacement) {
+  Field forces = -all_forces(equations, displacement);
+  for (const int component : equations.system->component) forces.data()[component] = 0.0;
   return forces;
 }
 
@@ -192,8 +218,7 @@ Field assemble(const StageEquations& equations, const Field& displacement, doubl
   for_present_joints(equations, [&](const Joint& joint, std::size_t j) {
     const Vector8d q = gathered(displacement, corners(joint));
     const JointKinematics kinematics = joint_kinematics(system.joints[j], q);
-    JointResponse response =
-        integrate_joint(with.joints[j], equations.memory[j], kinematics.state, system.joint_rule);
+    JointResponse response = joint_response(equations, j, kinematics.state);
     subtract_at(forces, corners(joint), kinematics.gradient.transpose().lazyProduct(response.force).eval());
     if (bonding > 0.0)
       response.tangent = (1.0 - bonding) * response.tangent + bonding * bonded_joint_tangent(with.joints[j]);
@@ -213,7 +238,10 @@ std::vector<JointMemory> updated_memory(const StageEquations& equations, const F
   for_present_joints(equations, [&](const Joint& joint, std::size_t j) {
     const JointKinematics kinematics =
         joint_kinematics(system.joints[j], gathered(displacement, corners(joint)));
-    memory[j] = updated_memory(equations.coefficients->joints[j], memory[j], kinematics.state);
+    if (const CohesiveStiffness* mortar = mortar_of(*equations.coefficients, j))
+      memory[j] = updated_bond(*mortar, memory[j], kinematics.state);
+    else
+      memory[j] = updated_memory(equations.coefficients->joints[j], memory[j], kinematics.state);
   });
   return memory;
 }

@@ -9,8 +9,10 @@
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
+#include <optional>
 #include <vector>
 
+#include "core/law/cohesive_law.h"
 #include "core/law/joint_kinematics.h"
 #include "core/law/joint_quadrature.h"
 #include "core/law/state.h"
@@ -42,11 +44,12 @@ struct EquilibriumSystem {
 struct Coefficients {
   Coefficients(const EquilibriumSystem& system, const Parameters& parameters);
 
-  std::vector<PlaneModuli> moduli;     ///< of each block
-  std::vector<double> thickness;       ///< of each block [m]
-  std::vector<double> thermal;         ///< thermal_pressure of each block [Pa/K]
-  std::vector<JointStiffness> joints;  ///< of each joint
-  Eigen::VectorXd weight;              ///< of each node under full gravity [N], positive
+  std::vector<PlaneModuli> moduli;                       ///< of each block
+  std::vector<double> thickness;                         ///< of each block [m]
+  std::vector<double> thermal;                           ///< thermal_pressure of each block [Pa/K]
+  std::vector<JointStiffness> joints;                    ///< of each joint
+  std::vector<std::optional<CohesiveStiffness>> mortar;  ///< of each joint; empty if all are dry
+  Eigen::VectorXd weight;                                ///< of each node under full gravity [N], positive
 };
 
 /// The equations of one stage of one variant. Shares `system` and `coefficients`, which must outlive it.
@@ -71,6 +74,9 @@ struct StageEquations {
 /// Unbalanced force of every displacement component [N] (2 x nodes); zero at removed blocks and held
 /// components.
 Field unbalanced_forces(const StageEquations& equations, const Field& displacement);
+
+/// Forces by which the supports hold the structure [N] (2 x nodes): zero at free components.
+Field support_forces(const StageEquations& equations, const Field& displacement);
 
 /// Where an assembly writes a matrix: value i of the pattern at first[i * stride]. A stride lets matrices lie
 /// side by side.

@@ -1,6 +1,7 @@
 #pragma once
 /// @file A block: a polygon with the part that it plays, and the names by which it is called.
 
+#include <array>
 #include <compare>
 #include <cstdint>
 #include <string>
@@ -32,6 +33,12 @@ enum class BlockRole : std::uint8_t {
   wall = 0,  ///< spandrel wall
   ring = 1   ///< arch ring, legs included
 };
+
+inline constexpr std::array<const char*, 2> kRoleNames = {"wall", "ring"};
+
+inline const char* name_of(BlockRole role) {
+  return kRoleNames[static_cast<std::size_t>(role)];
+}
 
 /// How a block was cut out; the mesh rule depends on it.
 enum class BlockKind : std::uint8_t {

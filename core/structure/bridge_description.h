@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/geometry/polygon.h"
+#include "core/structure/mortar.h"
 #include "core/structure/uncertainty.h"
 
 namespace voussoir {
@@ -32,6 +33,7 @@ struct WallDescription {
   double smallest_piece = 1e-9;  ///< [m2] smaller remains of blocks cut by a ring vanish
   double smallest_block = 0.0;   ///< [-] share of a whole block; smaller pieces are joined to a neighbour. A
                                  ///< bridge file that says nothing means kSmallestBlock
+  bool halved = false;  ///< whole blocks are laid as two halves, so that they can break in the middle
 };
 
 /// A stilted semicircular arch ring; below its centre it goes straight down to the ground (y = 0).
@@ -57,11 +59,12 @@ struct Material {
   double thermal_expansion = 8e-6;  ///< [1/K] linear
 };
 
-/// Dry joints: no tension, no cohesion (paper, Table 1).
+/// Joints; by default dry: no tension, no cohesion (paper, Table 1).
 struct JointMaterial {
   double normal_stiffness = 1e9;                            ///< [Pa/m] per unit joint area
   double tangential_stiffness = 1e8;                        ///< [Pa/m] per unit joint area
-  double friction_angle = 35.0 * std::numbers::pi / 180.0;  ///< [rad]
+  double friction_angle = 35.0 * std::numbers::pi / 180.0;  ///< [rad] of the dry joint
+  Mortar mortar{};
 
   double friction_coefficient() const { return std::tan(friction_angle); }
 };
@@ -75,6 +78,19 @@ enum class SupportKind {
 struct SupportDescription {
   SupportKind base = SupportKind::clamped;  ///< nodes at y = 0
   SupportKind sides = SupportKind::roller;  ///< nodes at x = 0 and x = length
+  SupportKind top = SupportKind::free;      ///< nodes at the top of the wall
+  int embedded_courses = 0;  ///< so many at the base and, if it is held, at the top are held whole, as in a
+                             ///< steel beam
+};
+
+/// A movement of a support, one after the other, each from where the one before has ended.
+struct MovementDescription {
+  std::string support;  ///< its name: "top", "foot 1", ..
+  std::optional<double>
+      pressure;  ///< [Pa] the support moves straight towards the structure until it presses with this
+  double x = 0.0, y = 0.0;  ///< [m] or by this much
+  int steps = 1;
+  friend bool operator==(const MovementDescription&, const MovementDescription&) = default;
 };
 
 /// Which sets of points are measured. T1.. are the upper corners of the top course's blocks, A1.. the
@@ -131,12 +147,14 @@ struct BridgeDescription {
   std::vector<SpanDescription> spans = {SpanDescription{}};
   Material material;
   JointMaterial joints;
+  std::vector<MortarRegion> mortar;  ///< later ones take the place of earlier ones
   SupportDescription supports;
   ControlPointDescription control_points;
   MeshDescription mesh;
   double gravity = 9.81;          ///< [m/s2] downwards
   double joint_tolerance = 1e-6;  ///< [m] edges closer than this form a joint
   std::vector<LoadDescription> loads;
+  std::vector<MovementDescription> movements;
   Uncertainty uncertainty;
 };
 

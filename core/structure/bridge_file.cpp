@@ -6,6 +6,8 @@
 #include <utility>
 
 #include "core/structure/loads_section.h"
+#include "core/structure/mortar_section.h"
+#include "core/structure/movements_section.h"
 #include "core/structure/uncertainty_section.h"
 #include "reference_bridge_text.h"
 
@@ -29,6 +31,7 @@ void read_wall(TomlSection section, WallDescription& wall) {
   section.positive("smallest_piece_m2", wall.smallest_piece);
   wall.smallest_block = kSmallestBlock;
   section.number("smallest_block", wall.smallest_block, 0.0, 0.5, true);
+  section.flag("halved", wall.halved);
   section.refuse_unknown_keys();
 }
 
@@ -65,10 +68,12 @@ void read_joints(TomlSection section, BridgeDescription& description) {
 }
 
 void read_supports(TomlSection section, SupportDescription& supports) {
-  for (const auto& [key, target] : {std::pair{"base", &supports.base}, std::pair{"sides", &supports.sides}})
+  for (const auto& [key, target] : {std::pair{"base", &supports.base}, std::pair{"sides", &supports.sides},
+                                    std::pair{"top", &supports.top}})
     section.choice(
         key, *target,
         {{"clamped", SupportKind::clamped}, {"roller", SupportKind::roller}, {"free", SupportKind::free}});
+  section.count("embedded_courses", supports.embedded_courses, 0, kMostCourses);
   section.refuse_unknown_keys();
 }
 
@@ -166,6 +171,10 @@ BridgeDescription interpret(const toml::table& root, const std::string& file) {
       span_lines.push_back(static_cast<long>(node.source().begin.line));
     }
   }
+  if (const toml::array* mortar = top.tables("mortar", "[[mortar]]"))
+    description.mortar = read_mortar(*mortar, file, description);
+  if (const toml::array* movements = top.tables("movements", "[[movements]]"))
+    description.movements = read_movements(*movements, file);
   const toml::array* loads = top.tables("loads", "[[loads]]");
   top.refuse_unknown_keys();
   check_size(description, file, top.line_of("wall"));

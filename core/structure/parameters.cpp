@@ -9,13 +9,21 @@ Parameters uniform_parameters(const Structure& structure, const Material& materi
   return {.gravity = gravity,
           .blocks = std::vector<Material>(structure.layout.size(), material),
           .joints = std::vector<JointMaterial>(structure.joints.size(), joints),
-          .contact = joints};
+          .contact = {.normal_stiffness = joints.normal_stiffness,
+                      .tangential_stiffness = joints.tangential_stiffness,
+                      .friction_angle = joints.friction_angle},
+          .contact_share = {}};
 }
 
 JointMaterial softened(JointMaterial joint, double share) {
   joint.normal_stiffness *= share;
   joint.tangential_stiffness *= share;
   return joint;
+}
+
+bool has_mortar(const Parameters& parameters) {
+  return std::ranges::any_of(parameters.joints,
+                             [](const JointMaterial& joint) { return joint.mortar.is_there(); });
 }
 
 double joint_thickness(const Joint& joint, const Parameters& parameters) {

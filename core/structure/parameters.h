@@ -12,7 +12,7 @@ struct Parameters {
   double gravity = 9.81;              ///< [m/s2] downwards
   std::vector<Material> blocks;       ///< of each block of the structure
   std::vector<JointMaterial> joints;  ///< of each joint of the structure
-  JointMaterial contact;              ///< where blocks meet that did not touch at rest
+  JointMaterial contact;              ///< where blocks meet that did not touch at rest: dry
   std::vector<double> contact_share;  ///< [-] of each block: where it meets another newly, stiffness is the
                                       ///< smaller share of the two of `contact`; empty: all of it
 };
@@ -23,6 +23,9 @@ Parameters uniform_parameters(const Structure& structure, const Material& materi
 
 /// The joint with this share of both its stiffnesses and all of its friction.
 JointMaterial softened(JointMaterial joint, double share);
+
+/// Has any joint mortar?
+bool has_mortar(const Parameters& parameters);
 
 /// How deep the joint is out of plane: as deep as the thinner of its blocks [m].
 double joint_thickness(const Joint& joint, const Parameters& parameters);

@@ -4,6 +4,7 @@
 #include <set>
 
 #include "core/error.h"
+#include "core/structure/halved_blocks.h"
 
 namespace voussoir {
 namespace {
@@ -39,11 +40,12 @@ Structure assemble(std::vector<Block> blocks, const AssemblyRules& rules) {
 }
 
 Structure make_structure(const BridgeDescription& description) {
-  Structure structure =
-      assemble(lay_blocks(description).blocks, {.mesh = description.mesh,
-                                                .joint_tolerance = description.joint_tolerance,
-                                                .mirror_axis = 0.5 * description.wall.length});
+  Structure structure = assemble(halved(lay_blocks(description).blocks, description.wall),
+                                 {.mesh = description.mesh,
+                                  .joint_tolerance = description.joint_tolerance,
+                                  .mirror_axis = 0.5 * description.wall.length});
   structure.supports = box_supports(structure.mesh, description.supports, description.wall.length);
+  hold_top(description, structure.layout, structure.mesh, structure.supports);
   structure.control_points = find_control_points(structure.layout, structure.mesh, description);
   if (structure.control_points.empty())
     throw InputError("the bridge has no control points: switch on top or arch");

@@ -64,6 +64,17 @@ std::vector<Support> feet(const Mesh& mesh, SupportKind kind, double tolerance) 
   return supports;
 }
 
+/// Adds the nodes of the blocks in these courses that are not yet there.
+void embed(const BlockLayout& layout, const Mesh& mesh, int first_course, int last_course, Support& support) {
+  for (std::size_t b = 0; b < layout.size(); ++b) {
+    const int course = layout.blocks[b].index.course;
+    if (course < std::max(first_course, 1) || course > last_course) continue;
+    for (int node = mesh.block_nodes[b].begin; node < mesh.block_nodes[b].end; ++node)
+      if (std::ranges::find(support.nodes, NodeId{node}) == support.nodes.end())
+        support.nodes.push_back(NodeId{node});
+  }
+}
+
 }  // namespace
 
 std::vector<Support> box_supports(const Mesh& mesh, const SupportDescription& description, double length) {
@@ -73,6 +84,18 @@ std::vector<Support> box_supports(const Mesh& mesh, const SupportDescription& de
   supports.push_back(face("right side", nodes_at(mesh, 0, length, tolerance), description.sides, 0));
   std::erase_if(supports, [](const Support& s) { return s.nodes.empty() || !(s.holds_x || s.holds_y); });
   return supports;
+}
+
+void hold_top(const BridgeDescription& description, const BlockLayout& layout, const Mesh& mesh,
+              std::vector<Support>& supports) {
+  const WallDescription& wall = description.wall;
+  const SupportDescription& held = description.supports;
+  const double height = wall.courses * wall.course_height;
+  for (Support& support : supports)
+    if (support.is_foot) embed(layout, mesh, 1, held.embedded_courses, support);
+  if (held.top == SupportKind::free || wall.courses == 0) return;
+  supports.push_back(face("top", nodes_at(mesh, 1, height, 1e-9 * height), held.top, 1));
+  embed(layout, mesh, wall.courses - held.embedded_courses + 1, wall.courses, supports.back());
 }
 
 std::vector<bool> held_components(const std::vector<Support>& supports, const Mesh& mesh) {

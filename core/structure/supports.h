@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "core/structure/block_layout.h"
 #include "core/structure/bridge_description.h"
 #include "core/structure/mesh.h"
 
@@ -22,6 +23,11 @@ struct Support {
 /// for each stretch of ground on which blocks stand side by side. Sets that hold nothing or have no node are
 /// left out.
 std::vector<Support> box_supports(const Mesh& mesh, const SupportDescription& description, double length);
+
+/// Adds the support "top" of a wall that is held above, and what is embedded to both: the nodes of the lowest
+/// and highest courses.
+void hold_top(const BridgeDescription& description, const BlockLayout& layout, const Mesh& mesh,
+              std::vector<Support>& supports);
 
 /// Per displacement component (2 node + axis): does a support hold it?
 std::vector<bool> held_components(const std::vector<Support>& supports, const Mesh& mesh);

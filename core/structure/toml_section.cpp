@@ -48,6 +48,19 @@ void TomlSection::text(const char* key, std::string& target) {
   target = node->as_string()->get();
 }
 
+std::vector<std::string> TomlSection::texts(const char* key) {
+  const toml::node* node = take(key);
+  if (node == nullptr) return {};
+  const char* expected = "expected texts in brackets, [\"a\", \"b\"]";
+  if (!node->is_array()) refuse(key, expected);
+  std::vector<std::string> values;
+  for (const toml::node& value : *node->as_array()) {
+    if (!value.is_string()) refuse(key, expected);
+    values.push_back(value.as_string()->get());
+  }
+  return values;
+}
+
 const toml::table* TomlSection::table(const char* key) {
   const toml::node* node = take(key);
   if (node != nullptr && !node->is_table()) refuse(key, fmt::format("expected a table: write [{}]", key));

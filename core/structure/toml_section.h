@@ -7,6 +7,7 @@
 #include <set>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "core/error.h"
 
@@ -31,6 +32,8 @@ class TomlSection {
   void count(const char* key, int& target, int least, int most);
   void flag(const char* key, bool& target);
   void text(const char* key, std::string& target);
+  /// ["a", "b"]; empty if the key is not there.
+  std::vector<std::string> texts(const char* key);
 
   template <typename Choice>
   void choice(const char* key, Choice& target,

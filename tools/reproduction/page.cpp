@@ -103,8 +103,10 @@ std::string source_html(const Subject& subject) {
 
 std::vector<Chapter> reproduce(const Subject& subject) {
   const Results results = run_experiments(subject);
+  std::vector<Exhibit> model = geometry_exhibits(subject);
+  if (!subject.settings.wall.empty()) model.push_back(wall_exhibit(run_wall_test(subject.settings.wall)));
   return {findings_chapter(subject, results),
-          {"model", "The model", "", geometry_exhibits(subject)},
+          {"model", "The model", "", std::move(model)},
           chapter_of(subject, results, false),
           chapter_of(subject, results, true),
           beyond_chapter(results)};

@@ -16,6 +16,7 @@ struct ReproductionSettings {
   int trials = 50;          ///< noisy trials (seeds) of each case and noise level
   int random_scenes = 150;  ///< of the operating curves at each noise level, and of the comparisons
   std::uint64_t seed = 1;
+  std::string wall{};  ///< bridge file of the wall of Fig. 3; empty: left out
 };
 
 /// A database with the cases to show.

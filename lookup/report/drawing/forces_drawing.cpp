@@ -17,7 +17,8 @@ constexpr double kMegapascals = 1e-6;
 constexpr double kKilonewtons = 1e-3;
 constexpr double kMillimetres = 1e3;
 constexpr int kBarMarks = 5;
-constexpr double kHeadingHeight = 0.75;  // [m] on the bridge's scale
+constexpr double kHeadingHeight = 0.75;  // [m] on the bridge's scale ..
+constexpr double kHeadingShare = 0.125;  // .. and no more than this share of its height
 constexpr double kLegendHeight = 34.0;
 constexpr double kThickest = 7.0;  // units, of the joint with the highest pressure
 constexpr double kThinnest = 1.2;
@@ -29,7 +30,10 @@ std::string background(const ForcesPicture& picture, const BridgeFrame& frame) {
 }
 
 BridgeFrame frame_of(const ForcesPicture& picture) {
-  return frame_of(picture.layout, picture.width, kHeadingHeight, 0.15);
+  double top = 0.0;
+  for (const Block& block : picture.layout.blocks)
+    for (const Point& corner : block.polygon) top = std::max(top, corner.y());
+  return frame_of(picture.layout, picture.width, std::min(kHeadingHeight, kHeadingShare * top), 0.15);
 }
 
 std::string missing_tip(const Block& block) {

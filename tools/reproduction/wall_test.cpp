@@ -1,0 +1,73 @@
+#include "tools/reproduction/wall_test.h"
+
+#include <algorithm>
+
+#include "core/error.h"
+#include "core/structure/halved_blocks.h"
+
+namespace voussoir {
+namespace {
+
+constexpr double kKilo = 1e-3;
+constexpr double kWorn = 0.5;  ///< share of the bond that is left where a joint counts as cracked
+
+CrackPlace place_of(const BridgeDescription& description, const Model& model, const Joint& joint) {
+  const Block& first = model.layout[joint.first];
+  const Block& second = model.layout[joint.second];
+  if (are_halves(first, second, description.wall)) return CrackPlace::brick;
+  if (first.index.course == second.index.course) return CrackPlace::head;
+  const int lower = std::min(first.index.course, second.index.course);
+  const int embedded = description.supports.embedded_courses;
+  const bool at_beam = lower <= embedded || lower >= description.wall.courses - embedded;
+  return at_beam ? CrackPlace::beam : CrackPlace::bed;
+}
+
+/// Fills in what has cracked.
+void find_cracks(const WallTest& test, const Coefficients& coefficients, const State& state, WallStep& step) {
+  for (std::size_t j = 0; j < state.memory.size(); ++j) {
+    if (coefficients.mortar.empty() || !coefficients.mortar[j] || state.memory[j].bond.empty()) continue;
+    const CohesiveStiffness& mortar = *coefficients.mortar[j];
+    double left = 0.0, opened = 0.0, slid = 0.0;
+    for (std::size_t i = 0; i < kBondPoints; ++i) {
+      const double weight = bond_points()[i].weight;
+      const BondMemory& point = state.memory[j].bond[i];
+      left += weight * bond_left(mortar, point);
+      opened += weight * point.opening / mortar.opening_length;
+      slid += weight * point.slipped / mortar.slip_length;
+    }
+    if (left > kWorn) continue;
+    const Joint& joint = test.model.joints[j];
+    step.cracked.at(static_cast<std::size_t>(place_of(test.description, test.model, joint))) += joint.length;
+    step.cracks.push_back({j, opened > slid});
+  }
+}
+
+}  // namespace
+
+WallTest run_wall_test(const std::filesystem::path& bridge_file) {
+  WallTest test{
+      .description = read_bridge_file(bridge_file).description, .model = {}, .moved = {}, .steps = {}};
+  if (test.description.movements.empty())
+    throw InputError(bridge_file.string() + ": no [[movements]]: expected what is done to the wall");
+  test.model = make_model(test.description);
+  test.moved = follow_movements(test.model, test.description.movements);
+  const EquilibriumSystem system(test.model);
+  const Coefficients coefficients(system, test.model.parameters);
+  for (const MovedPoint& point : test.moved.points) {
+    if (point.movement + 1 != test.description.movements.size()) continue;
+    WallStep& step = test.steps.emplace_back();
+    step.millimetres = point.moved.x() / kKilo;
+    step.kilonewtons = kKilo * point.force.x();
+    step.vertical_kilonewtons = -kKilo * point.force.y();
+    step.dissipated = point.at.dissipated;
+    step.snapped = point.at.snapped;
+    find_cracks(test, coefficients, point.at.state, step);
+  }
+  if (test.steps.empty())
+    throw InputError(bridge_file.string() + ": the wall gives way before the last movement");
+  const auto strongest = std::ranges::max_element(test.steps, {}, &WallStep::kilonewtons);
+  test.peak = static_cast<std::size_t>(strongest - test.steps.begin());
+  return test;
+}
+
+}  // namespace voussoir
