@@ -1,6 +1,7 @@
 /// @file locate-damage: which blocks are missing, from measured displacements.
 
 #include "core/error.h"
+#include "core/text_file.h"
 #include "lookup/command_line.h"
 #include "lookup/locate_damage_options.h"
 #include "lookup/lookup.h"
@@ -8,7 +9,6 @@
 #include "lookup/readings/sensors_file.h"
 #include "lookup/readings/stated_sigmas.h"
 #include "lookup/report/report.h"
-#include "lookup/report/text_file.h"
 
 namespace {
 

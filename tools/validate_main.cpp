@@ -5,8 +5,8 @@
 #include <thread>
 
 #include "core/error.h"
+#include "core/text_file.h"
 #include "lookup/command_line.h"
-#include "lookup/report/text_file.h"
 #include "tools/validation/report.h"
 
 namespace {

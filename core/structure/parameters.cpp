@@ -9,7 +9,9 @@ Parameters uniform_parameters(const Structure& structure, const Material& materi
   return {.gravity = gravity,
           .blocks = std::vector<Material>(structure.layout.size(), material),
           .joints = std::vector<JointMaterial>(structure.joints.size(), joints),
-          .contact = joints};
+          .laid_mass = {},
+          .contact = joints,
+          .contact_share = {}};
 }
 
 double joint_thickness(const Joint& joint, const Parameters& parameters) {

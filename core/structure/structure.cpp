@@ -39,11 +39,12 @@ Structure assemble(std::vector<Block> blocks, const AssemblyRules& rules) {
 }
 
 Structure make_structure(const BridgeDescription& description) {
+  const Bounds bounds = bounds_of(description);
   Structure structure =
       assemble(lay_blocks(description).blocks, {.mesh = description.mesh,
                                                 .joint_tolerance = description.joint_tolerance,
-                                                .mirror_axis = 0.5 * description.wall.length});
-  structure.supports = box_supports(structure.mesh, description.supports, description.wall.length);
+                                                .mirror_axis = bounds.corner.x() + 0.5 * bounds.length});
+  structure.supports = box_supports(structure.mesh, description.supports, bounds.length, bounds.corner);
   structure.control_points = find_control_points(structure.layout, structure.mesh, description);
   if (structure.control_points.empty())
     throw InputError("the bridge has no control points: switch on top or arch");

@@ -7,8 +7,10 @@
 #include <set>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "core/error.h"
+#include "core/geometry/polygon.h"
 
 namespace voussoir {
 
@@ -31,6 +33,10 @@ class TomlSection {
   void count(const char* key, int& target, int least, int most);
   void flag(const char* key, bool& target);
   void text(const char* key, std::string& target);
+  /// ["a", "b"]; empty if the key is not there.
+  std::vector<std::string> texts(const char* key);
+  /// [[x, y], ..] in metres; empty if the key is not there.
+  std::vector<Point> points(const char* key, std::size_t fewest, std::size_t most);
 
   template <typename Choice>
   void choice(const char* key, Choice& target,
