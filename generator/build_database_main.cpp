@@ -4,6 +4,8 @@
 #include <iostream>
 
 #include "core/error.h"
+#include "core/text_file.h"
+#include "generator/bridge_drawing.h"
 #include "generator/build_options.h"
 #include "generator/summary.h"
 #include "generator/variants.h"
@@ -14,7 +16,14 @@ namespace {
 
 int run(BuildOptions options) {
   options.request.bridge = options.bridge ? read_bridge_file(*options.bridge) : reference_bridge_file();
+  if (!options.quiet)
+    for (const std::string& note : options.request.bridge.notes)
+      std::cerr << "build-database: " << options.request.bridge.name << ": " << note << '\n';
   const BridgeDescription& description = options.request.bridge.description;
+  if (options.drawing) {
+    write_file(*options.drawing, bridge_drawing(make_model(description), description));
+    return 0;
+  }
   if (options.variants > 0)
     options.request.other_variants = sampled_variants(make_model(description), description.uncertainty,
                                                       options.variants, options.variant_seed);

@@ -17,7 +17,8 @@ constexpr int kBadUsage = 2;
 
 constexpr const char* kFooter =
     "Examples: build-database examples/bridges/small.toml -o small.h5 --scenes 'singles;4,2+5,1..3'\n"
-    "          build-database -o irregular.h5 --variants 20 --scenes singles --history built,lost\n\n"
+    "          build-database -o irregular.h5 --variants 20 --scenes singles --history built,lost\n"
+    "          build-database my-bridge.toml --draw my-bridge.svg\n\n"
     "--scenes takes all, singles, pairs, or items separated by ';': intact, a scene (10,4 or 10,4+6,4), or a "
     "scene with\n"
     "ranges (10,1..20  0,*  10,4+2..4,*). An interrupted build goes on when the same command is run again; a "
@@ -103,6 +104,13 @@ void add_shard_option(CLI::App& app, BuildOptions& options) {
           "PART/PARTS"));
 }
 
+void add_drawing_option(CLI::App& app, BuildOptions& options) {
+  app.add_option(
+      "--draw", options.drawing,
+      "draw what the bridge file says into this file (SVG): blocks, joints, labels, supports, control "
+      "points, loads. Nothing is computed");
+}
+
 /// What is given as a word.
 struct Words {
   std::string solver = "quasi-static";
@@ -125,6 +133,7 @@ void add_options(CLI::App& app, BuildOptions& options, Words& words) {
   app.add_option("--loads", options.request.loads,
                  "all, none, or names of the bridge's load cases, which act after each history")
       ->capture_default_str();
+  add_drawing_option(app, options);
   add_uncertainty_options(app, options);
   app.add_option("--threads", options.request.threads, "threads, 0: one for each core")
       ->check(CLI::Range(0, kMostThreads))

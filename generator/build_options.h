@@ -14,7 +14,8 @@ struct BuildOptions {
   std::uint64_t variant_seed = 1;
   DynamicSettings motion;  ///< of scenes in motion
   SolverChoice solver;
-  bool version = false;  ///< only tell what would be built with what
+  std::optional<std::filesystem::path> drawing;  ///< only draw the bridge, into this file
+  bool version = false;                          ///< only tell what would be built with what
   bool quiet = false;
   bool json = false;
   std::optional<int> exit_code;  ///< set if the program is to end at once (--help, --version, bad usage)

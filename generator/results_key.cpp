@@ -26,8 +26,21 @@ std::string wall_text(const WallDescription& wall) {
 }
 
 std::string span_text(const SpanDescription& span) {
-  const auto& [centre_x, centre_y, intrados_radius, ring_thickness, voussoirs] = span;
-  return row("span", centre_x, centre_y, intrados_radius, ring_thickness, voussoirs);
+  const auto& [centre_x, centre_y, intrados_radius, ring_thickness, voussoirs, shape, clear_span, rise,
+               arc_radius, points, staggered, outer_rings, skewback] = span;
+  std::string text = row("span", centre_x, centre_y, intrados_radius, ring_thickness, voussoirs, shape,
+                         clear_span, rise, arc_radius, staggered, skewback.value_or(-1.0));
+  for (const Point& point : points) text += row("point", point.x(), point.y());
+  for (const RingDescription& ring : outer_rings) {
+    const auto& [thickness, ring_voussoirs, ring_staggered] = ring;
+    text += row("ring", thickness, ring_voussoirs, ring_staggered);
+  }
+  return text;
+}
+
+std::string part_text(const WallPart& part) {
+  const auto& [role, from_x, base_y, courses] = part;
+  return row("part", role, from_x, base_y) + wall_text(courses);
 }
 
 std::string material_text(const Material& material) {
@@ -56,6 +69,19 @@ std::string region_text(const MortarRegion& region) {
          fmt::format("{}\n", fmt::join(between, " | ")) + mortar_text(mortar);
 }
 
+std::string block_text(const Block& block) {
+  std::string text = row(block.label.c_str(), block.role, block.ring);
+  for (const Point& corner : block.polygon) text += row("corner", corner.x(), corner.y());
+  return text;
+}
+
+std::string region_text(const Region& region) {
+  const auto& [of, material, joints] = region;
+  std::string text = "region";
+  for (const std::string& name : of) text += " " + name;
+  return text + "\n" + material_text(material) + joint_text(joints);
+}
+
 std::string mesh_text(const MeshDescription& mesh) {
   const auto& [refinement, split_at_corners] = mesh;
   return row("mesh", refinement, split_at_corners);
@@ -68,8 +94,8 @@ std::string support_text(const SupportDescription& supports) {
 }
 
 std::string physics_text(const BridgeDescription& description) {
-  const auto& [name, wall, spans, material, joints, mortar, supports, control_points, mesh, gravity,
-               joint_tolerance, loads, movements, uncertainty] = description;
+  const auto& [name, wall, spans, parts, blocks, material, joints, mortar, regions, fill, supports,
+               control_points, mesh, gravity, joint_tolerance, loads, movements, uncertainty] = description;
   static_cast<void>(movements);    // no scene is solved under them
   static_cast<void>(uncertainty);  // no solution depends on it
   static_cast<void>(loads);        // whose states are told apart by load case
@@ -78,6 +104,11 @@ std::string physics_text(const BridgeDescription& description) {
   std::string text = wall_text(wall);
   for (const SpanDescription& span : spans) text += span_text(span);
   for (const MortarRegion& region : mortar) text += region_text(region);
+  for (const WallPart& part : parts) text += part_text(part);
+  for (const Block& block : blocks) text += block_text(block);
+  for (const Region& region : regions) text += region_text(region);
+  text += row("fill", fill.unit_weight);
+  for (const Point& point : fill.surface) text += row("surface", point.x(), point.y());
   return text + material_text(material) + joint_text(joints) + support_text(supports) + mesh_text(mesh) +
          row("load", gravity) + row("tolerance", joint_tolerance);
 }

@@ -1,6 +1,7 @@
 /// @file locate-damage: which blocks are missing, from measured displacements.
 
 #include "core/error.h"
+#include "core/text_file.h"
 #include "core/threads.h"
 #include "lookup/command_line.h"
 #include "lookup/locate_damage_options.h"
@@ -10,7 +11,6 @@
 #include "lookup/readings/stated_sigmas.h"
 #include "lookup/report/report.h"
 #include "lookup/report/survey_report.h"
-#include "lookup/report/text_file.h"
 
 namespace {
 

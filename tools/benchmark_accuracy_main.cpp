@@ -1,8 +1,8 @@
 /// @file benchmark-accuracy: run time against error of the solvers.
 
 #include "core/structure/bridge_file.h"
+#include "core/text_file.h"
 #include "lookup/command_line.h"
-#include "lookup/report/text_file.h"
 #include "tools/benchmark_accuracy.h"
 #include "tools/benchmark_skips.h"
 

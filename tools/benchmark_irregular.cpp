@@ -5,7 +5,7 @@
 #include <cstdio>
 
 #include "core/error.h"
-#include "lookup/report/text_file.h"
+#include "core/text_file.h"
 #include "tools/trials/sampled_truth.h"
 #include "tools/trials/study_report.h"
 

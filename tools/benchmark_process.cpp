@@ -8,9 +8,9 @@
 #include <chrono>
 
 #include "core/error.h"
+#include "core/text_file.h"
 #include "lookup/readings/readings_csv.h"
 #include "lookup/readings/simulate.h"
-#include "lookup/report/text_file.h"
 
 namespace voussoir {
 namespace {

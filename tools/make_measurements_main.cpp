@@ -1,13 +1,13 @@
 /// @file make-measurements: a measurements file with the errors of one's choice, from a scene of a database.
 
 #include "core/error.h"
+#include "core/text_file.h"
 #include "lookup/command_line.h"
 #include "lookup/readings/readings_csv.h"
 #include "lookup/readings/sensors_file.h"
 #include "lookup/readings/simulate.h"
 #include "lookup/readings/stated_sigmas.h"
 #include "lookup/report/field_query.h"
-#include "lookup/report/text_file.h"
 
 namespace {
 

@@ -4,9 +4,9 @@
 #include <iostream>
 
 #include "core/error.h"
+#include "core/text_file.h"
 #include "core/threads.h"
 #include "lookup/command_line.h"
-#include "lookup/report/text_file.h"
 #include "tools/validation/report.h"
 
 namespace {

@@ -11,6 +11,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <tuple>
 #include <utility>
 
 namespace voussoir {
@@ -120,6 +121,34 @@ double distance_to_corner(const Polygon& polygon, const Point& point) {
   double nearest = std::numeric_limits<double>::infinity();
   for (const Point& corner : polygon) nearest = std::min(nearest, (corner - point).norm());
   return nearest;
+}
+
+std::optional<double> highest_at(const Polygon& polygon, double x) {
+  std::optional<double> highest;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Point& a = polygon[i];
+    const Point& b = polygon[(i + 1) % polygon.size()];
+    if ((a.x() - x) * (b.x() - x) > 0.0 || a.x() == b.x()) continue;
+    const double y = a.y() + (b.y() - a.y()) * (x - a.x()) / (b.x() - a.x());
+    highest = std::max(highest.value_or(y), y);
+  }
+  return highest;
+}
+
+std::optional<Point> self_crossing(const Polygon& polygon) {
+  constexpr double kTouching = 1e-9;  // [m]
+  const std::size_t n = polygon.size();
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t j = i + 2; j < n; ++j) {
+      if ((j + 1) % n == i) continue;
+      const Point &a = polygon[i], &b = polygon[i + 1], &c = polygon[j], &d = polygon[(j + 1) % n];
+      for (const auto& [from, to, point] : {std::tuple(a, b, c), std::tuple(a, b, d), std::tuple(c, d, a)})
+        if (distance_to_segment(from, to, point) < kTouching) return point;
+      const double of_c = cross(b - a, c - a), of_d = cross(b - a, d - a);
+      if (of_c * of_d < 0.0 && cross(d - c, a - c) * cross(d - c, b - c) < 0.0)
+        return c + of_c / (of_c - of_d) * (d - c);
+    }
+  return std::nullopt;
 }
 
 std::vector<Polygon> subtract(const Polygon& subject, const Polygon& hole, double smallest_area) {

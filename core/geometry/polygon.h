@@ -30,6 +30,12 @@ double distance_to_segment(const Point& a, const Point& b, const Point& point);
 double distance_to_boundary(const Polygon& polygon, const Point& point);
 double distance_to_corner(const Polygon& polygon, const Point& point);
 
+/// The height [m] of a polygon's highest point at x, or nothing beside it.
+std::optional<double> highest_at(const Polygon& polygon, double x);
+
+/// A place where the outline crosses or touches itself, or nothing.
+std::optional<Point> self_crossing(const Polygon& polygon);
+
 /// The parts of `subject` outside `hole`, each counter-clockwise, from left to right; parts with an area of
 /// at most `smallest_area` [m2] are dropped, corners closer than a micrometre are merged and corners that lie
 /// on the straight line between their neighbours are removed.

@@ -90,6 +90,7 @@ Eigen::VectorXd lumped_masses(const Model& model) {
         masses[value(node)] += material.density * material.thickness * area / 3.0;
     }
   }
+  if (model.parameters.laid_mass.size() > 0) masses += model.parameters.laid_mass;
   return masses;
 }
 

@@ -46,7 +46,7 @@ struct BlockBody {
 std::vector<BlockBody> make_block_bodies(const Model& model,
                                          RotationalInertia inertia = RotationalInertia::exact);
 
-/// Lumped masses of the nodes [kg].
+/// Lumped masses of the nodes, with what is laid on them [kg].
 Eigen::VectorXd lumped_masses(const Model& model);
 
 /// (M + dt^2 K)^-1 with zero rows and columns at held components: the acceleration that a force gives the

@@ -160,6 +160,7 @@ Coefficients::Coefficients(const EquilibriumSystem& system, const Parameters& pa
       for (const NodeId node : structure.mesh.triangles[t].nodes)
         weight[value(node)] += specific * system.triangles[t].area / 3.0;
   }
+  if (parameters.laid_mass.size() > 0) weight += parameters.gravity * parameters.laid_mass;
   for (std::size_t j = 0; j < structure.joints.size(); ++j) {
     const Joint& joint = structure.joints[j];
     const double area = joint.length * joint_thickness(joint, parameters);

@@ -4,6 +4,7 @@
 #include <array>
 #include <compare>
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "core/geometry/polygon.h"
@@ -28,13 +29,20 @@ struct BlockIndex {
 /// "10,4"
 std::string to_string(BlockIndex index);
 
-/// What part a block plays in the bridge: whether its loss or movement is one of the arch.
+/// What part a block plays in the bridge: whether its loss or movement is one of the arch, and which region's
+/// material it has. Databases hold the numbers.
 enum class BlockRole : std::uint8_t {
-  wall = 0,  ///< spandrel wall
-  ring = 1   ///< arch ring, legs included
+  wall = 0,      ///< spandrel wall
+  ring = 1,      ///< arch ring, legs and skewback stones included
+  pier = 2,      ///< between two spans
+  abutment = 3,  ///< beside the outer spans
+  parapet = 4,
+  backing = 5,  ///< masonry over the haunches, behind the wall
+  fill = 6      ///< soil or rubble over the ring
 };
 
-inline constexpr std::array<const char*, 2> kRoleNames = {"wall", "ring"};
+inline constexpr std::array<const char*, 7> kRoleNames = {"wall",    "ring",    "pier", "abutment",
+                                                          "parapet", "backing", "fill"};
 
 inline const char* name_of(BlockRole role) {
   return kRoleNames[static_cast<std::size_t>(role)];
@@ -42,8 +50,8 @@ inline const char* name_of(BlockRole role) {
 
 /// How a block was cut out; the mesh rule depends on it.
 enum class BlockKind : std::uint8_t {
-  leg,       ///< straight arch block below the springing
-  voussoir,  ///< arch block of the semicircle: intrados from corner 1 to corner 2
+  leg,       ///< stone below an end of the ring: straight leg, skewback
+  voussoir,  ///< arch block with four corners: intrados from corner 1 to corner 2
   plain,     ///< whole course rectangle
   cut        ///< any other polygon
 };
@@ -53,11 +61,14 @@ inline constexpr int kNoRing = -1;
 struct Block {
   std::string label;  ///< what users call it, one for each block: "10,4"
   BlockRole role = BlockRole::wall;
-  int ring = kNoRing;  ///< the ring (span) that it belongs to, from 0
+  int ring = kNoRing;  ///< the ring that it belongs to, from 0: span by span, each from the intrados outwards
   BlockIndex index;
   BlockKind kind = BlockKind::cut;
   bool top_course = false;  ///< belongs to the highest course
   Polygon polygon;          ///< [m], counter-clockwise
+  std::optional<std::array<Point, 2>>
+      intrados{};  ///< [m] ends of its edge on the intrados, along the ring from
+                   ///< the left. Databases keep the control points instead
 };
 
 }  // namespace voussoir

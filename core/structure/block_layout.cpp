@@ -2,58 +2,52 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+#include <iterator>
+#include <map>
 
 #include "core/error.h"
+#include "core/structure/arch.h"
+#include "core/structure/assembly_check.h"
+#include "core/structure/exposed_edges.h"
 
 namespace voussoir {
 namespace {
 
-/// Joint j of a ring with n voussoirs (j = 0 at the left springing) at the given radius. Written so that
-/// joints j and n - j are exact mirror images.
-Point ring_point(const SpanDescription& span, double radius, int j) {
-  const int n = span.voussoirs;
-  const bool right = 2 * j > n;
-  const double angle = std::numbers::pi * (right ? n - j : j) / n;  // from the nearer springing
-  const double offset = radius * std::cos(angle);
-  return {span.centre_x + (right ? offset : -offset), span.centre_y + radius * std::sin(angle)};
+/// An arch's outline and how far it reaches.
+struct Opening {
+  Polygon enclosed;
+  double left, right;  ///< [m]
+};
+
+Opening opening_of(const Polygon& enclosed) {
+  const auto [left, right] = std::minmax_element(
+      enclosed.begin(), enclosed.end(), [](const Point& a, const Point& b) { return a.x() < b.x(); });
+  return {enclosed, left->x(), right->x()};
 }
 
-void add_ring(const SpanDescription& span, int ring, std::vector<Block>& blocks) {
-  const double inner = span.intrados_radius;
-  const double outer = span.extrados_radius();
-  const auto ring_block = [ring](BlockKind kind) {
-    Block block;
-    block.role = BlockRole::ring;
-    block.ring = ring;
-    block.kind = kind;
-    return block;
-  };
-  const auto leg = [&](double left, double right) {
-    Block block = ring_block(BlockKind::leg);
-    block.polygon = {{left, 0.0}, {right, 0.0}, {right, span.centre_y}, {left, span.centre_y}};
-    return block;
-  };
-  if (span.centre_y > 0.0) blocks.push_back(leg(span.centre_x - outer, span.centre_x - inner));
-  for (int j = 0; j < span.voussoirs; ++j) {
-    Block block = ring_block(BlockKind::voussoir);
-    block.polygon = {ring_point(span, outer, j), ring_point(span, inner, j), ring_point(span, inner, j + 1),
-                     ring_point(span, outer, j + 1)};
-    blocks.push_back(block);
+/// The rings of all spans, ring by ring from the intrados outwards, each from left to right. Returns what the
+/// arches leave free.
+std::vector<Opening> add_arches(const BridgeDescription& description, std::vector<Block>& blocks) {
+  std::vector<Opening> openings;
+  std::vector<std::pair<int, double>> order;  // layer, x
+  int rings = 0;
+  for (const SpanDescription& span : description.spans) {
+    Arch arch = make_arch(span, description.wall.courses > 0);
+    for (Block& block : arch.blocks) {
+      order.emplace_back(block.ring, centroid(block.polygon).x());
+      block.ring += rings;
+      block.index = {0, static_cast<int>(blocks.size())};
+      blocks.push_back(std::move(block));
+    }
+    rings += ring_count(span);
+    openings.push_back(opening_of(arch.enclosed));
   }
-  if (span.centre_y > 0.0) blocks.push_back(leg(span.centre_x + inner, span.centre_x + outer));
-}
-
-/// What a ring and its opening occupy: legs and extrados chords.
-Polygon enclosed_by_extrados(const SpanDescription& span) {
-  const double outer = span.extrados_radius();
-  Polygon polygon;
-  if (span.centre_y > 0.0) {
-    polygon.emplace_back(span.centre_x - outer, 0.0);
-    polygon.emplace_back(span.centre_x + outer, 0.0);
-  }
-  for (int j = span.voussoirs; j >= 0; --j) polygon.push_back(ring_point(span, outer, j));
-  return polygon;
+  const auto place = [&](const Block& block) {
+    return order[static_cast<std::size_t>(block.index.position)];
+  };
+  std::stable_sort(blocks.begin(), blocks.end(),
+                   [&](const Block& a, const Block& b) { return place(a) < place(b); });
+  return openings;
 }
 
 /// x of the vertical joints of a course, from 0 to the wall's length.
@@ -67,36 +61,52 @@ std::vector<double> joints_of_course(const WallDescription& wall, int course) {
   return x;
 }
 
-std::vector<Polygon> cut_by_spans(const Polygon& rectangle, const BridgeDescription& description) {
+std::vector<Polygon> cut_by_arches(const Polygon& rectangle, const std::vector<Opening>& openings,
+                                   double smallest_piece) {
   std::vector<Polygon> parts = {rectangle};
-  for (const SpanDescription& span : description.spans) {
-    if (rectangle[1].x() <= span.centre_x - span.extrados_radius() ||
-        rectangle[0].x() >= span.centre_x + span.extrados_radius())
-      continue;  // beside the span
+  for (const Opening& opening : openings) {
+    if (rectangle[1].x() <= opening.left || rectangle[0].x() >= opening.right) continue;  // beside the span
     std::vector<Polygon> remaining;
     for (const Polygon& part : parts)
-      for (Polygon& piece : subtract(part, enclosed_by_extrados(span), description.wall.smallest_piece))
+      for (Polygon& piece : subtract(part, opening.enclosed, smallest_piece))
         remaining.push_back(std::move(piece));
     parts = std::move(remaining);
   }
   return parts;
 }
 
-void add_course(const BridgeDescription& description, int course, std::vector<Block>& blocks) {
-  const double bottom = (course - 1) * description.wall.course_height;
-  const double top = course * description.wall.course_height;
-  const std::vector<double> x = joints_of_course(description.wall, course);
+void add_course(const WallPart& part, int course, const std::vector<Opening>& openings,
+                std::vector<Block>& blocks) {
+  const WallDescription& wall = part.courses;
+  const double bottom = part.base_y + (course - 1) * wall.course_height;
+  const double top = part.base_y + course * wall.course_height;
+  std::vector<double> x = joints_of_course(wall, course);
+  for (double& joint : x) joint += part.from_x;
   for (std::size_t i = 0; i + 1 < x.size(); ++i) {
     const Polygon rectangle = {{x[i], bottom}, {x[i + 1], bottom}, {x[i + 1], top}, {x[i], top}};
-    for (const Polygon& part : cut_by_spans(rectangle, description)) {
-      const bool whole = std::abs(area(part) - area(rectangle)) <= 1e-9 * area(rectangle);
+    for (const Polygon& piece : cut_by_arches(rectangle, openings, wall.smallest_piece)) {
+      const bool whole = std::abs(area(piece) - area(rectangle)) <= 1e-9 * area(rectangle);
       Block& block = blocks.emplace_back();
+      block.role = part.role;
       block.index = {course, static_cast<int>(blocks.size())};  // numbered course by course in the end
       block.kind = whole ? BlockKind::plain : BlockKind::cut;
-      block.top_course = course == description.wall.courses;
-      block.polygon = whole ? rectangle : part;
+      block.top_course = course == wall.courses;
+      block.polygon = whole ? rectangle : piece;
     }
   }
+}
+
+/// The wall or another part, behind the blocks that are there, its courses counted on from `courses_before`.
+SmallPieces add_part(const WallPart& part, int courses_before, const std::vector<Opening>& openings,
+                     double tolerance, std::vector<Block>& blocks) {
+  const WallDescription& wall = part.courses;
+  std::vector<Block> laid;
+  for (int course = 1; course <= wall.courses; ++course) add_course(part, course, openings, laid);
+  const SmallPieces result =
+      join_small_pieces(laid, wall.smallest_block * wall.course_height * wall.block_length, tolerance);
+  for (Block& block : laid) block.index.course += courses_before;
+  std::move(laid.begin(), laid.end(), std::back_inserter(blocks));
+  return result;
 }
 
 /// Numbers the blocks of every course from the left, and calls them by that.
@@ -107,6 +117,33 @@ void number(std::vector<Block>& blocks) {
     block.index = last;
     block.label = to_string(last);
   }
+}
+
+/// Of a bridge with further parts the top is whatever is seen from above.
+void mark_top(std::vector<Block>& blocks) {
+  for (Block& block : blocks) block.top_course = is_seen_from_above(block, blocks);
+}
+
+/// Blocks given one by one keep their labels. An arch block's open face towards the middle of its ring's
+/// blocks and the ground below counts as its intrados.
+BlockLayout given_blocks(const BridgeDescription& description) {
+  BlockLayout layout{.blocks = description.blocks};
+  std::map<int, std::pair<double, double>> extents;  // of each ring along x
+  for (const Block& block : layout.blocks)
+    for (const Point& p : block.polygon) {
+      auto& [left, right] = extents.try_emplace(block.ring, p.x(), p.x()).first->second;
+      left = std::min(left, p.x());
+      right = std::max(right, p.x());
+    }
+  const double ground = bounds_of(description).corner.y();
+  for (Block& block : layout.blocks) {
+    const auto& [left, right] = extents.at(block.ring);
+    const Point middle(0.5 * (left + right), ground);
+    if (block.role == BlockRole::ring)
+      block.intrados = open_face_towards(block, layout.blocks, middle, description.joint_tolerance);
+    block.top_course = is_seen_from_above(block, layout.blocks);
+  }
+  return layout;
 }
 
 template <class Condition>
@@ -141,21 +178,23 @@ int BlockLayout::count_in_course(int course) const {
 }
 
 BlockLayout lay_blocks(const BridgeDescription& description) {
+  if (!description.blocks.empty()) return given_blocks(description);
   BlockLayout layout;
-  for (std::size_t i = 0; i < description.spans.size(); ++i)
-    add_ring(description.spans[i], static_cast<int>(i), layout.blocks);
-  std::stable_sort(layout.blocks.begin(), layout.blocks.end(), [](const Block& a, const Block& b) {
-    return centroid(a.polygon).x() < centroid(b.polygon).x();
-  });
-  for (Block& block : layout.blocks) block.index.course = 0;
-  for (int course = 1; course <= description.wall.courses; ++course)
-    add_course(description, course, layout.blocks);
-  const WallDescription& wall = description.wall;
-  layout.small_pieces =
-      join_small_pieces(layout.blocks, wall.smallest_block * wall.course_height * wall.block_length,
-                        description.joint_tolerance);
+  const std::vector<Opening> openings = add_arches(description, layout.blocks);
+  std::vector<WallPart> parts = {WallPart{.courses = description.wall}};
+  parts.insert(parts.end(), description.parts.begin(), description.parts.end());
+  int courses = 0;
+  for (const WallPart& part : parts) {
+    const SmallPieces pieces = add_part(part, courses, openings, description.joint_tolerance, layout.blocks);
+    layout.small_pieces.joined += pieces.joined;
+    layout.small_pieces.left += pieces.left;
+    courses += part.courses.courses;
+  }
   number(layout.blocks);
   if (layout.blocks.empty()) throw InputError("the bridge has no blocks: give it courses or spans");
+  if (description.parts.empty()) return layout;
+  mark_top(layout.blocks);
+  check_overlaps(layout.blocks, description.joint_tolerance);
   return layout;
 }
 

@@ -11,8 +11,8 @@
 
 namespace voussoir {
 
-/// All blocks of a bridge. Laid by lay_blocks: arch blocks first, then the wall course by course, each from
-/// left to right.
+/// All blocks of a bridge. Laid by lay_blocks: arch blocks first, then the wall and the other parts course by
+/// course, each from left to right.
 struct BlockLayout {
   std::vector<Block> blocks;
   SmallPieces small_pieces{};  ///< what became of them
@@ -31,9 +31,10 @@ struct BlockLayout {
   int count_in_course(int course) const;
 };
 
-/// Lays the bridge's blocks (paper, Fig. 1): ring blocks of every span, and the course rectangles minus what
-/// the rings' extrados chords and legs enclose. A rectangle cut in two gives two blocks; pieces below the
-/// wall's smallest block are joined to a neighbour. Throws InputError if no block is left.
+/// Lays the bridge's blocks (paper, Fig. 1): ring blocks of every span (make_arch), and the course rectangles
+/// of the wall and of the other parts minus what the arches enclose. A rectangle cut in two gives two blocks;
+/// pieces below a part's smallest block are joined to a neighbour. Course 0 holds the rings, innermost first;
+/// the courses of the parts go on counting where the wall's end. Throws InputError if no block is left.
 BlockLayout lay_blocks(const BridgeDescription& description);
 
 }  // namespace voussoir

@@ -10,6 +10,7 @@
 
 #include "core/geometry/polygon.h"
 #include "core/structure/mortar.h"
+#include "core/structure/block.h"
 #include "core/structure/uncertainty.h"
 
 namespace voussoir {
@@ -36,15 +37,51 @@ struct WallDescription {
   bool halved = false;  ///< whole blocks are laid as two halves, so that they can break in the middle
 };
 
-/// A stilted semicircular arch ring; below its centre it goes straight down to the ground (y = 0).
-struct SpanDescription {
-  double centre_x = 10.0;        ///< [m]
-  double centre_y = 1.05;        ///< [m] height of the springing, also the height of the leg blocks
-  double intrados_radius = 3.5;  ///< [m]
-  double ring_thickness = 0.5;   ///< [m]
-  int voussoirs = 17;            ///< of equal angle
+/// The curve of an arch's inner face. docs/shapes.md has a picture of each.
+enum class IntradosShape {
+  semicircular,   ///< centre and radius; stilted if the centre lies above the ground
+  segmental,      ///< span and rise
+  pointed,        ///< span, rise and radius of two arcs
+  three_centred,  ///< span, rise and radius of the haunches
+  elliptic,       ///< span and rise
+  points          ///< surveyed
+};
 
-  double extrados_radius() const { return intrados_radius + ring_thickness; }
+/// One ring of several, its joints its own.
+struct RingDescription {
+  double thickness = 0.5;  ///< [m]
+  int voussoirs = 17;      ///< of equal length along the intrados
+  bool staggered = false;  ///< begins and ends with half a voussoir
+  friend bool operator==(const RingDescription&, const RingDescription&) = default;
+};
+
+/// An arch: its intrados, its rings, and the stones below its ends. The opening below it goes down to the
+/// ground (y = 0).
+struct SpanDescription {
+  double centre_x = 10.0;        ///< [m] middle of the span
+  double centre_y = 1.05;        ///< [m] height of the springings
+  double intrados_radius = 3.5;  ///< [m] of semicircles
+  double ring_thickness = 0.5;   ///< [m] of the innermost ring
+  int voussoirs = 17;            ///< of the innermost ring, of equal length along the intrados
+  IntradosShape shape = IntradosShape::semicircular;
+  double span = 7.0;            ///< [m] clear; of segmental, pointed, three-centred and elliptic arches
+  double rise = 2.0;            ///< [m] of these
+  double arc_radius = 0.0;      ///< [m] of pointed arches, of the haunches of three-centred ones
+  std::vector<Point> points{};  ///< [m] of the intrados, from the left springing to the right one
+  bool staggered = false;       ///< the innermost ring begins and ends with half a voussoir
+  std::vector<RingDescription> outer_rings{};  ///< on the innermost one, outwards
+  std::optional<double> skewback{};            ///< [m] height below the springing of the stones on which the
+                                               ///< ring stands, 0: none; nothing: the usual (has_skewbacks)
+
+  double extrados_radius() const { return intrados_radius + ring_thickness; }  ///< of semicircles
+};
+
+/// Courses laid elsewhere than the wall: piers, abutments, spandrel walls, parapet, backing, fill.
+struct WallPart {
+  BlockRole role = BlockRole::wall;
+  double from_x = 0.0;      ///< [m] left end
+  double base_y = 0.0;      ///< [m] lower edge of its first course
+  WallDescription courses;  ///< its length counts from `from_x`
 };
 
 enum class PlaneState { stress, strain };
@@ -67,6 +104,19 @@ struct JointMaterial {
   Mortar mortar{};
 
   double friction_coefficient() const { return std::tan(friction_angle); }
+};
+
+/// Blocks chosen by role or label, and the material of them and of their joints.
+struct Region {
+  std::vector<std::string> of;  ///< names of roles, or labels
+  Material material;            ///< whole: what the file leaves out is the bridge's
+  JointMaterial joints;         ///< the same
+};
+
+/// Soil over the rings that only weighs.
+struct FillWeight {
+  double unit_weight = 0.0;      ///< [N/m3]; 0: none
+  std::vector<Point> surface{};  ///< [m] its top, from left to right, straight between the points
 };
 
 enum class SupportKind {
@@ -145,9 +195,13 @@ struct BridgeDescription {
   std::string name = "reference";
   WallDescription wall;
   std::vector<SpanDescription> spans = {SpanDescription{}};
+  std::vector<WallPart> parts{};  ///< laid after the wall, in this order
+  std::vector<Block> blocks{};    ///< given one by one; if there are any, nothing else is laid
   Material material;
   JointMaterial joints;
   std::vector<MortarRegion> mortar;  ///< later ones take the place of earlier ones
+  std::vector<Region> regions{};  ///< a later one goes before an earlier one
+  FillWeight fill{};
   SupportDescription supports;
   ControlPointDescription control_points;
   MeshDescription mesh;
@@ -157,5 +211,14 @@ struct BridgeDescription {
   std::vector<MovementDescription> movements;
   Uncertainty uncertainty;
 };
+
+/// What the supports and the axis of symmetry of a bridge refer to.
+struct Bounds {
+  Point corner = Point::Zero();  ///< [m] lower left
+  double length = 0.0;           ///< [m] along x
+};
+
+/// The wall's, from (0, 0), or those of the blocks that are given one by one.
+Bounds bounds_of(const BridgeDescription& description);
 
 }  // namespace voussoir

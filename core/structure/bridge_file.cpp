@@ -1,14 +1,19 @@
 #include "core/structure/bridge_file.h"
 
 #include <cmath>
-#include <fstream>
-#include <numbers>
+#include <limits>
 #include <utility>
 
+#include "core/structure/arch.h"
+#include "core/structure/blocks_section.h"
 #include "core/structure/loads_section.h"
 #include "core/structure/mortar_section.h"
 #include "core/structure/movements_section.h"
+#include "core/structure/materials_section.h"
+#include "core/structure/parts_section.h"
+#include "core/structure/spans_section.h"
 #include "core/structure/uncertainty_section.h"
+#include "core/text_file.h"
 #include "reference_bridge_text.h"
 
 namespace voussoir {
@@ -16,56 +21,8 @@ namespace {
 
 constexpr std::uintmax_t kLargestFile = 1 << 20;  ///< [bytes] a bridge file is a page or two
 constexpr std::size_t kLongestLine = 4096;        ///< [bytes] bounds how deep dotted keys nest
-constexpr double kDegree = std::numbers::pi / 180.0;
-constexpr int kMostCourses = 1000;
-constexpr int kMostVoussoirs = 1000;
 constexpr double kMostBlocks = 20000;
 constexpr double kMostPieces = 300000;  ///< blocks, each counted four times a level of refinement
-
-void read_wall(TomlSection section, WallDescription& wall) {
-  section.length("length_m", wall.length);
-  section.count("courses", wall.courses, 0, kMostCourses);
-  section.length("course_height_m", wall.course_height);
-  section.length("block_length_m", wall.block_length);
-  section.choice("bond", wall.bond, {{"running", Bond::running}, {"stack", Bond::stack}});
-  section.positive("smallest_piece_m2", wall.smallest_piece);
-  wall.smallest_block = kSmallestBlock;
-  section.number("smallest_block", wall.smallest_block, 0.0, 0.5, true);
-  section.flag("halved", wall.halved);
-  section.refuse_unknown_keys();
-}
-
-SpanDescription read_span(TomlSection section) {
-  SpanDescription span;
-  section.number("centre_x_m", span.centre_x, -kLargestLength, kLargestLength, true);
-  section.number("centre_y_m", span.centre_y, 0.0, kLargestLength, true);
-  section.length("intrados_radius_m", span.intrados_radius);
-  section.length("ring_thickness_m", span.ring_thickness);
-  section.count("voussoirs", span.voussoirs, 3, kMostVoussoirs);
-  section.refuse_unknown_keys();
-  return span;
-}
-
-void read_material(TomlSection section, Material& material) {
-  section.positive("young_modulus_Pa", material.young_modulus);
-  section.number("poisson_ratio", material.poisson_ratio, 0.0, 0.49, true);
-  section.positive("density_kg_m3", material.density);
-  section.positive("thickness_m", material.thickness);
-  section.choice("plane", material.plane, {{"stress", PlaneState::stress}, {"strain", PlaneState::strain}});
-  section.number("thermal_expansion_per_K", material.thermal_expansion, 0.0, 1e-3, true);
-  section.refuse_unknown_keys();
-}
-
-void read_joints(TomlSection section, BridgeDescription& description) {
-  JointMaterial& joints = description.joints;
-  section.positive("normal_stiffness_Pa_per_m", joints.normal_stiffness);
-  section.positive("tangential_stiffness_Pa_per_m", joints.tangential_stiffness);
-  double degrees = joints.friction_angle / kDegree;
-  section.number("friction_angle_deg", degrees, 0.0, 89.0, true);
-  joints.friction_angle = degrees * kDegree;
-  section.number("tolerance_m", description.joint_tolerance, 0.0, 0.1, false);
-  section.refuse_unknown_keys();
-}
 
 void read_supports(TomlSection section, SupportDescription& supports) {
   for (const auto& [key, target] : {std::pair{"base", &supports.base}, std::pair{"sides", &supports.sides},
@@ -92,8 +49,15 @@ void read_mesh(TomlSection section, MeshDescription& mesh) {
 /// The bridge must not have absurdly many blocks or triangles.
 void check_size(const BridgeDescription& description, const std::string& file, long wall_line) {
   const WallDescription& wall = description.wall;
-  double blocks = wall.courses * (wall.length / wall.block_length + 1.0);
-  for (const SpanDescription& span : description.spans) blocks += span.voussoirs + 2;
+  const auto laid = [](const WallDescription& courses) {
+    return courses.courses * (courses.length / courses.block_length + 1.0);
+  };
+  double blocks = laid(wall);
+  for (const WallPart& part : description.parts) blocks += laid(part.courses);
+  for (const SpanDescription& span : description.spans) {
+    blocks += span.voussoirs + 2;
+    for (const RingDescription& ring : span.outer_rings) blocks += ring.voussoirs + 1;
+  }
   if (blocks > kMostBlocks)
     throw InputError(at_line(
         file, wall_line,
@@ -105,33 +69,58 @@ void check_size(const BridgeDescription& description, const std::string& file, l
                     description.mesh.refinement, kMostPieces / std::pow(4.0, description.mesh.refinement))));
 }
 
+/// From where to where an arch reaches. Throws InputError if its rings cannot be built.
+Interval extent_of(const SpanDescription& span, const WallDescription& wall) {
+  if (span.shape == IntradosShape::semicircular && span.outer_rings.empty())
+    return {span.centre_x - span.extrados_radius(), span.centre_x + span.extrados_radius()};
+  const Arch arch = make_arch(span, wall.courses > 0);
+  Interval extent{arch.enclosed.front().x(), arch.enclosed.front().x()};
+  for (const Point& p : arch.enclosed) extent = {std::min(extent.left, p.x()), std::max(extent.right, p.x())};
+  return extent;
+}
+
 /// Spans must lie in the wall and beside each other.
 void check_geometry(const BridgeDescription& description, const std::vector<long>& span_lines,
                     const std::string& file) {
   const WallDescription& wall = description.wall;
+  double end_of_last = -std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < description.spans.size(); ++i) {
-    const SpanDescription& span = description.spans[i];
-    const double left = span.centre_x - span.extrados_radius();
-    const double right = span.centre_x + span.extrados_radius();
-    if (left < -1e-9 || right > wall.length + 1e-9)
-      throw InputError(
-          at_line(file, span_lines[i],
-                  fmt::format("the ring reaches from x = {:g} to {:g} m: expected it between 0 and the "
-                              "wall's length {:g} m",
-                              left, right, wall.length)));
-    if (i > 0 && left < description.spans[i - 1].centre_x + description.spans[i - 1].extrados_radius() - 1e-9)
-      throw InputError(
-          at_line(file, span_lines[i],
-                  "the ring overlaps the one before: expected spans from left to right, side by side"));
+    const auto refuse = [&](const std::string& message) {
+      throw InputError(at_line(file, span_lines[i], message));
+    };
+    Interval extent{};
+    try {
+      extent = extent_of(description.spans[i], wall);
+    } catch (const InputError& error) {
+      refuse(error.what());
+    }
+    if (extent.left < -1e-9 || extent.right > wall.length + 1e-9)
+      refuse(
+          fmt::format("the ring reaches from x = {:g} to {:g} m: expected it between 0 and the wall's length "
+                      "{:g} m",
+                      extent.left, extent.right, wall.length));
+    if (extent.left < end_of_last - 1e-9)
+      refuse("the ring overlaps the one before: expected spans from left to right, side by side");
+    end_of_last = extent.right;
   }
+  for (const WallPart& part : description.parts)
+    if (part.from_x + part.courses.length > wall.length + 1e-9)
+      throw InputError(
+          fmt::format("{}: a part in [[walls]] reaches from x = {:g} to {:g} m: expected it between "
+                      "0 and length_m in [wall], {:g} m",
+                      file, part.from_x, part.from_x + part.courses.length, wall.length));
 }
 
 /// From where to where there can be blocks.
 Interval extent_along_x(const BridgeDescription& description) {
-  if (description.wall.courses > 0 || description.spans.empty()) return {0.0, description.wall.length};
-  const SpanDescription& first = description.spans.front();
-  const SpanDescription& last = description.spans.back();
-  return {first.centre_x - first.extrados_radius(), last.centre_x + last.extrados_radius()};
+  if (!description.blocks.empty()) {
+    const Bounds bounds = bounds_of(description);
+    return {bounds.corner.x(), bounds.corner.x() + bounds.length};
+  }
+  const bool rings_only = description.wall.courses == 0 && description.parts.empty();
+  if (!rings_only || description.spans.empty()) return {0.0, description.wall.length};
+  return {extent_of(description.spans.front(), description.wall).left,
+          extent_of(description.spans.back(), description.wall).right};
 }
 
 /// The parser keeps the depth of values within bounds, but not that of keys a.b.c.
@@ -146,7 +135,26 @@ void check_lines(std::string_view text, const std::string& file) {
   }
 }
 
-BridgeDescription interpret(const toml::table& root, const std::string& file) {
+/// [[spans]] and [[walls]]. Returns the line of each span.
+std::vector<long> read_spans_and_walls(TomlSection& top, BridgeDescription& description) {
+  std::vector<long> span_lines(description.spans.size(), 0);
+  if (const toml::array* spans = top.tables("spans", "[[spans]]")) {
+    description.spans.clear();
+    span_lines.clear();
+    for (const toml::node& node : *spans) {
+      description.spans.push_back(read_span(TomlSection(top.file(), node.as_table(), " in [[spans]]")));
+      span_lines.push_back(static_cast<long>(node.source().begin.line));
+    }
+  }
+  if (const toml::array* walls = top.tables("walls", "[[walls]]"))
+    for (const toml::node& node : *walls)
+      description.parts.push_back(
+          read_part(TomlSection(top.file(), node.as_table(), " in [[walls]]"), description.wall));
+  return span_lines;
+}
+
+BridgeDescription interpret(const toml::table& root, const std::string& file,
+                            std::vector<std::string>& notes) {
   BridgeDescription description;
   TomlSection top(file, &root, "");
   const auto section = [&](const char* key) {
@@ -156,21 +164,20 @@ BridgeDescription interpret(const toml::table& root, const std::string& file) {
   top.not_negative("gravity_m_s2", description.gravity);
   read_wall(section("wall"), description.wall);
   read_material(section("material"), description.material);
-  read_joints(section("joints"), description);
+  read_joints(section("joints"), description.joints, description.joint_tolerance);
+  if (const toml::array* regions = top.tables("regions", "[[regions]]"))
+    for (const toml::node& node : *regions)
+      description.regions.push_back(read_region(TomlSection(file, node.as_table(), " in [[regions]]"),
+                                                description.material, description.joints));
+  read_fill(section("fill"), description.fill);
   read_supports(section("supports"), description.supports);
   read_control_points(section("control_points"), description.control_points);
   read_mesh(section("mesh"), description.mesh);
   description.uncertainty = read_uncertainty(section("uncertainty"));
 
-  std::vector<long> span_lines(description.spans.size(), 0);
-  if (const toml::array* spans = top.tables("spans", "[[spans]]")) {
-    description.spans.clear();
-    span_lines.clear();
-    for (const toml::node& node : *spans) {
-      description.spans.push_back(read_span(TomlSection(file, node.as_table(), " in [[spans]]")));
-      span_lines.push_back(static_cast<long>(node.source().begin.line));
-    }
-  }
+  const std::vector<long> span_lines = read_spans_and_walls(top, description);
+  if (top.has("blocks")) notes = read_blocks(top, description);
+  top.know("blocks_tolerance_m");
   if (const toml::array* mortar = top.tables("mortar", "[[mortar]]"))
     description.mortar = read_mortar(*mortar, file, description);
   if (const toml::array* movements = top.tables("movements", "[[movements]]"))
@@ -189,23 +196,21 @@ BridgeFile parse_bridge_file(std::string_view text, const std::string& name) {
   check_lines(text, name);
   try {
     const toml::table root = toml::parse(text, name);
-    return {name, std::string(text), interpret(root, name)};
+    BridgeFile bridge{name, std::string(text), {}, {}};
+    bridge.description = interpret(root, name, bridge.notes);
+    return bridge;
   } catch (const toml::parse_error& error) {
     throw InputError(at_line(name, error.source().begin.line, std::string(error.description())));
   }
 }
 
 BridgeFile read_bridge_file(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file || std::filesystem::is_directory(path))
-    throw InputError(fmt::format("{}: cannot be opened: expected a bridge file (TOML)", path.string()));
-  std::string text(kLargestFile + 1, '\0');
-  file.read(text.data(), static_cast<std::streamsize>(text.size()));
-  text.resize(static_cast<std::size_t>(file.gcount()));
-  if (text.size() > kLargestFile)
-    throw InputError(
-        fmt::format("{}: larger than {} bytes: expected a bridge file (TOML)", path.string(), kLargestFile));
-  return parse_bridge_file(text, path.string());
+  const std::string text = read_text(path, kLargestFile, "a bridge file (TOML)");
+  check_lines(text, path.string());
+  WithBlocks whole = with_blocks_of_file(text, path);
+  BridgeFile bridge = parse_bridge_file(whole.text, path.string());
+  bridge.notes.insert(bridge.notes.begin(), whole.notes.begin(), whole.notes.end());
+  return bridge;
 }
 
 BridgeFile reference_bridge_file() {

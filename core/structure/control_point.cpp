@@ -31,15 +31,6 @@ std::pair<Point, Point> upper_corners(const Polygon& polygon) {
   return {*left, *right};
 }
 
-/// The two corners nearest to the centre line of the span: on the intrados. Order: along the ring from the
-/// left.
-std::pair<Point, Point> intrados_corners(const Block& block, const std::vector<SpanDescription>& spans) {
-  const auto& p = block.polygon;
-  if (block.kind == BlockKind::voussoir) return {p[1], p[2]};
-  const bool left = centroid(p).x() < spans[static_cast<std::size_t>(block.ring)].centre_x;
-  return left ? std::pair{p[1], p[2]} : std::pair{p[3], p[0]};  // up on the left, down on the right
-}
-
 }  // namespace
 
 ControlPoint point_at(const std::string& name, const Mesh& mesh, BlockId block, const Point& place) {
@@ -61,8 +52,8 @@ std::vector<ControlPoint> find_control_points(const BlockLayout& layout, const M
       const BlockId id{static_cast<std::int32_t>(b)};
       if (pass == 0 && description.control_points.top && block.top_course)
         add_pair('T', top_count, id, upper_corners(block.polygon));
-      if (pass == 1 && description.control_points.arch && block.role == BlockRole::ring)
-        add_pair('A', arch_count, id, intrados_corners(block, description.spans));
+      if (pass == 1 && description.control_points.arch && block.intrados)
+        add_pair('A', arch_count, id, {block.intrados->front(), block.intrados->back()});
     }
   return points;
 }

@@ -18,8 +18,8 @@ struct ControlPoint {
 /// The point of a block at a place: at the node that is nearest to it.
 ControlPoint point_at(const std::string& name, const Mesh& mesh, BlockId block, const Point& place);
 
-/// T1..: upper corners of each block of the top course; A1..: intrados corners of each arch block; left to
-/// right.
+/// T1..: upper corners of each block of the top course; A1..: intrados corners of each arch block that
+/// reaches the intrados; left to right.
 std::vector<ControlPoint> find_control_points(const BlockLayout& layout, const Mesh& mesh,
                                               const BridgeDescription& description);
 

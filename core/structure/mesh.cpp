@@ -72,7 +72,7 @@ Triangulation cut(const Block& block, double axis) {
   const double from_axis = centroid(polygon).x() - axis;
   if (block.kind == BlockKind::voussoir) return fan_about_edge(polygon, 3);  // the extrados chord
   const bool round = block.kind == BlockKind::leg || (block.top_course && polygon.size() == 4);
-  if (round || (std::abs(from_axis) < kOnAxis && centre_sees_corners(polygon)))
+  if ((round || std::abs(from_axis) < kOnAxis) && centre_sees_corners(polygon))
     return fan_about_centre(polygon);
   if (std::abs(from_axis) < kOnAxis && symmetric(polygon, axis)) return cut_in_halves(polygon, axis);
   return from_axis < 0.0 ? cut_between_corners(polygon) : cut_as_mirror_image(polygon, axis);

@@ -1,14 +1,20 @@
 #include "core/structure/model.h"
 
+#include "core/structure/fill.h"
 #include "core/structure/mortar_regions.h"
+#include "core/structure/regions.h"
 
 namespace voussoir {
 
 Model with_nominal_parameters(Structure structure, const BridgeDescription& description) {
   Parameters parameters =
       uniform_parameters(structure, description.material, description.joints, description.gravity);
+  if (!description.regions.empty()) set_regions(description, structure, parameters);
   lay_mortar(description, structure, parameters);
-  return {std::move(structure), std::move(parameters)};
+  if (description.fill.unit_weight > 0.0) parameters.laid_mass = fill_masses(description, structure);
+  Model model{std::move(structure), std::move(parameters)};
+  if (model.symmetry && !has_symmetric_parameters(model)) model.symmetry.reset();
+  return model;
 }
 
 Model make_model(const BridgeDescription& description) {

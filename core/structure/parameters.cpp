@@ -9,6 +9,7 @@ Parameters uniform_parameters(const Structure& structure, const Material& materi
   return {.gravity = gravity,
           .blocks = std::vector<Material>(structure.layout.size(), material),
           .joints = std::vector<JointMaterial>(structure.joints.size(), joints),
+          .laid_mass = {},
           .contact = {.normal_stiffness = joints.normal_stiffness,
                       .tangential_stiffness = joints.tangential_stiffness,
                       .friction_angle = joints.friction_angle},

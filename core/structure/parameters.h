@@ -12,6 +12,7 @@ struct Parameters {
   double gravity = 9.81;              ///< [m/s2] downwards
   std::vector<Material> blocks;       ///< of each block of the structure
   std::vector<JointMaterial> joints;  ///< of each joint of the structure
+  Eigen::VectorXd laid_mass{};        ///< [kg] of soil on each node beside its block's mass; empty: none
   JointMaterial contact;              ///< where blocks meet that did not touch at rest: dry
   std::vector<double> contact_share;  ///< [-] of each block: where it meets another newly, stiffness is the
                                       ///< smaller share of the two of `contact`; empty: all of it

@@ -23,13 +23,14 @@ double shared_length(const Polygon& first, const Polygon& second, double toleran
   return length;
 }
 
-/// The smallest wall block that is too small, those aside that have been found to have no neighbour.
+/// The smallest block laid in courses that is too small, those aside that have been found to have no
+/// neighbour.
 std::optional<std::size_t> smallest_piece(const std::vector<Block>& blocks, double smallest_area,
                                           const std::set<BlockIndex>& without_neighbour) {
   std::optional<std::size_t> smallest;
   double least = smallest_area * (1.0 - kRoundOff);
   for (std::size_t i = 0; i < blocks.size(); ++i) {
-    if (blocks[i].role != BlockRole::wall || without_neighbour.contains(blocks[i].index)) continue;
+    if (blocks[i].role == BlockRole::ring || without_neighbour.contains(blocks[i].index)) continue;
     const double size = area(blocks[i].polygon);
     if (size < least) {
       least = size;
@@ -44,12 +45,12 @@ struct Neighbour {
   double length;  ///< of the shared edges [m]
 };
 
-/// The wall blocks that share edges with a piece, the longest first; of equal ones those in the same course,
-/// then the lower ones.
+/// The blocks of the same part that share edges with a piece, the longest first; of equal ones those in the
+/// same course, then the lower ones.
 std::vector<Neighbour> neighbours_of(const std::vector<Block>& blocks, const Block& piece, double tolerance) {
   std::vector<Neighbour> result;
   for (std::size_t i = 0; i < blocks.size(); ++i) {
-    if (&blocks[i] == &piece || blocks[i].role != BlockRole::wall) continue;
+    if (&blocks[i] == &piece || blocks[i].role != piece.role) continue;
     const double length = shared_length(piece.polygon, blocks[i].polygon, tolerance);
     if (length > tolerance) result.push_back({i, length});
   }

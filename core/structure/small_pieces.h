@@ -16,10 +16,10 @@ struct SmallPieces {
   friend bool operator==(const SmallPieces&, const SmallPieces&) = default;
 };
 
-/// Joins every wall block with less than `smallest_area` [m2], the smallest first, to the wall block with
-/// which it shares the longest edge, as far as the union is one polygon without holes; two equal neighbours
-/// of one course get half each. The union keeps the neighbour's place in the bond; edges count as shared
-/// within `tolerance` [m].
+/// Joins every block laid in courses with less than `smallest_area` [m2], the smallest first, to the block of
+/// its role with which it shares the longest edge, as far as the union is one polygon without holes; two
+/// equal neighbours of one course get half each. The union keeps the neighbour's place in the bond; edges
+/// count as shared within `tolerance` [m].
 SmallPieces join_small_pieces(std::vector<Block>& blocks, double smallest_area, double tolerance);
 
 }  // namespace voussoir

@@ -40,11 +40,12 @@ Structure assemble(std::vector<Block> blocks, const AssemblyRules& rules) {
 }
 
 Structure make_structure(const BridgeDescription& description) {
+  const Bounds bounds = bounds_of(description);
   Structure structure = assemble(halved(lay_blocks(description).blocks, description.wall),
                                  {.mesh = description.mesh,
                                   .joint_tolerance = description.joint_tolerance,
-                                  .mirror_axis = 0.5 * description.wall.length});
-  structure.supports = box_supports(structure.mesh, description.supports, description.wall.length);
+                                  .mirror_axis = bounds.corner.x() + 0.5 * bounds.length});
+  structure.supports = box_supports(structure.mesh, description.supports, bounds.length, bounds.corner);
   hold_top(description, structure.layout, structure.mesh, structure.supports);
   structure.control_points = find_control_points(structure.layout, structure.mesh, description);
   if (structure.control_points.empty())

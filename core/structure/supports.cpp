@@ -17,12 +17,13 @@ std::vector<NodeId> nodes_at(const Mesh& mesh, int axis, double coordinate, doub
 }
 
 /// Where blocks stand on the ground side by side, from left to right [m].
-std::vector<std::pair<double, double>> stretches_on_ground(const Mesh& mesh, double tolerance) {
+std::vector<std::pair<double, double>> stretches_on_ground(const Mesh& mesh, double ground,
+                                                           double tolerance) {
   std::vector<std::pair<double, double>> edges;
   for (const BoundaryEdge& edge : mesh.edges) {
     const Point from = mesh.position(edge.from);
     const Point to = mesh.position(edge.to);
-    if (std::abs(from.y()) <= tolerance && std::abs(to.y()) <= tolerance)
+    if (std::abs(from.y() - ground) <= tolerance && std::abs(to.y() - ground) <= tolerance)
       edges.emplace_back(std::minmax(from.x(), to.x()));
   }
   std::ranges::sort(edges);
@@ -44,18 +45,18 @@ Support face(const std::string& name, std::vector<NodeId> nodes, SupportKind kin
 }
 
 /// Ground nodes that touch no ground edge (a corner on the ground) are the nearest foot's.
-std::vector<Support> feet(const Mesh& mesh, SupportKind kind, double tolerance) {
-  const auto stretches = stretches_on_ground(mesh, tolerance);
+std::vector<Support> feet(const Mesh& mesh, SupportKind kind, double ground, double tolerance) {
+  const auto stretches = stretches_on_ground(mesh, ground, tolerance);
   std::vector<Support> supports;
   for (std::size_t i = 0; i < stretches.size(); ++i) {
     supports.push_back(face(fmt::format("foot {}", i + 1), {}, kind, 1));
     supports.back().is_foot = true;
   }
-  if (supports.empty()) return {face("base", nodes_at(mesh, 1, 0.0, tolerance), kind, 1)};
+  if (supports.empty()) return {face("base", nodes_at(mesh, 1, ground, tolerance), kind, 1)};
   const auto distance = [&](double x, std::size_t foot) {
     return std::max({0.0, stretches[foot].first - x, x - stretches[foot].second});
   };
-  for (const NodeId node : nodes_at(mesh, 1, 0.0, tolerance)) {
+  for (const NodeId node : nodes_at(mesh, 1, ground, tolerance)) {
     std::size_t nearest = 0;
     for (std::size_t i = 1; i < supports.size(); ++i)
       if (distance(mesh.position(node).x(), i) < distance(mesh.position(node).x(), nearest)) nearest = i;
@@ -77,11 +78,13 @@ void embed(const BlockLayout& layout, const Mesh& mesh, int first_course, int la
 
 }  // namespace
 
-std::vector<Support> box_supports(const Mesh& mesh, const SupportDescription& description, double length) {
+std::vector<Support> box_supports(const Mesh& mesh, const SupportDescription& description, double length,
+                                  const Point& corner) {
   const double tolerance = 1e-9 * length;
-  std::vector<Support> supports = feet(mesh, description.base, tolerance);
-  supports.push_back(face("left side", nodes_at(mesh, 0, 0.0, tolerance), description.sides, 0));
-  supports.push_back(face("right side", nodes_at(mesh, 0, length, tolerance), description.sides, 0));
+  std::vector<Support> supports = feet(mesh, description.base, corner.y(), tolerance);
+  supports.push_back(face("left side", nodes_at(mesh, 0, corner.x(), tolerance), description.sides, 0));
+  supports.push_back(
+      face("right side", nodes_at(mesh, 0, corner.x() + length, tolerance), description.sides, 0));
   std::erase_if(supports, [](const Support& s) { return s.nodes.empty() || !(s.holds_x || s.holds_y); });
   return supports;
 }

@@ -19,10 +19,12 @@ struct Support {
   bool is_foot = false;  ///< part of the base; may move apart from the others
 };
 
-/// The supports of a bridge in a box: nodes at y = 0 (base), x = 0 and x = length (sides). The base is a foot
+/// The supports of a bridge in a box: nodes at the height of its lower left `corner` (base), and at the x of
+/// that and `length` beside it (sides). The base is a foot
 /// for each stretch of ground on which blocks stand side by side. Sets that hold nothing or have no node are
 /// left out.
-std::vector<Support> box_supports(const Mesh& mesh, const SupportDescription& description, double length);
+std::vector<Support> box_supports(const Mesh& mesh, const SupportDescription& description, double length,
+                                  const Point& corner = Point::Zero());
 
 /// Adds the support "top" of a wall that is held above, and what is embedded to both: the nodes of the lowest
 /// and highest courses.

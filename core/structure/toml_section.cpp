@@ -51,14 +51,37 @@ void TomlSection::text(const char* key, std::string& target) {
 std::vector<std::string> TomlSection::texts(const char* key) {
   const toml::node* node = take(key);
   if (node == nullptr) return {};
-  const char* expected = "expected texts in brackets, [\"a\", \"b\"]";
-  if (!node->is_array()) refuse(key, expected);
-  std::vector<std::string> values;
-  for (const toml::node& value : *node->as_array()) {
-    if (!value.is_string()) refuse(key, expected);
-    values.push_back(value.as_string()->get());
+  const toml::array* entries = node->as_array();
+  if (entries == nullptr || entries->empty()) refuse(key, "expected texts in quotes: [\"a\", \"b\"]");
+  std::vector<std::string> texts;
+  for (const toml::node& entry : *entries) {
+    if (!entry.is_string()) refuse(key, "expected texts in quotes: [\"a\", \"b\"]");
+    texts.push_back(entry.as_string()->get());
   }
-  return values;
+  return texts;
+}
+
+std::vector<Point> TomlSection::points(const char* key, std::size_t fewest, std::size_t most) {
+  const toml::node* node = take(key);
+  if (node == nullptr) return {};
+  const toml::array* rows = node->as_array();
+  if (rows == nullptr || rows->size() < fewest || rows->size() > most)
+    refuse(key, fmt::format("expected {} to {} points: [[x, y], ..]", fewest, most));
+  std::vector<Point> points;
+  for (const toml::node& row : *rows) {
+    Point& point = points.emplace_back(Point::Zero());
+    const toml::array* pair = row.as_array();
+    if (pair == nullptr || pair->size() != 2)
+      refuse(key, fmt::format("point {}: expected [x, y]", points.size()));
+    for (const Eigen::Index axis : {0, 1}) {
+      const toml::node& entry = *pair->get(static_cast<std::size_t>(axis));
+      const auto number = entry.value<double>();
+      if (!number || !entry.is_number() || !(std::abs(*number) <= kLargestLength))
+        refuse(key, fmt::format("point {}: expected numbers of at most {:g}", points.size(), kLargestLength));
+      point[axis] = *number;
+    }
+  }
+  return points;
 }
 
 const toml::table* TomlSection::table(const char* key) {

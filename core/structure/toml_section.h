@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/error.h"
+#include "core/geometry/polygon.h"
 
 namespace voussoir {
 
@@ -34,6 +35,8 @@ class TomlSection {
   void text(const char* key, std::string& target);
   /// ["a", "b"]; empty if the key is not there.
   std::vector<std::string> texts(const char* key);
+  /// [[x, y], ..] in metres; empty if the key is not there.
+  std::vector<Point> points(const char* key, std::size_t fewest, std::size_t most);
 
   template <typename Choice>
   void choice(const char* key, Choice& target,

@@ -80,4 +80,25 @@ void TopSurface::add_line(double left, double right, double force_per_length, Fi
   }
 }
 
+void TopSurface::add_soil(const std::vector<Point>& line, double mass_per_area,
+                          Eigen::VectorXd& masses) const {
+  const double kPlace = 0.5 / std::sqrt(3.0);
+  for (std::size_t i = 0; i < highest_.size(); ++i) {
+    if (highest_[i] == kNone) continue;
+    const Edge& edge = edges_[static_cast<std::size_t>(highest_[i])];
+    for (std::size_t s = 0; s + 1 < line.size(); ++s) {
+      const double begin = std::max(ends_[i], line[s].x()), end = std::min(ends_[i + 1], line[s + 1].x());
+      for (const double place : {0.5 - kPlace, 0.5 + kPlace}) {
+        if (end <= begin) continue;
+        const double x = begin + place * (end - begin);
+        const double along = (x - line[s].x()) / (line[s + 1].x() - line[s].x());
+        const double top = line[s].y() + along * (line[s + 1].y() - line[s].y());
+        const double mass = 0.5 * (end - begin) * mass_per_area * std::max(0.0, top - edge.height(x));
+        masses[value(edge.left_node)] += (1.0 - edge.share_of_right(x)) * mass;
+        masses[value(edge.right_node)] += edge.share_of_right(x) * mass;
+      }
+    }
+  }
+}
+
 }  // namespace voussoir

@@ -21,6 +21,11 @@ class TopSurface {
   /// edges. Throws InputError if there is no block under a part of it.
   void add_line(double left, double right, double force_per_length, Field& load) const;
 
+  /// Adds the soil [kg] between the top and a line of straight stretches above it (x ascending), where it is
+  /// above, to the nodes' masses: `mass_per_area` [kg/m2] times the height, by Gauss's rule with two points
+  /// on each stretch of both, which is exact where the line does not cross the top.
+  void add_soil(const std::vector<Point>& line, double mass_per_area, Eigen::VectorXd& masses) const;
+
  private:
   /// An edge from its left to its right node.
   struct Edge {

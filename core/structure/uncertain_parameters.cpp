@@ -75,6 +75,7 @@ void apply(const UncertainAction& action, double theta, Parameters& parameters) 
     else
       joint.tangential_stiffness *= factor;
   }
+  if (action.quantity == UncertainQuantity::density) parameters.laid_mass *= factor;
   for (Material& block : parameters.blocks) {
     if (action.quantity == UncertainQuantity::young_modulus) block.young_modulus *= factor;
     if (action.quantity == UncertainQuantity::density) block.density *= factor;

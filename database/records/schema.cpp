@@ -58,12 +58,12 @@ void append_blocks(const BlockLayout& layout, std::vector<DatasetValue>& dataset
   }
   datasets.push_back(
       name_dataset(dataset::kBlockLabel, labels, kBlockLabelWidth, "what each block is called"));
-  datasets.push_back(flag_dataset(dataset::kBlockRole, role, "0 wall, 1 arch ring"));
+  datasets.push_back(flag_dataset(dataset::kBlockRole, role,
+                                  "0 wall, 1 arch ring, 2 pier, 3 abutment, 4 parapet, 5 backing, 6 fill"));
   datasets.push_back(int_dataset(dataset::kBlockRing, ring, kFlat, "ring that each block belongs to, or -1"));
   datasets.push_back(int_dataset(dataset::kBlockIndex, index, 2,
                                  "course (0: arch, -1: not laid in courses) and position of each block"));
-  datasets.push_back(
-      flag_dataset(dataset::kBlockKind, kind, "0 leg, 1 voussoir, 2 plain, 3 cut by the arch"));
+  datasets.push_back(flag_dataset(dataset::kBlockKind, kind, "0 leg, 1 voussoir, 2 plain, 3 any other"));
   datasets.push_back(flag_dataset(dataset::kBlockTopCourse, top, "1: belongs to the highest course"));
   datasets.push_back(point_dataset(dataset::kCorners, corners,
                                    "x, y of the blocks' corners, counter-clockwise, block after block"));

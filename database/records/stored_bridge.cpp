@@ -37,9 +37,11 @@ Model bridge_of(const Database& database) {
   structure.layout = database.layout();
   structure.mesh = database.mesh();
   structure.joints = database.joints();
-  structure.supports = box_supports(structure.mesh, description.supports, description.wall.length);
+  const Bounds bounds = bounds_of(description);
+  structure.supports = box_supports(structure.mesh, description.supports, bounds.length, bounds.corner);
   structure.control_points = stored_points(database);
-  structure.symmetry = find_mirror_symmetry(structure.layout, structure.mesh, 0.5 * description.wall.length);
+  structure.symmetry =
+      find_mirror_symmetry(structure.layout, structure.mesh, bounds.corner.x() + 0.5 * bounds.length);
   return with_nominal_parameters(std::move(structure), description);
 }
 

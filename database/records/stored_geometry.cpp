@@ -68,7 +68,7 @@ BlockLayout read_layout(const Hdf5File& file) {
   const auto index = read_ints(file, dataset::kBlockIndex, 2);
   const std::size_t blocks = index.size() / 2;
   const auto labels = read_names(file, dataset::kBlockLabel, kBlockLabelWidth);
-  const auto role = read_flags(file, dataset::kBlockRole, blocks, static_cast<std::uint8_t>(BlockRole::ring));
+  const auto role = read_flags(file, dataset::kBlockRole, blocks, kRoleNames.size() - 1);
   const auto ring = read_ints(file, dataset::kBlockRing, kFlat);
   require_size(file, dataset::kBlockLabel, labels.size(), blocks);
   require_size(file, dataset::kBlockRing, ring.size(), blocks);

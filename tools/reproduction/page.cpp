@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "lookup/report/text_file.h"
+#include "core/text_file.h"
 #include "tools/reproduction/differences.h"
 #include "tools/reproduction/exhibits.h"
 #include "tools/reproduction/findings.h"

@@ -1,0 +1,55 @@
+#include "core/geometry/overlap.h"
+
+#include <algorithm>
+
+#include "core/geometry/triangulation.h"
+
+namespace voussoir {
+namespace {
+
+std::vector<Polygon> triangles_of(const Polygon& polygon) {
+  std::vector<Polygon> triangles;
+  for (const auto& [a, b, c] : cut_between_corners(polygon).triangles)
+    triangles.push_back({polygon[static_cast<std::size_t>(a)], polygon[static_cast<std::size_t>(b)],
+                         polygon[static_cast<std::size_t>(c)]});
+  return triangles;
+}
+
+/// What of a convex polygon lies left of a line.
+Polygon left_of(const Polygon& polygon, const Point& from, const Point& to) {
+  Polygon rest;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Point& a = polygon[i];
+    const Point& b = polygon[(i + 1) % polygon.size()];
+    const double left_a = cross(to - from, a - from), left_b = cross(to - from, b - from);
+    if (left_a >= 0.0) rest.push_back(a);
+    if ((left_a > 0.0 && left_b < 0.0) || (left_a < 0.0 && left_b > 0.0))
+      rest.push_back(a + left_a / (left_a - left_b) * (b - a));
+  }
+  return rest;
+}
+
+Polygon common(Polygon polygon, const Polygon& triangle) {
+  for (std::size_t i = 0; i < 3 && polygon.size() > 2; ++i)
+    polygon = left_of(polygon, triangle[i], triangle[(i + 1) % 3]);
+  return polygon;
+}
+
+}  // namespace
+
+Overlap overlap_of(const Polygon& first, const Polygon& second) {
+  Overlap result;
+  const std::vector<Polygon> others = triangles_of(second);
+  for (const Polygon& one : triangles_of(first))
+    for (const Polygon& other : others) {
+      const Polygon both = common(one, other);
+      const double size = both.size() > 2 ? area(both) : 0.0;
+      if (size <= 0.0) continue;
+      result.area += size;
+      result.place += size * centroid(both);
+    }
+  if (result.area > 0.0) result.place /= result.area;
+  return result;
+}
+
+}  // namespace voussoir

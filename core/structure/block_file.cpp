@@ -1,0 +1,107 @@
+#include "core/structure/block_file.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "core/error.h"
+#include "core/text.h"
+#include "core/text_file.h"
+
+namespace voussoir {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr std::size_t kLargestFile = 1 << 26;  ///< [bytes]
+constexpr std::size_t kMostBlocks = 20000;
+constexpr double kFarthest = 1e5;  ///< [m] of anything
+constexpr int kMostRings = 1000;
+
+/// What is read, for messages: "survey.json: block 3".
+struct Place {
+  const std::string& file;
+  std::size_t block;
+
+  [[noreturn]] void refuse(const std::string& message) const {
+    throw InputError(fmt::format("{}: block {}: {}", file, block, message));
+  }
+};
+
+BlockRole role_of(const Json& entry, const Place& place) {
+  const auto role = entry.find("role");
+  if (role == entry.end()) return BlockRole::wall;
+  const auto found = role->is_string() ? std::ranges::find(kRoleNames, role->get<std::string>()) : kRoleNames.end();
+  if (found == kRoleNames.end())
+    place.refuse(fmt::format("role: expected one of {}", fmt::join(kRoleNames, ", ")));
+  return static_cast<BlockRole>(found - kRoleNames.begin());
+}
+
+Polygon vertices_of(const Json& entry, const Place& place) {
+  const auto vertices = entry.find("vertices");
+  if (vertices == entry.end() || !vertices->is_array()) place.refuse("expected \"vertices\": [[x, y], ..]");
+  Polygon polygon;
+  for (const Json& vertex : *vertices) {
+    const bool pair = vertex.is_array() && vertex.size() >= 2 && vertex[0].is_number() && vertex[1].is_number();
+    const Point point = pair ? Point(vertex[0].get<double>(), vertex[1].get<double>()) : Point::Zero();
+    if (!pair || !(point.cwiseAbs().maxCoeff() <= kFarthest))
+      place.refuse(fmt::format("vertex {}: expected [x, y], numbers of at most {:g} m", polygon.size() + 1, kFarthest));
+    polygon.push_back(point);
+  }
+  return polygon;
+}
+
+std::string label_of(const Json& entry, const Place& place) {
+  const auto label = entry.find("label");
+  if (label == entry.end()) return fmt::format("{}", place.block);
+  if (label->is_number_integer()) return fmt::format("{}", label->get<std::int64_t>());
+  if (!label->is_string()) place.refuse("label: expected a text or a whole number");
+  return label->get<std::string>();
+}
+
+int ring_of(const Json& entry, BlockRole role, const Place& place) {
+  if (role != BlockRole::ring) return kNoRing;
+  const auto ring = entry.find("ring");
+  if (ring == entry.end()) return 0;
+  if (!ring->is_number_unsigned() || ring->get<std::uint64_t>() >= kMostRings)
+    place.refuse(fmt::format("ring: expected a whole number from 0 to {}", kMostRings - 1));
+  return ring->get<int>();
+}
+
+Block block_of(const Json& entry, const Place& place) {
+  if (!entry.is_object()) place.refuse("expected {\"label\": .., \"role\": .., \"vertices\": [[x, y], ..]}");
+  for (const auto& [key, unused] : entry.items())
+    if (key != "label" && key != "role" && key != "ring" && key != "vertices")
+      place.refuse(fmt::format("unknown key {}: expected label, role, ring and vertices", voussoir::quoted(key)));
+  Block block;
+  block.role = role_of(entry, place);
+  block.ring = ring_of(entry, block.role, place);
+  block.label = label_of(entry, place);
+  block.polygon = vertices_of(entry, place);
+  return block;
+}
+
+}  // namespace
+
+BlockFile parse_json_blocks(std::string_view text, const std::string& name) {
+  const Json root = Json::parse(text, nullptr, false);
+  if (root.is_discarded()) throw InputError(fmt::format("{}: is no JSON: expected {{\"blocks\": [..]}}", name));
+  const auto entries = root.is_object() ? root.find("blocks") : root.end();
+  if (entries == root.end() || !entries->is_array() || entries->empty())
+    throw InputError(fmt::format("{}: expected {{\"blocks\": [{{\"vertices\": [[x, y], ..]}}, ..]}}", name));
+  if (entries->size() > kMostBlocks)
+    throw InputError(fmt::format("{}: {} blocks: expected at most {}", name, entries->size(), kMostBlocks));
+  BlockFile file;
+  for (const Json& entry : *entries) file.blocks.push_back(block_of(entry, {name, file.blocks.size() + 1}));
+  return file;
+}
+
+BlockFile read_block_file(const std::filesystem::path& path) {
+  std::string ending = path.extension().string();
+  std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return c < 0x80 ? std::tolower(c) : c; });
+  if (ending != ".json" && ending != ".dxf")
+    throw InputError(fmt::format("{}: expected a file of blocks that ends in .json or .dxf", path.string()));
+  const std::string text = read_text(path, kLargestFile, "a file of blocks (JSON or DXF)");
+  return ending == ".json" ? parse_json_blocks(text, path.string()) : parse_dxf_blocks(text, path.string());
+}
+
+}  // namespace voussoir

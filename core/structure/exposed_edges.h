@@ -1,0 +1,21 @@
+#pragma once
+/// @file Which faces of blocks lie open: the top that carries traffic, the intrados that can be measured.
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "core/structure/block.h"
+
+namespace voussoir {
+
+/// Has the block a level upper edge, and is no other block above the middle of it?
+bool is_seen_from_above(const Block& block, const std::vector<Block>& blocks);
+
+/// The ends of the block's open face towards a point, from left to right: edges from whose line the point is
+/// seen outside the block and that no other block touches within `tolerance` [m] along half their length.
+/// Nothing if there is none.
+std::optional<std::array<Point, 2>> open_face_towards(const Block& block, const std::vector<Block>& blocks,
+                                                      const Point& point, double tolerance);
+
+}  // namespace voussoir

@@ -1,0 +1,50 @@
+#include "core/structure/parts_section.h"
+
+namespace voussoir {
+namespace {
+
+
+void read_courses(TomlSection& section, WallDescription& wall) {
+  section.length("length_m", wall.length);
+  section.count("courses", wall.courses, 0, kMostCourses);
+  section.length("course_height_m", wall.course_height);
+  section.length("block_length_m", wall.block_length);
+  section.choice("bond", wall.bond, {{"running", Bond::running}, {"stack", Bond::stack}});
+  section.positive("smallest_piece_m2", wall.smallest_piece);
+  section.number("smallest_block", wall.smallest_block, 0.0, 0.5, true);
+}
+
+}  // namespace
+
+void read_wall(TomlSection section, WallDescription& wall) {
+  wall.smallest_block = kSmallestBlock;
+  read_courses(section, wall);
+  section.flag("halved", wall.halved);
+  section.refuse_unknown_keys();
+}
+
+void read_role(TomlSection& section, const char* key, BlockRole& role) {
+  section.choice(key, role,
+                 {{"wall", BlockRole::wall},
+                  {"ring", BlockRole::ring},
+                  {"pier", BlockRole::pier},
+                  {"abutment", BlockRole::abutment},
+                  {"parapet", BlockRole::parapet},
+                  {"backing", BlockRole::backing},
+                  {"fill", BlockRole::fill}});
+}
+
+WallPart read_part(TomlSection section, const WallDescription& wall) {
+  WallPart part{.courses = wall};
+  read_role(section, "role", part.role);
+  if (part.role == BlockRole::ring) section.refuse("role", "rings are laid by [[spans]]: expected another role");
+  section.number("from_x_m", part.from_x, 0.0, kLargestLength, true);
+  section.number("base_y_m", part.base_y, 0.0, kLargestLength, true);
+  section.require("length_m");
+  section.require("courses");
+  read_courses(section, part.courses);
+  section.refuse_unknown_keys();
+  return part;
+}
+
+}  // namespace voussoir

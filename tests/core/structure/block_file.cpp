@@ -1,0 +1,186 @@
+/// @file Files of blocks. Oracle: files written here, and damaged ones.
+
+#include "core/structure/block_file.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <numbers>
+
+#include "core/error.h"
+#include "core/structure/assembly_check.h"
+#include "core/structure/bridge_file.h"
+#include "core/structure/model.h"
+#include "core/text_file.h"
+#include "tests/support/bridges.h"
+#include "tests/support/fuzzing.h"
+#include "tests/support/temporary_folder.h"
+
+using namespace voussoir;
+using Catch::Matchers::Contains;
+
+namespace {
+
+std::string lwpolyline(const std::string& layer, const Polygon& polygon, int flags = 1) {
+  std::string text = fmt::format("0\nLWPOLYLINE\n8\n{}\n90\n{}\n70\n{}\n", layer, polygon.size(), flags);
+  for (const Point& p : polygon) text += fmt::format("10\n{}\n20\n{}\n", p.x(), p.y());
+  return text;
+}
+
+std::string drawing(const std::string& entities, const std::string& header = "") {
+  return "0\nSECTION\n2\nHEADER\n" + header + "0\nENDSEC\n0\nSECTION\n2\nENTITIES\n" + entities + "0\nENDSEC\n0\nEOF\n";
+}
+
+const Polygon kSquare = {{0.0, 0.0}, {2.0, 0.0}, {2.0, 2.0}, {0.0, 2.0}};
+
+/// A bridge as JSON, with every digit.
+std::string to_json(const BlockLayout& layout) {
+  std::string text = "{\"blocks\": [";
+  for (std::size_t i = 0; i < layout.size(); ++i) {
+    const Block& block = layout.blocks[i];
+    text += fmt::format("{}{{\"label\": \"{}\", \"role\": \"{}\", ", i > 0 ? ",\n" : "", block.label, name_of(block.role));
+    if (block.role == BlockRole::ring) text += fmt::format("\"ring\": {}, ", block.ring);
+    text += "\"vertices\": [";
+    for (std::size_t c = 0; c < block.polygon.size(); ++c)
+      text += fmt::format("{}[{}, {}]", c > 0 ? ", " : "", block.polygon[c].x(), block.polygon[c].y());
+    text += "]}";
+  }
+  return text + "]}";
+}
+
+std::string to_dxf(const BlockLayout& layout) {
+  std::string entities;
+  for (const Block& block : layout.blocks) {
+    const std::string layer = block.role == BlockRole::ring ? fmt::format("Ring {}", block.ring + 1) : "WALL";
+    entities += lwpolyline(layer, block.polygon);
+    const Point p = centroid(block.polygon);
+    entities += fmt::format("0\nTEXT\n8\nlabels\n10\n{}\n20\n{}\n1\n{}\n", p.x(), p.y(), block.label);
+  }
+  return drawing(entities);
+}
+
+std::vector<std::string> good_files() {
+  const BlockLayout layout = lay_blocks(test::small_description());
+  return {to_json(layout), to_dxf(layout), drawing(lwpolyline("ring", kSquare), "9\n$INSUNITS\n70\n4\n")};
+}
+
+}  // namespace
+
+TEST_CASE("DXF: layer, ring, label, unit and arcs (written out)", "[block-file]") {
+  const BlockFile file = parse_dxf_blocks(
+      drawing(lwpolyline("RING 2", kSquare) + "0\nTEXT\n8\nx\n10\n1\n20\n1\n1\nkeystone\n" + lwpolyline("dims", kSquare) +
+                  lwpolyline("wall", kSquare, 0) +
+                  "0\nPOLYLINE\n8\npier\n70\n1\n0\nVERTEX\n8\npier\n10\n4\n20\n0\n0\nVERTEX\n8\npier\n10\n6\n20\n0\n42\n1\n0\nSEQEND\n",
+              "9\n$INSUNITS\n70\n5\n"),
+      "a.dxf");
+  REQUIRE(file.blocks.size() == 2);
+  CHECK(file.blocks[0].role == BlockRole::ring);
+  CHECK(file.blocks[0].ring == 1);
+  CHECK(file.blocks[0].label == "keystone");
+  CHECK(area(file.blocks[0].polygon) == Approx(4e-4));
+  CHECK(file.blocks[1].role == BlockRole::pier);
+  CHECK(file.blocks[1].label == "2");
+  // Half a circle of 1 cm radius in 18 chords.
+  CHECK(std::abs(area(file.blocks[1].polygon)) == Approx(0.5 * 18 * 1e-4 * std::sin(std::numbers::pi / 18)).epsilon(1e-9));
+  REQUIRE(file.notes.size() == 2);
+  CHECK_THAT(file.notes[0], Contains("1 outlines on layer 'dims'"));
+  CHECK_THAT(file.notes[1], Contains("1 outlines that are not closed"));
+}
+
+TEST_CASE("Bad files of blocks are refused with file, place and what was expected", "[block-file]") {
+  const auto dxf = [](const std::string& text) {
+    try {
+      parse_dxf_blocks(text, "a.dxf");
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string("accepted");
+  };
+  const auto json = [](const std::string& text) {
+    try {
+      parse_json_blocks(text, "a.json");
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string("accepted");
+  };
+  CHECK_THAT(dxf("hello\n"), Contains("a.dxf:1:") && Contains("'hello'") && Contains("group code"));
+  CHECK_THAT(dxf("AutoCAD Binary DXF\r\n"), Contains("a.dxf:1:"));
+  CHECK_THAT(dxf("0\n"), Contains("a.dxf:1:") && Contains("ends after a group code"));
+  CHECK_THAT(dxf(drawing("0\nLWPOLYLINE\n8\nwall\n10\nx\n")), Contains("'x'") && Contains("expected a number"));
+  CHECK_THAT(dxf(drawing("0\nLWPOLYLINE\n8\nwall\n20\n1\n")), Contains("expected group 10"));
+  CHECK_THAT(dxf(drawing("0\nVERTEX\n")), Contains("after a POLYLINE"));
+  CHECK_THAT(dxf(drawing("", "9\n$INSUNITS\n70\n1\n")), Contains("$INSUNITS is 1"));
+  CHECK_THAT(dxf(drawing(lwpolyline("dims", kSquare))), Contains("no closed polylines"));
+  CHECK_THAT(json("{"), Contains("a.json") && Contains("is no JSON"));
+  CHECK_THAT(json("{\"blocks\": []}"), Contains("expected {\"blocks\""));
+  CHECK_THAT(json("{\"blocks\": [{}]}"), Contains("a.json: block 1: expected \"vertices\""));
+  CHECK_THAT(json("{\"blocks\": [{\"vertices\": [[0, 0], [1]]}]}"), Contains("block 1: vertex 2"));
+  CHECK_THAT(json("{\"blocks\": [{\"vertices\": [[0, 1e9]]}]}"), Contains("at most 100000 m"));
+  CHECK_THAT(json("{\"blocks\": [{\"role\": \"roof\"}]}"), Contains("role: expected one of wall, ring"));
+  CHECK_THAT(json("{\"blocks\": [{\"colour\": 1}]}"), Contains("unknown key 'colour'"));
+  CHECK_THAT(json("{\"blocks\": [{\"role\": \"ring\", \"ring\": -1}]}"), Contains("ring: expected a whole number"));
+  CHECK_THAT(json(std::string(1'000'000, '[')), Contains("is no JSON"));
+}
+
+TEST_CASE("A bridge written as JSON or DXF and read again is the same bridge", "[block-file]") {
+  const Model laid = make_model(test::small_description());
+  const test::TemporaryFolder folder;
+  for (const auto& [name, text] : {std::pair("b.json", to_json(laid.layout)), std::pair("b.dxf", to_dxf(laid.layout))}) {
+    write_file(folder / name, text);
+    write_file(folder / "b.toml", fmt::format("name = \"read\"\nblocks = \"{}\"  # the survey\ngravity_m_s2 = 9.81\n", name));
+    const BridgeFile file = read_bridge_file(folder / "b.toml");
+    INFO(name);
+    const Model read = make_model(file.description);
+    REQUIRE(read.block_count() == laid.block_count());
+    for (std::size_t b = 0; b < laid.layout.size(); ++b) {
+      CHECK(read.layout.blocks[b].label == laid.layout.blocks[b].label);
+      CHECK(read.layout.blocks[b].role == laid.layout.blocks[b].role);
+      const Polygon &found = read.layout.blocks[b].polygon, &expected = laid.layout.blocks[b].polygon;
+      REQUIRE(found.size() == expected.size());
+      for (std::size_t i = 0; i < found.size(); ++i) CHECK((found[i] - expected[i]).norm() < 1e-12);
+    }
+    const auto length_of_joints = [](const Model& model) {
+      double sum = 0.0;
+      for (const Joint& joint : model.joints) sum += joint.length;
+      return sum;
+    };
+    CHECK(length_of_joints(read) == Approx(length_of_joints(laid)).epsilon(1e-9));
+    CHECK(read.symmetry.has_value());
+    CHECK(read.supports.size() == laid.supports.size());
+    CHECK(read.control_points.size() == laid.control_points.size());
+    // The text stands by itself: what a database keeps needs no other file.
+    const Model stored = make_model(parse_bridge_file(file.text, "database").description);
+    CHECK(stored.mesh.nodes == read.mesh.nodes);
+    CHECK_THAT(file.text, Contains("gravity_m_s2") && Contains("the blocks of \"" + std::string(name)));
+  }
+}
+
+TEST_CASE("A text that names a file of blocks opens none: it may come out of a stranger's database", "[block-file]") {
+  CHECK_THROWS_WITH(parse_bridge_file("blocks = \"/etc/passwd\"\n", "stored"), Contains("stored:1:"));
+  CHECK_THROWS_WITH(parse_bridge_file("blocks = [{label = \"a\", vertices = [[0, 0], [1, 0], [1, 1]]}]\n[wall]\ncourses = 3\n", "b.toml"),
+                    Contains("b.toml:") && Contains("not both"));
+}
+
+TEST_CASE("Four thousand damaged files of blocks are read or refused", "[block-file][fuzz]") {
+  const std::vector<std::string> nasty = {"nan",  "1e308", "-1",   "2147483648", "0\nLWPOLYLINE\n", "0\nVERTEX\n", "42\n1e300\n",
+                                          "[",    "]",     "{",    "}",          "\"",              ",",           "70\n-1\n",
+                                          "\xFF", "\r\n",  "null", "1e-320",     "90\n99999999\n",  "\\u0000",     "true"};
+  const std::vector<std::string> good = good_files();
+  test::Chance chance(5);
+  const auto try_one = [&] {
+    const std::string text = test::damaged_text(good, nasty, chance);
+    try {
+      BlockFile file = text.front() == '{' ? parse_json_blocks(text, "f") : parse_dxf_blocks(text, "f");
+      heal_and_check(file.blocks, {});
+      for (const Block& block : file.blocks)
+        if (!(area(block.polygon) > 0.0 && std::isfinite(area(block.polygon)))) FAIL("accepted an unsound block");
+      return test::Verdict::accepted;
+    } catch (const InputError& error) {
+      if (std::string(error.what()).empty()) FAIL("refused without a word");
+      return test::Verdict::refused;
+    }
+  };
+  const test::Tally tally = test::feed(4'000, try_one);
+  CHECK(tally.accepted > 200);
+  CHECK(tally.refused > 500);
+}

@@ -1,0 +1,47 @@
+/// @file The picture of a bridge file. Oracle: counts of the bridge's own parts.
+
+#include "generator/bridge_drawing.h"
+
+#include <catch2/catch.hpp>
+
+#include "core/structure/bridge_file.h"
+#include "tests/support/bridges.h"
+
+using namespace voussoir;
+
+namespace {
+
+int count(const std::string& text, const std::string& piece) {
+  int found = 0;
+  for (std::size_t at = text.find(piece); at != std::string::npos; at = text.find(piece, at + 1)) ++found;
+  return found;
+}
+
+}  // namespace
+
+TEST_CASE("A drawing shows every block, control point, support, joint and load of a bridge", "[drawing]") {
+  const BridgeDescription description = read_bridge_file(test::example_bridge("load-test")).description;
+  const Model bridge = make_model(description);
+  const std::string picture = bridge_drawing(bridge, description);
+  CHECK(count(picture, "<svg") == 1);
+  CHECK(count(picture, "</svg>") == 1);
+  CHECK(count(picture, "<path class=\"wall\"") == bridge.layout.count_with(BlockRole::wall));
+  CHECK(count(picture, "<path class=\"ring\"") == bridge.layout.count_with(BlockRole::ring));
+  CHECK(count(picture, "<circle class=\"point\"") == static_cast<int>(bridge.control_points.size()));
+  std::size_t held = 0;
+  for (const Support& support : bridge.supports) held += support.nodes.size();
+  CHECK(count(picture, "class=\"support\"") + count(picture, "class=\"roller\"") == static_cast<int>(held));
+  const std::size_t joints = picture.find("<path class=\"joint\"");
+  REQUIRE(joints != std::string::npos);
+  const std::string line = picture.substr(joints, picture.find('\n', joints) - joints);
+  CHECK(count(line, "M") == static_cast<int>(bridge.joints.size()));
+  CHECK(count(picture, "class=\"load\"") > 0);
+}
+
+TEST_CASE("What a name holds cannot end the picture's markup", "[drawing]") {
+  BridgeDescription description = test::small_description();
+  description.name = "</text><script>\"&";
+  const std::string picture = bridge_drawing(make_model(description), description);
+  CHECK(count(picture, "<script") == 0);
+  CHECK(count(picture, "&lt;/text&gt;&lt;script&gt;&quot;&amp;") == 2);
+}
