@@ -10,8 +10,8 @@
 namespace voussoir {
 namespace {
 
-constexpr double kWidth = 1200.0;    ///< [px] of the picture
-constexpr double kMargin = 50.0;     ///< [px] on all sides, with the scale
+constexpr double kWidth = 1200.0;     ///< [px] of the picture
+constexpr double kMargin = 50.0;      ///< [px] on all sides, with the scale
 constexpr double kLabelHeight = 9.0;  ///< [px]
 
 constexpr const char* kStyle =
@@ -40,7 +40,11 @@ struct Frame {
 std::string escaped(const std::string& text) {
   std::string result;
   for (const char c : text)
-    result += c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '>' ? "&gt;" : c == '"' ? "&quot;" : std::string(1, c);
+    result += c == '&'   ? "&amp;"
+              : c == '<' ? "&lt;"
+              : c == '>' ? "&gt;"
+              : c == '"' ? "&quot;"
+                         : std::string(1, c);
   return result;
 }
 
@@ -96,8 +100,8 @@ std::string supports(const Structure& bridge, const Frame& frame) {
       if (support.holds_y)
         elements += fmt::format("<path class=\"support\" d=\"M{0:.1f} {1:.1f}l-4 7h8z\"/>\n", p.x(), p.y());
       else
-        elements += fmt::format("<circle class=\"roller\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"3\"/>\n", p.x() + aside,
-                                p.y());
+        elements += fmt::format("<circle class=\"roller\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"3\"/>\n",
+                                p.x() + aside, p.y());
     }
   return elements;
 }
@@ -107,8 +111,8 @@ std::string control_points(const Structure& bridge, const Frame& frame) {
   for (const ControlPoint& point : bridge.control_points) {
     const Point p = frame(point.position);
     elements += fmt::format(
-        "<circle class=\"point\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"2\"><title>{}</title></circle>\n", p.x(), p.y(),
-        escaped(point.name));
+        "<circle class=\"point\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"2\"><title>{}</title></circle>\n", p.x(),
+        p.y(), escaped(point.name));
   }
   return elements;
 }
@@ -125,7 +129,8 @@ std::string loads(const Model& bridge, const BridgeDescription& description, con
       if (share <= 0.0) continue;
       const Point p = frame(bridge.mesh.nodes.col(node));
       elements += fmt::format(
-          "<path class=\"load\" d=\"M{0:.1f} {1:.1f}v{2:.1f}m-3 -6l3 6l3 -6\"><title>{3}: {4:.4g} kN</title></path>\n",
+          "<path class=\"load\" d=\"M{0:.1f} {1:.1f}v{2:.1f}m-3 -6l3 6l3 -6\"><title>{3}: {4:.4g} "
+          "kN</title></path>\n",
           p.x(), p.y() - 0.8 * kMargin * share, 0.8 * kMargin * share, escaped(stages.front().name),
           -1e-3 * force(1, node));
     }
@@ -150,9 +155,10 @@ std::string scales(const Frame& frame) {
 }
 
 std::string title(const Model& bridge, const BridgeDescription& description) {
-  return fmt::format("{}: {} blocks, {} of them in rings; {} joints, {} control points{} [m]", description.name,
-                     bridge.block_count(), bridge.layout.count_with(BlockRole::ring), bridge.joints.size(),
-                     bridge.control_points.size(), bridge.symmetry ? "; its own mirror image" : "");
+  return fmt::format("{}: {} blocks, {} of them in rings; {} joints, {} control points{} [m]",
+                     description.name, bridge.block_count(), bridge.layout.count_with(BlockRole::ring),
+                     bridge.joints.size(), bridge.control_points.size(),
+                     bridge.symmetry ? "; its own mirror image" : "");
 }
 
 }  // namespace
@@ -161,13 +167,15 @@ std::string bridge_drawing(const Model& bridge, const BridgeDescription& descrip
   const Frame frame(bridge.mesh);
   const std::string heading = title(bridge, description);
   return fmt::format(
-             "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.0f}\" height=\"{1:.0f}\" viewBox=\"0 0 {0:.0f} "
-             "{1:.0f}\" role=\"img\" aria-label=\"{2}\">\n<style>{3}</style>\n<rect width=\"100%\" height=\"100%\" "
+             "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.0f}\" height=\"{1:.0f}\" viewBox=\"0 0 "
+             "{0:.0f} "
+             "{1:.0f}\" role=\"img\" aria-label=\"{2}\">\n<style>{3}</style>\n<rect width=\"100%\" "
+             "height=\"100%\" "
              "fill=\"#fff\"/>\n",
              kWidth, frame.height(), escaped(heading), kStyle) +
-         text_at({0.5 * kWidth, 20.0}, "big", heading) + blocks(bridge.layout, frame) + joints(bridge, frame) +
-         labels(bridge.layout, frame) + supports(bridge, frame) + control_points(bridge, frame) +
-         loads(bridge, description, frame) + scales(frame) + "</svg>\n";
+         text_at({0.5 * kWidth, 20.0}, "big", heading) + blocks(bridge.layout, frame) +
+         joints(bridge, frame) + labels(bridge.layout, frame) + supports(bridge, frame) +
+         control_points(bridge, frame) + loads(bridge, description, frame) + scales(frame) + "</svg>\n";
 }
 
 }  // namespace voussoir

@@ -78,9 +78,8 @@ Curve three_centred_arch(const Point& middle, double span, double rise, double h
   const double above = rise - haunch_radius;
   const double below = (out * out - above * above) / (2.0 * above);  // of the flat arc's centre
   const double turn = std::atan2(below, out);
-  return chain(middle.x(),
-               {{{out, middle.y()}, haunch_radius, 0.0, turn},
-                {{0.0, middle.y() - below}, rise + below, turn, 0.5 * std::numbers::pi - turn}});
+  return chain(middle.x(), {{{out, middle.y()}, haunch_radius, 0.0, turn},
+                            {{0.0, middle.y() - below}, rise + below, turn, 0.5 * std::numbers::pi - turn}});
 }
 
 }  // namespace voussoir

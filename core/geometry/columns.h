@@ -1,6 +1,6 @@
 #pragma once
-/// @file Things by the upright columns of the plane that they reach into: who is near whom, without looking at
-/// all.
+/// @file Things by the upright columns of the plane that they reach into: who is near whom, without looking
+/// at all.
 
 #include <algorithm>
 #include <cmath>

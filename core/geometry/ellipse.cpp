@@ -29,16 +29,16 @@ double angle_at(double length, double a, double b) {
 Curve half_ellipse(const Point& middle, double span, double rise) {
   const double a = 0.5 * span, b = rise;
   const double half = length_to(kQuarter, a, b);
-  return with_mirror_image(
-      middle.x(), 2.0 * half, [=, y = middle.y()](const CurvePlace& place, double offset) -> Point {
-        const bool at_end = place.part == 0.0;
-        const bool on_top = 2.0 * place.part == place.parts;
-        const double length = 2.0 * half * place.part / place.parts;
-        const double phi = at_end ? 0.0 : on_top ? kQuarter : angle_at(length, a, b);
-        const double cosine = on_top ? 0.0 : std::cos(phi), sine = std::sin(phi);
-        const Point normal = Point(b * cosine, a * sine).normalized();
-        return Point(a * cosine, y + b * sine) + offset * normal;
-      });
+  return with_mirror_image(middle.x(), 2.0 * half,
+                           [=, y = middle.y()](const CurvePlace& place, double offset) -> Point {
+                             const bool at_end = place.part == 0.0;
+                             const bool on_top = 2.0 * place.part == place.parts;
+                             const double length = 2.0 * half * place.part / place.parts;
+                             const double phi = at_end ? 0.0 : on_top ? kQuarter : angle_at(length, a, b);
+                             const double cosine = on_top ? 0.0 : std::cos(phi), sine = std::sin(phi);
+                             const Point normal = Point(b * cosine, a * sine).normalized();
+                             return Point(a * cosine, y + b * sine) + offset * normal;
+                           });
 }
 
 }  // namespace voussoir

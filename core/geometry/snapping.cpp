@@ -54,8 +54,8 @@ Network network_of(const std::vector<Polygon>& polygons, double tolerance) {
   return network;
 }
 
-/// Bends edges so that they pass through the places near them: those become corners of the outline. Returns how
-/// many, and how far the farthest was off.
+/// Bends edges so that they pass through the places near them: those become corners of the outline. Returns
+/// how many, and how far the farthest was off.
 Snapping bend_edges(Network& network, double left, double right, double tolerance) {
   Columns columns(left, right, kColumns);
   for (std::size_t i = 0; i < network.places.size(); ++i)
@@ -96,7 +96,8 @@ Snapping snap(std::vector<Polygon>& polygons, double tolerance) {
   Snapping result = bend_edges(network, left, right, tolerance);
   for (std::size_t p = 0; p < polygons.size(); ++p) {
     const Polygon before = std::exchange(polygons[p], {});
-    for (const int i : network.outlines[p]) polygons[p].push_back(network.places[static_cast<std::size_t>(i)]);
+    for (const int i : network.outlines[p])
+      polygons[p].push_back(network.places[static_cast<std::size_t>(i)]);
     for (const Point& corner : before) {
       const double move = polygons[p].empty() ? 0.0 : distance_to_corner(polygons[p], corner);
       result.moved += move > kNoMove ? 1 : 0;

@@ -12,8 +12,8 @@ struct Snapping {
   double farthest = 0.0;  ///< [m] that one was off
 };
 
-/// Moves corners that lie within `tolerance` [m] of another polygon's corner to one place, and bends edges that
-/// pass a corner within it so that they pass through it: it becomes a corner of both. What was near then
+/// Moves corners that lie within `tolerance` [m] of another polygon's corner to one place, and bends edges
+/// that pass a corner within it so that they pass through it: it becomes a corner of both. What was near then
 /// meets exactly. Corners of one polygon that come to one place are joined.
 Snapping snap(std::vector<Polygon>& polygons, double tolerance);
 

@@ -14,7 +14,8 @@ namespace voussoir {
 namespace {
 
 constexpr double kSameShare = 1e-12;  ///< of the intrados' length: round-off of its division
-constexpr double kFlattest = 1e-3;    ///< an end whose joint rises by less than this share of its width is level
+constexpr double kFlattest =
+    1e-3;  ///< an end whose joint rises by less than this share of its width is level
 
 /// A ring between two curves parallel to the intrados.
 struct Ring {
@@ -35,8 +36,7 @@ std::vector<CurvePlace> joint_places(int voussoirs, bool staggered) {
 }
 
 std::vector<Ring> rings_of(const SpanDescription& span) {
-  std::vector<Ring> rings = {
-      {0.0, span.ring_thickness, joint_places(span.voussoirs, span.staggered)}};
+  std::vector<Ring> rings = {{0.0, span.ring_thickness, joint_places(span.voussoirs, span.staggered)}};
   for (const RingDescription& ring : span.outer_rings) {
     const double inside = rings.back().outside;
     rings.push_back({inside, inside + ring.thickness, joint_places(ring.voussoirs, ring.staggered)});
@@ -53,7 +53,9 @@ std::vector<CurvePlace> bends_between(const Curve& curve, const Ring* inner, con
   if (curve.has_corner) places.push_back({1.0, 2.0});
   std::stable_sort(places.begin(), places.end(),
                    [](const CurvePlace& a, const CurvePlace& b) { return a.share() < b.share(); });
-  const auto same = [](const CurvePlace& a, const CurvePlace& b) { return b.share() - a.share() < kSameShare; };
+  const auto same = [](const CurvePlace& a, const CurvePlace& b) {
+    return b.share() - a.share() < kSameShare;
+  };
   places.erase(std::unique(places.begin(), places.end(), same), places.end());
   return places;
 }

@@ -16,8 +16,8 @@ Curve intrados_of(const SpanDescription& span);
 int ring_count(const SpanDescription& span);
 double thickness_of_rings(const SpanDescription& span);
 
-/// Does a stone carry each end of the ring? If the description does not say: semicircles have straight legs to
-/// the ground, other shapes such stones where the wall has no courses that could carry them.
+/// Does a stone carry each end of the ring? If the description does not say: semicircles have straight legs
+/// to the ground, other shapes such stones where the wall has no courses that could carry them.
 bool has_skewbacks(const SpanDescription& span, bool wall_has_courses);
 
 /// The blocks of an arch. Curved edges are chords between the joints of the ring and of the rings that touch

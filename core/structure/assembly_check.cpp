@@ -30,10 +30,12 @@ void check_labels(const std::vector<Block>& blocks) {
       return c > 0x20 && c < 0x7F && c != '+' && c != ';' && c != '*';
     });
     if (block.label.empty() || block.label.size() > kLongestLabel || !plain || block.label == "intact")
-      throw InputError(fmt::format("label {}: expected 1 to {} letters, digits or signs without blanks, + ; *",
-                                   quoted(block.label), kLongestLabel));
+      throw InputError(
+          fmt::format("label {}: expected 1 to {} letters, digits or signs without blanks, + ; *",
+                      quoted(block.label), kLongestLabel));
     if (!labels.insert(block.label).second)
-      throw InputError(fmt::format("two blocks are called '{}': expected a label of its own for each", block.label));
+      throw InputError(
+          fmt::format("two blocks are called '{}': expected a label of its own for each", block.label));
   }
 }
 
@@ -43,7 +45,8 @@ bool put_right(Block& block) {
   p.erase(std::unique(p.begin(), p.end()), p.end());
   if (p.size() > 1 && p.front() == p.back()) p.pop_back();
   if (p.size() < 3 || p.size() > kMostCorners)
-    throw InputError(fmt::format("block '{}' has {} corners: expected 3 to {}", block.label, p.size(), kMostCorners));
+    throw InputError(
+        fmt::format("block '{}' has {} corners: expected 3 to {}", block.label, p.size(), kMostCorners));
   const bool clockwise = area(p) < 0.0;
   if (clockwise) std::reverse(p.begin(), p.end());
   return clockwise;
@@ -51,10 +54,12 @@ bool put_right(Block& block) {
 
 void check_outline(const Block& block) {
   if (block.polygon.size() < 3 || area(block.polygon) < kSmallestArea)
-    throw InputError(fmt::format("block '{}' {} has less than {:g} m2: expected a block of masonry", block.label,
-                                 block.polygon.empty() ? "" : at(block.polygon.front()), kSmallestArea));
+    throw InputError(fmt::format("block '{}' {} has less than {:g} m2: expected a block of masonry",
+                                 block.label, block.polygon.empty() ? "" : at(block.polygon.front()),
+                                 kSmallestArea));
   if (const auto place = self_crossing(block.polygon))
-    throw InputError(fmt::format("block '{}': its outline crosses or touches itself {}", block.label, at(*place)));
+    throw InputError(
+        fmt::format("block '{}': its outline crosses or touches itself {}", block.label, at(*place)));
 }
 
 struct Box {
@@ -74,7 +79,8 @@ Box box_of(const Polygon& polygon, double margin) {
 }
 
 /// Pairs of blocks whose boxes come nearer than `distance` [m].
-std::vector<std::pair<std::size_t, std::size_t>> near_pairs(const std::vector<Block>& blocks, double distance) {
+std::vector<std::pair<std::size_t, std::size_t>> near_pairs(const std::vector<Block>& blocks,
+                                                            double distance) {
   std::vector<Box> boxes;
   double left = std::numeric_limits<double>::infinity(), right = -left;
   for (const Block& block : blocks) {
@@ -86,7 +92,8 @@ std::vector<std::pair<std::size_t, std::size_t>> near_pairs(const std::vector<Bl
   std::vector<std::pair<std::size_t, std::size_t>> pairs;
   for (std::size_t i = 0; i < blocks.size(); ++i) {
     for (const int j : columns.between(boxes[i].low.x(), boxes[i].high.x()))
-      if (boxes[i].meets(boxes[static_cast<std::size_t>(j)])) pairs.emplace_back(static_cast<std::size_t>(j), i);
+      if (boxes[i].meets(boxes[static_cast<std::size_t>(j)]))
+        pairs.emplace_back(static_cast<std::size_t>(j), i);
     columns.add(static_cast<int>(i), boxes[i].low.x(), boxes[i].high.x());
   }
   return pairs;
@@ -94,15 +101,16 @@ std::vector<std::pair<std::size_t, std::size_t>> near_pairs(const std::vector<Bl
 
 double perimeter(const Polygon& polygon) {
   double sum = 0.0;
-  for (std::size_t i = 0; i < polygon.size(); ++i) sum += (polygon[(i + 1) % polygon.size()] - polygon[i]).norm();
+  for (std::size_t i = 0; i < polygon.size(); ++i)
+    sum += (polygon[(i + 1) % polygon.size()] - polygon[i]).norm();
   return sum;
 }
 
 void check_overlap(const Block& a, const Block& b, double tolerance) {
   const Overlap overlap = overlap_of(a.polygon, b.polygon);
   if (overlap.area > tolerance * std::min(perimeter(a.polygon), perimeter(b.polygon)))
-    throw InputError(fmt::format("blocks '{}' and '{}' overlap by {:.3g} m2 {}", a.label, b.label, overlap.area,
-                                 at(overlap.place)));
+    throw InputError(fmt::format("blocks '{}' and '{}' overlap by {:.3g} m2 {}", a.label, b.label,
+                                 overlap.area, at(overlap.place)));
 }
 
 /// Do two blocks touch along an edge? Throws if they run beside each other with a gap.
@@ -123,10 +131,10 @@ bool touch(const Block& a, const Block& b, const AssemblyTolerance& tolerance) {
       const Point place = first.from + stretch->on_first[0] * along;
       const Point other = second.from + stretch->on_second[0] * (second.to - second.from);
       const double gap = -cross(along, other - first.from) / along.norm();
-      throw InputError(fmt::format("blocks '{}' and '{}' lie {:.3g} mm apart {} along {:.3g} m: expected blocks that "
-                                   "touch within {:g} mm or are more than {:g} mm apart",
-                                   a.label, b.label, 1e3 * gap, at(place), stretch->length, 1e3 * tolerance.heal,
-                                   1e3 * range));
+      throw InputError(fmt::format(
+          "blocks '{}' and '{}' lie {:.3g} mm apart {} along {:.3g} m: expected blocks that "
+          "touch within {:g} mm or are more than {:g} mm apart",
+          a.label, b.label, 1e3 * gap, at(place), stretch->length, 1e3 * tolerance.heal, 1e3 * range));
     }
   return joined;
 }
@@ -150,9 +158,10 @@ void check_carried(const std::vector<Block>& blocks,
       if (p.y() <= ground + tolerance) carried.insert(leader(i));
   for (std::size_t i = 0; i < blocks.size(); ++i)
     if (!carried.contains(leader(i)))
-      throw InputError(fmt::format("block '{}' {} is loose: expected blocks that touch others, down to the ground at "
-                                   "y = {:g}",
-                                   blocks[i].label, at(centroid(blocks[i].polygon)), ground));
+      throw InputError(
+          fmt::format("block '{}' {} is loose: expected blocks that touch others, down to the ground at "
+                      "y = {:g}",
+                      blocks[i].label, at(centroid(blocks[i].polygon)), ground));
 }
 
 /// Corners that lie this near to the ground or to the left or right end lie there.
@@ -184,8 +193,8 @@ std::vector<std::string> heal(std::vector<Block>& blocks, double tolerance) {
   const Snapping snapping = snap(polygons, tolerance);
   for (std::size_t i = 0; i < blocks.size(); ++i) blocks[i].polygon = polygons[i];
   if (snapping.moved > 0)
-    notes.push_back(fmt::format("moved {} corners and edges by up to {:.2g} mm so that blocks meet", snapping.moved,
-                                1e3 * snapping.farthest));
+    notes.push_back(fmt::format("moved {} corners and edges by up to {:.2g} mm so that blocks meet",
+                                snapping.moved, 1e3 * snapping.farthest));
   return notes;
 }
 

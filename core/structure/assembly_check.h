@@ -10,7 +10,7 @@ namespace voussoir {
 
 /// How near blocks have to be [m].
 struct AssemblyTolerance {
-  double heal = 1e-3;    ///< what is off by less is healed
+  double heal = 1e-3;   ///< what is off by less is healed
   double joint = 1e-6;  ///< edges closer than this form a joint
 };
 

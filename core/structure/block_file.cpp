@@ -30,7 +30,8 @@ struct Place {
 BlockRole role_of(const Json& entry, const Place& place) {
   const auto role = entry.find("role");
   if (role == entry.end()) return BlockRole::wall;
-  const auto found = role->is_string() ? std::ranges::find(kRoleNames, role->get<std::string>()) : kRoleNames.end();
+  const auto found =
+      role->is_string() ? std::ranges::find(kRoleNames, role->get<std::string>()) : kRoleNames.end();
   if (found == kRoleNames.end())
     place.refuse(fmt::format("role: expected one of {}", fmt::join(kRoleNames, ", ")));
   return static_cast<BlockRole>(found - kRoleNames.begin());
@@ -41,10 +42,12 @@ Polygon vertices_of(const Json& entry, const Place& place) {
   if (vertices == entry.end() || !vertices->is_array()) place.refuse("expected \"vertices\": [[x, y], ..]");
   Polygon polygon;
   for (const Json& vertex : *vertices) {
-    const bool pair = vertex.is_array() && vertex.size() >= 2 && vertex[0].is_number() && vertex[1].is_number();
+    const bool pair =
+        vertex.is_array() && vertex.size() >= 2 && vertex[0].is_number() && vertex[1].is_number();
     const Point point = pair ? Point(vertex[0].get<double>(), vertex[1].get<double>()) : Point::Zero();
     if (!pair || !(point.cwiseAbs().maxCoeff() <= kFarthest))
-      place.refuse(fmt::format("vertex {}: expected [x, y], numbers of at most {:g} m", polygon.size() + 1, kFarthest));
+      place.refuse(fmt::format("vertex {}: expected [x, y], numbers of at most {:g} m", polygon.size() + 1,
+                               kFarthest));
     polygon.push_back(point);
   }
   return polygon;
@@ -71,7 +74,8 @@ Block block_of(const Json& entry, const Place& place) {
   if (!entry.is_object()) place.refuse("expected {\"label\": .., \"role\": .., \"vertices\": [[x, y], ..]}");
   for (const auto& [key, unused] : entry.items())
     if (key != "label" && key != "role" && key != "ring" && key != "vertices")
-      place.refuse(fmt::format("unknown key {}: expected label, role, ring and vertices", voussoir::quoted(key)));
+      place.refuse(
+          fmt::format("unknown key {}: expected label, role, ring and vertices", voussoir::quoted(key)));
   Block block;
   block.role = role_of(entry, place);
   block.ring = ring_of(entry, block.role, place);
@@ -84,7 +88,8 @@ Block block_of(const Json& entry, const Place& place) {
 
 BlockFile parse_json_blocks(std::string_view text, const std::string& name) {
   const Json root = Json::parse(text, nullptr, false);
-  if (root.is_discarded()) throw InputError(fmt::format("{}: is no JSON: expected {{\"blocks\": [..]}}", name));
+  if (root.is_discarded())
+    throw InputError(fmt::format("{}: is no JSON: expected {{\"blocks\": [..]}}", name));
   const auto entries = root.is_object() ? root.find("blocks") : root.end();
   if (entries == root.end() || !entries->is_array() || entries->empty())
     throw InputError(fmt::format("{}: expected {{\"blocks\": [{{\"vertices\": [[x, y], ..]}}, ..]}}", name));
@@ -97,7 +102,8 @@ BlockFile parse_json_blocks(std::string_view text, const std::string& name) {
 
 BlockFile read_block_file(const std::filesystem::path& path) {
   std::string ending = path.extension().string();
-  std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return c < 0x80 ? std::tolower(c) : c; });
+  std::ranges::transform(ending, ending.begin(),
+                         [](unsigned char c) { return c < 0x80 ? std::tolower(c) : c; });
   if (ending != ".json" && ending != ".dxf")
     throw InputError(fmt::format("{}: expected a file of blocks that ends in .json or .dxf", path.string()));
   const std::string text = read_text(path, kLargestFile, "a file of blocks (JSON or DXF)");

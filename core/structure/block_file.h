@@ -24,9 +24,9 @@ BlockFile read_block_file(const std::filesystem::path& path);
 /// messages.
 BlockFile parse_json_blocks(std::string_view text, const std::string& name);
 
-/// Closed LWPOLYLINEs and POLYLINEs (ASCII DXF). The layer names the role, a number behind it the ring ("ring",
-/// "ring 2", "WALL"); other layers are left out. A TEXT or MTEXT inside an outline is its label. Arcs between
-/// corners become chords of at most 10 degrees. Lengths by $INSUNITS (mm, cm, m; none: m).
+/// Closed LWPOLYLINEs and POLYLINEs (ASCII DXF). The layer names the role, a number behind it the ring
+/// ("ring", "ring 2", "WALL"); other layers are left out. A TEXT or MTEXT inside an outline is its label.
+/// Arcs between corners become chords of at most 10 degrees. Lengths by $INSUNITS (mm, cm, m; none: m).
 BlockFile parse_dxf_blocks(std::string_view text, const std::string& name);
 
 }  // namespace voussoir

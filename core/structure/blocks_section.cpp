@@ -32,9 +32,13 @@ std::string to_toml(const std::vector<Block>& blocks) {
   std::string text = "[\n";
   for (const Block& block : blocks) {
     const std::string ring = block.role == BlockRole::ring ? fmt::format("ring = {}, ", block.ring) : "";
-    text += fmt::format("  {{label = {}, role = \"{}\", {}vertices = [", in_quotes(block.label), name_of(block.role), ring);
+    text += fmt::format("  {{label = {}, role = \"{}\", {}vertices = [", in_quotes(block.label),
+                        name_of(block.role), ring);
     for (std::size_t i = 0; i < block.polygon.size(); ++i)
-      fmt::format_to(std::back_inserter(text), "{}[{}, {}]", i == 0 ? "" : i % kCornersOfLine == 0 ? ",\n    " : ", ",
+      fmt::format_to(std::back_inserter(text), "{}[{}, {}]",
+                     i == 0                    ? ""
+                     : i % kCornersOfLine == 0 ? ",\n    "
+                                               : ", ",
                      block.polygon[i].x(), block.polygon[i].y());
     text += "]},\n";
   }
@@ -78,14 +82,16 @@ WithBlocks with_blocks_of_file(const std::string& text, const std::filesystem::p
   // A basic string stands on one line; what follows its value there, a comment, goes with it.
   const std::size_t start = start_of_line(text, node->source().begin.line);
   const std::size_t end = std::min(text.find('\n', start), text.size());
-  const std::string what = fmt::format("# the blocks of {}\nblocks = {}", in_quotes(file.filename().string()), to_toml(read.blocks));
+  const std::string what = fmt::format("# the blocks of {}\nblocks = {}", in_quotes(file.filename().string()),
+                                       to_toml(read.blocks));
   return {text.substr(0, start) + what + text.substr(end), std::move(read.notes)};
 }
 
 std::vector<std::string> read_blocks(TomlSection& top, BridgeDescription& description) {
   for (const char* key : {"wall", "walls", "spans"})
     if (top.has(key)) top.refuse(key, "expected it, or blocks, not both");
-  const toml::array* entries = top.tables("blocks", "blocks = [{label = \"1\", role = \"wall\", vertices = [[x, y], ..]}, ..]");
+  const toml::array* entries =
+      top.tables("blocks", "blocks = [{label = \"1\", role = \"wall\", vertices = [[x, y], ..]}, ..]");
   if (entries->empty() || entries->size() > kMostBlocks)
     top.refuse("blocks", fmt::format("has {}: expected 1 to {} blocks", entries->size(), kMostBlocks));
   for (const toml::node& node : *entries)

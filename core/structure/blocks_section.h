@@ -14,13 +14,14 @@ struct WithBlocks {
   std::vector<std::string> notes;  ///< what was healed or left out
 };
 
-/// If the text says blocks = "FILE" (.json, .dxf; relative to the folder of `path`), the text with that file's
-/// blocks written out in its place; otherwise the text as it is. Throws InputError if the file cannot be read.
+/// If the text says blocks = "FILE" (.json, .dxf; relative to the folder of `path`), the text with that
+/// file's blocks written out in its place; otherwise the text as it is. Throws InputError if the file cannot
+/// be read.
 WithBlocks with_blocks_of_file(const std::string& text, const std::filesystem::path& path);
 
-/// Reads blocks = [{label = "1", role = "wall", ring = 0, vertices = [[x, y], ..]}, ..], heals and checks them
-/// (assembly_check.h). Returns what was healed. Throws InputError "file:line: message" if they are no assembly,
-/// or beside [wall], [[walls]] or [[spans]].
+/// Reads blocks = [{label = "1", role = "wall", ring = 0, vertices = [[x, y], ..]}, ..], heals and checks
+/// them (assembly_check.h). Returns what was healed. Throws InputError "file:line: message" if they are no
+/// assembly, or beside [wall], [[walls]] or [[spans]].
 std::vector<std::string> read_blocks(TomlSection& top, BridgeDescription& description);
 
 }  // namespace voussoir

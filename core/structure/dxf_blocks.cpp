@@ -14,10 +14,10 @@ namespace {
 
 constexpr std::size_t kMostOutlines = 20000;
 constexpr std::size_t kMostVertices = 200;
-constexpr double kFarthest = 1e5;                            ///< [m] of anything
-constexpr double kChordAngle = std::numbers::pi / 18.0;      ///< [rad] of the chords of an arc, at most
-constexpr int kFirstUnit = 4, kLastUnit = 6;                 ///< of $INSUNITS: mm, cm, m
-constexpr double kUnits[] = {1e-3, 1e-2, 1.0};               ///< [m]
+constexpr double kFarthest = 1e5;                        ///< [m] of anything
+constexpr double kChordAngle = std::numbers::pi / 18.0;  ///< [rad] of the chords of an arc, at most
+constexpr int kFirstUnit = 4, kLastUnit = 6;             ///< of $INSUNITS: mm, cm, m
+constexpr double kUnits[] = {1e-3, 1e-2, 1.0};           ///< [m]
 
 /// DXF is a list of pairs of lines: a code and a value.
 struct Group {
@@ -155,7 +155,9 @@ class DrawingReader {
     if (group.code != 10 && group.code != 20 && group.code != 42) return;
     if (outline.vertices.empty()) groups_.refuse(group.line, "expected group 10 (x) before it");
     Vertex& vertex = outline.vertices.back();
-    (group.code == 10 ? vertex.place.x() : group.code == 20 ? vertex.place.y() : vertex.bulge) = groups_.number(group);
+    (group.code == 10   ? vertex.place.x()
+     : group.code == 20 ? vertex.place.y()
+                        : vertex.bulge) = groups_.number(group);
   }
 
   void read_lettering(const Group& group) {
@@ -168,7 +170,8 @@ class DrawingReader {
   void set_unit(const Group& group) {
     const int unit = groups_.flags(group);
     if (unit != 0 && (unit < kFirstUnit || unit > kLastUnit))
-      groups_.refuse(group.line, fmt::format("$INSUNITS is {}: expected 4 (mm), 5 (cm), 6 (m) or 0 (none: m)", unit));
+      groups_.refuse(group.line,
+                     fmt::format("$INSUNITS is {}: expected 4 (mm), 5 (cm), 6 (m) or 0 (none: m)", unit));
     drawing_.unit = unit == 0 ? 1.0 : kUnits[unit - kFirstUnit];
   }
 
@@ -217,7 +220,8 @@ std::optional<RoleAndRing> role_of_layer(const std::string& layer) {
   const auto role = static_cast<BlockRole>(found - kRoleNames.begin());
   const std::size_t digits = name.find_first_of("0123456789", end);
   const auto number = digits == std::string::npos ? std::nullopt : parse_whole_number(name.substr(digits));
-  return RoleAndRing{role, role == BlockRole::ring ? std::max(0, std::min(number.value_or(1), 1000) - 1) : kNoRing};
+  return RoleAndRing{role,
+                     role == BlockRole::ring ? std::max(0, std::min(number.value_or(1), 1000) - 1) : kNoRing};
 }
 
 bool is_inside(const Polygon& polygon, const Point& point) {
@@ -261,14 +265,16 @@ BlockFile parse_dxf_blocks(std::string_view text, const std::string& name) {
     block.polygon = polygon_of(outline, drawing.unit);
     for (const Point& p : block.polygon)
       if (!(p.cwiseAbs().maxCoeff() <= kFarthest))
-        throw InputError(at_line(name, outline.line, fmt::format("a vertex is farther than {:g} m", kFarthest)));
+        throw InputError(
+            at_line(name, outline.line, fmt::format("a vertex is farther than {:g} m", kFarthest)));
   }
   for (const auto& [layer, count] : left_out)
-    file.notes.push_back(fmt::format("left out {} outlines on layer {}, which names no role", count, voussoir::quoted(layer)));
+    file.notes.push_back(
+        fmt::format("left out {} outlines on layer {}, which names no role", count, voussoir::quoted(layer)));
   if (open > 0) file.notes.push_back(fmt::format("left out {} outlines that are not closed", open));
   if (file.blocks.empty())
-    throw InputError(fmt::format("{}: no closed polylines on layers that name roles: expected layers {}", name,
-                                 fmt::join(kRoleNames, ", ")));
+    throw InputError(fmt::format("{}: no closed polylines on layers that name roles: expected layers {}",
+                                 name, fmt::join(kRoleNames, ", ")));
   name_blocks(drawing, file.blocks);
   return file;
 }

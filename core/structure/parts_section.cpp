@@ -37,7 +37,8 @@ void read_role(TomlSection& section, const char* key, BlockRole& role) {
 WallPart read_part(TomlSection section, const WallDescription& wall) {
   WallPart part{.courses = wall};
   read_role(section, "role", part.role);
-  if (part.role == BlockRole::ring) section.refuse("role", "rings are laid by [[spans]]: expected another role");
+  if (part.role == BlockRole::ring)
+    section.refuse("role", "rings are laid by [[spans]]: expected another role");
   section.number("from_x_m", part.from_x, 0.0, kLargestLength, true);
   section.number("base_y_m", part.base_y, 0.0, kLargestLength, true);
   section.require("length_m");

@@ -11,9 +11,8 @@ namespace voussoir {
 namespace {
 
 bool names(const Region& region, const Block& block) {
-  return std::ranges::any_of(region.of, [&](const std::string& name) {
-    return name == block.label || name == name_of(block.role);
-  });
+  return std::ranges::any_of(
+      region.of, [&](const std::string& name) { return name == block.label || name == name_of(block.role); });
 }
 
 void check_names(const Region& region, const BlockLayout& layout) {
@@ -55,7 +54,8 @@ bool has_symmetric_parameters(const Model& bridge) {
   const Parameters& parameters = bridge.parameters;
   const MirrorSymmetry& symmetry = *bridge.symmetry;
   for (std::size_t b = 0; b < bridge.layout.size(); ++b)
-    if (!same(parameters.blocks[b], parameters.blocks[static_cast<std::size_t>(value(symmetry.block_image[b]))]))
+    if (!same(parameters.blocks[b],
+              parameters.blocks[static_cast<std::size_t>(value(symmetry.block_image[b]))]))
       return false;
   const auto law_of = [](const JointMaterial& a) {
     return std::array{a.normal_stiffness, a.tangential_stiffness, a.friction_angle};
@@ -63,7 +63,9 @@ bool has_symmetric_parameters(const Model& bridge) {
   std::map<std::pair<BlockId, BlockId>, std::array<double, 3>> between;  // joints of a pair are alike
   for (std::size_t j = 0; j < bridge.joints.size(); ++j)
     between[std::minmax(bridge.joints[j].first, bridge.joints[j].second)] = law_of(parameters.joints[j]);
-  const auto image = [&](BlockId block) { return symmetry.block_image[static_cast<std::size_t>(value(block))]; };
+  const auto image = [&](BlockId block) {
+    return symmetry.block_image[static_cast<std::size_t>(value(block))];
+  };
   for (const auto& [blocks, law] : between) {
     const BlockId a = image(blocks.first), b = image(blocks.second);
     const auto found = between.find(std::minmax(a, b));

@@ -46,8 +46,8 @@ void check_rise(const TomlSection& section, const SpanDescription& span) {
     section.refuse("rise_m", fmt::format("is {:g}: expected {} half the span, {:g}", span.rise,
                                          full_allowed ? "at most" : "less than", half));
   if (span.rise < 1e-3 * span.span)
-    section.refuse("rise_m",
-                   fmt::format("is {:g}: expected at least a thousandth of the span, {:g}", span.rise, span.span));
+    section.refuse("rise_m", fmt::format("is {:g}: expected at least a thousandth of the span, {:g}",
+                                         span.rise, span.span));
 }
 
 void read_arc_radius(TomlSection& section, SpanDescription& span) {
@@ -64,8 +64,8 @@ void read_arc_radius(TomlSection& section, SpanDescription& span) {
     span.arc_radius = roundest_haunch_radius(span.span, span.rise);
     section.number("haunch_radius_m", span.arc_radius, 0.0, kLargestLength, false);
     if (span.arc_radius > 0.999 * span.rise)
-      section.refuse("haunch_radius_m", fmt::format("is {:g}: expected less than the rise, {:g}",
-                                                    span.arc_radius, span.rise));
+      section.refuse("haunch_radius_m",
+                     fmt::format("is {:g}: expected less than the rise, {:g}", span.arc_radius, span.rise));
   }
 }
 

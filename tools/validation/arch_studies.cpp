@@ -4,9 +4,9 @@
 #include <array>
 
 #include "core/motion/dynamic_solver.h"
-#include "core/statics/quasi_static_solver.h"
 #include "tools/validation/assemblies.h"
 #include "tools/validation/bisection.h"
+#include "tools/validation/joint_limits.h"
 #include "tools/validation/rigid_ring.h"
 #include "tools/validation/studies.h"
 
@@ -14,9 +14,8 @@ namespace voussoir::validation {
 namespace {
 
 constexpr double kHighFriction = 2.0;
-constexpr double kSpecificWeight = 2400.0 * 9.81;  ///< [N/m3]
-constexpr double kPublishedDigits = 5e-5;          ///< half a unit of the fourth digit
-constexpr double kBisection = 1e-6;                ///< of t/R
+constexpr double kPublishedDigits = 5e-5;  ///< half a unit of the fourth digit
+constexpr double kBisection = 1e-6;        ///< of t/R
 
 const char* const kPublishedRing = "Cocchetti and Rizzi 2020; statics of rigid voussoirs gives the same";
 const char* const kPublishedFriction = "Cocchetti and Rizzi 2020, Table 3";
@@ -28,23 +27,6 @@ struct Published {
 constexpr std::array<Published, 8> kPublished = {
     {{7, .0962}, {9, .1021}, {11, .1049}, {13, .1028}, {15, .1063}, {21, .1068}, {31, .1072}, {51, .1074}}};
 
-/// Compliance of the joints, made dimensionless: the settlement under a column as high as the radius, over
-/// the radius.
-double compliance(double normal_stiffness) {
-  return kSpecificWeight / normal_stiffness;
-}
-
-bool newton_stands(const Model& ring, Field& start) {
-  QuasiStaticSettings settings;
-  settings.most_warm_iterations = 200;
-  settings.most_iterations = 100;
-  QuasiStaticSolver solver(ring, settings);
-  const Solution solution = start.size() > 0 ? solver.solve(Scene{}, start) : solver.solve(Scene{});
-  if (solution.outcome != Outcome::standing) return false;
-  start = solution.displacement;  // of a slightly thicker ring: near the next equilibrium
-  return true;
-}
-
 /// Least t/R at which Newton's method finds an equilibrium; `high` if there is none up to it.
 double least_thickness_by_newton(int voussoirs, double friction, double normal_stiffness, double high) {
   Field start;
@@ -53,36 +35,16 @@ double least_thickness_by_newton(int voussoirs, double friction, double normal_s
   });
 }
 
-/// Least thickness against stiffness, and what rigid joints would need.
-struct Limit {
-  std::vector<double> roots;  ///< cube roots of the compliance
-  std::vector<double> thickness;
-  double rigid = 0.0;   ///< extrapolated with the polynomial through all but the softest point
-  double spread = 0.0;  ///< how far straight and curved extrapolation differ
-};
-
-Limit find_limit(int voussoirs, double friction, const std::vector<double>& stiffnesses, double high) {
-  Limit limit;
-  for (const double stiffness : stiffnesses) {
-    limit.roots.push_back(std::cbrt(compliance(stiffness)));
-    limit.thickness.push_back(least_thickness_by_newton(voussoirs, friction, stiffness, high));
-  }
-  const std::size_t order = std::max<std::size_t>(3, stiffnesses.size() - 1);
-  limit.rigid = extrapolated(limit.roots, limit.thickness, order);
-  limit.spread =
-      std::abs(extrapolated(limit.roots, limit.thickness, 3) - extrapolated(limit.roots, limit.thickness, 2));
-  return limit;
+Limit thickness_limit(int voussoirs, double friction, const std::vector<double>& stiffnesses, double high) {
+  return find_limit(stiffnesses, [&](double stiffness) {
+    return least_thickness_by_newton(voussoirs, friction, stiffness, high);
+  });
 }
-
-const char* const kExtrapolation =
-    "hinges of elastic joints cost a share of (rho g R / p_n)^(1/3); what curving the extrapolation changes, "
-    "and the "
-    "digits of the source";
 
 Series series_of(const std::string& label, const Limit& limit) {
   Series series{.label = label};
   for (std::size_t i = 0; i < limit.roots.size(); ++i)
-    series.points.emplace_back(limit.roots[i], limit.thickness[i]);
+    series.points.emplace_back(limit.roots[i], limit.values[i]);
   series.points.emplace_back(0.0, limit.rigid);
   return series;
 }
@@ -139,7 +101,7 @@ Findings ring_thickness() {
             .y_label = "least t/R"};
   double cost = 0.0;
   for (const Published& published : kPublished) {
-    const Limit limit = find_limit(published.voussoirs, kHighFriction, {1e9, 1e10, 1e11}, 0.25);
+    const Limit limit = thickness_limit(published.voussoirs, kHighFriction, {1e9, 1e10, 1e11}, 0.25);
     findings.cases.push_back(absolute_case(
         {.name = fmt::format("Semicircular arch, {} voussoirs, high friction", published.voussoirs),
          .quantity = "least t/R that stands, extrapolated to rigid joints",
@@ -148,7 +110,7 @@ Findings ring_thickness() {
          .computed = limit.rigid},
         limit.spread + kPublishedDigits, kExtrapolation));
     plot.series.push_back(series_of(fmt::format("{} voussoirs", published.voussoirs), limit));
-    cost = (limit.thickness.front() - limit.rigid) / limit.roots.front();
+    cost = (limit.values.front() - limit.rigid) / limit.roots.front();
   }
   findings.plots = {plot};
   findings.notes = {
@@ -194,7 +156,7 @@ Findings ring_friction() {
       statics.points.emplace_back(mu, *t);
   for (const double mu : {0.45, 0.38, 0.35, 0.32}) {
     const Limit limit =
-        find_limit(kFrictionRing, mu, {1e8, std::sqrt(1e17), 1e9, std::sqrt(1e19), 1e10}, 0.6);
+        thickness_limit(kFrictionRing, mu, {1e8, std::sqrt(1e17), 1e9, std::sqrt(1e19), 1e10}, 0.6);
     findings.cases.push_back(friction_case(mu, limit));
     computed.points.emplace_back(mu, limit.rigid);
   }

@@ -17,6 +17,9 @@ std::vector<Study> rest_studies();
 /// The semicircular arch: least thickness, friction.
 std::vector<Study> arch_studies();
 
+/// Segmental and pointed arches: least thickness, collapse under a point load.
+std::vector<Study> shape_studies();
+
 /// The reference bridge: what its discretisation costs.
 std::vector<Study> bridge_studies();
 

@@ -35,21 +35,24 @@ std::vector<Point> points_on_circle(int count, double half_angle) {
 }
 
 std::vector<Named> all_curves() {
-  return {{"semicircle", circular_arc(kMiddle, 3.0, 0.5 * kPi), 6.0, 3.0},
-          {"segment", segment_of_circle(kMiddle, 6.0, 1.2), 6.0, 1.2},
-          {"pointed", pointed_arch(kMiddle, 6.0, 4.0, pointed_radius(6.0, 4.0)), 6.0, 4.0},
-          {"low pointed", pointed_arch(kMiddle, 6.0, 2.0, 5.0), 6.0, 2.0},
-          {"three-centred", three_centred_arch(kMiddle, 6.0, 2.0, roundest_haunch_radius(6.0, 2.0)), 6.0, 2.0},
-          {"flat ellipse", half_ellipse(kMiddle, 6.0, 2.0), 6.0, 2.0},
-          {"steep ellipse", half_ellipse(kMiddle, 6.0, 4.0), 6.0, 4.0},
-          {"round ellipse", half_ellipse(kMiddle, 6.0, 3.0), 6.0, 3.0}};
+  return {
+      {"semicircle", circular_arc(kMiddle, 3.0, 0.5 * kPi), 6.0, 3.0},
+      {"segment", segment_of_circle(kMiddle, 6.0, 1.2), 6.0, 1.2},
+      {"pointed", pointed_arch(kMiddle, 6.0, 4.0, pointed_radius(6.0, 4.0)), 6.0, 4.0},
+      {"low pointed", pointed_arch(kMiddle, 6.0, 2.0, 5.0), 6.0, 2.0},
+      {"three-centred", three_centred_arch(kMiddle, 6.0, 2.0, roundest_haunch_radius(6.0, 2.0)), 6.0, 2.0},
+      {"flat ellipse", half_ellipse(kMiddle, 6.0, 2.0), 6.0, 2.0},
+      {"steep ellipse", half_ellipse(kMiddle, 6.0, 4.0), 6.0, 4.0},
+      {"round ellipse", half_ellipse(kMiddle, 6.0, 3.0), 6.0, 3.0}};
 }
 
 /// Length by very many chords.
 double length_of_chords(const Curve& curve, double offset, int count) {
   double length = 0.0;
   for (int i = 0; i < count; ++i)
-    length += (curve.point({i + 1.0, double(count)}, offset) - curve.point({double(i), double(count)}, offset)).norm();
+    length +=
+        (curve.point({i + 1.0, double(count)}, offset) - curve.point({double(i), double(count)}, offset))
+            .norm();
   return length;
 }
 
@@ -80,7 +83,8 @@ TEST_CASE("Curves go from springing to springing over the crown (their definitio
   }
 }
 
-TEST_CASE("Equal parts of a curve are equally long, and all of them make its length (many chords)", "[curve]") {
+TEST_CASE("Equal parts of a curve are equally long, and all of them make its length (many chords)",
+          "[curve]") {
   constexpr int kChords = 20000;  // chords are short by length^3 / 24 radius^2: 1e-9 of each
   for (const Named& each : all_curves()) {
     INFO(each.name);
@@ -105,13 +109,15 @@ TEST_CASE("Lengths of arches are those of their circles, and of ellipses that of
   const double radius = (9.0 + 1.44) / 2.4;
   CHECK(curves[1].curve.length == Approx(2.0 * radius * std::asin(3.0 / radius)).epsilon(1e-13));
   const double pointed = 1.5 + 16.0 / 6.0;  // centres on the springing line
-  CHECK(curves[2].curve.length == Approx(2.0 * pointed * std::acos((pointed - 3.0) / pointed)).epsilon(1e-13));
+  CHECK(curves[2].curve.length ==
+        Approx(2.0 * pointed * std::acos((pointed - 3.0) / pointed)).epsilon(1e-13));
   CHECK(curves[5].curve.length == Approx(2.0 * quarter_of_ellipse(3.0, 2.0)).epsilon(1e-12));
   CHECK(curves[6].curve.length == Approx(2.0 * quarter_of_ellipse(4.0, 3.0)).epsilon(1e-12));
   CHECK(curves[7].curve.length == Approx(3.0 * kPi).epsilon(1e-14));
 }
 
-TEST_CASE("Normals stand on the curve, and a parallel curve lies at its distance (finite differences)", "[curve]") {
+TEST_CASE("Normals stand on the curve, and a parallel curve lies at its distance (finite differences)",
+          "[curve]") {
   constexpr double kStep = 1e-4;
   int checked = 0;
   for (const Named& each : all_curves())
@@ -122,7 +128,8 @@ TEST_CASE("Normals stand on the curve, and a parallel curve lies at its distance
           each.curve.point({at + kStep, 1.0}, 0.0) - each.curve.point({at - kStep, 1.0}, 0.0);
       CHECK(std::abs(tangent.normalized().dot(normal_at(each.curve, {at, 1.0}))) < 1e-6);
       CHECK(cross(tangent, normal_at(each.curve, {at, 1.0})) > 0.0);  // the outer side
-      CHECK((each.curve.point({at, 1.0}, 0.7) - each.curve.point({at, 1.0}, 0.0)).norm() == Approx(0.7).epsilon(1e-12));
+      CHECK((each.curve.point({at, 1.0}, 0.7) - each.curve.point({at, 1.0}, 0.0)).norm() ==
+            Approx(0.7).epsilon(1e-12));
       ++checked;
     }
   CHECK(checked > 100);
@@ -145,7 +152,8 @@ TEST_CASE("A three-centred arch has one tangent where its arcs meet, and springs
   CHECK(normal_at(curve, {0.0, 1.0}).x() == Approx(-1.0).epsilon(1e-12));
   double sharpest = 1.0;
   for (int i = 0; i < 4000; ++i)
-    sharpest = std::min(sharpest, normal_at(curve, {double(i), 4000.0}).dot(normal_at(curve, {i + 1.0, 4000.0})));
+    sharpest =
+        std::min(sharpest, normal_at(curve, {double(i), 4000.0}).dot(normal_at(curve, {i + 1.0, 4000.0})));
   CHECK(std::acos(sharpest) < 1.01 * curve.length / 4000.0 / haunch);  // the haunch bends most
   // No other haunch makes the two radii more alike.
   const auto ratio = [](double r) {
@@ -170,7 +178,8 @@ TEST_CASE("A spline through points of a circle is that circle within its error (
     const Curve curve = spline_through(points_on_circle(count, 0.6));
     double error = 0.0;
     for (int i = 200; i <= 800; ++i)  // away from the ends, where a natural spline is straight
-      error = std::max(error, std::abs((curve.point({double(i), 1000.0}, 0.0) - Point(kMiddle.x(), 0.0)).norm() - 5.0));
+      error = std::max(
+          error, std::abs((curve.point({double(i), 1000.0}, 0.0) - Point(kMiddle.x(), 0.0)).norm() - 5.0));
     errors.push_back(error);
   }
   // The straight ends are off by the sagitta of a piece, 0.014 m; a piece further in 0.27 times that.

@@ -19,7 +19,8 @@ namespace {
 constexpr bool kWall = true, kNoWall = false;
 
 SpanDescription span_of(IntradosShape shape) {
-  SpanDescription span{.centre_x = 10.0, .centre_y = 1.0, .ring_thickness = 0.4, .voussoirs = 15, .shape = shape};
+  SpanDescription span{
+      .centre_x = 10.0, .centre_y = 1.0, .ring_thickness = 0.4, .voussoirs = 15, .shape = shape};
   span.span = 6.0;
   span.rise = shape == IntradosShape::pointed ? 4.0 : 2.0;
   if (shape == IntradosShape::pointed) span.arc_radius = 1.5 + 16.0 / 6.0;
@@ -29,9 +30,9 @@ SpanDescription span_of(IntradosShape shape) {
   return span;
 }
 
-const std::vector<IntradosShape> kShapes = {IntradosShape::semicircular,  IntradosShape::segmental,
-                                            IntradosShape::pointed,       IntradosShape::three_centred,
-                                            IntradosShape::elliptic,      IntradosShape::points};
+const std::vector<IntradosShape> kShapes = {IntradosShape::semicircular, IntradosShape::segmental,
+                                            IntradosShape::pointed,      IntradosShape::three_centred,
+                                            IntradosShape::elliptic,     IntradosShape::points};
 
 double ring_area(const Arch& arch) {
   double sum = 0.0;
@@ -50,7 +51,8 @@ TEST_CASE("Voussoirs of a segment have the angle and the area of their sectors (
   const double angle = 2.0 * std::asin(3.0 / radius) / 15.0;
   for (const Block& block : arch.blocks) {
     const Polygon& p = block.polygon;
-    CHECK(area(p) == Approx(0.5 * std::sin(angle) * ((radius + 0.4) * (radius + 0.4) - radius * radius)).epsilon(1e-12));
+    CHECK(area(p) ==
+          Approx(0.5 * std::sin(angle) * ((radius + 0.4) * (radius + 0.4) - radius * radius)).epsilon(1e-12));
     const Point first = p[0] - p[1], last = p[3] - p[2];
     CHECK(std::acos(first.dot(last) / first.norm() / last.norm()) == Approx(angle).epsilon(1e-9));
   }
@@ -77,7 +79,8 @@ TEST_CASE("Joints of every shape are normal to the intrados and as long as the r
   }
 }
 
-TEST_CASE("Several rings fill what lies between intrados and extrados, whatever their joints (areas)", "[arch]") {
+TEST_CASE("Several rings fill what lies between intrados and extrados, whatever their joints (areas)",
+          "[arch]") {
   for (const IntradosShape shape : kShapes)
     for (const bool staggered : {false, true}) {
       SpanDescription span = span_of(shape);

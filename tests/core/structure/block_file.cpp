@@ -27,7 +27,8 @@ std::string lwpolyline(const std::string& layer, const Polygon& polygon, int fla
 }
 
 std::string drawing(const std::string& entities, const std::string& header = "") {
-  return "0\nSECTION\n2\nHEADER\n" + header + "0\nENDSEC\n0\nSECTION\n2\nENTITIES\n" + entities + "0\nENDSEC\n0\nEOF\n";
+  return "0\nSECTION\n2\nHEADER\n" + header + "0\nENDSEC\n0\nSECTION\n2\nENTITIES\n" + entities +
+         "0\nENDSEC\n0\nEOF\n";
 }
 
 const Polygon kSquare = {{0.0, 0.0}, {2.0, 0.0}, {2.0, 2.0}, {0.0, 2.0}};
@@ -37,7 +38,8 @@ std::string to_json(const BlockLayout& layout) {
   std::string text = "{\"blocks\": [";
   for (std::size_t i = 0; i < layout.size(); ++i) {
     const Block& block = layout.blocks[i];
-    text += fmt::format("{}{{\"label\": \"{}\", \"role\": \"{}\", ", i > 0 ? ",\n" : "", block.label, name_of(block.role));
+    text += fmt::format("{}{{\"label\": \"{}\", \"role\": \"{}\", ", i > 0 ? ",\n" : "", block.label,
+                        name_of(block.role));
     if (block.role == BlockRole::ring) text += fmt::format("\"ring\": {}, ", block.ring);
     text += "\"vertices\": [";
     for (std::size_t c = 0; c < block.polygon.size(); ++c)
@@ -58,6 +60,27 @@ std::string to_dxf(const BlockLayout& layout) {
   return drawing(entities);
 }
 
+/// Read and checked, or refused in words.
+test::Verdict read_and_check(const std::string& text) {
+  try {
+    BlockFile file = text.front() == '{' ? parse_json_blocks(text, "f") : parse_dxf_blocks(text, "f");
+    heal_and_check(file.blocks, {});
+    for (const Block& block : file.blocks)
+      if (!(area(block.polygon) > 0.0 && std::isfinite(area(block.polygon))))
+        FAIL("accepted an unsound block");
+    return test::Verdict::accepted;
+  } catch (const InputError& error) {
+    if (std::string(error.what()).empty()) FAIL("refused without a word");
+    return test::Verdict::refused;
+  }
+}
+
+double length_of_joints(const Model& model) {
+  double sum = 0.0;
+  for (const Joint& joint : model.joints) sum += joint.length;
+  return sum;
+}
+
 std::vector<std::string> good_files() {
   const BlockLayout layout = lay_blocks(test::small_description());
   return {to_json(layout), to_dxf(layout), drawing(lwpolyline("ring", kSquare), "9\n$INSUNITS\n70\n4\n")};
@@ -66,12 +89,13 @@ std::vector<std::string> good_files() {
 }  // namespace
 
 TEST_CASE("DXF: layer, ring, label, unit and arcs (written out)", "[block-file]") {
-  const BlockFile file = parse_dxf_blocks(
-      drawing(lwpolyline("RING 2", kSquare) + "0\nTEXT\n8\nx\n10\n1\n20\n1\n1\nkeystone\n" + lwpolyline("dims", kSquare) +
-                  lwpolyline("wall", kSquare, 0) +
-                  "0\nPOLYLINE\n8\npier\n70\n1\n0\nVERTEX\n8\npier\n10\n4\n20\n0\n0\nVERTEX\n8\npier\n10\n6\n20\n0\n42\n1\n0\nSEQEND\n",
-              "9\n$INSUNITS\n70\n5\n"),
-      "a.dxf");
+  const BlockFile file =
+      parse_dxf_blocks(drawing(lwpolyline("RING 2", kSquare) + "0\nTEXT\n8\nx\n10\n1\n20\n1\n1\nkeystone\n" +
+                                   lwpolyline("dims", kSquare) + lwpolyline("wall", kSquare, 0) +
+                                   "0\nPOLYLINE\n8\npier\n70\n1\n0\nVERTEX\n8\npier\n10\n4\n20\n0\n0\nVERTEX"
+                                   "\n8\npier\n10\n6\n20\n0\n42\n1\n0\nSEQEND\n",
+                               "9\n$INSUNITS\n70\n5\n"),
+                       "a.dxf");
   REQUIRE(file.blocks.size() == 2);
   CHECK(file.blocks[0].role == BlockRole::ring);
   CHECK(file.blocks[0].ring == 1);
@@ -80,7 +104,8 @@ TEST_CASE("DXF: layer, ring, label, unit and arcs (written out)", "[block-file]"
   CHECK(file.blocks[1].role == BlockRole::pier);
   CHECK(file.blocks[1].label == "2");
   // Half a circle of 1 cm radius in 18 chords.
-  CHECK(std::abs(area(file.blocks[1].polygon)) == Approx(0.5 * 18 * 1e-4 * std::sin(std::numbers::pi / 18)).epsilon(1e-9));
+  CHECK(std::abs(area(file.blocks[1].polygon)) ==
+        Approx(0.5 * 18 * 1e-4 * std::sin(std::numbers::pi / 18)).epsilon(1e-9));
   REQUIRE(file.notes.size() == 2);
   CHECK_THAT(file.notes[0], Contains("1 outlines on layer 'dims'"));
   CHECK_THAT(file.notes[1], Contains("1 outlines that are not closed"));
@@ -106,7 +131,8 @@ TEST_CASE("Bad files of blocks are refused with file, place and what was expecte
   CHECK_THAT(dxf("hello\n"), Contains("a.dxf:1:") && Contains("'hello'") && Contains("group code"));
   CHECK_THAT(dxf("AutoCAD Binary DXF\r\n"), Contains("a.dxf:1:"));
   CHECK_THAT(dxf("0\n"), Contains("a.dxf:1:") && Contains("ends after a group code"));
-  CHECK_THAT(dxf(drawing("0\nLWPOLYLINE\n8\nwall\n10\nx\n")), Contains("'x'") && Contains("expected a number"));
+  CHECK_THAT(dxf(drawing("0\nLWPOLYLINE\n8\nwall\n10\nx\n")),
+             Contains("'x'") && Contains("expected a number"));
   CHECK_THAT(dxf(drawing("0\nLWPOLYLINE\n8\nwall\n20\n1\n")), Contains("expected group 10"));
   CHECK_THAT(dxf(drawing("0\nVERTEX\n")), Contains("after a POLYLINE"));
   CHECK_THAT(dxf(drawing("", "9\n$INSUNITS\n70\n1\n")), Contains("$INSUNITS is 1"));
@@ -118,16 +144,19 @@ TEST_CASE("Bad files of blocks are refused with file, place and what was expecte
   CHECK_THAT(json("{\"blocks\": [{\"vertices\": [[0, 1e9]]}]}"), Contains("at most 100000 m"));
   CHECK_THAT(json("{\"blocks\": [{\"role\": \"roof\"}]}"), Contains("role: expected one of wall, ring"));
   CHECK_THAT(json("{\"blocks\": [{\"colour\": 1}]}"), Contains("unknown key 'colour'"));
-  CHECK_THAT(json("{\"blocks\": [{\"role\": \"ring\", \"ring\": -1}]}"), Contains("ring: expected a whole number"));
+  CHECK_THAT(json("{\"blocks\": [{\"role\": \"ring\", \"ring\": -1}]}"),
+             Contains("ring: expected a whole number"));
   CHECK_THAT(json(std::string(1'000'000, '[')), Contains("is no JSON"));
 }
 
 TEST_CASE("A bridge written as JSON or DXF and read again is the same bridge", "[block-file]") {
   const Model laid = make_model(test::small_description());
   const test::TemporaryFolder folder;
-  for (const auto& [name, text] : {std::pair("b.json", to_json(laid.layout)), std::pair("b.dxf", to_dxf(laid.layout))}) {
+  for (const auto& [name, text] :
+       {std::pair("b.json", to_json(laid.layout)), std::pair("b.dxf", to_dxf(laid.layout))}) {
     write_file(folder / name, text);
-    write_file(folder / "b.toml", fmt::format("name = \"read\"\nblocks = \"{}\"  # the survey\ngravity_m_s2 = 9.81\n", name));
+    write_file(folder / "b.toml",
+               fmt::format("name = \"read\"\nblocks = \"{}\"  # the survey\ngravity_m_s2 = 9.81\n", name));
     const BridgeFile file = read_bridge_file(folder / "b.toml");
     INFO(name);
     const Model read = make_model(file.description);
@@ -139,11 +168,6 @@ TEST_CASE("A bridge written as JSON or DXF and read again is the same bridge", "
       REQUIRE(found.size() == expected.size());
       for (std::size_t i = 0; i < found.size(); ++i) CHECK((found[i] - expected[i]).norm() < 1e-12);
     }
-    const auto length_of_joints = [](const Model& model) {
-      double sum = 0.0;
-      for (const Joint& joint : model.joints) sum += joint.length;
-      return sum;
-    };
     CHECK(length_of_joints(read) == Approx(length_of_joints(laid)).epsilon(1e-9));
     CHECK(read.symmetry.has_value());
     CHECK(read.supports.size() == laid.supports.size());
@@ -155,32 +179,41 @@ TEST_CASE("A bridge written as JSON or DXF and read again is the same bridge", "
   }
 }
 
-TEST_CASE("A text that names a file of blocks opens none: it may come out of a stranger's database", "[block-file]") {
+TEST_CASE("A text that names a file of blocks opens none: it may come out of a stranger's database",
+          "[block-file]") {
   CHECK_THROWS_WITH(parse_bridge_file("blocks = \"/etc/passwd\"\n", "stored"), Contains("stored:1:"));
-  CHECK_THROWS_WITH(parse_bridge_file("blocks = [{label = \"a\", vertices = [[0, 0], [1, 0], [1, 1]]}]\n[wall]\ncourses = 3\n", "b.toml"),
-                    Contains("b.toml:") && Contains("not both"));
+  CHECK_THROWS_WITH(
+      parse_bridge_file(
+          "blocks = [{label = \"a\", vertices = [[0, 0], [1, 0], [1, 1]]}]\n[wall]\ncourses = 3\n", "b.toml"),
+      Contains("b.toml:") && Contains("not both"));
 }
 
 TEST_CASE("Four thousand damaged files of blocks are read or refused", "[block-file][fuzz]") {
-  const std::vector<std::string> nasty = {"nan",  "1e308", "-1",   "2147483648", "0\nLWPOLYLINE\n", "0\nVERTEX\n", "42\n1e300\n",
-                                          "[",    "]",     "{",    "}",          "\"",              ",",           "70\n-1\n",
-                                          "\xFF", "\r\n",  "null", "1e-320",     "90\n99999999\n",  "\\u0000",     "true"};
+  const std::vector<std::string> nasty = {"nan",
+                                          "1e308",
+                                          "-1",
+                                          "2147483648",
+                                          "0\nLWPOLYLINE\n",
+                                          "0\nVERTEX\n",
+                                          "42\n1e300\n",
+                                          "[",
+                                          "]",
+                                          "{",
+                                          "}",
+                                          "\"",
+                                          ",",
+                                          "70\n-1\n",
+                                          "\xFF",
+                                          "\r\n",
+                                          "null",
+                                          "1e-320",
+                                          "90\n99999999\n",
+                                          "\\u0000",
+                                          "true"};
   const std::vector<std::string> good = good_files();
   test::Chance chance(5);
-  const auto try_one = [&] {
-    const std::string text = test::damaged_text(good, nasty, chance);
-    try {
-      BlockFile file = text.front() == '{' ? parse_json_blocks(text, "f") : parse_dxf_blocks(text, "f");
-      heal_and_check(file.blocks, {});
-      for (const Block& block : file.blocks)
-        if (!(area(block.polygon) > 0.0 && std::isfinite(area(block.polygon)))) FAIL("accepted an unsound block");
-      return test::Verdict::accepted;
-    } catch (const InputError& error) {
-      if (std::string(error.what()).empty()) FAIL("refused without a word");
-      return test::Verdict::refused;
-    }
-  };
-  const test::Tally tally = test::feed(4'000, try_one);
+  const test::Tally tally =
+      test::feed(4'000, [&] { return read_and_check(test::damaged_text(good, nasty, chance)); });
   CHECK(tally.accepted > 200);
   CHECK(tally.refused > 500);
 }

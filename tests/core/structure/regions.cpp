@@ -5,9 +5,9 @@
 #include <catch2/catch.hpp>
 
 #include "core/error.h"
+#include "core/statics/quasi_static_solver.h"
 #include "core/structure/bridge_file.h"
 #include "core/structure/fill.h"
-#include "core/statics/quasi_static_solver.h"
 #include "tests/support/bridges.h"
 
 using namespace voussoir;
@@ -35,10 +35,13 @@ TEST_CASE("A region's blocks have its material, and a joint the weaker of its bl
   }
   int rough = 0;
   for (std::size_t j = 0; j < bridge.joints.size(); ++j) {
-    const auto in_ring = [&](BlockId id) { return bridge.layout[id].role == BlockRole::ring && bridge.layout[id].label != "0,10"; };
+    const auto in_ring = [&](BlockId id) {
+      return bridge.layout[id].role == BlockRole::ring && bridge.layout[id].label != "0,10";
+    };
     const bool weak = in_ring(bridge.joints[j].first) || in_ring(bridge.joints[j].second);
     const JointMaterial plain;
-    CHECK(bridge.parameters.joints[j].friction_angle == Approx((weak ? 30.0 : 35.0) * std::numbers::pi / 180.0));
+    CHECK(bridge.parameters.joints[j].friction_angle ==
+          Approx((weak ? 30.0 : 35.0) * std::numbers::pi / 180.0));
     CHECK(bridge.parameters.joints[j].normal_stiffness == plain.normal_stiffness);
     rough += !weak;
   }
@@ -49,7 +52,8 @@ TEST_CASE("A bridge whose materials are no mirror image has no symmetry", "[regi
   CHECK(bridge_with("[[regions]]\nof = [\"ring\"]\ndensity_kg_m3 = 2000\n").symmetry.has_value());
   CHECK_FALSE(bridge_with("[[regions]]\nof = [\"12,1\"]\ndensity_kg_m3 = 2000\n").symmetry.has_value());
   CHECK_FALSE(bridge_with("[[regions]]\nof = [\"12,1\"]\nfriction_angle_deg = 20\n").symmetry.has_value());
-  CHECK_FALSE(bridge_with("[fill]\nunit_weight_N_m3 = 18000\nsurface_m = [[0, 6], [20, 7]]\n").symmetry.has_value());
+  CHECK_FALSE(
+      bridge_with("[fill]\nunit_weight_N_m3 = 18000\nsurface_m = [[0, 6], [20, 7]]\n").symmetry.has_value());
 }
 
 TEST_CASE("A region of nothing is refused", "[regions]") {
@@ -60,9 +64,10 @@ TEST_CASE("A region of nothing is refused", "[regions]") {
 }
 
 TEST_CASE("Soil has the weight of the area between its surface and the extrados (closed form)", "[regions]") {
-  // Semicircle of 4 m outer radius on 17 chords, alone: soil from the chords up to y = 6 between x = 6 and 14.
+  // Semicircle of 4 m outer radius on 17 chords, alone: soil from the chords up to y = 6 between x = 6
+  // and 14.
   const Model ring = bridge_with("[wall]\ncourses = 0\n[fill]\nunit_weight_N_m3 = 18000\nlevel_m = 6\n");
-  const double chords = 0.5 * 17 * 16.0 * std::sin(std::numbers::pi / 17) ;
+  const double chords = 0.5 * 17 * 16.0 * std::sin(std::numbers::pi / 17);
   const double below = 1.05 * 8.0 + chords;  // under the extrados
   CHECK(9.81 * ring.parameters.laid_mass.sum() == Approx(18000.0 * (6.0 * 8.0 - below)).epsilon(1e-9));
   CHECK(ring.symmetry.has_value());
@@ -75,7 +80,8 @@ TEST_CASE("Soil has the weight of the area between its surface and the extrados 
 
 TEST_CASE("A column under soil settles as under a heavier top block (closed form)", "[regions]") {
   const std::string column =
-      "spans = []\n[wall]\nlength_m = 1\ncourses = 4\nbond = \"stack\"\n[supports]\nsides = \"free\"\n[material]\nyoung_modulus_Pa = 1e14\n";
+      "spans = []\n[wall]\nlength_m = 1\ncourses = 4\nbond = \"stack\"\n[supports]\nsides = "
+      "\"free\"\n[material]\nyoung_modulus_Pa = 1e14\n";
   const Model plain = bridge_with(column);
   const Model loaded = bridge_with(column + "[fill]\nunit_weight_N_m3 = 20000\nlevel_m = 3\n");
   const auto top = [](const Model& model) {

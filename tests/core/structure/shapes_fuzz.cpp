@@ -27,36 +27,45 @@ std::string random_span(const std::string& shape, test::Chance& chance) {
   if (shape == "semicircular")
     text += fmt::format("centre_x_m = 5\ncentre_y_m = {}\nintrados_radius_m = {}\n", springing, 0.5 * span);
   else if (shape == "points")
-    text += fmt::format("points_m = [[{}, {}], [{}, {}], [5, {}], [{}, {}], [{}, {}]]\n", 5 - 0.5 * span, springing,
-                        5 - 0.3 * span, springing + between(chance, 0.22, 0.3) * span, springing + between(chance, 0.35, 0.45) * span,
-                        5 + 0.3 * span, springing + between(chance, 0.22, 0.3) * span, 5 + 0.5 * span, springing);
+    text += fmt::format("points_m = [[{}, {}], [{}, {}], [5, {}], [{}, {}], [{}, {}]]\n", 5 - 0.5 * span,
+                        springing, 5 - 0.3 * span, springing + between(chance, 0.22, 0.3) * span,
+                        springing + between(chance, 0.35, 0.45) * span, 5 + 0.3 * span,
+                        springing + between(chance, 0.22, 0.3) * span, 5 + 0.5 * span, springing);
   else
-    text += fmt::format("centre_x_m = 5\nspringing_m = {}\nspan_m = {}\nrise_m = {}\n", springing, span,
-                        span * (shape == "pointed" ? between(chance, 0.55, 0.9) : between(chance, 0.2, 0.45)));
+    text +=
+        fmt::format("centre_x_m = 5\nspringing_m = {}\nspan_m = {}\nrise_m = {}\n", springing, span,
+                    span * (shape == "pointed" ? between(chance, 0.55, 0.9) : between(chance, 0.2, 0.45)));
   if (chance() % 3 == 0)
-    text += fmt::format("rings = [{{thickness_m = {}, voussoirs = {}}}, {{thickness_m = {}, voussoirs = {}, staggered = {}}}]\n",
-                        0.5 * thickness, 5 + chance() % 20, 0.5 * thickness, 5 + chance() % 20, chance() % 2 == 0);
+    text += fmt::format(
+        "rings = [{{thickness_m = {}, voussoirs = {}}}, {{thickness_m = {}, voussoirs = {}, staggered = "
+        "{}}}]\n",
+        0.5 * thickness, 5 + chance() % 20, 0.5 * thickness, 5 + chance() % 20, chance() % 2 == 0);
   else if (chance() % 2 == 0)
     text += fmt::format("ring_thickness_m = {}\nvoussoirs = {}\n", thickness, 5 + chance() % 25);
   else
-    text += fmt::format("ring_thickness_m = {}\nvoussoir_length_m = {}\n", thickness, between(chance, 0.2, 1.0));
-  if (shape != "semicircular" && chance() % 2 == 0) text += fmt::format("skewback_m = {}\n", between(chance, 0.0, 0.5));
+    text +=
+        fmt::format("ring_thickness_m = {}\nvoussoir_length_m = {}\n", thickness, between(chance, 0.2, 1.0));
+  if (shape != "semicircular" && chance() % 2 == 0)
+    text += fmt::format("skewback_m = {}\n", between(chance, 0.0, 0.5));
   return text;
 }
 
 std::string random_file(const std::string& shape, test::Chance& chance) {
   const bool walls = chance() % 4 != 0;
   const double course = between(chance, 0.3, 0.8);
-  std::string text = fmt::format("[wall]\nlength_m = 10\ncourses = {}\ncourse_height_m = {}\nblock_length_m = {}\nbond = \"{}\"\n",
-                                 walls ? static_cast<int>(std::ceil(7.5 / course)) : 0, course, between(chance, 0.6, 2.0),
-                                 chance() % 2 == 0 ? "running" : "stack");
+  std::string text = fmt::format(
+      "[wall]\nlength_m = 10\ncourses = {}\ncourse_height_m = {}\nblock_length_m = {}\nbond = \"{}\"\n",
+      walls ? static_cast<int>(std::ceil(7.5 / course)) : 0, course, between(chance, 0.6, 2.0),
+      chance() % 2 == 0 ? "running" : "stack");
   text += random_span(shape, chance);
   if (chance() % 3 == 0) text += "[fill]\nunit_weight_N_m3 = 18000\nlevel_m = 8.2\n";
-  if (chance() % 3 == 0) text += "[[regions]]\nof = [\"ring\"]\nyoung_modulus_Pa = 1e10\nfriction_angle_deg = 40\n";
+  if (chance() % 3 == 0)
+    text += "[[regions]]\nof = [\"ring\"]\nyoung_modulus_Pa = 1e10\nfriction_angle_deg = 40\n";
   return text;
 }
 
-const std::vector<std::string> kShapes = {"semicircular", "segmental", "pointed", "three-centred", "elliptic", "points"};
+const std::vector<std::string> kShapes = {"semicircular",  "segmental", "pointed",
+                                          "three-centred", "elliptic",  "points"};
 
 void mesh_and_solve(const std::string& text) {
   const Model bridge = make_model(parse_bridge_file(text, "random.toml").description);
@@ -87,13 +96,29 @@ void try_valid(int each, std::uint64_t seed) {
 }
 
 int refused(int count, std::uint64_t seed) {
-  const std::vector<std::string> nasty = {"nan", "1e308", "-1", "0", "[[1,2],[3]]", "\"round\"", "rise_m = 0\n", "span_m = 1e5\n",
-                                          "points_m = []\n", "rings = [{}]\n", "rings = 3\n", "skewback_m = -1\n", "shape = 3\n",
-                                          "of = []\n", "level_m = nan\n", "[[walls]]\n", "voussoirs = 2\n", "staggered = 1\n"};
+  const std::vector<std::string> nasty = {"nan",
+                                          "1e308",
+                                          "-1",
+                                          "0",
+                                          "[[1,2],[3]]",
+                                          "\"round\"",
+                                          "rise_m = 0\n",
+                                          "span_m = 1e5\n",
+                                          "points_m = []\n",
+                                          "rings = [{}]\n",
+                                          "rings = 3\n",
+                                          "skewback_m = -1\n",
+                                          "shape = 3\n",
+                                          "of = []\n",
+                                          "level_m = nan\n",
+                                          "[[walls]]\n",
+                                          "voussoirs = 2\n",
+                                          "staggered = 1\n"};
   test::Chance chance(seed);
   int result = 0;
   for (int i = 0; i < count; ++i) {
-    const std::string text = test::damaged_text({random_file(kShapes[chance() % kShapes.size()], chance)}, nasty, chance);
+    const std::string text =
+        test::damaged_text({random_file(kShapes[chance() % kShapes.size()], chance)}, nasty, chance);
     INFO(text);
     try {
       const BridgeDescription description = parse_bridge_file(text, "wrong.toml").description;

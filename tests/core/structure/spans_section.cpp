@@ -48,7 +48,8 @@ TEST_CASE("Three changed lines make the reference bridge segmental", "[shapes]")
 }
 
 TEST_CASE("Keys of a span mean what they say", "[shapes]") {
-  const SpanDescription segment = span("shape = \"segmental\"\nspan_m = 5\nrise_m = 1.5\nspringing_m = 2\nskewback_m = 0.3");
+  const SpanDescription segment =
+      span("shape = \"segmental\"\nspan_m = 5\nrise_m = 1.5\nspringing_m = 2\nskewback_m = 0.3");
   CHECK(segment.shape == IntradosShape::segmental);
   CHECK(segment.span == 5.0);
   CHECK(segment.rise == 1.5);
@@ -59,7 +60,9 @@ TEST_CASE("Keys of a span mean what they say", "[shapes]") {
   CHECK(span("shape = \"three-centred\"\nspan_m = 5\nrise_m = 2\nhaunch_radius_m = 1").arc_radius == 1.0);
   CHECK(span("shape = \"elliptic\"\nspan_m = 5\nrise_m = 2").shape == IntradosShape::elliptic);
   CHECK(span("shape = \"points\"\npoints_m = [[7, 1], [9, 2], [11, 1]]").points.size() == 3);
-  const SpanDescription rings = span("rings = [{thickness_m = 0.2, voussoirs = 31}, {thickness_m = 0.25, voussoirs = 33, staggered = true}]");
+  const SpanDescription rings = span(
+      "rings = [{thickness_m = 0.2, voussoirs = 31}, {thickness_m = 0.25, voussoirs = 33, staggered = "
+      "true}]");
   CHECK(rings.ring_thickness == 0.2);
   CHECK(rings.voussoirs == 31);
   REQUIRE(rings.outer_rings.size() == 1);
@@ -76,29 +79,43 @@ TEST_CASE("A length of voussoirs gives the odd number that comes nearest to it",
 TEST_CASE("Bad spans are refused with file, line, value and what was expected", "[shapes]") {
   const std::string segment = "[[spans]]\nshape = \"segmental\"\nspan_m = 5\n";
   CHECK_THAT(message(segment), Contains("s.toml:1:") && Contains("rise_m") && Contains("is missing"));
-  CHECK_THAT(message(segment + "rise_m = 3\n"), Contains("s.toml:4:") && Contains("is 3: expected at most half the span, 2.5"));
+  CHECK_THAT(message(segment + "rise_m = 3\n"),
+             Contains("s.toml:4:") && Contains("is 3: expected at most half the span, 2.5"));
   CHECK_THAT(message(segment + "rise_m = 0.001\n"), Contains("s.toml:4:") && Contains("thousandth"));
-  CHECK_THAT(message(segment + "rise_m = 1\nintrados_radius_m = 2\n"), Contains("s.toml:5:") && Contains("belongs to"));
+  CHECK_THAT(message(segment + "rise_m = 1\nintrados_radius_m = 2\n"),
+             Contains("s.toml:5:") && Contains("belongs to"));
   CHECK_THAT(message("[[spans]]\nspan_m = 5\n"), Contains("s.toml:2:") && Contains("belongs to segmental"));
-  CHECK_THAT(message("[[spans]]\nshape = \"round\"\n"), Contains("s.toml:2:") && Contains("\"three-centred\""));
+  CHECK_THAT(message("[[spans]]\nshape = \"round\"\n"),
+             Contains("s.toml:2:") && Contains("\"three-centred\""));
   CHECK_THAT(message("[[spans]]\nshape = \"pointed\"\nspan_m = 6\nrise_m = 2\n"),
              Contains("s.toml:4:") && Contains("do not meet in a point") && Contains("arc_radius_m"));
-  CHECK_THAT(message("[[spans]]\nshape = \"three-centred\"\nspan_m = 6\nrise_m = 3\n"), Contains("less than half the span, 3"));
-  CHECK_THAT(message("[[spans]]\nshape = \"points\"\npoints_m = [[7, 1], [9, 2]]\n"), Contains("s.toml:3:") && Contains("3 to 1000 points"));
-  CHECK_THAT(message("[[spans]]\nshape = \"points\"\npoints_m = [[7, 1], [9, 2], [5, 1]]\n"), Contains("left springing to the right"));
-  CHECK_THAT(message("[[spans]]\nshape = \"points\"\npoints_m = [[7, 1], [9, nan], [11, 1]]\n"), Contains("point 2"));
-  CHECK_THAT(message("[[spans]]\nvoussoirs = 9\nrings = [{thickness_m = 0.2}]\n"), Contains("s.toml:2:") && Contains("in each of the rings"));
-  CHECK_THAT(message("[[spans]]\nvoussoirs = 9\nvoussoir_length_m = 1\n"), Contains("s.toml:3:") && Contains("not both"));
+  CHECK_THAT(message("[[spans]]\nshape = \"three-centred\"\nspan_m = 6\nrise_m = 3\n"),
+             Contains("less than half the span, 3"));
+  CHECK_THAT(message("[[spans]]\nshape = \"points\"\npoints_m = [[7, 1], [9, 2]]\n"),
+             Contains("s.toml:3:") && Contains("3 to 1000 points"));
+  CHECK_THAT(message("[[spans]]\nshape = \"points\"\npoints_m = [[7, 1], [9, 2], [5, 1]]\n"),
+             Contains("left springing to the right"));
+  CHECK_THAT(message("[[spans]]\nshape = \"points\"\npoints_m = [[7, 1], [9, nan], [11, 1]]\n"),
+             Contains("point 2"));
+  CHECK_THAT(message("[[spans]]\nvoussoirs = 9\nrings = [{thickness_m = 0.2}]\n"),
+             Contains("s.toml:2:") && Contains("in each of the rings"));
+  CHECK_THAT(message("[[spans]]\nvoussoirs = 9\nvoussoir_length_m = 1\n"),
+             Contains("s.toml:3:") && Contains("not both"));
   CHECK_THAT(message("[[spans]]\nrings = []\n"), Contains("1 to 20 rings"));
-  CHECK_THAT(message("[[walls]]\nrole = \"pier\"\ncourses = 3\n"), Contains("s.toml:1:") && Contains("length_m") && Contains("is missing"));
-  CHECK_THAT(message("[[walls]]\nrole = \"ring\"\nlength_m = 1\ncourses = 3\n"), Contains("laid by [[spans]]"));
+  CHECK_THAT(message("[[walls]]\nrole = \"pier\"\ncourses = 3\n"),
+             Contains("s.toml:1:") && Contains("length_m") && Contains("is missing"));
+  CHECK_THAT(message("[[walls]]\nrole = \"ring\"\nlength_m = 1\ncourses = 3\n"),
+             Contains("laid by [[spans]]"));
   CHECK_THAT(message("[[walls]]\nbase_y_m = 5\nlength_m = 1\ncourses = 3\n"), Contains("overlap"));
-  CHECK_THAT(message("[[walls]]\nbase_y_m = 6\nfrom_x_m = 19.5\nlength_m = 1\ncourses = 3\n"), Contains("20.5"));
+  CHECK_THAT(message("[[walls]]\nbase_y_m = 6\nfrom_x_m = 19.5\nlength_m = 1\ncourses = 3\n"),
+             Contains("20.5"));
 }
 
-TEST_CASE("Parts are laid where they stand, their courses counted on, and the parapet is the top", "[shapes]") {
+TEST_CASE("Parts are laid where they stand, their courses counted on, and the parapet is the top",
+          "[shapes]") {
   const Model bridge = make_model(
-      parse_bridge_file("[[walls]]\nrole = \"parapet\"\nbase_y_m = 6\nlength_m = 20\ncourses = 2\n", "p.toml").description);
+      parse_bridge_file("[[walls]]\nrole = \"parapet\"\nbase_y_m = 6\nlength_m = 20\ncourses = 2\n", "p.toml")
+          .description);
   CHECK(bridge.layout.count_with(BlockRole::parapet) == 41);
   CHECK(bridge.layout.count_in_course(13) == 21);
   CHECK(bridge.layout.count_in_course(14) == 20);
