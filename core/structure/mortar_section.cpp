@@ -1,5 +1,6 @@
 #include "core/structure/mortar_section.h"
 
+#include <cmath>
 #include <numbers>
 
 namespace voussoir {
@@ -21,6 +22,7 @@ void read_strength(TomlSection& section, const JointMaterial& joints, MortarRegi
   section.number("friction_angle_deg", degrees, joints.friction_angle / kDegree, 89.0, true);
   mortar.friction_angle = degrees * kDegree;
   section.positive("compressive_strength_Pa", mortar.compressive_strength);
+  section.positive("crushing_energy_J_m2", mortar.crushing_energy);
   const double normal = region.normal_stiffness.value_or(joints.normal_stiffness);
   const double tangential = region.tangential_stiffness.value_or(joints.tangential_stiffness);
   const double elastic_opening = 0.5 * mortar.tensile_strength * mortar.tensile_strength / normal;
@@ -35,6 +37,13 @@ void read_strength(TomlSection& section, const JointMaterial& joints, MortarRegi
     section.refuse("slip_energy_J_m2",
                    fmt::format("is {:g}: expected more than c^2 / p_t = {:g}: the joint would break at once",
                                mortar.slip_energy, elastic_slip));
+  const double elastic_crushing = mortar.compressive_strength * mortar.compressive_strength / normal;
+  if (std::isfinite(mortar.crushing_energy) && !(mortar.crushing_energy > elastic_crushing))
+    section.refuse(
+        "crushing_energy_J_m2",
+        fmt::format("is {:g}: expected more than f_m^2 / p_n = {:g} of compressive_strength_Pa: the "
+                    "joint would break at once",
+                    mortar.crushing_energy, elastic_crushing));
   if (mortar.cohesion < least_cohesion)
     section.refuse("cohesion_Pa",
                    fmt::format("is {:g}: expected at least tan(friction_angle) tensile_strength_Pa = {:g}",

@@ -43,8 +43,9 @@ std::string crack_element(const WallTest& test, const Crack& crack, const Bridge
 std::string crack_picture(const WallTest& test, const WallStep& step) {
   const BlockLayout& layout = test.model.layout;
   const BridgeFrame frame = frame_of(layout, kPictureWidth, 0.1, 0.02);
-  std::string elements = text_element({0.5 * frame.width, 17.0}, "middle", "strong",
-                                      fmt::format("{:.2f} mm, {:.1f} kN", step.millimetres, step.kilonewtons));
+  std::string elements =
+      text_element({0.5 * frame.width, 17.0}, "middle", "strong",
+                   fmt::format("{:.2f} mm, {:.1f} kN", step.millimetres, step.kilonewtons));
   elements += block_elements(layout, frame, [&](BlockId id) {
     return BlockLook{"stone", "(" + layout[id].label + ")"};
   });
@@ -57,12 +58,12 @@ std::string stress_picture(const WallTest& test) {
   const EquilibriumSystem system(test.model);
   const Coefficients coefficients(system, test.model.parameters);
   const StageEquations equations(system, coefficients, Stage{}, at.state.memory);
-  const ForcesPicture picture{.layout = test.model.layout,
-                              .mesh = test.model.mesh,
-                              .scene = {},
-                              .heading = fmt::format("at the greatest force, {:.2f} mm",
-                                                     test.steps[test.peak].millimetres),
-                              .width = 1.3 * kPictureWidth};
+  const ForcesPicture picture{
+      .layout = test.model.layout,
+      .mesh = test.model.mesh,
+      .scene = {},
+      .heading = fmt::format("at the greatest force, {:.2f} mm", test.steps[test.peak].millimetres),
+      .width = 1.3 * kPictureWidth};
   return "<div>" +
          svg_element(draw_stresses(
              picture, triangle_stresses(equations, test.model.parameters, at.state.displacement))) +
@@ -75,12 +76,16 @@ std::string force_chart(const WallTest& test) {
     force.x.push_back(step.millimetres);
     force.y.push_back(step.kilonewtons);
   }
-  const Series published{"published greatest force of both walls, about", 2, Mark::dashes,
-                         {0.0, test.steps.back().millimetres}, {kPublishedPeak, kPublishedPeak}};
-  return "<div>" + chart_html({"Force against displacement",
-                               {"displacement of the top [mm]"},
-                               {"force at the top [kN]"},
-                               {force, published}}) +
+  const Series published{"published greatest force of both walls, about",
+                         2,
+                         Mark::dashes,
+                         {0.0, test.steps.back().millimetres},
+                         {kPublishedPeak, kPublishedPeak}};
+  return "<div>" +
+         chart_html({"Force against displacement",
+                     {"displacement of the top [mm]"},
+                     {"force at the top [kN]"},
+                     {force, published}}) +
          "</div>\n";
 }
 
@@ -99,8 +104,8 @@ Table step_table(const WallTest& test) {
 std::string order_of_cracks(const WallTest& test) {
   std::vector<std::pair<double, std::string_view>> firsts;
   for (std::size_t place = 0; place < kCrackPlaces.size(); ++place) {
-    const auto first = std::ranges::find_if(
-        test.steps, [&](const WallStep& step) { return step.cracked.at(place) > 0.0; });
+    const auto first =
+        std::ranges::find_if(test.steps, [&](const WallStep& step) { return step.cracked.at(place) > 0.0; });
     if (first != test.steps.end()) firsts.emplace_back(first->millimetres, kCrackPlaces.at(place));
   }
   std::ranges::sort(firsts);
@@ -117,16 +122,19 @@ Exhibit wall_exhibit(const WallTest& test) {
   std::string pictures = "<div class=\"figures\">" + force_chart(test) + stress_picture(test) + "</div>\n";
   pictures += "<div class=\"figures thirds\">";
   for (const std::size_t step : shown_steps(test, 6)) pictures += crack_picture(test, test.steps[step]);
-  return {{"figure-3", "Fig. 3: the Eindhoven wall",
-           fmt::format(
-               "Greatest force {:.1f} kN at {:.2f} mm ({:+.0f} % of about {:.0f} kN, published), {:.1f} kN at "
-               "{:.2f} mm, the end; initial stiffness {:.0f} kN/mm. Cracks (more than half of the bond worn): {}. "
-               "Dark: opened; coloured: slid. The measured curve is in no public source at hand, so only its peak "
-               "is shown; docs/mortar.md has the rest.",
-               peak.kilonewtons, peak.millimetres, 100.0 * (peak.kilonewtons / kPublishedPeak - 1.0),
-               kPublishedPeak, test.steps.back().kilonewtons, test.steps.back().millimetres,
-               test.steps.front().kilonewtons / test.steps.front().millimetres, order_of_cracks(test)),
-           pictures + "</div>\n", step_table(test), true}};
+  return {
+      {"figure-3", "Fig. 3: the Eindhoven wall",
+       fmt::format(
+           "Greatest force {:.1f} kN at {:.2f} mm ({:+.0f} % of about {:.0f} kN, published), {:.1f} kN at "
+           "{:.2f} mm, the end; initial stiffness {:.0f} kN/mm. Cracks (more than half of the bond worn): "
+           "{}. "
+           "Dark: opened; coloured: slid. The measured curve is in no public source at hand, so only its "
+           "peak "
+           "is shown; docs/mortar.md has the rest.",
+           peak.kilonewtons, peak.millimetres, 100.0 * (peak.kilonewtons / kPublishedPeak - 1.0),
+           kPublishedPeak, test.steps.back().kilonewtons, test.steps.back().millimetres,
+           test.steps.front().kilonewtons / test.steps.front().millimetres, order_of_cracks(test)),
+       pictures + "</div>\n", step_table(test), true}};
 }
 
 }  // namespace voussoir

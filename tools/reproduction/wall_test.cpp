@@ -45,7 +45,8 @@ void find_cracks(const WallTest& test, const Coefficients& coefficients, const S
 }  // namespace
 
 WallTest run_wall_test(const std::filesystem::path& bridge_file) {
-  WallTest test{.description = read_bridge_file(bridge_file).description, .model = {}, .moved = {}, .steps = {}};
+  WallTest test{
+      .description = read_bridge_file(bridge_file).description, .model = {}, .moved = {}, .steps = {}};
   if (test.description.movements.empty())
     throw InputError(bridge_file.string() + ": no [[movements]]: expected what is done to the wall");
   test.model = make_model(test.description);
@@ -62,7 +63,8 @@ WallTest run_wall_test(const std::filesystem::path& bridge_file) {
     step.snapped = point.at.snapped;
     find_cracks(test, coefficients, point.at.state, step);
   }
-  if (test.steps.empty()) throw InputError(bridge_file.string() + ": the wall gives way before the last movement");
+  if (test.steps.empty())
+    throw InputError(bridge_file.string() + ": the wall gives way before the last movement");
   const auto strongest = std::ranges::max_element(test.steps, {}, &WallStep::kilonewtons);
   test.peak = static_cast<std::size_t>(strongest - test.steps.begin());
   return test;

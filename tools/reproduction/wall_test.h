@@ -1,5 +1,6 @@
 #pragma once
-/// @file The paper's own check of its model (Fig. 3): a wall with mortar, pressed and pushed sideways until it cracks.
+/// @file The paper's own check of its model (Fig. 3): a wall with mortar, pressed and pushed sideways until
+/// it cracks.
 
 #include <array>
 #include <filesystem>
@@ -20,8 +21,8 @@ enum class CrackPlace : std::size_t {
   brick  ///< the middle of blocks
 };
 
-inline constexpr std::array<std::string_view, 4> kCrackPlaces = {"bed joints at the beams", "other bed joints",
-                                                                 "head joints", "bricks"};
+inline constexpr std::array<std::string_view, 4> kCrackPlaces = {"bed joints at the beams",
+                                                                 "other bed joints", "head joints", "bricks"};
 
 /// A stretch of joint more than half of whose bond is worn away.
 struct Crack {
@@ -31,12 +32,12 @@ struct Crack {
 
 /// The end of a step of the push.
 struct WallStep {
-  double millimetres = 0.0;          ///< of the top, sideways
-  double kilonewtons = 0.0;          ///< sideways
-  double vertical_kilonewtons = 0.0; ///< pressing down
-  double dissipated = 0.0;           ///< [J] by mortar
+  double millimetres = 0.0;           ///< of the top, sideways
+  double kilonewtons = 0.0;           ///< sideways
+  double vertical_kilonewtons = 0.0;  ///< pressing down
+  double dissipated = 0.0;            ///< [J] by mortar
   bool snapped = false;
-  std::array<double, 4> cracked{};   ///< [m] length of cracks by CrackPlace
+  std::array<double, 4> cracked{};  ///< [m] length of cracks by CrackPlace
   std::vector<Crack> cracks;
 };
 
