@@ -51,11 +51,11 @@ std::string material_text(const Material& material) {
 
 /// Nothing for dry joints.
 std::string mortar_text(const Mortar& mortar) {
-  const auto& [tensile_strength, opening_energy, cohesion, slip_energy, friction_angle,
-               compressive_strength] = mortar;
+  const auto& [tensile_strength, opening_energy, cohesion, slip_energy, friction_angle, compressive_strength,
+               crushing_energy] = mortar;
   if (!mortar.is_there()) return "";
   return row("mortar", tensile_strength, opening_energy, cohesion, slip_energy, friction_angle,
-             compressive_strength);
+             compressive_strength, crushing_energy);
 }
 
 std::string joint_text(const JointMaterial& joints) {

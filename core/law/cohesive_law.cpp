@@ -88,6 +88,33 @@ double dissipation(const CohesiveStiffness& joint, const BondMemory& before, con
          bound.worn * joint.slip_length * share_worn + bound.lasting * length;
 }
 
+/// What crushing leaves of a gap.
+struct Crushing {
+  double thinner;            ///< q [m]
+  double left_by_gap = 1.0;  ///< d (gap + q) / d gap
+  double dissipated = 0.0;   ///< [J]
+};
+
+/// q + deepest exp(-q / l_c) = -gap where that is more than the q of before. The left side is convex: from
+/// q = -gap Newton's method comes down to it without a turn.
+Crushing crushing_at(const CohesiveStiffness& joint, const BondMemory& memory, double gap) {
+  if (std::isinf(joint.deepest)) return {memory.crushed};
+  const auto bound = [&](double q) { return joint.deepest * std::exp(-q / joint.crushing_length); };
+  const double before = bound(memory.crushed);
+  if (-gap - memory.crushed <= before) return {memory.crushed};
+  double q = -gap;
+  for (int step = 0; step < kMostNewtonSteps; ++step) {
+    const double change = (q + bound(q) + gap) / (1.0 - bound(q) / joint.crushing_length);
+    if (!(change > 0.0)) break;  // round-off: the root is passed
+    q -= change;
+    if (change <= 1e-15 * -gap) break;
+  }
+  q = std::max(q, memory.crushed);
+  const double lost = std::isinf(joint.crushing_length) ? joint.deepest * (q - memory.crushed)
+                                                        : joint.crushing_length * (before - bound(q));
+  return {q, 1.0 - 1.0 / (1.0 - bound(q) / joint.crushing_length), joint.dry.normal * lost};
+}
+
 /// `gap` counts from where crushing has left the joint.
 BondResponse uncrushed_response(const CohesiveStiffness& joint, const BondMemory& memory, double gap,
                                 double slip) {
@@ -164,21 +191,17 @@ CohesiveStiffness cohesive_stiffness(const JointMaterial& material, double area)
           .elastic_opening = elastic_opening,
           .opening_length = mortar.opening_energy / mortar.tensile_strength - 0.5 * elastic_opening,
           .deepest = mortar.compressive_strength / material.normal_stiffness,
+          .crushing_length = mortar.crushing_energy / mortar.compressive_strength,
           .slip_length = mortar.slip_energy / mortar.cohesion};
 }
 
 BondResponse bond_response(const CohesiveStiffness& joint, const BondMemory& memory, double gap,
                            double slip) {
-  const double excess = -(gap + memory.crushed) - joint.deepest;
-  if (!(excess > 0.0)) {
-    BondResponse response = uncrushed_response(joint, memory, gap + memory.crushed, slip);
-    response.memory.crushed = memory.crushed;
-    return response;
-  }
-  BondResponse response = uncrushed_response(joint, memory, -joint.deepest, slip);
-  response.tangent.col(0).setZero();
-  response.memory.crushed = memory.crushed + excess;
-  response.dissipated += joint.dry.normal * joint.deepest * excess;
+  const Crushing crushing = crushing_at(joint, memory, gap);
+  BondResponse response = uncrushed_response(joint, memory, gap + crushing.thinner, slip);
+  response.tangent.col(0) *= crushing.left_by_gap;
+  response.memory.crushed = crushing.thinner;
+  response.dissipated += crushing.dissipated;
   return response;
 }
 

@@ -16,9 +16,9 @@
 ///   w = max(w before, g - g_0),     sigma = f_t b g / (g_0 + w):
 /// elastic up to f_t, then exponential softening; unloading goes straight to the origin.
 ///
-/// Crushing. Pressure is bounded by f_m; what the bound cuts off makes the joint thinner for good, by q, and
-/// g counts from there: all of the above holds for g + q. (Perfectly plastic, of its own; the bond does not
-/// mind.)
+/// Crushing. Pressure is bounded by f_m exp(-q / l_c), l_c = G_c / f_m; what the bound cuts off makes the
+/// joint thinner for good, by q, and g counts from there: all of the above holds for g + q. Without G_c the
+/// bound stays f_m. The bond does not mind.
 ///
 /// Slip. tau is bounded to |tau| <= b (c - mu sigma) + (1 - b) mu_r p, pressure being the negative part of
 /// sigma: Coulomb's line of the intact mortar (c, mu) turns into that of the dry joint (mu_r) as the bond
@@ -57,7 +57,8 @@ struct CohesiveStiffness {
   double residual_friction = 0.0;  ///< mu_r of the dry joint [-]
   double elastic_opening = 0.0;    ///< g_0 [m]
   double opening_length = 0.0;     ///< l_1 [m]
-  double deepest = 0.0;            ///< elastic penetration at f_m [m]
+  double deepest = 0.0;            ///< elastic penetration at f_m [m]; infinite: cannot be crushed
+  double crushing_length = 0.0;    ///< l_c [m]; infinite: no softening
   double slip_length = 0.0;        ///< l_2 [m]
 };
 

@@ -17,6 +17,7 @@ struct Mortar {
   double slip_energy = 0.0;                                               ///< G_II [J/m2], mode II
   double friction_angle = 0.0;                                            ///< of the intact mortar [rad]
   double compressive_strength = std::numeric_limits<double>::infinity();  ///< f_m [Pa]
+  double crushing_energy = std::numeric_limits<double>::infinity();       ///< G_c [J/m2]
 
   bool is_there() const { return tensile_strength > 0.0; }
   double friction_coefficient() const { return std::tan(friction_angle); }

@@ -1,11 +1,36 @@
 #include "core/structure/mortar_section.h"
 
+#include <cmath>
 #include <numbers>
 
 namespace voussoir {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
+
+/// Refuses what would break by itself, or be stronger in tension than Coulomb's line allows.
+void check_strength(const TomlSection& section, const JointMaterial& joints, const MortarRegion& region) {
+  const Mortar& mortar = region.mortar;
+  const double normal = region.normal_stiffness.value_or(joints.normal_stiffness);
+  const double tangential = region.tangential_stiffness.value_or(joints.tangential_stiffness);
+  const double f_m = mortar.compressive_strength;
+  const auto above = [&](const char* key, double energy, double stored, const char* formula) {
+    if (energy <= stored)
+      section.refuse(key, fmt::format("is {:g}: expected more than {} = {:g}: the joint would break at once",
+                                      energy, formula, stored));
+  };
+  above("opening_energy_J_m2", mortar.opening_energy,
+        0.5 * mortar.tensile_strength * mortar.tensile_strength / normal, "f_t^2 / (2 p_n)");
+  above("slip_energy_J_m2", mortar.slip_energy, mortar.cohesion * mortar.cohesion / tangential, "c^2 / p_t");
+  if (std::isfinite(mortar.crushing_energy))
+    above("crushing_energy_J_m2", mortar.crushing_energy, f_m * f_m / normal,
+          "f_m^2 / p_n of compressive_strength_Pa");
+  const double least_cohesion = mortar.friction_coefficient() * mortar.tensile_strength;
+  if (mortar.cohesion < least_cohesion)
+    section.refuse("cohesion_Pa",
+                   fmt::format("is {:g}: expected at least tan(friction_angle) tensile_strength_Pa = {:g}",
+                               mortar.cohesion, least_cohesion));
+}
 
 void read_strength(TomlSection& section, const JointMaterial& joints, MortarRegion& region) {
   Mortar& mortar = region.mortar;
@@ -21,24 +46,8 @@ void read_strength(TomlSection& section, const JointMaterial& joints, MortarRegi
   section.number("friction_angle_deg", degrees, joints.friction_angle / kDegree, 89.0, true);
   mortar.friction_angle = degrees * kDegree;
   section.positive("compressive_strength_Pa", mortar.compressive_strength);
-  const double normal = region.normal_stiffness.value_or(joints.normal_stiffness);
-  const double tangential = region.tangential_stiffness.value_or(joints.tangential_stiffness);
-  const double elastic_opening = 0.5 * mortar.tensile_strength * mortar.tensile_strength / normal;
-  const double elastic_slip = mortar.cohesion * mortar.cohesion / tangential;
-  const double least_cohesion = mortar.friction_coefficient() * mortar.tensile_strength;
-  if (mortar.opening_energy <= elastic_opening)
-    section.refuse(
-        "opening_energy_J_m2",
-        fmt::format("is {:g}: expected more than f_t^2 / (2 p_n) = {:g}, what is stored at the strength",
-                    mortar.opening_energy, elastic_opening));
-  if (mortar.slip_energy <= elastic_slip)
-    section.refuse("slip_energy_J_m2",
-                   fmt::format("is {:g}: expected more than c^2 / p_t = {:g}: the joint would break at once",
-                               mortar.slip_energy, elastic_slip));
-  if (mortar.cohesion < least_cohesion)
-    section.refuse("cohesion_Pa",
-                   fmt::format("is {:g}: expected at least tan(friction_angle) tensile_strength_Pa = {:g}",
-                               mortar.cohesion, least_cohesion));
+  section.positive("crushing_energy_J_m2", mortar.crushing_energy);
+  check_strength(section, joints, region);
 }
 
 void read_names(TomlSection& section, std::vector<std::string>& names) {

@@ -69,8 +69,8 @@ TEST_CASE("What a mortar cannot be is refused with key and value", "[mortar][bri
         "b.toml:5: opening_energy_J_m2 in [[mortar]]: is missing");
   CHECK(refusal(table + "tensile_strength_Pa = 0.25e6\nopening_energy_J_m2 = 0.1\ncohesion_Pa = 0.35e6\n"
                         "slip_energy_J_m2 = 125\n") ==
-        "b.toml:7: opening_energy_J_m2 in [[mortar]]: is 0.1: expected more than f_t^2 / (2 p_n) = 0.381098, "
-        "what is stored at the strength");
+        "b.toml:7: opening_energy_J_m2 in [[mortar]]: is 0.1: expected more than f_t^2 / (2 p_n) = 0.381098: "
+        "the joint would break at once");
   CHECK(refusal(table + "tensile_strength_Pa = 0.25e6\nopening_energy_J_m2 = 18\ncohesion_Pa = 0.1e6\n"
                         "slip_energy_J_m2 = 125\n") ==
         "b.toml:8: cohesion_Pa in [[mortar]]: is 100000: expected at least tan(friction_angle) "
@@ -79,6 +79,9 @@ TEST_CASE("What a mortar cannot be is refused with key and value", "[mortar][bri
                         "slip_energy_J_m2 = 1\n")
             .find("slip_energy_J_m2 in [[mortar]]: is 1: expected more than c^2 / p_t = 3.40278") !=
         std::string::npos);
+  CHECK(refusal(table + kMortar + "compressive_strength_Pa = 10.5e6\ncrushing_energy_J_m2 = 1000\n")
+            .find("crushing_energy_J_m2 in [[mortar]]: is 1000: expected more than f_m^2 / p_n of "
+                  "compressive_strength_Pa = 1344.51") != std::string::npos);
   CHECK(refusal(table + kMortar + "between = [\"ring\"]\n").find("has 1 names: expected two") !=
         std::string::npos);
   CHECK(refusal(table + kMortar + "between = [\"ring\", \"99,1\"]\n").find("'99,1' is no block") !=
