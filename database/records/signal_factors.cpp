@@ -10,8 +10,8 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kLeft = 1e-20;       // [m2] variance at a point that is not factorised
-constexpr double kRounding = 1e-15;   // the same as a share of the largest
+constexpr double kLeft = 1e-20;      // [m2] variance at a point that is not factorised
+constexpr double kRounding = 1e-15;  // the same as a share of the largest
 
 }  // namespace
 
@@ -28,7 +28,8 @@ SignalFactors signal_factors(const MatrixXd& intact, const MatrixXd& change) {
     Index pivot = 0;
     const double size = left.maxCoeff(&pivot);
     if (!(size > least)) break;
-    own.col(k) = (product.col(pivot) - own.leftCols(k) * own.row(pivot).head(k).transpose()) / std::sqrt(size);
+    own.col(k) =
+        (product.col(pivot) - own.leftCols(k) * own.row(pivot).head(k).transpose()) / std::sqrt(size);
     left -= own.col(k).cwiseAbs2();
     left[pivot] = 0.0;
     pivots.push_back(pivot);

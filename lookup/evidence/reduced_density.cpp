@@ -121,8 +121,8 @@ double density(const ReducedQuestion& q, const double* prediction, const Reduced
 
 }  // namespace
 
-double reduced_log_density(const ReducedQuestion& question, const double* prediction, const ReducedLoss& first,
-                           const ReducedLoss& second, double least) {
+double reduced_log_density(const ReducedQuestion& question, const double* prediction,
+                           const ReducedLoss& first, const ReducedLoss& second, double least) {
   return density(question, prediction, first, second, least);
 }
 

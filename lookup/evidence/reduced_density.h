@@ -19,7 +19,7 @@ struct ReducedQuestion {
 
 /// log p(readings | scene), kappa marginalised; any number below `least` if that is found on the way.
 /// -infinity if the scene is impossible. `prediction`: the scene's row of the table.
-double reduced_log_density(const ReducedQuestion& question, const double* prediction, const ReducedLoss& first,
-                           const ReducedLoss& second, double least);
+double reduced_log_density(const ReducedQuestion& question, const double* prediction,
+                           const ReducedLoss& first, const ReducedLoss& second, double least);
 
 }  // namespace voussoir

@@ -12,12 +12,12 @@ namespace {
 
 constexpr double kImpossible = -std::numeric_limits<double>::infinity();
 constexpr double kNone = -std::numeric_limits<double>::max();
-constexpr double kNegligible = 20.0;        // logarithm of how far behind the likeliest a case is given up
-constexpr double kUncounted = 3e-4;         // probability of all scenes that are left at their first estimates
-constexpr double kLeftEstimated = 5e-4;     // probability of all scenes that are not worked out
-constexpr double kTooLow = 0.5;             // an estimate's logarithm is hardly ever too low by more than this
-constexpr double kEstimate = 6.0;           // nor too high by so much less than those of likely scenes
-constexpr std::size_t kAtOnce = 8;          // scenes that are worked out before the next look at what matters
+constexpr double kNegligible = 20.0;     // logarithm of how far behind the likeliest a case is given up
+constexpr double kUncounted = 3e-4;      // probability of all scenes that are left at their first estimates
+constexpr double kLeftEstimated = 5e-4;  // probability of all scenes that are not worked out
+constexpr double kTooLow = 0.5;          // an estimate's logarithm is hardly ever too low by more than this
+constexpr double kEstimate = 6.0;        // nor too high by so much less than those of likely scenes
+constexpr std::size_t kAtOnce = 8;       // scenes that are worked out before the next look at what matters
 constexpr std::size_t kMostWorkedOut = 96;  // scenes; others that may matter count by their estimates
 constexpr std::size_t kRemembered = 4;      // likeliest scenes of one case that others are tried with
 
@@ -31,7 +31,11 @@ double usable(double estimate) {
 ScreenedCases::ScreenedCases(UnknownBridge& bridge, const Observation& observation, const SceneTable& table,
                              std::span<const UnknownCase> cases, std::span<const std::size_t> rows,
                              std::span<const double> beforehand)
-    : bridge_(bridge), observation_(observation), table_(table), rows_(rows), beforehand_(beforehand),
+    : bridge_(bridge),
+      observation_(observation),
+      table_(table),
+      rows_(rows),
+      beforehand_(beforehand),
       exact_(rows.size()) {
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const bool few = table.most_missing < 2 || table.removed[rows[i] * table.most_missing + 1] < 0;
@@ -117,7 +121,8 @@ void ScreenedCases::work_out(std::span<const std::size_t> places, double worst_c
   for (const Case& one : cases_) terms.push_back(one.terms);
   std::vector<std::uint8_t> wanted;
   for (std::size_t i = 0; i < rows.size(); ++i)
-    for (const Case& one : cases_) wanted.push_back(one.best_tried > kImpossible && one.best_tried < worst_case ? 0 : 1);
+    for (const Case& one : cases_)
+      wanted.push_back(one.best_tried > kImpossible && one.best_tried < worst_case ? 0 : 1);
   const auto logs = scatter_logs(bridge_, terms, observation_, table_, rows, wanted, hardware_threads());
   for (std::size_t i = 0; i < logs.size(); ++i) {
     const std::size_t place = missing[i / cases_.size()], number = i % cases_.size();
@@ -159,29 +164,41 @@ double ScreenedCases::others_estimate(std::span<const std::size_t> places) const
   return std::log(sum) + best_;
 }
 
+/// How far sums of estimates are off, of scenes that are worked out.
+double ScreenedCases::shift_of(std::span<const std::size_t> places) const {
+  double exact = kImpossible, estimated = kImpossible;
+  for (const std::size_t place : places) {
+    if (!std::isfinite(estimate_[place])) continue;
+    exact = log_sum(exact, total(place) + beforehand_[place]);
+    estimated = log_sum(estimated, estimate_[place]);
+  }
+  return exact > kImpossible ? exact - estimated : 0.0;
+}
+
 /// Works out scenes in the order of their estimates, so many at a time, until what is left can change no
-/// probability by more than kLeftEstimated; the others count by their estimates, shifted by what the likeliest
-/// one's is off.
+/// probability by more than kLeftEstimated, and those without an estimate; the others count by their
+/// estimates, shifted by what those of the last worked out are off.
 std::vector<double> ScreenedCases::evidence(std::size_t count) {
   look_at_cases();
   const std::vector<std::size_t> order = most_likely(std::max(count, kMostWorkedOut));
   std::vector<double> left(order.size() + 1, others_estimate(order));  // at each place and behind it
   for (std::size_t i = order.size(); i-- > 0;) left[i] = log_sum(left[i + 1], estimate_[order[i]]);
-  double best = kImpossible, shift = 0.0, most_shift = kImpossible;  // of exact less estimate
+  double shift = 0.0, most_shift = kImpossible;  // of exact less estimate
   for (std::size_t first = 0; first < order.size(); first += kAtOnce) {
     const double too_low = std::min(kTooLow, most_shift + kEstimate);
-    if (first >= std::max(count, kAtOnce) && left[first] + too_low < best + std::log(kLeftEstimated)) break;
+    if (first >= std::max(count, kAtOnce) && left[first] + too_low < best_ + std::log(kLeftEstimated)) break;
     const auto some = std::span(order).subspan(first, std::min(kAtOnce, order.size() - first));
     work_out(some, best_ - kNegligible);
+    shift = shift_of(some);
     for (const std::size_t place : some) {
-      const double exact = total(place) + beforehand_[place], off = exact - estimate_[place];
+      const double off = total(place) + beforehand_[place] - estimate_[place];
       if (std::isfinite(off)) most_shift = std::max(most_shift, off);
-      if (exact > best) best = exact, shift = std::isfinite(off) ? off : 0.0;
     }
   }
   std::vector<double> result(rows_.size(), kImpossible);
   const double log_cases = std::log(static_cast<double>(cases_.size()));
   for (std::size_t place = 0; place < rows_.size(); ++place) {
+    if (std::isinf(estimate_[place]) && estimate_[place] > 0.0) work_out({&place, 1}, best_ - kNegligible);
     const double log = exact_[place].empty() ? estimate_[place] - beforehand_[place] + shift : total(place);
     result[place] = log - log_cases;
   }

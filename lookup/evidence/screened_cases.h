@@ -1,6 +1,6 @@
 #pragma once
-/// @file The evidence of all scenes over all cases of a bridge that is not exactly known, of which estimates say
-/// which scenes, in which cases, are worth working out.
+/// @file The evidence of all scenes over all cases of a bridge that is not exactly known, of which estimates
+/// say which scenes, in which cases, are worth working out.
 
 #include <span>
 #include <vector>
@@ -29,7 +29,7 @@ class ScreenedCases {
   struct Case {
     UnknownCase one;
     CaseTerms terms;
-    std::vector<double> estimate{};    ///< of each row, with what was known beforehand; empty: not looked at
+    std::vector<double> estimate{};  ///< of each row, with what was known beforehand; empty: not looked at
     double best_tried = -std::numeric_limits<double>::infinity();  ///< of scenes worked out, the same
   };
 
@@ -44,6 +44,7 @@ class ScreenedCases {
   double others_estimate(std::span<const std::size_t> places) const;
   void work_out(std::span<const std::size_t> places, double worst_case);
   double total(std::size_t place) const;
+  double shift_of(std::span<const std::size_t> places) const;
 
   UnknownBridge& bridge_;
   const Observation& observation_;
@@ -52,8 +53,8 @@ class ScreenedCases {
   std::span<const double> beforehand_;
   std::vector<std::size_t> few_, many_;  // places of rows with at most one missing block, and with more
   std::vector<Case> cases_;
-  std::vector<double> estimate_;                            // of each row over all cases looked at, the same
-  std::vector<std::vector<double>> exact_;                  // of each row, for each case; empty: not worked out
+  std::vector<double> estimate_;            // of each row over all cases looked at, the same
+  std::vector<std::vector<double>> exact_;  // of each row, for each case; empty: not worked out
   std::size_t likeliest_ = 0;
   double best_ = -std::numeric_limits<double>::infinity();  // of any scene in any case, worked out
 };
