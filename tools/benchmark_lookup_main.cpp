@@ -13,6 +13,7 @@ struct Options {
   int queries = 150;
   int runs = 41;
   std::uint64_t seed = 1;
+  std::string only;
 };
 
 std::string table(const std::string& title, const std::vector<voussoir::Timing>& timings) {
@@ -24,14 +25,16 @@ std::string table(const std::string& title, const std::vector<voussoir::Timing>&
 
 std::string benchmark(const Options& options) {
   const auto database = voussoir::Database::open(voussoir::find_database(options.database));
+  const std::string questions = "Whole answers, with the model's own error";
+  if (!options.only.empty())
+    return table(questions, voussoir::time_questions(database, options.queries, options.seed, options.only));
   const voussoir::Library library = voussoir::library_of(database);
   const auto timings = voussoir::time_lookups(library, options.queries, options.seed);
   std::string text = fmt::format("{} queries, {} scenes, {} points\n\n", options.queries,
                                  database.table().rows, database.table().points);
   text += table("Ten best under Eq. 1", timings.searches);
   text += table("Posterior over all scenes", timings.posteriors);
-  text += table("Whole answers, with the model's own error",
-                voussoir::time_questions(database, options.queries, options.seed));
+  text += table(questions, voussoir::time_questions(database, options.queries, options.seed));
   text += table("Genetic search, the paper's settings", timings.genetic);
   const auto own_folder = std::filesystem::read_symlink("/proc/self/exe").parent_path();
   text +=
@@ -56,6 +59,7 @@ int main(int argc, char** argv) {
   app.add_option("-d,--database", options.database, "default: $VOUSSOIR_DATABASE, else ./bridge.h5");
   app.add_option("--queries", options.queries, "default 150")->check(CLI::Range(3, 1000000));
   app.add_option("--runs", options.runs, "of whole processes, default 41")->check(CLI::Range(1, 100000));
+  app.add_option("--only", options.only, "whole answers to questions whose name contains this, and no more");
   app.add_option("--seed", options.seed, "default 1");
   return voussoir::run_program(app, argc, argv, [&] { return benchmark(options); });
 }

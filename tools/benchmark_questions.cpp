@@ -18,6 +18,8 @@ struct Question {
   ReadingKind kind;
   NoiseModel told;
   Nuisance nuisance{};
+  bool known_bridge = true;
+  std::vector<int> missing = {0, 1, 2};  // how many blocks may be
 };
 
 const std::vector<Question>& questions() {
@@ -36,12 +38,40 @@ const std::vector<Question>& questions() {
       {"absolute, laplace, unknown level", absolute, {laplace}},
       {"absolute, student, stated", absolute, {student, kLevel}},
       {"absolute, student, unknown level", absolute, {student}},
+      {"unknown bridge, changes, singles", change, {}, {}, false, {0, 1}},
+      {"unknown bridge, changes, sigma stated", change, {}, {}, false},
+      {"unknown bridge, changes, sigma, datum and tilt", change, {}, kLevelled, false},
+      {"unknown bridge, absolute, gaussian, stated", absolute, {gaussian, kLevel}, {}, false},
+      {"unknown bridge, absolute, nothing stated", absolute, {}, {}, false},
   };
   return all;
 }
 
-Comparison readings_of(const Library& library, const ModelError& error, std::size_t row,
-                       const Question& question, Random& random) {
+using Factors = std::shared_ptr<const ReadingFactors>;
+
+/// Of all control points; null if the database has none.
+Factors factors_of(const Database& database) {
+  const Sensitivities* const sensitivities = database.sensitivities();
+  if (sensitivities == nullptr) return nullptr;
+  std::vector<Channel> channels(database.control_points().size());
+  for (std::size_t i = 0; i < channels.size(); ++i) channels[i].point = i;
+  return reading_factors(*sensitivities, 0, channels, database.layout().size());
+}
+
+/// What a bridge shows otherwise whose parameters are drawn at random, to first order.
+void add_scatter(const ReadingFactors& factors, const Scene& scene, bool is_change, Random& random,
+                 Measurements& measured) {
+  Eigen::MatrixXd columns = factors.of(scene).bridge;
+  if (is_change) columns -= factors.intact.bridge;
+  Eigen::VectorXd drawn(columns.cols());
+  for (double& one : drawn) one = random.gaussian();
+  const Eigen::VectorXd shown = columns * drawn;
+  for (std::size_t i = 0; i < measured.displacement.size(); ++i)
+    measured.displacement[i] += shown[static_cast<Eigen::Index>(i)];
+}
+
+Comparison readings_of(const Library& library, const ModelError& error, const Factors& factors,
+                       std::size_t row, const Question& question, Random& random) {
   const bool is_change = question.kind == ReadingKind::change;
   NoiseModel noise = question.told;
   if (noise.shape == NoiseShape::automatic) noise.shape = NoiseShape::gaussian;
@@ -50,18 +80,24 @@ Comparison readings_of(const Library& library, const ModelError& error, std::siz
   noise.silence = 0.0;
   Measurements measured = simulate_readings(library.table.row(row), noise, random);
   if (is_change) measured.sigma.assign(measured.displacement.size(), kSigma);
-  return {.kind = question.kind, .library = library, .measured = std::move(measured), .model_error = error};
+  if (!question.known_bridge) add_scatter(*factors, library.table.scene(row), is_change, random, measured);
+  Comparison comparison{
+      .kind = question.kind, .library = library, .measured = std::move(measured), .model_error = error};
+  if (!question.known_bridge) comparison.factors = factors;
+  return comparison;
 }
 
-Timing time_question(const Library& library, const ModelError& error, const Question& question, int queries,
-                     std::uint64_t seed) {
+Timing time_question(const Library& library, const ModelError& error, const Factors& factors,
+                     const Question& question, int queries, std::uint64_t seed) {
   Random random(seed);
   std::vector<double> milliseconds;
   for (int i = 0; i < queries; ++i) {
-    const Eligible rows = eligible_rows(library.table, {i % 3});
+    const int missing = i % static_cast<int>(question.missing.size());
+    const Eligible rows = eligible_rows(library.table, {missing});
     const std::size_t truth = rows.rows[random.below(static_cast<std::uint32_t>(rows.rows.size()))];
-    const Comparison comparison = readings_of(library, error, truth, question, random);
-    const LookupSettings settings{.noise = question.told, .nuisance = question.nuisance};
+    const Comparison comparison = readings_of(library, error, factors, truth, question, random);
+    const LookupSettings settings{
+        .prior = {question.missing}, .noise = question.told, .nuisance = question.nuisance};
     const auto start = std::chrono::steady_clock::now();
     locate_damage(comparison, settings);
     milliseconds.push_back(
@@ -72,11 +108,15 @@ Timing time_question(const Library& library, const ModelError& error, const Ques
 
 }  // namespace
 
-std::vector<Timing> time_questions(const Database& database, int queries, std::uint64_t seed) {
+std::vector<Timing> time_questions(const Database& database, int queries, std::uint64_t seed,
+                                   const std::string& only) {
   const Library library = library_of(database);
+  const Factors factors = factors_of(database);
   std::vector<Timing> timings;
   for (const Question& question : questions())
-    timings.push_back(time_question(library, database.model_errors().front(), question, queries, seed));
+    if (question.name.find(only) != std::string::npos && (question.known_bridge || factors != nullptr))
+      timings.push_back(
+          time_question(library, database.model_errors().front(), factors, question, queries, seed));
   return timings;
 }
 

@@ -48,14 +48,12 @@ struct SceneGaussian {
 
 SceneGaussian scene_gaussian(const UnknownBridge& bridge, const Observation& observation,
                              const SceneTable& table, std::size_t row) {
-  SceneGaussian scene{*scene_loss(bridge, observation, table, row), {}, {}, {}, bridge.noise};
+  SceneGaussian scene{*scene_loss(bridge, observation, table, row), {}, {}, {}, {}};
   scene.difference = bridge.reading - scene.loss.signal;
   scene.bridge =
       in_rows(bridge.rows, bridge.factors->intact.bridge, bridge.factors->of(table.scene(row)).bridge);
-  scene.epoch = epoch_columns(bridge, scene.loss);
-  scene.noise.diagonal() += beyond_variance(bridge, scene.loss);
-  for (const MatrixXd& columns : {scene.epoch, other_columns(bridge, scene.loss)})
-    scene.noise.noalias() += columns * columns.transpose();
+  scene.epoch = bridge.conditions * epoch_columns(bridge, scene.loss);
+  scene.noise = scene_noise(bridge, scene.loss);
   return scene;
 }
 

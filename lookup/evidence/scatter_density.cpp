@@ -82,17 +82,18 @@ void factorise(const Factorisation& f, double* squares) {
   store_some(factorise_row(f, f.n), kLanes, squares);
 }
 
+/// The lower triangle of A B^T.
 VOUSSOIR_FOR_EVERY_PROCESSOR
-void add_outer(const double* a, std::size_t rows, std::size_t width, double* sum) {
+void add_lower(const double* a, const double* b, std::size_t rows, std::size_t width, double* sum) {
   for (std::size_t i = 0; i < rows; ++i) {
     const double* const own = a + i * width;
     double* const to = sum + lower_size(i);
     for (std::size_t j = 0; j <= i; j += kTogether) {
       const std::size_t last = i;  // rows beyond the diagonal are worked out once more and dropped
       DoubleLanes sums[kTogether] = {};
-      const double* const others[kTogether] = {a + j * width, a + smaller(j + 1, last) * width,
-                                               a + smaller(j + 2, last) * width,
-                                               a + smaller(j + 3, last) * width};
+      const double* const others[kTogether] = {b + j * width, b + smaller(j + 1, last) * width,
+                                               b + smaller(j + 2, last) * width,
+                                               b + smaller(j + 3, last) * width};
       for (std::size_t p = 0; p < width; p += kLanes) {
         const DoubleLanes some = load<DoubleLanes>(own + p);
         for (std::size_t k = 0; k < kTogether; ++k) sums[k] += some * load<DoubleLanes>(others[k] + p);
@@ -105,12 +106,18 @@ void add_outer(const double* a, std::size_t rows, std::size_t width, double* sum
 }  // namespace
 
 void add_outer_product(const std::vector<double>& a, std::size_t rows, LowerTriangle& sum) {
-  if (rows > 0) add_outer(a.data(), rows, a.size() / rows, sum.data());
+  if (rows > 0) add_lower(a.data(), a.data(), rows, a.size() / rows, sum.data());
 }
 
-std::array<double, kScatterFactors.size()> ScatterDensity::operator()(const std::vector<double>& difference,
-                                                                      const LowerTriangle& noise,
-                                                                      const LowerTriangle& bridge) {
+void add_symmetric_product(const std::vector<double>& a, const std::vector<double>& b, std::size_t rows,
+                           LowerTriangle& sum) {
+  if (rows == 0) return;
+  add_lower(a.data(), b.data(), rows, a.size() / rows, sum.data());
+  add_lower(b.data(), a.data(), rows, a.size() / rows, sum.data());
+}
+
+ScatterLogs ScatterDensity::operator()(const std::vector<double>& difference, const LowerTriangle& noise,
+                                       const LowerTriangle& bridge) {
   const std::size_t n = difference.size();
   factor_.resize(lower_size(n) + n);
   inverse_.resize(n);
@@ -120,7 +127,7 @@ std::array<double, kScatterFactors.size()> ScatterDensity::operator()(const std:
              registers_of(factor_), registers_of(inverse_), pivots_.data()},
             squares.data());
   make_logarithms(pivots_);
-  std::array<double, kScatterFactors.size()> logs{};
+  ScatterLogs logs{};
   for (std::size_t k = 0; k < logs.size(); ++k) {
     double sum = static_cast<double>(n) * std::log(2.0 * std::numbers::pi);
     for (std::size_t i = 0; i < n; ++i) sum += pivots_[i * kLanes + k];
@@ -129,7 +136,7 @@ std::array<double, kScatterFactors.size()> ScatterDensity::operator()(const std:
   return logs;
 }
 
-double over_scatter(const std::array<double, kScatterFactors.size()>& logs) {
+double over_scatter(const ScatterLogs& logs) {
   const double largest = *std::max_element(logs.begin(), logs.end());
   if (!std::isfinite(largest)) return largest;  // impossible under all
   double sum = 0.0;

@@ -17,6 +17,9 @@ constexpr std::size_t lower_size(std::size_t n) {
   return n * (n + 1) / 2;
 }
 
+/// A logarithm for each of kScatterFactors.
+using ScatterLogs = std::array<double, kScatterFactors.size()>;
+
 /// Numbers of columns are filled up with zeros to a whole number of lanes.
 constexpr std::size_t padded(std::size_t columns) {
   return (columns + kLanes - 1) / kLanes * kLanes;
@@ -25,14 +28,17 @@ constexpr std::size_t padded(std::size_t columns) {
 /// Adds A A^T to a lower triangle. A: so many rows of padded(columns) numbers, one after the other.
 void add_outer_product(const std::vector<double>& a, std::size_t rows, LowerTriangle& sum);
 
+/// Adds A B^T + B A^T of two of the same shape.
+void add_symmetric_product(const std::vector<double>& a, const std::vector<double>& b, std::size_t rows,
+                           LowerTriangle& sum);
+
 /// Factorises noise + kappa * bridge for all kScatterFactors side by side. Keeps its memory for the next
 /// call.
 class ScatterDensity {
  public:
   /// log N(difference; 0, noise + kappa bridge) for each kappa; NaN where that is not positive definite.
-  std::array<double, kScatterFactors.size()> operator()(const std::vector<double>& difference,
-                                                        const LowerTriangle& noise,
-                                                        const LowerTriangle& bridge);
+  ScatterLogs operator()(const std::vector<double>& difference, const LowerTriangle& noise,
+                         const LowerTriangle& bridge);
 
  private:
   LaneVector factor_;  // lower triangle, and the difference as one more row
@@ -41,6 +47,6 @@ class ScatterDensity {
 };
 
 /// log of the mean over kappa with the weights kScatterPrior.
-double over_scatter(const std::array<double, kScatterFactors.size()>& logs);
+double over_scatter(const ScatterLogs& logs);
 
 }  // namespace voussoir

@@ -13,8 +13,4 @@ inline constexpr std::array<double, 4> kScatterFactors = {0.25, 0.62996052494743
 /// Beforehand: the ends are half as likely as what lies between.
 inline constexpr std::array<double, 4> kScatterPrior = {1.0 / 6.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 6.0};
 
-/// What estimates are made with: the largest of theirs counts, since a large scatter makes a misfit that one
-/// of the file's would exclude.
-inline constexpr std::array<double, 2> kEstimatedScatter = {1.0, 4.0};
-
 }  // namespace voussoir

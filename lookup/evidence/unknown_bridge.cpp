@@ -62,29 +62,26 @@ void add_instruments(const UnknownBridge& bridge, const Observation& observation
   }
 }
 
-/// What is the same in all scenes. What the intact bridge has in both epochs cancels in changes.
-MatrixXd common_noise(const Comparison& comparison, const Observation& observation, double level,
-                      const UnknownBridge& bridge) {
+/// What is the same in all scenes and cases. What the intact bridge has in both epochs cancels in changes.
+void add_noise(const Comparison& comparison, const Observation& observation, UnknownBridge& bridge) {
   const std::vector<ReadingRow>& rows = bridge.rows;
   const auto n = static_cast<Index>(rows.size());
-  MatrixXd noise = MatrixXd::Zero(n, n);
-  add_instruments(bridge, observation, level, noise);
+  bridge.fixed_noise = MatrixXd::Zero(n, n);
   const std::vector<double>& own = comparison.model_error.intact;
   for (std::size_t k = 0; k < rows.size() && !own.empty(); ++k)
-    noise(static_cast<Index>(k), static_cast<Index>(k)) +=
+    bridge.fixed_noise(static_cast<Index>(k), static_cast<Index>(k)) +=
         std::pow(rows[k].of_bridge() * own[rows[k].channel], 2);
   const FirstOrderResidual& residual = comparison.factors->residual;
   // Levelling columns of changes stand for both epochs.
   const MatrixXd levelling = is_change(comparison.kind)
                                  ? MatrixXd(observation.levelling / std::numbers::sqrt2)
                                  : observation.levelling;
-  const auto add = [&](const MatrixXd& columns) { noise.noalias() += columns * columns.transpose(); };
-  add(in_rows(rows, residual.bridge, residual.bridge));
-  add(of_epochs(rows, bridge.epochs, levelling, levelling));
-  // What heat and moved supports do beyond the first order grows with the square of their size.
-  const double left = bridge.conditions * std::max(1.0, bridge.conditions);
-  add(left * of_epochs(rows, bridge.epochs, residual.epoch, residual.epoch));
-  return noise;
+  const MatrixXd of_bridge = in_rows(rows, residual.bridge, residual.bridge);
+  if (!of_bridge.isZero(0.0)) bridge.fixed_noise.noalias() += of_bridge * of_bridge.transpose();
+  const MatrixXd level = of_epochs(rows, bridge.epochs, levelling, levelling);
+  bridge.fixed_noise.noalias() += level * level.transpose();
+  const MatrixXd epoch = of_epochs(rows, bridge.epochs, residual.epoch, residual.epoch);
+  bridge.epoch_noise = epoch * epoch.transpose();
 }
 
 void add_readings(const Comparison& comparison, const Observation& observation, UnknownBridge& bridge) {
@@ -111,10 +108,19 @@ VectorXd signal_of(const UnknownBridge& bridge, const Observation& observation,
   return signal;
 }
 
-/// The sum over channels of the variances that parameters of the bridge and of an epoch give a loss.
-double spread_of(const UnknownBridge& bridge, const LossFactors& factors) {
-  return factors.lead.squaredNorm() + factors.own.trace() +
-         bridge.conditions * bridge.conditions * factors.epoch.squaredNorm();
+/// The loss of what stands in a row of the table.
+Loss loss_of(const UnknownBridge& bridge, const Observation& observation, const LossFactors& factors,
+             std::span<const double> prediction) {
+  Loss loss{&factors, signal_of(bridge, observation, prediction)};
+  if (!factors.known()) return loss;
+  const VectorXd of_bridge = factors.signal.own.cwiseAbs2().rowwise().sum();
+  const VectorXd of_epoch = factors.epoch.cwiseAbs2().rowwise().sum();
+  for (const ReadingRow& row : bridge.rows) {
+    const auto channel = static_cast<Index>(row.channel);
+    loss.bridge_variance += row.after * row.after * of_bridge[channel];
+    loss.epoch_variance += row.after * row.after * of_epoch[channel];
+  }
+  return loss;
 }
 
 void add_losses(const Comparison& comparison, const Observation& observation, UnknownBridge& bridge) {
@@ -129,14 +135,14 @@ void add_losses(const Comparison& comparison, const Observation& observation, Un
     if (pair && factors.pairs.empty()) break;  // few missing blocks come first
     if (!pair) {
       const auto block = static_cast<std::size_t>(first);
-      bridge.losses[block] = Loss{&factors.blocks[block], signal_of(bridge, observation, table.row(row))};
+      bridge.losses[block] = loss_of(bridge, observation, factors.blocks[block], table.row(row));
       continue;
     }
     const Scene scene = table.scene(row);
     for (const auto& [own, change] : factors.pairs)
       if (own == scene) {
         bridge.pairs.push_back(scene);
-        bridge.losses.push_back({&change, signal_of(bridge, observation, table.row(row))});
+        bridge.losses.push_back(loss_of(bridge, observation, change, table.row(row)));
       }
   }
 }
@@ -147,7 +153,9 @@ double typical_spread(const UnknownBridge& bridge) {
   for (const Loss& loss : std::span(bridge.losses).first(bridge.blocks)) {
     if (!loss.known()) continue;
     const double size = loss.signal.array().isNaN().select(0.0, loss.signal).norm();
-    if (size > 0.0) shares.push_back(std::sqrt(spread_of(bridge, *loss.factors)) / size);
+    const double variance =
+        loss.bridge_variance + bridge.conditions * bridge.conditions * loss.epoch_variance;
+    if (size > 0.0) shares.push_back(std::sqrt(variance) / size);
   }
   if (shares.empty()) return 1.0;
   const auto middle = shares.begin() + static_cast<std::ptrdiff_t>(shares.size() / 2);
@@ -163,14 +171,22 @@ UnknownBridge unknown_bridge(const Comparison& comparison, const Observation& ob
   bridge.factors = comparison.factors.get();
   bridge.rows = rows_of(comparison, observation, settings.epochs);
   bridge.epochs = bridge.rows.back().before != 0.0 ? 2 : 1;
-  bridge.conditions = one.conditions;
   bridge.scale = settings.scale;
   bridge.model_error = std::hypot(observation.error_share, observation.error_common);
   add_readings(comparison, observation, bridge);
-  bridge.noise = common_noise(comparison, observation, one.level, bridge);
+  add_noise(comparison, observation, bridge);
   add_losses(comparison, observation, bridge);
-  bridge.spread = typical_spread(bridge);
+  set_case(observation, one, bridge);
   return bridge;
+}
+
+/// What heat and moved supports do beyond the first order grows with the square of their size.
+void set_case(const Observation& observation, const UnknownCase& one, UnknownBridge& bridge) {
+  bridge.conditions = one.conditions;
+  const double left = one.conditions * std::max(1.0, one.conditions);
+  bridge.noise = bridge.fixed_noise + left * left * bridge.epoch_noise;
+  add_instruments(bridge, observation, one.level, bridge.noise);
+  bridge.spread = typical_spread(bridge);
 }
 
 MatrixXd in_rows(const std::vector<ReadingRow>& rows, const MatrixXd& before, const MatrixXd& after) {
@@ -207,8 +223,7 @@ std::optional<SceneLoss> scene_loss(const UnknownBridge& bridge, const Observati
   loss.beyond = loss.signal;
   for (const Loss* one : loss.known) loss.beyond -= one->signal;
   const Index changed = bridge.has_first_epoch() ? loss.signal.size() / 2 : loss.signal.size();
-  loss.variance_beyond =
-      bridge.spread * bridge.spread * loss.beyond.squaredNorm() / static_cast<double>(changed);
+  loss.mean_square_beyond = loss.beyond.squaredNorm() / static_cast<double>(changed);
   return loss;
 }
 
@@ -216,23 +231,28 @@ MatrixXd epoch_columns(const UnknownBridge& bridge, const SceneLoss& loss) {
   const MatrixXd& intact = bridge.factors->intact.epoch;
   MatrixXd after = intact;
   for (const Loss* one : loss.known) after += one->factors->epoch;
-  return bridge.conditions * of_epochs(bridge.rows, bridge.epochs, intact, after);
+  return of_epochs(bridge.rows, bridge.epochs, intact, after);
 }
 
 MatrixXd other_columns(const UnknownBridge& bridge, const SceneLoss& loss) {
-  MatrixXd columns = MatrixXd::Zero(loss.signal.size(), kOtherColumns);
-  columns.col(0) = bridge.spread * loss.beyond;
-  columns.col(1) = bridge.scale * (bridge.movement + loss.signal);
+  MatrixXd columns = MatrixXd::Zero(loss.signal.size(), 1 + static_cast<Index>(loss.known.size()));
+  columns.col(0) = bridge.scale * (bridge.movement + loss.signal);
   for (std::size_t i = 0; i < loss.known.size(); ++i)
-    columns.col(2 + static_cast<Index>(i)) = bridge.model_error * loss.known[i]->signal;
+    columns.col(1 + static_cast<Index>(i)) = bridge.model_error * loss.known[i]->signal;
   return columns;
 }
 
-VectorXd beyond_variance(const UnknownBridge& bridge, const SceneLoss& loss) {
-  VectorXd variance(loss.signal.size());
-  for (Index k = 0; k < variance.size(); ++k)
-    variance[k] = bridge.rows[static_cast<std::size_t>(k)].after != 0.0 ? loss.variance_beyond : 0.0;
-  return variance;
+MatrixXd scene_noise(const UnknownBridge& bridge, const SceneLoss& loss) {
+  MatrixXd noise = bridge.noise;
+  const MatrixXd epoch = bridge.conditions * epoch_columns(bridge, loss),
+                 others = other_columns(bridge, loss);
+  noise.noalias() += epoch * epoch.transpose() + others * others.transpose();
+  const double square = bridge.spread * bridge.spread;
+  noise.noalias() += square * loss.beyond * loss.beyond.transpose();
+  for (Index k = 0; k < noise.rows(); ++k)
+    if (bridge.rows[static_cast<std::size_t>(k)].after != 0.0)
+      noise(k, k) += square * loss.mean_square_beyond;
+  return noise;
 }
 
 }  // namespace voussoir

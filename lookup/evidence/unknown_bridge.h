@@ -71,7 +71,9 @@ Eigen::MatrixXd in_rows(const std::vector<ReadingRow>& rows, const Eigen::Matrix
 /// The loss of a block, or of a pair with factors of its own, in rows of y.
 struct Loss {
   const LossFactors* factors = nullptr;
-  Eigen::VectorXd signal{};  ///< [m] NaN at readings that the loss makes impossible
+  Eigen::VectorXd signal{};      ///< [m] NaN at readings that the loss makes impossible
+  double bridge_variance = 0.0;  ///< [m2] that parameters of the bridge give the signal, summed over rows
+  double epoch_variance = 0.0;   ///< [m2] the same of those of an epoch, as the bridge file states them
   bool known() const { return factors != nullptr && factors->known(); }
 };
 
@@ -80,26 +82,32 @@ struct UnknownBridge {
   std::vector<ReadingRow> rows;
   Eigen::VectorXd reading;   ///< [m] less what the intact bridge shows
   Eigen::VectorXd movement;  ///< [m] of the intact bridge, as a common factor counts it
-  Eigen::MatrixXd noise;     ///< [m2] of all scenes
   std::vector<Loss> losses;  ///< by block, then of `pairs`
   std::vector<Scene> pairs;  ///< with factors of their own, in ascending order
   std::size_t blocks = 0;
   Eigen::Index epochs = 1;  ///< in y, each with its own columns of E
-  double spread = 0.0;  ///< [-] standard deviation of a signal as a share of it, where it is not known better
-  double scale = 0.0;   ///< [-] of a factor on all movements, as far as it was asked for
+  double scale = 0.0;       ///< [-] of a factor on all movements, as far as it was asked for
   double model_error =
       0.0;  ///< [-] standard deviation of the model's own error: a factor of a loss's signal. The
             ///< mesh errs to one side; an error of each point by itself would say more than is known
-  double conditions = 1.0;  ///< UnknownCase
+  Eigen::MatrixXd fixed_noise;  ///< [m2] of all scenes, but for the instruments and
+  Eigen::MatrixXd epoch_noise;  ///< what the first order leaves of conditions as the file states them
+
+  // Of one case.
+  double conditions = 1.0;
+  Eigen::MatrixXd noise;  ///< [m2] of all scenes
+  double spread = 0.0;  ///< [-] standard deviation of a signal as a share of it, where it is not known better
 
   bool has_first_epoch() const { return rows.front().after == 0.0; }  ///< before the rows of changes
 };
 
-/// The instruments' errors are those of a noise level, in shares of what was read; what the first order
-/// leaves of conditions goes with their size. Preconditions: the comparison has factors, the observation
-/// Gaussian noise and at least one reading.
+/// Preconditions: the comparison has factors, the observation Gaussian noise and at least one reading.
 UnknownBridge unknown_bridge(const Comparison& comparison, const Observation& observation,
                              const UnknownCase& one, const UnknownSettings& settings);
+
+/// Another case of the same: the instruments' errors are those of its noise level, in shares of what was
+/// read; what the first order leaves of conditions goes with their size.
+void set_case(const Observation& observation, const UnknownCase& one, UnknownBridge& bridge);
 
 /// The losses with factors that a scene is made of: places in UnknownBridge::losses.
 inline constexpr std::size_t kMostLosses = 2;
@@ -111,25 +119,25 @@ KnownLosses known_losses(const UnknownBridge& bridge, const SceneTable& table, s
 
 /// What one scene lacks, in rows of y.
 struct SceneLoss {
-  std::vector<const Loss*> known;  ///< with factors: of its blocks, or its own
-  Eigen::VectorXd signal;          ///< [m] less what the intact bridge shows
-  Eigen::VectorXd beyond;          ///< [m] of it what is not that of the known losses
-  double variance_beyond = 0.0;    ///< [m2] of that, at each point by itself, beside its one factor
+  std::vector<const Loss*> known;   ///< with factors: of its blocks, or its own
+  Eigen::VectorXd signal;           ///< [m] less what the intact bridge shows
+  Eigen::VectorXd beyond;           ///< [m] of it what is not that of the known losses
+  double mean_square_beyond = 0.0;  ///< [m2] of that, over the rows after
 };
 
 /// Nothing if the scene is impossible: a block with a reading is missing.
 std::optional<SceneLoss> scene_loss(const UnknownBridge& bridge, const Observation& observation,
                                     const SceneTable& table, std::size_t row);
 
-/// E of a scene: a column for each epoch in y and parameter.
+/// E of a scene, conditions being as the bridge file states: a column for each epoch in y and parameter.
 Eigen::MatrixXd epoch_columns(const UnknownBridge& bridge, const SceneLoss& loss);
 
-/// Columns of what else is uncertain of a scene: its signal beyond known losses, the common factor, and the
-/// model's own error in each of its known losses.
-inline constexpr Eigen::Index kOtherColumns = 4;
+/// Columns of what else is uncertain of a scene in all cases: the common factor, and the model's own error in
+/// each of its known losses.
 Eigen::MatrixXd other_columns(const UnknownBridge& bridge, const SceneLoss& loss);
 
-/// The diagonal of what the signal beyond the known losses adds to UnknownBridge::noise.
-Eigen::VectorXd beyond_variance(const UnknownBridge& bridge, const SceneLoss& loss);
+/// Everything that adds to the covariance of a scene's readings in the bridge's case, but for A A^T: noise,
+/// E E^T and what else is uncertain; and its signal beyond known losses, by one factor and at each point.
+Eigen::MatrixXd scene_noise(const UnknownBridge& bridge, const SceneLoss& loss);
 
 }  // namespace voussoir

@@ -12,7 +12,6 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 
 constexpr double kImpossible = -std::numeric_limits<double>::infinity();
-constexpr std::size_t kBlockRows = 8;  // that a thread takes at a time
 
 LowerTriangle lower_of(const MatrixXd& matrix) {
   LowerTriangle lower;
@@ -34,83 +33,136 @@ void store_rows(const MatrixXd& matrix, std::vector<double>& rows) {
 /// Memory of one thread.
 struct Work {
   ScatterDensity density;
-  std::vector<double> difference, columns;
-  LowerTriangle noise, bridge;
+  std::vector<double> difference, columns, others;
+  LowerTriangle noise, bridge, epoch, always;
 };
 
-/// A's leading columns: c of what is the same in both epochs and a of what the loss changes.
-void store_lead(const UnknownBridge& bridge, const SceneLoss& loss, Work& work) {
-  const MatrixXd& intact = bridge.factors->intact.bridge;
-  const Index lead = std::min(kLeadingColumns, intact.cols());
-  MatrixXd columns(static_cast<Index>(bridge.rows.size()), lead);
-  for (Index k = 0; k < columns.rows(); ++k) {
-    const ReadingRow& row = bridge.rows[static_cast<std::size_t>(k)];
-    const auto channel = static_cast<Index>(row.channel);
-    columns.row(k) = row.of_bridge() * intact.row(channel).head(lead);
-    for (const Loss* one : loss.known) columns.row(k) += row.after * one->factors->lead.row(channel);
+/// What losses have of their own in rows of y, one beside the other.
+MatrixXd beside(const UnknownBridge& bridge, const SceneLoss& loss, MatrixXd SignalFactors::*member,
+                bool of_bridge) {
+  Index columns = 0;
+  for (const Loss* one : loss.known) columns += one->factors->signal.own.cols();
+  MatrixXd result(static_cast<Index>(bridge.rows.size()), columns);
+  Index first = 0;
+  for (const Loss* one : loss.known) {
+    const MatrixXd& from = one->factors->signal.*member;
+    for (Index k = 0; k < result.rows(); ++k) {
+      const ReadingRow& row = bridge.rows[static_cast<std::size_t>(k)];
+      result.row(k).segment(first, from.cols()) =
+          (of_bridge ? row.of_bridge() : row.after) * from.row(static_cast<Index>(row.channel));
+    }
+    first += from.cols();
   }
-  store_rows(columns, work.columns);
+  return result;
 }
 
-/// A A^T of all other columns, from what losses keep of them.
-void store_others(const UnknownBridge& bridge, const SceneLoss& loss, LowerTriangle& lower) {
-  const std::vector<ReadingRow>& rows = bridge.rows;
-  const MatrixXd& intact = bridge.factors->intact_own;
+/// A A^T of the intact bridge where it is the same in both epochs.
+void store_intact(const UnknownBridge& bridge, LowerTriangle& lower) {
   double* to = lower.data();
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    const auto at = static_cast<Index>(rows[i].channel);
-    const double c = rows[i].of_bridge(), a = rows[i].after;
+  for (std::size_t i = 0; i < bridge.rows.size(); ++i) {
+    const auto at = static_cast<Index>(bridge.rows[i].channel);
+    const double c = bridge.rows[i].of_bridge();
     for (std::size_t j = 0; j <= i; ++j, ++to) {
-      const auto other = static_cast<Index>(rows[j].channel);
-      const double cj = rows[j].of_bridge(), aj = rows[j].after;
-      double sum = c != 0.0 && cj != 0.0 ? c * cj * intact(other, at) : 0.0;
-      for (const Loss* one : loss.known) {
-        const LossFactors& of = *one->factors;
-        sum += a * aj * of.own(other, at);
-        if (c != 0.0) sum += c * aj * of.cross(at, other);
-        if (cj != 0.0) sum += a * cj * of.cross(other, at);
-      }
-      *to = sum;
+      const double other = bridge.rows[j].of_bridge();
+      *to = c == 0.0 || other == 0.0
+                ? 0.0
+                : c * other * bridge.factors->intact_product(static_cast<Index>(bridge.rows[j].channel), at);
     }
   }
 }
 
-ScatterLogs logs_of(const UnknownBridge& bridge, const SceneLoss& loss, const LowerTriangle& common,
-                    Work& work) {
+/// What two losses' leading columns have in common.
+void add_common(const UnknownBridge& bridge, const SceneLoss& loss, Work& work) {
+  const auto lead = [&](std::size_t i, std::vector<double>& rows) {
+    const MatrixXd& columns = loss.known[i]->factors->lead;
+    store_rows(in_rows(bridge.rows, MatrixXd::Zero(columns.rows(), columns.cols()), columns), rows);
+  };
+  lead(0, work.columns);
+  lead(1, work.others);
+  add_symmetric_product(work.columns, work.others, bridge.rows.size(), work.bridge);
+}
+
+/// A A^T. A is c A_intact + a D in rows of y, c of what is the same in both epochs and a of what is after; so
+/// a D (a D)^T + a D (c A_intact)^T + c A_intact (a D)^T = X Y^T + Y X^T with X = a B and Y = c H + a B / 2.
+void store_bridge(const UnknownBridge& bridge, const SceneLoss& loss, Work& work) {
   const std::size_t n = bridge.rows.size();
-  const Eigen::VectorXd difference = bridge.reading - loss.signal, variance = beyond_variance(bridge, loss);
-  work.difference.assign(difference.begin(), difference.end());
-  work.noise = common;
-  for (std::size_t i = 0; i < n; ++i) work.noise[lower_size(i) + i] += variance[static_cast<Index>(i)];
-  MatrixXd columns(difference.size(), bridge.epochs * bridge.factors->of_epoch() + kOtherColumns);
-  columns << epoch_columns(bridge, loss), other_columns(bridge, loss);
-  store_rows(columns, work.columns);
-  add_outer_product(work.columns, n, work.noise);
   work.bridge.resize(lower_size(n));
-  store_others(bridge, loss, work.bridge);
-  store_lead(bridge, loss, work);
-  add_outer_product(work.columns, n, work.bridge);
+  store_intact(bridge, work.bridge);
+  if (loss.known.empty()) return;
+  const MatrixXd own = beside(bridge, loss, &SignalFactors::own, false);
+  const MatrixXd intact = beside(bridge, loss, &SignalFactors::intact, true);
+  store_rows(own, work.columns);
+  if (intact.isZero(0.0)) {
+    add_outer_product(work.columns, n, work.bridge);
+  } else {
+    store_rows(intact + 0.5 * own, work.others);
+    add_symmetric_product(work.columns, work.others, n, work.bridge);
+  }
+  if (loss.known.size() == 2) add_common(bridge, loss, work);
+}
+
+void store_outer_product(const MatrixXd& columns, std::vector<double>& rows, LowerTriangle& lower) {
+  lower.assign(lower_size(static_cast<std::size_t>(columns.rows())), 0.0);
+  store_rows(columns, rows);
+  add_outer_product(rows, static_cast<std::size_t>(columns.rows()), lower);
+}
+
+/// What no case changes of the scene's Gaussian.
+void store_scene(const UnknownBridge& bridge, const SceneLoss& loss, Work& work) {
+  const Eigen::VectorXd difference = bridge.reading - loss.signal;
+  work.difference.assign(difference.begin(), difference.end());
+  store_bridge(bridge, loss, work);
+  store_outer_product(epoch_columns(bridge, loss), work.columns, work.epoch);
+  store_outer_product(other_columns(bridge, loss), work.columns, work.always);
+}
+
+ScatterLogs logs_of(const UnknownBridge& bridge, const SceneLoss& loss, const CaseTerms& one, Work& work) {
+  const double conditions = one.conditions * one.conditions;
+  work.noise.resize(one.noise.size());
+  for (std::size_t i = 0; i < one.noise.size(); ++i)
+    work.noise[i] = one.noise[i] + conditions * work.epoch[i] + work.always[i];
+  if (loss.mean_square_beyond > 0.0) {
+    const double square = one.spread * one.spread;
+    for (std::size_t i = 0; i < bridge.rows.size(); ++i) {
+      const double own = square * loss.beyond[static_cast<Index>(i)];
+      double* const to = work.noise.data() + lower_size(i);
+      for (std::size_t j = 0; j <= i; ++j) to[j] += own * loss.beyond[static_cast<Index>(j)];
+      if (bridge.rows[i].after != 0.0) to[i] += square * loss.mean_square_beyond;
+    }
+  }
   return work.density(work.difference, work.noise, work.bridge);
 }
 
 }  // namespace
 
+CaseTerms case_terms(const UnknownBridge& bridge) {
+  return {bridge.conditions, bridge.spread, lower_of(bridge.noise)};
+}
+
+std::vector<ScatterLogs> scatter_logs(const UnknownBridge& bridge, std::span<const CaseTerms> cases,
+                                      const Observation& observation, const SceneTable& table,
+                                      std::span<const std::size_t> rows, std::span<const std::uint8_t> wanted,
+                                      int threads) {
+  ScatterLogs impossible;
+  impossible.fill(kImpossible);
+  std::vector<ScatterLogs> result(rows.size() * cases.size(), impossible);
+  for_each_index_on_threads(rows.size(), threads, [&](std::size_t i) {
+    thread_local Work work;
+    const auto loss = scene_loss(bridge, observation, table, rows[i]);
+    if (!loss) return;
+    store_scene(bridge, *loss, work);
+    for (std::size_t at = i * cases.size(); at < (i + 1) * cases.size(); ++at)
+      if (wanted.empty() || wanted[at] != 0)
+        result[at] = logs_of(bridge, *loss, cases[at % cases.size()], work);
+  });
+  return result;
+}
+
 std::vector<ScatterLogs> scatter_logs(const UnknownBridge& bridge, const Observation& observation,
                                       const SceneTable& table, std::span<const std::size_t> rows,
                                       int threads) {
-  const LowerTriangle common = lower_of(bridge.noise);
-  std::vector<ScatterLogs> result(rows.size());
-  for_each_index_on_threads((rows.size() + kBlockRows - 1) / kBlockRows, threads, [&](std::size_t block) {
-    thread_local Work work;
-    for (std::size_t i = block * kBlockRows; i < std::min(rows.size(), (block + 1) * kBlockRows); ++i) {
-      const auto loss = scene_loss(bridge, observation, table, rows[i]);
-      if (loss)
-        result[i] = logs_of(bridge, *loss, common, work);
-      else
-        result[i].fill(kImpossible);
-    }
-  });
-  return result;
+  const std::array<CaseTerms, 1> cases = {case_terms(bridge)};
+  return scatter_logs(bridge, cases, observation, table, rows, {}, threads);
 }
 
 }  // namespace voussoir

@@ -20,25 +20,21 @@ class UnknownBridgeQuestion {
 
   /// log p(readings | scene) by row of the table, what is not known marginalised: the parameters of bridge
   /// and epochs, their scatter, the noise's level, whether conditions changed. -infinity for rows that are
-  /// impossible, not eligible, or hold less than kScreenedAway of the posterior together; the `count`
-  /// likeliest are never left out.
+  /// impossible or not eligible. The `count` likeliest and all that matter are worked out, the others
+  /// estimated (ScreenedCases).
   std::vector<double> log_evidence(const Eligible& eligible, const Prior& prior, std::size_t count);
 
   /// Of these scenes, in the likeliest case.
   BridgePosterior posterior(const std::vector<WeightedScene>& scenes) const;
 
-  const UnknownBridge& bridge() const { return bridges_[likeliest_]; }
+  const UnknownBridge& bridge() const { return bridge_; }    ///< in the likeliest case
   double level() const { return cases_[likeliest_].level; }  ///< [-] of the noise: stated, or the likeliest
 
  private:
-  std::vector<double> screened(const UnknownBridge& bridge, std::span<const std::size_t> rows,
-                               const std::vector<double>& beforehand, std::size_t count,
-                               double best_so_far) const;
-
   const Comparison& comparison_;
   const Observation& observation_;
   std::vector<UnknownCase> cases_;
-  std::vector<UnknownBridge> bridges_;  // of each case
+  UnknownBridge bridge_;
   std::size_t likeliest_ = 0;
 };
 

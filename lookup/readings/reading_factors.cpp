@@ -11,21 +11,28 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 
+/// The channels' points of a scene's factors, column by column as they lie in memory.
+MatrixXd rows_of(const MatrixXd& points, const std::vector<Channel>& channels) {
+  MatrixXd rows(static_cast<Index>(channels.size()), points.cols());
+  for (Index j = 0; j < rows.cols(); ++j)
+    for (std::size_t i = 0; i < channels.size(); ++i)
+      rows(static_cast<Index>(i), j) = points(static_cast<Index>(channels[i].point), j);
+  return rows;
+}
+
 /// The scene's factors by channel; not known if they are unknown in one of the states.
 SceneFactors factors_of(const ReadingFactors& factors, const Scene& scene) {
   const Sensitivities& from = *factors.sensitivities;
   const SceneFactors* const unloaded = from.find(factors.base, scene);
   if (unloaded == nullptr) return {};
-  const auto rows = static_cast<Index>(factors.channels.size());
-  SceneFactors result{MatrixXd(rows, unloaded->bridge.cols()), MatrixXd(rows, unloaded->epoch.cols())};
-  for (Index i = 0; i < rows; ++i) {
-    const Channel& channel = factors.channels[static_cast<std::size_t>(i)];
-    const auto point = static_cast<Index>(channel.point);
-    result.bridge.row(i) = unloaded->bridge.row(point);
-    result.epoch.row(i) = unloaded->epoch.row(point);
+  SceneFactors result{rows_of(unloaded->bridge, factors.channels),
+                      rows_of(unloaded->epoch, factors.channels)};
+  for (std::size_t k = 0; k < factors.channels.size(); ++k) {
+    const Channel& channel = factors.channels[k];
     if (!channel.loaded) continue;
     const SceneFactors* const loaded = from.find(*channel.loaded, scene);
     if (loaded == nullptr) return {};
+    const auto i = static_cast<Index>(k), point = static_cast<Index>(channel.point);
     result.bridge.row(i) = loaded->bridge.row(point) - result.bridge.row(i);
     result.epoch.row(i) = loaded->epoch.row(point) - result.epoch.row(i);
   }
@@ -34,11 +41,11 @@ SceneFactors factors_of(const ReadingFactors& factors, const Scene& scene) {
 
 /// Where a block is gone (rows are zero) nothing is read and nothing changes.
 void subtract(const SceneFactors& intact, SceneFactors& factors) {
-  for (Index i = 0; i < factors.bridge.rows(); ++i) {
-    if (factors.bridge.row(i).isZero(0.0) && factors.epoch.row(i).isZero(0.0)) continue;
-    factors.bridge.row(i) -= intact.bridge.row(i);
-    factors.epoch.row(i) -= intact.epoch.row(i);
-  }
+  const Eigen::VectorXd sizes =
+      factors.bridge.cwiseAbs().rowwise().sum() + factors.epoch.cwiseAbs().rowwise().sum();
+  const Eigen::VectorXd there = (sizes.array() > 0.0).cast<double>();
+  factors.bridge -= there.asDiagonal() * intact.bridge;
+  factors.epoch -= there.asDiagonal() * intact.epoch;
 }
 
 /// What the first order leaves of a signal goes along what it knows: as an error of every point by itself it
@@ -54,16 +61,18 @@ LossFactors loss_factors(const ReadingFactors& factors, const Scene& scene) {
   subtract(factors.intact, change);
   widen(factors.residual, change);
   const Index lead = std::min(kLeadingColumns, change.bridge.cols());
-  const auto others = change.bridge.rightCols(change.bridge.cols() - lead);
-  LossFactors loss{change.bridge.leftCols(lead), std::move(change.epoch), {}, {}, {}, {}};
-  loss.own.noalias() = others * others.transpose();
-  loss.cross.noalias() = factors.intact.bridge.rightCols(others.cols()) * others.transpose();
-  const Index middle = lead - std::min(kFirstColumns, lead);
-  const auto between = loss.lead.rightCols(middle);
-  loss.own_beyond_first = loss.own + between * between.transpose();
-  loss.cross_beyond_first =
-      loss.cross + factors.intact.bridge.middleCols(lead - middle, middle) * between.transpose();
-  return loss;
+  return {change.bridge.leftCols(lead), std::move(change.epoch),
+          signal_factors(factors.intact.bridge, change.bridge)};
+}
+
+MatrixXd signal_product(const std::vector<LossFactors>& losses, Index channels) {
+  MatrixXd sum = MatrixXd::Zero(channels, channels);
+  for (const LossFactors& loss : losses) {
+    if (!loss.known()) continue;
+    const auto own = loss.signal.own.leftCols(std::min(kFirstOwnColumns, loss.signal.own.cols()));
+    sum.noalias() += own * own.transpose();
+  }
+  return sum;
 }
 
 /// Of what a load adds the errors in both states count: nothing says how far they cancel.
@@ -110,12 +119,10 @@ SceneFactors ReadingFactors::of(const Scene& scene) const {
 
 std::shared_ptr<const ReadingFactors> reading_factors(const Sensitivities& sensitivities, std::size_t base,
                                                       std::vector<Channel> channels, std::size_t blocks) {
-  ReadingFactors result{&sensitivities, base, std::move(channels), {}, {}, {}, {}, {}};
+  ReadingFactors result{&sensitivities, base, std::move(channels), {}, {}, {}, {}, {}, {}};
   result.intact = factors_of(result, {});
   if (!result.intact.known()) return nullptr;
-  const auto others =
-      result.intact.bridge.rightCols(result.of_bridge() - std::min(kLeadingColumns, result.of_bridge()));
-  result.intact_own = others * others.transpose();
+  result.intact_product = result.intact.bridge * result.intact.bridge.transpose();
   result.residual = residual_of(result);
   result.blocks.resize(blocks);
   for_each_index_on_threads(blocks, hardware_threads(), [&](std::size_t block) {
@@ -125,6 +132,7 @@ std::shared_ptr<const ReadingFactors> reading_factors(const Sensitivities& sensi
     if (scene.missing() > 1)
       if (LossFactors own = loss_factors(result, scene); own.known())
         result.pairs.emplace_back(scene, std::move(own));
+  result.signal_product = signal_product(result.blocks, result.intact_product.rows());
   return std::make_shared<const ReadingFactors>(std::move(result));
 }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "database/records/sensitivities.h"
+#include "database/records/signal_factors.h"
 #include "lookup/readings/library.h"
 
 namespace voussoir {
@@ -14,18 +15,17 @@ namespace voussoir {
 /// 0.2 % of what the signals have in common (median; at most 7 %, of neighbours).
 inline constexpr Eigen::Index kLeadingColumns = 64;
 
-/// The first of them, which leave out 1 % (median; at most 17 %): enough to estimate with.
+/// The first of them, which leave out 1 % (median; at most 17 %): enough to estimate with. And so many
+/// columns of a loss's own, which leave out a ten-thousandth of its variance.
 inline constexpr Eigen::Index kFirstColumns = 8;
+inline constexpr Eigen::Index kFirstOwnColumns = 24;
 
 /// What one loss changes in the channels' factors, widened by what the first order leaves of it, in a form
 /// whose size does not grow with the basis. Rows are channels; zero where the loss leaves no reading.
 struct LossFactors {
   Eigen::MatrixXd lead;   ///< of the basis's leading columns
   Eigen::MatrixXd epoch;  ///< of the parameters of an epoch
-  Eigen::MatrixXd own;    ///< channels x channels: R R^T, R being what it changes in all other columns
-  Eigen::MatrixXd cross;  ///< channels x channels: R_0 R^T, R_0 being these columns of the intact bridge
-  Eigen::MatrixXd own_beyond_first;  ///< the same with all columns behind kFirstColumns
-  Eigen::MatrixXd cross_beyond_first;
+  SignalFactors signal;   ///< of all columns
   bool known() const { return lead.rows() > 0; }
 };
 
@@ -33,10 +33,12 @@ struct LossFactors {
 /// those of the intact bridge and what the loss of its blocks changes. Refers to the sensitivities.
 struct ReadingFactors {
   const Sensitivities* sensitivities = nullptr;
-  std::size_t base = 0;                              ///< state of the channels without loads
-  std::vector<Channel> channels;                     ///< their sensors are not looked at
-  SceneFactors intact;                               ///< with all columns
-  Eigen::MatrixXd intact_own;                        ///< channels x channels: R_0 R_0^T
+  std::size_t base = 0;            ///< state of the channels without loads
+  std::vector<Channel> channels;   ///< their sensors are not looked at
+  SceneFactors intact;             ///< with all columns
+  Eigen::MatrixXd intact_product;  ///< channels x channels: A A^T of the intact bridge
+  Eigen::MatrixXd
+      signal_product;  ///< the sum over losses of what they change alone, nearly: where losses show
   std::vector<LossFactors> blocks;                   ///< not known of singles that do not stand
   std::vector<std::pair<Scene, LossFactors>> pairs;  ///< of pairs with sensitivities of their own
   FirstOrderResidual residual;

@@ -47,6 +47,7 @@ nlohmann::ordered_json row_json(const StudyRow& row) {
           {"in_95_set", share_json(row.rates.in_credible)},
           {"wrong_and_sure", share_json(row.rates.wrong_and_sure)},
           {"called_damaged", share_json(row.rates.alarm)},
+          {"stated_of_95_set", row.rates.mean_in_set},
           {"mean_set_size", row.rates.mean_set_size},
           {"mean_brier", row.rates.mean_brier},
           {"verdicts", verdicts_json(row.rates)},
@@ -61,19 +62,20 @@ std::string heading_text() {
   for (const Verdict verdict : all_verdicts())
     verdicts += fmt::format("{}{}", verdicts.empty() ? "" : "/", to_string(verdict));
   return fmt::format(
-      "{:<22} {:<21} {:<10} {:>5} {:>7} {:>6} {:>13} {:>13} {:>7} {:>13} {:>13} {:>6} {:>6}  {}\n", "truth",
-      "looked for", "readings", "sigma", "bridge", "trials", "first", "95 % set", "size", "wrong > 90 %",
-      "called damaged", "Brier", "ms", verdicts);
+      "{:<22} {:<21} {:<10} {:>5} {:>7} {:>6} {:>13} {:>13} {:>6} {:>7} {:>13} {:>13} {:>6} {:>6}  {}\n",
+      "truth", "looked for", "readings", "sigma", "bridge", "trials", "first", "95 % set", "stated", "size",
+      "wrong > 90 %", "called damaged", "Brier", "ms", verdicts);
 }
 
 std::string to_text(const StudyRow& row) {
   const TrialRates& rates = row.rates;
   return fmt::format(
-      "{:<22} {:<21} {:<10} {:>5.2g} {:>7} {:>6} {:>13} {:>13} {:>7.1f} {:>13} {:>13} {:>6.3f} {:>6.1f}  "
+      "{:<22} {:<21} {:<10} {:>5.2g} {:>7} {:>6} {:>13} {:>13} {:>6.3f} {:>7.1f} {:>13} {:>13} {:>6.3f} "
+      "{:>6.1f}  "
       "{}\n",
       row.truth, row.looked_for, to_string(row.taken), kMillimetres * row.sigma,
       row.known_bridge ? "known" : "unknown", rates.trials, share_text(rates.first),
-      share_text(rates.in_credible), rates.mean_set_size, share_text(rates.wrong_and_sure),
+      share_text(rates.in_credible), rates.mean_in_set, rates.mean_set_size, share_text(rates.wrong_and_sure),
       share_text(rates.alarm), rates.mean_brier, row.milliseconds, fmt::join(rates.verdicts, "/"));
 }
 

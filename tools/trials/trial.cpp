@@ -75,6 +75,7 @@ Trial ask(const Asking& asking, const ReadingsFile& readings, std::size_t truth)
   trial.first = place_of(truth, posterior) == 0;
   trial.in_credible = std::ranges::find(set, truth) != set.end();
   trial.set_size = set.size();
+  for (const std::size_t row : set) trial.in_set += posterior.probability[row];
   trial.likeliest = *std::ranges::max_element(posterior.probability);
   trial.brier = brier_score(posterior, truth);
   trial.verdict = verdict_of(answer);
@@ -95,6 +96,7 @@ TrialRates rates_of(const std::vector<Trial>& trials) {
   for (const Trial& trial : trials) {
     ++bridges[trial.bridge];
     rates.mean_set_size += static_cast<double>(trial.set_size) / static_cast<double>(trials.size());
+    rates.mean_in_set += trial.in_set / static_cast<double>(trials.size());
     rates.mean_brier += trial.brier / static_cast<double>(trials.size());
     ++rates.verdicts[static_cast<std::size_t>(trial.verdict)];
     add(trial.bins, rates.bins);

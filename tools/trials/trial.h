@@ -24,6 +24,7 @@ struct Trial {
   bool first = false;        ///< no other scene is as likely as the truth
   bool in_credible = false;  ///< the truth is in the 95 % set
   std::size_t set_size = 0;  ///< scenes in it
+  double in_set = 0.0;       ///< probability that it holds: at least 95 %, as scenes are whole
   double likeliest = 0.0;    ///< probability of the likeliest scene
   double brier = 0.0;        ///< sum over all scenes of (probability - whether it is the truth)^2
   Verdict verdict = Verdict::cannot_tell;
@@ -52,6 +53,7 @@ struct TrialRates {
   Share wrong_and_sure;  ///< the likeliest scene is not the truth and has more than kCertain
   Share alarm;           ///< the verdict says that blocks are missing
   double mean_set_size = 0.0;
+  double mean_in_set = 0.0;  ///< how often the sets hold the truth if all probabilities are right
   double mean_brier = 0.0;
   std::array<std::size_t, kVerdicts> verdicts{};  ///< how often each was given
   std::vector<ReliabilityBin> bins;

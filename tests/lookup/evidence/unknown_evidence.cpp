@@ -156,7 +156,8 @@ class TwoEpochs {
       double norm = 0.0;
       const VectorXd signal = signal_of(block).tail(p_ - 1);
       for (const double one : signal) norm += std::isnan(one) ? 0.0 : one * one;
-      shares.push_back(std::sqrt((of.bridge.squaredNorm() + of.epoch.squaredNorm()) / norm));
+      shares.push_back(std::sqrt(
+          (of.bridge.bottomRows(p_ - 1).squaredNorm() + of.epoch.bottomRows(p_ - 1).squaredNorm()) / norm));
     }
     std::sort(shares.begin(), shares.end());
     return shares[shares.size() / 2];

@@ -1,0 +1,49 @@
+#include "database/records/signal_factors.h"
+
+#include <cmath>
+#include <vector>
+
+namespace voussoir {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double kLeft = 1e-20;      // [m2] variance at a point that is not factorised
+constexpr double kRounding = 1e-15;  // the same as a share of the largest
+
+}  // namespace
+
+SignalFactors signal_factors(const MatrixXd& intact, const MatrixXd& change) {
+  const Index points = change.rows();
+  MatrixXd product = MatrixXd::Zero(points, points);
+  product.selfadjointView<Eigen::Lower>().rankUpdate(change);
+  product.triangularView<Eigen::StrictlyUpper>() = product.transpose();
+  VectorXd left = product.diagonal();
+  const double least = std::max(kLeft, kRounding * left.maxCoeff());
+  MatrixXd own(points, points);
+  std::vector<Index> pivots;
+  for (Index k = 0; k < points; ++k) {
+    Index pivot = 0;
+    const double size = left.maxCoeff(&pivot);
+    if (!(size > least)) break;
+    own.col(k) =
+        (product.col(pivot) - own.leftCols(k) * own.row(pivot).head(k).transpose()) / std::sqrt(size);
+    left -= own.col(k).cwiseAbs2();
+    left[pivot] = 0.0;
+    pivots.push_back(pivot);
+  }
+  own.conservativeResize(points, static_cast<Index>(pivots.size()));
+  // H B^T = A_intact D^T at the pivots' rows, where B is a lower triangle.
+  MatrixXd at_pivots(own.cols(), own.cols()), across(own.cols(), points);
+  for (Index k = 0; k < own.cols(); ++k) {
+    const Index pivot = pivots[static_cast<std::size_t>(k)];
+    at_pivots.row(k) = own.row(pivot);
+    across.row(k) = change.row(pivot) * intact.transpose();
+  }
+  at_pivots.triangularView<Eigen::Lower>().solveInPlace(across);
+  return {std::move(own), across.transpose()};
+}
+
+}  // namespace voussoir

@@ -1,0 +1,21 @@
+#pragma once
+/// @file What a loss changes in the derivatives, D = A - A_intact (points x columns of the basis), by itself:
+/// D = B W^T with orthonormal columns in W, which nobody needs to know:
+///
+///   D D^T = B B^T,   A_intact D^T = H B^T,   H = A_intact W.
+///
+/// Of 78 points and 361 columns B and H are a fifth of D, and their leading columns hold nearly all.
+
+#include <Eigen/Core>
+
+namespace voussoir {
+
+struct SignalFactors {
+  Eigen::MatrixXd own;     ///< B [m]: points x columns, the largest variance that is left first
+  Eigen::MatrixXd intact;  ///< H [m]: the same shape
+};
+
+/// By Cholesky's factorisation of D D^T, the largest diagonal first, until 1e-10 m are left at each point.
+SignalFactors signal_factors(const Eigen::MatrixXd& intact, const Eigen::MatrixXd& change);
+
+}  // namespace voussoir

@@ -1,0 +1,62 @@
+#pragma once
+/// @file The evidence of all scenes over all cases of a bridge that is not exactly known, of which estimates
+/// say which scenes, in which cases, are worth working out.
+
+#include <span>
+#include <vector>
+
+#include "lookup/evidence/unknown_evidence.h"
+#include "lookup/evidence/unknown_screen.h"
+
+namespace voussoir {
+
+class ScreenedCases {
+ public:
+  /// `beforehand`: log prior of each of the rows. All of them outlive this; the bridge's case is changed.
+  ScreenedCases(UnknownBridge& bridge, const Observation& observation, const SceneTable& table,
+                std::span<const UnknownCase> cases, std::span<const std::size_t> rows,
+                std::span<const double> beforehand);
+
+  /// log of the mean evidence over all cases, for each of the rows. -infinity for impossible ones. The
+  /// `count` likeliest and all that matter are worked out; the others, which hold less than a thousandth of
+  /// the probability unless there are too many, count by their estimates.
+  std::vector<double> evidence(std::size_t count);
+
+  /// The case in which the likeliest scene is likeliest, once there is evidence.
+  std::size_t likeliest() const { return likeliest_; }
+
+ private:
+  struct Case {
+    UnknownCase one;
+    CaseTerms terms;
+    std::vector<double> estimate{};  ///< of each row, with what was known beforehand; empty: not looked at
+    double best_tried = -std::numeric_limits<double>::infinity();  ///< of scenes worked out, the same
+  };
+
+  std::vector<std::size_t> nearest_singles() const;
+  void estimate(const UnknownScreen& screen, std::span<const std::size_t> places, double least,
+                std::vector<double>& estimates) const;
+  void look_at(Case& one);
+  void look_at_cases();
+  std::vector<std::size_t> first_of(std::vector<std::size_t> places, std::span<const double> estimates,
+                                    std::size_t count) const;
+  std::vector<std::size_t> most_likely(std::size_t count) const;
+  double others_estimate(std::span<const std::size_t> places) const;
+  void work_out(std::span<const std::size_t> places, double worst_case);
+  double total(std::size_t place) const;
+  double shift_of(std::span<const std::size_t> places) const;
+
+  UnknownBridge& bridge_;
+  const Observation& observation_;
+  const SceneTable& table_;
+  std::span<const std::size_t> rows_;
+  std::span<const double> beforehand_;
+  std::vector<std::size_t> few_, many_;  // places of rows with at most one missing block, and with more
+  std::vector<Case> cases_;
+  std::vector<double> estimate_;            // of each row over all cases looked at, the same
+  std::vector<std::vector<double>> exact_;  // of each row, for each case; empty: not worked out
+  std::size_t likeliest_ = 0;
+  double best_ = -std::numeric_limits<double>::infinity();  // of any scene in any case, worked out
+};
+
+}  // namespace voussoir
