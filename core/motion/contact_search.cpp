@@ -180,12 +180,9 @@ EdgeContact ContactSearch::contact(const EdgePair& pair) const {
 ContactMaterial ContactSearch::new_contact(int block_a, int block_b) const {
   const auto a = static_cast<std::size_t>(block_a);
   const auto b = static_cast<std::size_t>(block_b);
-  JointMaterial material = parameters_->contact;
-  if (const std::vector<double>& share = parameters_->contact_share; !share.empty()) {
-    material.normal_stiffness *= std::min(share[a], share[b]);
-    material.tangential_stiffness *= std::min(share[a], share[b]);
-  }
-  return ContactMaterial(material,
+  const std::vector<double>& share = parameters_->contact_share;
+  const double softening = share.empty() ? 1.0 : std::min(share[a], share[b]);
+  return ContactMaterial(softened(parameters_->contact, softening),
                          std::min(parameters_->blocks[a].thickness, parameters_->blocks[b].thickness));
 }
 

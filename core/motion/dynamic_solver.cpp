@@ -24,31 +24,37 @@ double checked_step(const DynamicSettings& settings, double critical) {
   return *settings.step;
 }
 
-/// The bridge with joints that steps of the settings can follow.
-Model bridge_to_follow(const Model& bridge, const DynamicSettings& settings) {
-  if (settings.integrator != Integrator::implicit_blocks || settings.least_step == 0.0) return bridge;
-  return softened(bridge, softening(bridge, make_block_bodies(bridge, settings.inertia),
-                                    settings.contact_damping, settings.least_step));
+/// The bridge with joints that steps of the settings can follow; nothing if its own are.
+std::unique_ptr<Model> softened_bridge(const Model& bridge, const std::vector<BlockBody>& bodies,
+                                       const DynamicSettings& settings) {
+  if (settings.integrator != Integrator::implicit_blocks || settings.least_step == 0.0) return nullptr;
+  const std::vector<double> shares = softening(bridge, bodies, settings.contact_damping, settings.least_step);
+  const bool as_it_is = std::ranges::all_of(shares, [](double share) { return share == 1.0; });
+  return as_it_is ? nullptr : std::make_unique<Model>(softened(bridge, shares));
 }
 
 }  // namespace
 
 struct DynamicSolver::Workspace {
   Workspace(const Model& bridge, const EquilibriumSystem& system, const DynamicSettings& settings_)
+      : Workspace(bridge, make_block_bodies(bridge, settings_.inertia), system, settings_) {}
+
+  Workspace(const Model& bridge, std::vector<BlockBody> bodies, const EquilibriumSystem& system,
+            const DynamicSettings& settings_)
       : settings(settings_),
-        followed(bridge_to_follow(bridge, settings)),
-        natural(natural_motion(followed, system)),
-        critical(voussoir::critical_step(followed, make_block_bodies(followed, settings.inertia),
-                                         settings.integrator, settings.contact_damping)),
-        model(followed, checked_step(settings, critical),
-              settings.damping.value_or(2.0 * kDampingShare * natural.frequency), settings.contact_damping,
-              settings.inertia),
+        softer(softened_bridge(bridge, bodies, settings)),
+        natural(natural_motion(followed(bridge), system)),
+        critical(
+            voussoir::critical_step(followed(bridge), bodies, settings.integrator, settings.contact_damping)),
+        model(followed(bridge), std::move(bodies), checked_step(settings, critical),
+              settings.damping.value_or(2.0 * kDampingShare * natural.frequency), settings.contact_damping),
         margin(search_margin(bridge)) {}
 
+  const Model& followed(const Model& bridge) const { return softer ? *softer : bridge; }
   long steps_until(double time) const { return std::lround(std::ceil(time / model.step)); }
 
   DynamicSettings settings;
-  Model followed;
+  std::unique_ptr<Model> softer;  ///< what is followed if it is not the bridge
   NaturalMotion natural;
   double critical;
   MotionModel model;

@@ -61,15 +61,15 @@ void add_contacts(const MotionModel& model, const std::vector<EdgePair>& added, 
 
 }  // namespace
 
-MotionModel::MotionModel(const Model& model, double step_, double damping_, double contact_damping_,
-                         RotationalInertia inertia)
+MotionModel::MotionModel(const Model& model, std::vector<BlockBody> bodies_, double step_, double damping_,
+                         double contact_damping_)
     : structure(&model),
       step(step_),
       damping(damping_),
       contact_damping(contact_damping_),
       gravity(model.parameters.gravity),
       search(model),
-      bodies(make_block_bodies(model, inertia)),
+      bodies(std::move(bodies_)),
       masses(lumped_masses(model)),
       held(held_components(model.supports, model.mesh)) {
   const Mesh& mesh = model.mesh;

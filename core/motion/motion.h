@@ -14,8 +14,9 @@ namespace voussoir {
 
 /// What all scenes of a variant share at one time step.
 struct MotionModel {
-  MotionModel(const Model& model, double step, double damping, double contact_damping,
-              RotationalInertia inertia = RotationalInertia::exact);
+  /// `bodies` as make_block_bodies gives them. The model must outlive this.
+  MotionModel(const Model& model, std::vector<BlockBody> bodies, double step, double damping,
+              double contact_damping);
 
   const Structure* structure;  ///< outlives this
   double step;                 ///< dt [s]

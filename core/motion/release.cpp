@@ -47,8 +47,8 @@ void remove_blocks(const MotionModel& model, const std::vector<bool>& removed, M
 struct LoadedBridge::Workspace {
   Workspace(const Model& bridge, const LoadingSettings& settings_, const DynamicSolver& solver)
       : settings(settings_),
-        model(bridge, solver.step(), solver.damping(), settings.motion.contact_damping,
-              settings.motion.inertia),
+        model(bridge, make_block_bodies(bridge, settings.motion.inertia), solver.step(), solver.damping(),
+              settings.motion.contact_damping),
         margin(search_margin(bridge)),
         far(settings.motion.decision.moving_sags * solver.sag()),
         motion(at_rest<double>(model)) {}

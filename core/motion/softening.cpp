@@ -5,14 +5,6 @@
 #include "core/motion/critical_step.h"
 
 namespace voussoir {
-namespace {
-
-void soften(JointMaterial& joint, double share) {
-  joint.normal_stiffness *= share;
-  joint.tangential_stiffness *= share;
-}
-
-}  // namespace
 
 std::vector<double> softening(const Model& model, const std::vector<BlockBody>& bodies,
                               double contact_damping, double step) {
@@ -27,7 +19,8 @@ std::vector<double> softening(const Model& model, const std::vector<BlockBody>& 
 Model softened(Model model, const std::vector<double>& share_of_block) {
   const auto share = [&](BlockId block) { return share_of_block[static_cast<std::size_t>(block)]; };
   for (std::size_t j = 0; j < model.joints.size(); ++j)
-    soften(model.parameters.joints[j], std::min(share(model.joints[j].first), share(model.joints[j].second)));
+    model.parameters.joints[j] = softened(
+        model.parameters.joints[j], std::min(share(model.joints[j].first), share(model.joints[j].second)));
   model.parameters.contact_share = share_of_block;
   return model;
 }

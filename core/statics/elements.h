@@ -42,6 +42,14 @@ void for_present_triangles(const StageEquations& equations, const Visit& visit) 
   }
 }
 
+/// Gives all nodes of removed blocks this value in both directions.
+inline void fill_removed(const StageEquations& equations, double with, Field& field) {
+  const Mesh& mesh = equations.system->structure->mesh;
+  for (std::size_t block = 0; block < equations.removed.size(); ++block)
+    if (equations.removed[block])
+      field.middleCols(mesh.block_nodes[block].begin, mesh.block_nodes[block].size()).setConstant(with);
+}
+
 /// Is it between blocks that are there?
 inline bool is_present(const StageEquations& equations, const Joint& joint) {
   return !equations.removed[static_cast<std::size_t>(value(joint.first))] &&

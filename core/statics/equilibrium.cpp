@@ -150,9 +150,7 @@ StageEquations::StageEquations(const EquilibriumSystem& system_, const Coefficie
   load.row(1) -= gravity_share * coefficients->weight.transpose();
   largest_load = load.cwiseAbs().maxCoeff();
   if (largest_load == 0.0) largest_load = 1.0;
-  for (std::size_t block = 0; block < removed.size(); ++block)
-    if (removed[block])
-      load.middleCols(mesh.block_nodes[block].begin, mesh.block_nodes[block].size()).setZero();
+  fill_removed(*this, 0.0, load);
 }
 
 Field unbalanced_forces(const StageEquations& equations, const Field& displacement) {
@@ -226,10 +224,7 @@ Field admissible(const StageEquations& equations, const Field& field) {
   for (std::size_t c = 0; c < system.unknown.size(); ++c)
     if (system.unknown[c] < 0)
       result.data()[c] = equations.support_movement.size() > 0 ? equations.support_movement.data()[c] : 0.0;
-  const Mesh& mesh = system.structure->mesh;
-  for (std::size_t block = 0; block < equations.removed.size(); ++block)
-    if (equations.removed[block])
-      result.middleCols(mesh.block_nodes[block].begin, mesh.block_nodes[block].size()).setZero();
+  fill_removed(equations, 0.0, result);
   return result;
 }
 

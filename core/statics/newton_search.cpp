@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/statics/elements.h"
+
 namespace voussoir {
 namespace {
 
@@ -179,11 +181,7 @@ Solution NewtonSearch::solution() const {
     solution.outcome = Outcome::standing;
     solution.memory = updated_memory(equations_, displacement_);
   }
-  const Mesh& mesh = system().structure->mesh;
-  for (std::size_t block = 0; block < equations_.removed.size(); ++block)
-    if (equations_.removed[block])
-      solution.displacement.middleCols(mesh.block_nodes[block].begin, mesh.block_nodes[block].size())
-          .setConstant(std::numeric_limits<double>::quiet_NaN());
+  fill_removed(equations_, std::numeric_limits<double>::quiet_NaN(), solution.displacement);
   return solution;
 }
 

@@ -12,6 +12,12 @@ Parameters uniform_parameters(const Structure& structure, const Material& materi
           .contact = joints};
 }
 
+JointMaterial softened(JointMaterial joint, double share) {
+  joint.normal_stiffness *= share;
+  joint.tangential_stiffness *= share;
+  return joint;
+}
+
 double joint_thickness(const Joint& joint, const Parameters& parameters) {
   const auto of = [&](BlockId block) {
     return parameters.blocks[static_cast<std::size_t>(value(block))].thickness;

@@ -21,6 +21,9 @@ struct Parameters {
 Parameters uniform_parameters(const Structure& structure, const Material& material,
                               const JointMaterial& joints, double gravity);
 
+/// The joint with this share of both its stiffnesses and all of its friction.
+JointMaterial softened(JointMaterial joint, double share);
+
 /// How deep the joint is out of plane: as deep as the thinner of its blocks [m].
 double joint_thickness(const Joint& joint, const Parameters& parameters);
 
