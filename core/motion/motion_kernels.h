@@ -21,6 +21,8 @@ struct MotionView {
   const Cell<T>* found;
   ContactShear<T>* shear;
   std::size_t contact_count;
+  const int* quick_contacts;
+  std::size_t quick_contact_count;
   std::size_t node_count;
   Pair<T>* scratch;
 };
@@ -39,26 +41,38 @@ MotionView<T> view_of(Motion<T>& motion) {
           .found = motion.found.data(),
           .shear = motion.shear.data(),
           .contact_count = motion.contacts.size(),
+          .quick_contacts = motion.quick_contacts.data(),
+          .quick_contact_count = motion.quick_contacts.size(),
           .node_count = motion.places.size(),
           .scratch = motion.scratch.data()};
 }
 
-/// forces += contact, at the places that the nodes will have `ahead` steps later: contact damping.
+/// When a contact is looked at.
+struct ContactMoment {
+  double ahead;        ///< contact damping in the steps that its nodes' last movements are of
+  double part = 1.0;   ///< that a short step is of a step
+  int steps_past = 0;  ///< short steps since the nodes of other blocks have been placed
+};
+
+/// forces += contact, at the places that the nodes will have `ahead` steps later: contact damping. Blocks
+/// that are not quick go on as in the last step and take a part of the force in each short step.
 template <class T>
-VOUSSOIR_INLINE void add_contact_forces(double ahead, const MotionView<T>& view) {
-  for (std::size_t c = 0; c < view.contact_count; ++c) {
-    const EdgeContact& contact = view.contacts[c];
-    EdgePlaces<T> edges;
-    edges.ahead = ahead;
-    for (std::size_t i = 0; i < 4; ++i) {
-      edges.moved[i] = view.moved[contact.nodes[i]];
-      edges.now[i] = view.places[contact.nodes[i]] + edges.moved[i] * ahead;
-    }
-    EdgeForces<T> forces;
-    if (contact_forces<T>(contact, view.found[c].value, edges, view.shear[c], forces))
-      for (std::size_t i = 0; i < 4; ++i)
-        view.forces[contact.nodes[i]] = view.forces[contact.nodes[i]] + forces[i];
+VOUSSOIR_INLINE void add_contact_forces(std::size_t c, const ContactMoment& moment,
+                                        const MotionView<T>& view) {
+  const EdgeContact& contact = view.contacts[c];
+  EdgePlaces<T> edges;
+  edges.ahead = moment.ahead;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const bool waits = !contact.quick[i / 2];
+    edges.moved[i] = view.moved[contact.nodes[i]] * (waits ? moment.part : 1.0);
+    edges.now[i] =
+        view.places[contact.nodes[i]] + edges.moved[i] * (moment.ahead + (waits ? moment.steps_past : 0));
   }
+  EdgeForces<T> forces;
+  if (contact_forces<T>(contact, view.found[c].value, edges, view.shear[c], forces))
+    for (std::size_t i = 0; i < 4; ++i)
+      view.forces[contact.nodes[i]] =
+          view.forces[contact.nodes[i]] + forces[i] * (contact.quick[i / 2] ? 1.0 : moment.part);
 }
 
 template <class T>
@@ -180,36 +194,92 @@ VOUSSOIR_INLINE void report_balance(const BlockBody& body, const Resultant<T>& s
   motion.largest_unbalanced = larger(motion.largest_unbalanced, left * per_weight);
 }
 
-/// forces = pushes + contact.
+template <class T>
+VOUSSOIR_INLINE void clear_forces(const IndexRange& nodes, const MotionView<T>& view) {
+  for (int i = nodes.begin; i < nodes.end; ++i)
+    view.forces[i] = view.pushes != nullptr ? view.pushes[i] : Pair<T>{T{}, T{}};
+}
+
+/// forces += contact, but for quick blocks.
+template <class T>
+VOUSSOIR_INLINE void add_contact_forces(const MotionModel& model, const MotionView<T>& view) {
+  const ContactMoment now{.ahead = model.contact_damping / model.pace.step};
+  for (std::size_t c = 0; c < view.contact_count; ++c)
+    if (!view.contacts[c].meets_quick()) add_contact_forces(c, now, view);
+}
+
+/// forces = pushes + contact, but for quick blocks.
 template <class T>
 VOUSSOIR_INLINE void start_forces(const MotionModel& model, const MotionView<T>& view) {
-  for (std::size_t i = 0; i < view.node_count; ++i)
-    view.forces[i] = view.pushes != nullptr ? view.pushes[i] : Pair<T>{T{}, T{}};
-  add_contact_forces(model.contact_damping / model.step, view);
+  clear_forces({0, static_cast<int>(view.node_count)}, view);
+  add_contact_forces(model, view);
+}
+
+/// What a step of some length is for a block.
+struct BlockStep {
+  BlockStep(double length_, double damping)
+      : length(length_),
+        kept((1.0 - 0.5 * damping * length) / (1.0 + 0.5 * damping * length)),
+        gained(length / (1.0 + 0.5 * damping * length)) {}
+  double length;  ///< [s]
+  double kept;    ///< share of a velocity that damping leaves
+  double gained;  ///< time for which a force acts [s]
+};
+
+/// A block's step under the forces that act on it; returns the square of the longest way of a node.
+template <class T>
+VOUSSOIR_INLINE T move_block(const MotionModel& model, std::size_t b, const BlockStep& step,
+                             const MotionView<T>& view, Motion<T>& motion) {
+  const BlockBody& body = model.bodies[b];
+  BlockFrame<T>& frame = view.frames[b];
+  add_weight<T>(body, motion.load * view.present[b].value * model.gravity, view);
+  const Resultant<T> sum = resultant(body, frame.centre, view);
+  report_balance(body, sum, model.per_weight[b], motion);
+  deform(body, model.responses.data() + model.response_of_block[b], step.length, step.kept, frame.rotation,
+         view);
+  if (!body.held) move_frame(body, sum, step.length, step.kept, step.gained, frame);
+  return place_nodes(body, frame, view);
+}
+
+template <class T>
+VOUSSOIR_INLINE void start_report(Motion<T>& motion) {
+  motion.unbalanced = T{};
+  motion.largest_unbalanced = T{};
+}
+
+/// The quick blocks' short steps; what they do to the others is in the forces then, and how far they are from
+/// balance at the end in the motion.
+template <class T>
+VOUSSOIR_INLINE void take_short_steps(const MotionModel& model, const MotionView<T>& view,
+                                      Motion<T>& motion) {
+  const BlockStep step(model.pace.quick_step(), model.damping);
+  ContactMoment moment{.ahead = model.contact_damping / step.length, .part = 1.0 / model.pace.parts};
+  for (int k = 0; k < model.pace.parts; ++k) {
+    moment.steps_past = k;
+    for (std::size_t b = 0; b < model.bodies.size(); ++b)
+      if (model.pace.quick[b]) clear_forces(model.bodies[b].nodes, view);
+    for (std::size_t i = 0; i < view.quick_contact_count; ++i)
+      add_contact_forces(static_cast<std::size_t>(view.quick_contacts[i]), moment, view);
+    start_report(motion);
+    T longest{};
+    for (std::size_t b = 0; b < model.bodies.size(); ++b)
+      if (model.pace.quick[b]) longest = larger(longest, move_block(model, b, step, view, motion));
+    motion.travel += square_root(longest);
+  }
 }
 
 /// One implicit step in all lanes.
 template <class T>
 VOUSSOIR_INLINE void implicit_step(const MotionModel& model, Motion<T>& motion) {
   const MotionView<T> view = view_of(motion);
-  const double half_damping = 0.5 * model.damping * model.step;
-  const double kept = (1.0 - half_damping) / (1.0 + half_damping);
-  const double gained = model.step / (1.0 + half_damping);
-  start_forces(model, view);
-  motion.unbalanced = T{};
-  motion.largest_unbalanced = T{};
+  clear_forces({0, static_cast<int>(view.node_count)}, view);
+  start_report(motion);
+  if (model.pace.parts > 1) take_short_steps(model, view, motion);
+  add_contact_forces(model, view);
+  const BlockStep step(model.pace.step, model.damping);
   T longest{};
-  const BlockBody* bodies = model.bodies.data();
-  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
-    const BlockBody& body = bodies[b];
-    BlockFrame<T>& frame = view.frames[b];
-    add_weight<T>(body, motion.load * view.present[b].value * model.gravity, view);
-    const Resultant<T> sum = resultant(body, frame.centre, view);
-    report_balance(body, sum, model.per_weight[b], motion);
-    deform(body, model.responses.data() + model.response_of_block[b], model.step, kept, frame.rotation, view);
-    if (!body.held) move_frame(body, sum, model.step, kept, gained, frame);
-    longest = larger(longest, place_nodes(body, frame, view));
-  }
+  for (std::size_t b = 0; b < model.bodies.size(); ++b)
+    if (!model.pace.is_quick(b)) longest = larger(longest, move_block(model, b, step, view, motion));
   motion.travel += square_root(longest);
 }
 

@@ -103,13 +103,16 @@ void visit_rules(const std::string& phase, Rules& rules, const Visit& visit) {
 
 template <class Settings, class Visit>
 void visit_motion(Settings& settings, const Visit& visit) {
-  auto& [integrator, inertia, step, least_step, ramp, damping, contact_damping, moment, decision, skips,
-         side_by_side] = settings;
+  auto& [integrator, inertia, step, most_parts, least_step, ramp, damping, contact_damping, moment, decision,
+         skips, side_by_side] = settings;
   static_cast<void>(side_by_side);
   visit("motion.integrator", integrator);
   visit("motion.inertia", inertia);
   visit("motion.step_s", step);
-  if (integrator == Integrator::implicit_blocks) visit("motion.least_step_s", least_step);
+  if (integrator == Integrator::implicit_blocks) {
+    visit("motion.most_parts", most_parts);
+    visit("motion.least_step_s", least_step);
+  }
   visit("motion.ramp_s", ramp);
   visit("motion.damping_per_s", damping);
   visit("motion.contact_damping_s", contact_damping);

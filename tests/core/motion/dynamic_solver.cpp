@@ -63,9 +63,11 @@ bool same_bits(const Field& a, const Field& b) {
   return ((a.array() == b.array()) || (a.array().isNaN() && b.array().isNaN())).all();
 }
 
-/// Followed until nothing moves.
+/// Followed until nothing moves, all blocks in the same steps: slivers that slide beside the ring come to
+/// rest elsewhere otherwise (without (10,12) by 1 % of the signal).
 DynamicSettings patient() {
   DynamicSettings settings;
+  settings.most_parts = 1;
   settings.decision.standing_unbalance = 1e-6;
   return settings;
 }
@@ -129,7 +131,7 @@ TEST_CASE("Where gravity acts at once, the half blocks slide down and the arch f
   // the keystone. With slow gravity (the default) the half blocks hang by friction, see the case before.
   DynamicSettings sudden;
   sudden.ramp = 0.0;
-  sudden.damping = 5.0;  // a twentieth of critical
+  sudden.damping = 10.0;  // a tenth of critical: with a twentieth a block above (2,6) rattles on
   sudden.decision.latest_decision = 6.0;
   const Model& bridge = reference();
   const BlockIndex keystone{0, 10};
