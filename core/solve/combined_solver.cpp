@@ -8,9 +8,25 @@ CombinedSolver::CombinedSolver(const Model& model, const SolverSettings& setting
       motion_(model, newton_.system(), settings.motion) {}
 
 std::vector<Solution> CombinedSolver::solve(std::span<const StageTask> tasks) {
-  std::vector<Solution> solutions = newton_.solve(tasks);
+  std::vector<Solution> solutions = search(tasks);
   follow(settings_.motion.decision, tasks, solutions);
   follow(settings_.patient, tasks, solutions);
+  return solutions;
+}
+
+/// Newton's equilibria; `unresolved` where there is none, or where a fall is likelier.
+std::vector<Solution> CombinedSolver::search(std::span<const StageTask> tasks) {
+  const bool falls_first = settings_.newton.skips.likely_falls;
+  std::vector<StageTask> searched;
+  std::vector<std::size_t> places;
+  for (std::size_t i = 0; i < tasks.size(); ++i) {
+    if (falls_first && tasks[i].falls_likely) continue;
+    searched.push_back(tasks[i]);
+    places.push_back(i);
+  }
+  std::vector<Solution> found = newton_.solve(searched);
+  std::vector<Solution> solutions(tasks.size());
+  for (std::size_t k = 0; k < found.size(); ++k) solutions[places[k]] = std::move(found[k]);
   return solutions;
 }
 

@@ -86,6 +86,7 @@ void visit_newton(Settings& settings, const Visit& visit) {
   visit("newton.collapse_displacement_m", collapse_displacement);
   visit("newton.joint_integration", joint_rule);
   visit("newton.early_outcome", skips.early_outcome);
+  visit("newton.likely_falls", skips.likely_falls);
 }
 
 template <class Rules, class Visit>
