@@ -151,6 +151,7 @@ void place_scene(const MotionModel& model, const std::vector<bool>& removed, int
     set_lane(motion.shear[c].at_1, i, 0.0);
   }
   set_lane(motion.load, i, 0.0);
+  set_lane(motion.damping, i, model.damping);
   set_lane(motion.travel, i, std::numeric_limits<double>::infinity());  // no contacts are known
 }
 

@@ -23,7 +23,7 @@ struct MotionModel {
 
   const Structure* structure;  ///< outlives this
   Pace pace;
-  double damping;          ///< force on a mass per mass and velocity [1/s]
+  double damping;          ///< of a scene at first: force on a mass per mass and velocity [1/s]
   double contact_damping;  ///< joints resist the gap and slip that they would have this much later [s]
   double gravity;          ///< [m/s2]
   ContactSearch search;
@@ -66,6 +66,7 @@ struct Motion {
   std::vector<ContactShear<T>> shear;  ///< of `pairs`
   std::vector<Pair<T>> scratch;        ///< as long as the largest block
   alignas(sizeof(T)) T load{};         ///< share of gravity that acts
+  alignas(sizeof(T)) T damping{};      ///< force on a mass per mass and velocity [1/s]
   alignas(sizeof(T)) T travel{};       ///< bound of any node's way since the last contact search [m]
   alignas(sizeof(T)) T unbalanced{};   ///< sum over blocks of the resultant forces [N]
   alignas(sizeof(T)) T largest_unbalanced{};  ///< largest resultant force of a block over its weight

@@ -97,6 +97,16 @@ VOUSSOIR_INLINE Pair<T> turned_by(const Pair<T>& rotation, T angle) {
   return result * (1.5 - 0.5 * dot(result, result));
 }
 
+/// What a step of some length is for a block.
+template <class T>
+struct BlockStep {
+  VOUSSOIR_INLINE BlockStep(double length_, const T& damping)
+      : length(length_), gained(length / (1.0 + 0.5 * length * damping)), kept(1.0 - damping * gained) {}
+  double length;  ///< [s]
+  T gained;       ///< time for which a force acts [s]
+  T kept;         ///< share of a velocity that damping leaves
+};
+
 /// A resultant force and its moment about the block's centre.
 template <class T>
 struct Resultant {
@@ -119,16 +129,17 @@ VOUSSOIR_INLINE Resultant<T> resultant(const BlockBody& body, const Pair<T>& cen
 
 /// u_new = response (M (u + kept dt du/dt) + dt^2 R^T f)
 template <class T>
-VOUSSOIR_INLINE void deform(const BlockBody& body, const double* response, double step, double kept,
+VOUSSOIR_INLINE void deform(const BlockBody& body, const double* response, const BlockStep<T>& step,
                             const Pair<T>& rotation, const MotionView<T>& view) {
   const int n = body.nodes.size();
   const double* masses = body.masses.data();
+  const T carried = step.kept * step.length;
   for (int i = 0; i < n; ++i) {
     const int node = body.nodes.begin + i;
-    view.scratch[i] = (view.deformed[node] + view.rates[node] * (kept * step)) * masses[2 * i] +
-                      turned_back(view.forces[node], rotation) * (step * step);
+    view.scratch[i] = (view.deformed[node] + view.rates[node] * carried) * masses[2 * i] +
+                      turned_back(view.forces[node], rotation) * (step.length * step.length);
   }
-  const double per_step = 1.0 / step;
+  const double per_step = 1.0 / step.length;
   for (int i = 0; i < n; ++i) {
     const double* row_x = response + static_cast<std::ptrdiff_t>(4 * i) * n;
     const double* row_y = row_x + 2 * n;
@@ -177,12 +188,12 @@ VOUSSOIR_INLINE void add_weight(const BlockBody& body, T pull, const MotionView<
 /// Central differences for a free block's frame. Damping acts on the mean of the velocities before and after,
 /// so that `kept` of the old one is left and the force acts for the time `gained`.
 template <class T>
-VOUSSOIR_INLINE void move_frame(const BlockBody& body, const Resultant<T>& sum, double step, double kept,
-                                double gained, BlockFrame<T>& frame) {
-  frame.velocity = frame.velocity * kept + sum.force * (gained / body.mass);
-  frame.spin = frame.spin * kept + sum.moment * (gained / body.inertia);
-  frame.centre = frame.centre + frame.velocity * step;
-  frame.rotation = turned_by<T>(frame.rotation, frame.spin * step);
+VOUSSOIR_INLINE void move_frame(const BlockBody& body, const Resultant<T>& sum, const BlockStep<T>& step,
+                                BlockFrame<T>& frame) {
+  frame.velocity = frame.velocity * step.kept + sum.force * step.gained * (1.0 / body.mass);
+  frame.spin = frame.spin * step.kept + sum.moment * step.gained * (1.0 / body.inertia);
+  frame.centre = frame.centre + frame.velocity * step.length;
+  frame.rotation = turned_by<T>(frame.rotation, frame.spin * step.length);
 }
 
 /// Notes how far a block's forces are from balance, in the directions in which it is free.
@@ -215,29 +226,17 @@ VOUSSOIR_INLINE void start_forces(const MotionModel& model, const MotionView<T>&
   add_contact_forces(model, view);
 }
 
-/// What a step of some length is for a block.
-struct BlockStep {
-  BlockStep(double length_, double damping)
-      : length(length_),
-        kept((1.0 - 0.5 * damping * length) / (1.0 + 0.5 * damping * length)),
-        gained(length / (1.0 + 0.5 * damping * length)) {}
-  double length;  ///< [s]
-  double kept;    ///< share of a velocity that damping leaves
-  double gained;  ///< time for which a force acts [s]
-};
-
 /// A block's step under the forces that act on it; returns the square of the longest way of a node.
 template <class T>
-VOUSSOIR_INLINE T move_block(const MotionModel& model, std::size_t b, const BlockStep& step,
+VOUSSOIR_INLINE T move_block(const MotionModel& model, std::size_t b, const BlockStep<T>& step,
                              const MotionView<T>& view, Motion<T>& motion) {
   const BlockBody& body = model.bodies[b];
   BlockFrame<T>& frame = view.frames[b];
   add_weight<T>(body, motion.load * view.present[b].value * model.gravity, view);
   const Resultant<T> sum = resultant(body, frame.centre, view);
   report_balance(body, sum, model.per_weight[b], motion);
-  deform(body, model.responses.data() + model.response_of_block[b], step.length, step.kept, frame.rotation,
-         view);
-  if (!body.held) move_frame(body, sum, step.length, step.kept, step.gained, frame);
+  deform(body, model.responses.data() + model.response_of_block[b], step, frame.rotation, view);
+  if (!body.held) move_frame(body, sum, step, frame);
   return place_nodes(body, frame, view);
 }
 
@@ -252,7 +251,7 @@ VOUSSOIR_INLINE void start_report(Motion<T>& motion) {
 template <class T>
 VOUSSOIR_INLINE void take_short_steps(const MotionModel& model, const MotionView<T>& view,
                                       Motion<T>& motion) {
-  const BlockStep step(model.pace.quick_step(), model.damping);
+  const BlockStep<T> step(model.pace.quick_step(), motion.damping);
   ContactMoment moment{.ahead = model.contact_damping / step.length, .part = 1.0 / model.pace.parts};
   for (int k = 0; k < model.pace.parts; ++k) {
     moment.steps_past = k;
@@ -276,7 +275,7 @@ VOUSSOIR_INLINE void implicit_step(const MotionModel& model, Motion<T>& motion) 
   start_report(motion);
   if (model.pace.parts > 1) take_short_steps(model, view, motion);
   add_contact_forces(model, view);
-  const BlockStep step(model.pace.step, model.damping);
+  const BlockStep<T> step(model.pace.step, motion.damping);
   T longest{};
   for (std::size_t b = 0; b < model.bodies.size(); ++b)
     if (!model.pace.is_quick(b)) longest = larger(longest, move_block(model, b, step, view, motion));

@@ -42,7 +42,7 @@ void take_explicit_step(const MotionModel& model, Motion<double>& motion) {
   start_forces(model, view);
   add_element_forces(model, motion);
   start_report(motion);
-  const BlockStep step(model.step(), model.damping);
+  const BlockStep<double> step(model.step(), motion.damping);
   double longest = 0.0;
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const BlockBody& body = model.bodies[b];

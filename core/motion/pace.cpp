@@ -5,6 +5,9 @@
 namespace voussoir {
 namespace {
 
+/// Work that is hardly less is not worth the parts.
+constexpr double kWorthIt = 0.8;
+
 /// Joints at blocks that are quick, of all.
 double share_of_joints(const Model& model, const std::vector<bool>& quick) {
   const auto at_quick = [&](const Joint& joint) {
@@ -22,7 +25,7 @@ Pace best_pace(const Model& model, const std::vector<BlockBody>& bodies, double 
   const std::vector<double> frequencies = block_frequencies(model, bodies, most_parts * quick_step);
   const double highest = *std::ranges::max_element(frequencies);
   Pace best{.step = quick_step};
-  double least_work = 1.0;  // of a time `quick_step`
+  double least_work = kWorthIt;  // of a time `quick_step`
   for (int parts = 2; parts <= most_parts; ++parts) {
     std::vector<bool> quick;
     for (const double frequency : frequencies) quick.push_back(frequency > highest / parts);

@@ -13,8 +13,8 @@
 namespace voussoir {
 
 struct Pace {
-  double step = 0.0;        ///< dt [s]
-  int parts = 1;            ///< steps of a quick block in each
+  double step = 0.0;          ///< dt [s]
+  int parts = 1;              ///< steps of a quick block in each
   std::vector<bool> quick{};  ///< of each block; empty: none is
 
   double quick_step() const { return step / parts; }

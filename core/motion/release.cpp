@@ -109,9 +109,9 @@ const DynamicSolution& LoadedBridge::intact() const {
 
 DynamicSolution LoadedBridge::without(const Scene& scene, const Release& release) const {
   const Workspace& w = *workspace_;
-  MotionModel model = w.model;
-  model.damping *= release.damping;
+  const MotionModel& model = w.model;
   Motion<double> motion = w.motion;
+  motion.damping *= release.damping;
   const std::vector<bool> removed = removal_mask(scene, model.bodies.size());
   const Forces carried = forces_of_blocks(model, removed, motion);
   remove_blocks(model, removed, motion);

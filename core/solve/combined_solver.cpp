@@ -9,8 +9,8 @@ CombinedSolver::CombinedSolver(const Model& model, const SolverSettings& setting
 
 std::vector<Solution> CombinedSolver::solve(std::span<const StageTask> tasks) {
   std::vector<Solution> solutions = search(tasks);
-  follow(settings_.motion.decision, tasks, solutions);
-  follow(settings_.patient, tasks, solutions);
+  follow(settings_.motion.decision, tasks, false, solutions);
+  follow(settings_.patient, tasks, true, solutions);
   return solutions;
 }
 
@@ -31,8 +31,8 @@ std::vector<Solution> CombinedSolver::search(std::span<const StageTask> tasks) {
 }
 
 /// Sets the scenes that are still open in motion, which begins with nothing slipped: takes the collapses,
-/// polishes what rests.
-void CombinedSolver::follow(const DecisionRules& rules, std::span<const StageTask> tasks,
+/// polishes what rests; with all patience what rests for certain.
+void CombinedSolver::follow(const DecisionRules& rules, std::span<const StageTask> tasks, bool patiently,
                             std::vector<Solution>& solutions) {
   std::vector<std::size_t> open;
   std::vector<Scene> moving;
@@ -49,7 +49,10 @@ void CombinedSolver::follow(const DecisionRules& rules, std::span<const StageTas
     if (motions[k].solution.outcome == Outcome::collapsed) {
       solutions[open[k]] = std::move(motions[k].solution);
     } else {
-      resting.push_back({.stage = tasks[open[k]].stage, .start = &motions[k].solution.displacement});
+      const bool rests = patiently && motions[k].solution.outcome == Outcome::standing;
+      resting.push_back({.stage = tasks[open[k]].stage,
+                         .start = &motions[k].solution.displacement,
+                         .stands_likely = rests});
       resting_at.push_back(open[k]);
     }
   }

@@ -31,7 +31,8 @@ class CombinedSolver {
 
  private:
   std::vector<Solution> search(std::span<const StageTask> tasks);
-  void follow(const DecisionRules& rules, std::span<const StageTask> tasks, std::vector<Solution>& solutions);
+  void follow(const DecisionRules& rules, std::span<const StageTask> tasks, bool patiently,
+              std::vector<Solution>& solutions);
 
   SolverSettings settings_;
   QuasiStaticSolver newton_;

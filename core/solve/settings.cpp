@@ -92,7 +92,8 @@ void visit_newton(Settings& settings, const Visit& visit) {
 template <class Rules, class Visit>
 void visit_rules(const std::string& phase, Rules& rules, const Visit& visit) {
   auto& [earliest_decision, latest_decision, standing_unbalance, collapsing_unbalance, plain_unbalance,
-         largest_standing_unbalance, moving_sags] = rules;
+         largest_standing_unbalance, moving_sags, freer_from, freer_unbalance, freer_until, freer_damping] =
+      rules;
   visit(phase + ".earliest_decision_s", earliest_decision);
   visit(phase + ".latest_decision_s", latest_decision);
   visit(phase + ".standing_unbalance", standing_unbalance);
@@ -100,6 +101,10 @@ void visit_rules(const std::string& phase, Rules& rules, const Visit& visit) {
   visit(phase + ".plain_unbalance", plain_unbalance);
   visit(phase + ".largest_standing_unbalance", largest_standing_unbalance);
   visit(phase + ".moving_sags", moving_sags);
+  visit(phase + ".freer_from_s", freer_from);
+  visit(phase + ".freer_unbalance", freer_unbalance);
+  visit(phase + ".freer_until_s", freer_until);
+  visit(phase + ".freer_damping", freer_damping);
 }
 
 template <class Settings, class Visit>

@@ -287,6 +287,29 @@ TEST_CASE("Metres or millimetres, the answer is the same but for the unit (dimen
         1e-9 * largest(a.solution.displacement));
 }
 
+TEST_CASE("What creeps moves away soon once it is damped less, and what rests stays (the same, fully damped)",
+          "[many-scenes]") {
+  const Model& bridge = reference();
+  std::vector<Scene> scenes;
+  for (const char* text : {"2,9+10,1", "10,1+12,15", "10,1", "8,1"})
+    scenes.push_back(parse_scene(text, bridge.layout));
+  DynamicSolver solver(bridge);
+  const DecisionRules freer = voussoir::patient(DecisionRules{});
+  DecisionRules damped = freer;
+  damped.freer_damping = 1.0;
+  const std::vector<DynamicSolution> soon = solver.solve(scenes, freer);
+  const std::vector<DynamicSolution> late = solver.solve(scenes, damped);
+  for (std::size_t i = 0; i < scenes.size(); ++i) {
+    INFO(to_string(scenes[i], bridge.layout));
+    CHECK(soon[i].solution.outcome == late[i].solution.outcome);
+    CHECK(soon[i].solution.moving == late[i].solution.moving);
+    CHECK(same_bits(soon[i].solution.displacement, late[i].solution.displacement));  // before the difference
+    CHECK(soon[i].solution.iterations * solver.step() < 1.5);
+  }
+  CHECK(soon[0].solution.outcome == Outcome::collapsed);
+  CHECK(soon[1].solution.iterations < late[1].solution.iterations / 2);
+}
+
 TEST_CASE("A step above the critical one is refused with the reason") {
   DynamicSettings settings;
   settings.step = 0.01;
