@@ -15,6 +15,8 @@ std::span<const BuildSwitch> build_switches() {
       BuildSwitch{"early-outcome", kSameDisplacement,
                   [](PlanRules&, Skips& skips) { skips.early_outcome = false; }},
       BuildSwitch{"lane-refill", kNothing, [](PlanRules&, Skips& skips) { skips.lane_refill = false; }},
+      BuildSwitch{"likely-falls", kSameDisplacement,
+                  [](PlanRules&, Skips& skips) { skips.likely_falls = false; }},
       BuildSwitch{"mirror-images", kSameDisplacement,
                   [](PlanRules& rules, Skips&) { rules.mirror_images = false; }},
       BuildSwitch{"settled-contacts", kSameDisplacement,

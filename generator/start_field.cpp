@@ -1,5 +1,7 @@
 #include "generator/start_field.h"
 
+#include <algorithm>
+
 namespace voussoir {
 namespace {
 
@@ -10,8 +12,18 @@ Field zero_for_nan(const Field& field) {
 }  // namespace
 
 void StartingFields::add(const Scene& scene, std::size_t state, const Solution& solution) {
-  if (solution.outcome == Outcome::standing && scene.missing() <= 1)
-    standing_[{scene, state}] = solution.displacement;
+  if (scene.missing() > 1) return;
+  if (solution.outcome == Outcome::standing) standing_[{scene, state}] = solution.displacement;
+  if (solution.outcome == Outcome::collapsed) falling_[{scene, state}] = solution.moving;
+}
+
+bool StartingFields::falls_likely(const Scene& scene, std::size_t state) const {
+  if (scene.missing() < 2) return false;
+  const auto is_there = [&](BlockId block) { return !std::ranges::binary_search(scene.removed, block); };
+  return std::ranges::any_of(scene.removed, [&](BlockId block) {
+    const auto single = falling_.find({Scene{{block}}, state});
+    return single != falling_.end() && std::ranges::any_of(single->second, is_there);
+  });
 }
 
 const Field* StartingFields::find(const Scene& scene, std::size_t state) const {

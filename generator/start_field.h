@@ -16,7 +16,7 @@ namespace voussoir {
 /// numbers whatever was computed before it. They are zero wherever a field has no displacement.
 class StartingFields {
  public:
-  /// Takes in a state of the intact bridge or a single if it stands; anything else is ignored. Not
+  /// Takes in a state of the intact bridge or a single if it stands or falls; anything else is ignored. Not
   /// thread-safe.
   void add(const Scene& scene, std::size_t state, const Solution& solution);
 
@@ -34,6 +34,9 @@ class StartingFields {
   /// both. Where the intact bridge does not stand in both: `own`.
   Field start_after(const Scene& scene, const Field& own, std::size_t before, std::size_t after) const;
 
+  /// Does one of the blocks, missing alone, let blocks fall that this scene has?
+  bool falls_likely(const Scene& scene, std::size_t state) const;
+
   /// The field of the intact bridge in a state, if it stands.
   const Field* intact(std::size_t state) const { return find(Scene{}, state); }
 
@@ -46,7 +49,9 @@ class StartingFields {
  private:
   std::optional<Field> change(const Scene& scene, std::size_t before, std::size_t after) const;
 
-  std::map<std::pair<Scene, std::size_t>, Field> standing_;  ///< by scene and state
+  using Place = std::pair<Scene, std::size_t>;     ///< scene and state
+  std::map<Place, Field> standing_;                ///< fields
+  std::map<Place, std::vector<BlockId>> falling_;  ///< which blocks move
 };
 
 }  // namespace voussoir

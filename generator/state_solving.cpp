@@ -27,12 +27,14 @@ struct StateSolving::Search {
   std::optional<Field> start;
   std::optional<State> before;
   int steps = 1;
+  bool falls_likely = false;
 
   StageTask task() const {
     return {.stage = stage,
             .start = start ? &*start : nullptr,
             .before = before ? &*before : nullptr,
-            .steps = steps};
+            .steps = steps,
+            .falls_likely = falls_likely};
   }
 
   /// Lets what the lost blocks carried go in so many steps. Several begin at the intact field, where most of
@@ -90,7 +92,9 @@ StateSolving::Search StateSolving::one_step_search(const Scene& scene, std::size
   const PlannedState& planned = plan_[state];
   Search search{&states, {.scene = scene, .load = planned.load}, {}, {}};
   if (!planned.before) {
-    if (basis.warm_starts) search.start = basis.starts.start_for(scene, state);
+    if (!basis.warm_starts) return search;
+    search.start = basis.starts.start_for(scene, state);
+    search.falls_likely = basis.starts.falls_likely(scene, state);
     return search;
   }
   search.before.emplace(State{{}, memory_before(scene, state, states, basis.of_intact)});

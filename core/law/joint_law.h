@@ -44,6 +44,10 @@ struct PositivePart {
 template <class T>
 VOUSSOIR_INLINE PositivePart<T> positive_part(T length, T at_0, T at_1) {
   const T zero = T{};
+  if (!any((at_0 <= 0.0) | (at_1 <= 0.0))) {  // as most joints are: no quotients
+    const T both = at_0 + at_1;
+    return {0.5 * length * both, length * length * (both + at_1) * (1.0 / 6.0), zero, length};
+  }
   const T plus_0 = larger(at_0, zero);
   const T plus_1 = larger(at_1, zero);
   const T sum = plus_0 + plus_1;
@@ -68,7 +72,8 @@ struct FrictionExcess {
 /// `tau` is the unbounded shear stress and `cap` the friction at the ends of the closed part.
 template <class T>
 VOUSSOIR_INLINE FrictionExcess<T> friction_excess(T closed_length, T tau_0, T tau_1, T cap_0, T cap_1) {
-  FrictionExcess<T> excess;
+  FrictionExcess<T> excess{};
+  if (!any((magnitude(tau_0) > cap_0) | (magnitude(tau_1) > cap_1))) return excess;
   excess.above = positive_part<T>(closed_length, tau_0 - cap_0, tau_1 - cap_1);
   excess.below = positive_part<T>(closed_length, -tau_0 - cap_0, -tau_1 - cap_1);
   const T zero = T{};

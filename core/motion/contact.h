@@ -35,6 +35,43 @@ struct Traction {
   T moment;
 };
 
+/// What a face owns of the stretch.
+template <class T>
+struct OwnedPart {
+  T begin;
+  T end;
+  T share_0;  ///< the corner's at its beginning and end
+  T share_1;
+  T per_steep_0;  ///< how fast the ends move as the faces do
+  T per_steep_1;
+  Mask<T> closed;
+};
+
+template <class T>
+VOUSSOIR_INLINE OwnedPart<T> owned_part(const EdgeContact& contact, const RoughCover<T>& c,
+                                        const Stretch<T>& x) {
+  constexpr double kSteepest = 0.05;  // beyond, the bisector of the corner never meets the other face
+  const T zero = T{};
+  const T one = zero + 1.0;
+  if (contact.joined) return {x.s_0, x.s_1, zero, zero, one, one, x.touching};
+  const auto& share = contact.corner_share;
+  OwnedPart<T> r;
+  r.share_0 = c.b_begins ? zero + share[3] : zero + share[0];
+  r.share_1 = c.b_ends ? zero + share[2] : zero + share[1];
+  const T steep_0 = 1.0 + r.share_0 * x.slope;
+  const T steep_1 = 1.0 - r.share_1 * x.slope;
+  const auto owned = x.touching & (steep_0 > kSteepest) & (steep_1 > kSteepest);
+  const T bounded_0 = owned ? steep_0 : one;
+  const T bounded_1 = owned ? steep_1 : one;
+  const T per_both = 1.0 / (bounded_0 * bounded_1);
+  r.per_steep_0 = per_both * bounded_1;
+  r.per_steep_1 = per_both * bounded_0;
+  r.begin = x.s_0 + r.share_0 * r.per_steep_0 * larger(-x.gap_0, zero);
+  r.end = x.s_1 - r.share_1 * r.per_steep_1 * larger(-x.gap_1, zero);
+  r.closed = owned & (r.end > r.begin);
+  return r;
+}
+
 /// Pressure over the closed part of the stretch, and the energy's pull on the nodes that bound it.
 template <class T>
 struct Closure {
@@ -45,41 +82,27 @@ struct Closure {
   T p_1;
   T pull_0;  ///< along t on the node at the stretch's beginning [N]
   T pull_1;  ///< against t on the node at its end [N]
-  Mask<T> closed;
 };
 
 template <class T>
-VOUSSOIR_INLINE Closure<T> closure_of(const EdgeContact& contact, const RoughCover<T>& c,
+VOUSSOIR_INLINE Closure<T> closure_of(const EdgeContact& contact, const OwnedPart<T>& own,
                                       const Stretch<T>& x) {
   const ContactMaterial& material = contact.material;
-  constexpr double kSteepest = 0.05;  // beyond, the bisector of the corner never meets the other face
   const T zero = T{};
-  const T one = zero + 1.0;
-  const auto& share = contact.corner_share;
-  const T share_0 = c.b_begins ? zero + share[3] : zero + share[0];
-  const T share_1 = c.b_ends ? zero + share[2] : zero + share[1];
-  const T steep_0 = 1.0 + share_0 * x.slope;
-  const T steep_1 = 1.0 - share_1 * x.slope;
-  const auto owned = x.touching & (steep_0 > kSteepest) & (steep_1 > kSteepest);
-  const T q_0 = 1.0 / (owned ? steep_0 : one);
-  const T q_1 = 1.0 / (owned ? steep_1 : one);
-  const T s_begin = x.s_0 + share_0 * q_0 * larger(-x.gap_0, zero);
-  const T s_end = x.s_1 - share_1 * q_1 * larger(-x.gap_1, zero);
-
+  const T p_begin = own.closed ? -material.normal * (x.gap_at_a0 + x.slope * own.begin) : zero;
+  const T p_end = own.closed ? -material.normal * (x.gap_at_a0 + x.slope * own.end) : zero;
+  const PositivePart<T> part = positive_part<T>(own.end - own.begin, p_begin, p_end);
   Closure<T> r;
-  r.closed = owned & (s_end > s_begin);
-  const T p_begin = r.closed ? -material.normal * (x.gap_at_a0 + x.slope * s_begin) : zero;
-  const T p_end = r.closed ? -material.normal * (x.gap_at_a0 + x.slope * s_end) : zero;
-  const PositivePart<T> part = positive_part<T>(s_end - s_begin, p_begin, p_end);
   r.p_0 = larger(p_begin, zero);
   r.p_1 = larger(p_end, zero);
-  r.pull_0 = material.half_compliance * r.p_0 * r.p_0 * q_0;
-  r.pull_1 = material.half_compliance * r.p_1 * r.p_1 * q_1;
-  const T left_out_0 = share_0 * r.pull_0;  // a deeper face owns less: this much of the pressure does no work
-  const T left_out_1 = share_1 * r.pull_1;
+  r.pull_0 = material.half_compliance * r.p_0 * r.p_0 * own.per_steep_0;
+  r.pull_1 = material.half_compliance * r.p_1 * r.p_1 * own.per_steep_1;
+  // A deeper face owns less: this much of the pressure does no work.
+  const T left_out_0 = own.share_0 * r.pull_0;
+  const T left_out_1 = own.share_1 * r.pull_1;
   r.pressure.total = part.integral - left_out_0 - left_out_1;
-  r.pressure.moment = part.moment + s_begin * part.integral - left_out_0 * s_begin - left_out_1 * s_end;
-  r.begin = s_begin + part.begin;
+  r.pressure.moment = part.moment + own.begin * part.integral - left_out_0 * own.begin - left_out_1 * own.end;
+  r.begin = own.begin + part.begin;
   r.length = part.length;
   return r;
 }
@@ -215,14 +238,16 @@ VOUSSOIR_INLINE bool contact_forces(const EdgeContact& contact, const T& found, 
   const RoughCover<T> cover = rough_cover<T>(contact, found, edges.now);
   const bool some_cover = any(cover.covering);
   const Stretch<T> stretch = some_cover ? stretch_of(contact, cover) : Stretch<T>{};
-  if (!some_cover || !any(stretch.touching)) {
+  const bool touching = some_cover && any(stretch.touching);
+  const OwnedPart<T> own = touching ? owned_part(contact, cover, stretch) : OwnedPart<T>{};
+  if (!touching || !any(own.closed)) {
     shear = {T{}, T{}};
     return false;
   }
-  const Closure<T> closure = closure_of(contact, cover, stretch);
+  const Closure<T> closure = closure_of(contact, own, stretch);
   const Traction<T> drag = friction_of(contact, edges, stretch, closure, shear);
   FrameForces<T> f = frame_forces(contact, cover, stretch, closure, drag);
-  if (any(closure.closed & (cover.squared < kFullyFacing))) fade(contact, cover, stretch, closure, f);
+  if (any(own.closed & (cover.squared < kFullyFacing))) fade(contact, cover, stretch, closure, f);
   for (std::size_t i = 0; i < 4; ++i) forces[i] = stretch.t * f.along[i] + stretch.n * f.across[i];
   return true;
 }

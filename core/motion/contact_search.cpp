@@ -172,9 +172,17 @@ EdgeContact ContactSearch::contact(const EdgePair& pair) const {
   return {.nodes = {value(edge_a.from), value(edge_a.to), value(edge_b.from), value(edge_b.to)},
           .per_length = {per_length(edge_a), per_length(edge_b)},
           .corner_share = {share(edge_a.from), share(edge_a.to), share(edge_b.from), share(edge_b.to)},
+          .joined = joined,
           .deepest = 0.5 * (behind_[a] + behind_[b]),
           .material = joined ? joined_material_[static_cast<std::size_t>(found - joined_.begin())]
                              : new_contact(edge_block_[a], edge_block_[b])};
+}
+
+std::array<std::size_t, 2> ContactSearch::blocks(const EdgePair& pair) const {
+  const auto block_of = [&](int edge) {
+    return static_cast<std::size_t>(edge_block_[static_cast<std::size_t>(edge)]);
+  };
+  return {block_of(pair.first), block_of(pair.second)};
 }
 
 ContactMaterial ContactSearch::new_contact(int block_a, int block_b) const {

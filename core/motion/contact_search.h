@@ -31,6 +31,9 @@ class ContactSearch {
   /// as in the quasi-static equations; others share out what penetrates at corners (see contact.h).
   EdgeContact contact(const EdgePair& pair) const;
 
+  /// The blocks of the two edges.
+  std::array<std::size_t, 2> blocks(const EdgePair& pair) const;
+
  private:
   ContactMaterial new_contact(int block_a, int block_b) const;
 

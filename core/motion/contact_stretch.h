@@ -34,8 +34,12 @@ struct EdgeContact {
   std::array<double, 2> per_length;  ///< 1 / L_A, 1 / L_B [1/m]
   std::array<double, 4>
       corner_share;  ///< 1 / tan(half the angle) at the nodes; 0 where the boundary runs on straight
+  bool joined;       ///< they form a joint at rest: all corner shares are 0
   double deepest;    ///< faces that overlap by more are seen from behind and do not touch [m]
   ContactMaterial material;
+  std::array<bool, 2> quick{};  ///< do the edges' blocks take short steps (pace.h)?
+
+  bool meets_quick() const { return quick[0] || quick[1]; }
 };
 
 /// Elastic part of the slip at s_0 and s_1 [m].

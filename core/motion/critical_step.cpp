@@ -64,9 +64,11 @@ Eigen::VectorXd start_vector(Eigen::Index size) {
 
 /// `joint_share` multiplies the joints' stiffness: damped joints act on a step as stiffer ones.
 double highest_frequency(const Model& model, const std::vector<BlockBody>& bodies, Integrator integrator,
-                         double step, double joint_share) {
+                         double step, double joint_share, const std::vector<bool>& still) {
   const std::vector<JointSpring> springs = joint_springs(model);
-  const std::vector<Eigen::MatrixXd> mobility = mobilities(bodies, integrator, step);
+  std::vector<Eigen::MatrixXd> mobility = mobilities(bodies, integrator, step);
+  for (std::size_t b = 0; b < still.size(); ++b)
+    if (still[b]) mobility[b].setZero();
   Eigen::VectorXd x = start_vector(2 * model.mesh.node_count());
   Eigen::VectorXd y(x.size());
   double squared = 0.0;
@@ -113,17 +115,17 @@ double slump(const Model& model) {
 }  // namespace
 
 double critical_step(const Model& model, const std::vector<BlockBody>& bodies, Integrator integrator,
-                     double contact_damping) {
+                     double contact_damping, const std::vector<bool>& still) {
   if (integrator == Integrator::implicit_blocks) {
     const auto stable = [&](double step) {
-      const double half_period = 2.0 / highest_frequency(model, bodies, integrator, step, 1.0);
+      const double half_period = 2.0 / highest_frequency(model, bodies, integrator, step, 1.0, still);
       return std::hypot(contact_damping, half_period) - contact_damping;
     };
     return stable(stable(1.0));  // elasticity as soft as a long step makes it, then as the step itself does
   }
-  double step = 2.0 / highest_frequency(model, bodies, integrator, 0.0, 1.0);
+  double step = 2.0 / highest_frequency(model, bodies, integrator, 0.0, 1.0, still);
   for (int i = 0; i < kStepIterations; ++i)  // the joints add little to the blocks' own frequencies
-    step = 2.0 / highest_frequency(model, bodies, integrator, 0.0, 1.0 + 2.0 * contact_damping / step);
+    step = 2.0 / highest_frequency(model, bodies, integrator, 0.0, 1.0 + 2.0 * contact_damping / step, still);
   return step;
 }
 

@@ -16,8 +16,9 @@ enum class Integrator {
 /// Longest stable step [s]: 2 / omega with the highest frequency omega of the bridge with all joints closed
 /// and sticking, found by power iteration. Joints that see the places a time `contact_damping` [s] later act
 /// on a step dt like joints 1 + 2 contact_damping / dt times as stiff.
+/// `still`: blocks that do not move; empty: all do.
 double critical_step(const Model& model, const std::vector<BlockBody>& bodies, Integrator integrator,
-                     double contact_damping);
+                     double contact_damping, const std::vector<bool>& still = {});
 
 /// The highest frequency of each block alone [rad/s], its joints closed and sticking and its neighbours
 /// standing still; block elasticity as implicit steps of this length [s] make it.

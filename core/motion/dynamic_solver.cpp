@@ -14,14 +14,26 @@ constexpr double kOfCritical = 0.9;         ///< default step; the power iterati
 constexpr double kDampingShare = 0.5;       ///< of the critical damping
 constexpr double kTimeBetweenLooks = 0.01;  ///< [s] between two looks at a scene
 
-double checked_step(const DynamicSettings& settings, double critical) {
-  if (!settings.step) return kOfCritical * critical;
-  if (!(*settings.step > 0.0) || *settings.step > critical)
-    throw InputError(
-        fmt::format("a time step of {} s is not stable: the joints' stiffness against the blocks' masses "
-                    "allows steps up to {:.3g} s",
-                    *settings.step, critical));
-  return *settings.step;
+/// A shorter step, if need be, of which a whole number lies between two looks.
+double step_between_looks(double step) {
+  return step < kTimeBetweenLooks ? kTimeBetweenLooks / std::ceil(kTimeBetweenLooks / step) : step;
+}
+
+Pace acting_pace(const Model& model, const std::vector<BlockBody>& bodies, const DynamicSettings& settings,
+                 double critical) {
+  if (settings.step) {
+    if (!(*settings.step > 0.0) || *settings.step > critical)
+      throw InputError(
+          fmt::format("a time step of {} s is not stable: the joints' stiffness against the blocks' masses "
+                      "allows steps up to {:.3g} s",
+                      *settings.step, critical));
+    return {.step = *settings.step};
+  }
+  Pace pace{.step = kOfCritical * critical};
+  if (settings.integrator == Integrator::implicit_blocks)
+    pace = best_pace(model, bodies, settings.contact_damping, pace.step, settings.most_parts);
+  pace.step = step_between_looks(pace.step);
+  return pace;
 }
 
 /// The bridge with joints that steps of the settings can follow; nothing if its own are.
@@ -39,19 +51,20 @@ struct DynamicSolver::Workspace {
   Workspace(const Model& bridge, const EquilibriumSystem& system, const DynamicSettings& settings_)
       : Workspace(bridge, make_block_bodies(bridge, settings_.inertia), system, settings_) {}
 
-  Workspace(const Model& bridge, std::vector<BlockBody> bodies, const EquilibriumSystem& system,
+  Workspace(const Model& bridge, const std::vector<BlockBody>& bodies, const EquilibriumSystem& system,
             const DynamicSettings& settings_)
       : settings(settings_),
         softer(softened_bridge(bridge, bodies, settings)),
         natural(natural_motion(followed(bridge), system)),
         critical(
             voussoir::critical_step(followed(bridge), bodies, settings.integrator, settings.contact_damping)),
-        model(followed(bridge), std::move(bodies), checked_step(settings, critical),
+        model(followed(bridge), bodies, acting_pace(followed(bridge), bodies, settings, critical),
               settings.damping.value_or(2.0 * kDampingShare * natural.frequency), settings.contact_damping),
         margin(search_margin(bridge)) {}
 
   const Model& followed(const Model& bridge) const { return softer ? *softer : bridge; }
-  long steps_until(double time) const { return std::lround(std::ceil(time / model.step)); }
+  /// Steps until a time has come, but for round-off.
+  long steps_until(double time) const { return std::lround(std::ceil(time / model.step() - 1e-6)); }
 
   DynamicSettings settings;
   std::unique_ptr<Model> softer;  ///< what is followed if it is not the bridge
@@ -80,6 +93,7 @@ struct LaneRun {
   std::size_t scene = 0;
   bool busy = false;
   long steps = 0;
+  bool freer = false;  ///< damped less
   DynamicSolution solution;
 };
 
@@ -133,8 +147,9 @@ class MotionRun {
   void prepare_step() {
     for (int i = 0; i < kLaneCount<T>; ++i) {
       const LaneRun& run = runs_[static_cast<std::size_t>(i)];
-      set_lane(motion_.load, i,
-               grown_share(static_cast<double>(run.steps + 1) * model_.step, shared_.settings.ramp));
+      set_lane(motion_.load, i,  // at the time of the places that forces are of
+               grown_share(static_cast<double>(run.steps) * model_.step(), shared_.settings.ramp));
+      set_lane(motion_.damping, i, (run.freer ? rules_.freer_damping : 1.0) * model_.damping);
       const bool settled = shared_.settings.skips.settled_contacts;
       if (!settled || lane(motion_.travel, i) > 0.5 * shared_.margin)
         search_contacts(model_, shared_.margin, i, motion_);
@@ -145,27 +160,30 @@ class MotionRun {
     LaneRun& run = runs_[static_cast<std::size_t>(lane_index)];
     const DynamicSettings& settings = shared_.settings;
     ++run.steps;
-    const double time = static_cast<double>(run.steps) * model_.step;
+    if (run.steps == shared_.steps_until(rules_.freer_from))
+      run.freer = lane(motion_.unbalanced, lane_index) <= rules_.freer_unbalance * model_.weight;
+    if (run.steps == shared_.steps_until(rules_.freer_until)) run.freer = false;
+    const double time = static_cast<double>(run.steps) * model_.step();
     if (run.steps == shared_.steps_until(settings.moment)) {
       run.solution.solution.displacement = displacement(model_, motion_, lane_index);
       run.solution.time = time;
     }
     const long between = std::max(1L, shared_.steps_until(kTimeBetweenLooks));
-    if (run.steps % between != 0 || time < settings.moment) return;
-    if (!decided(lane_index, time, run.solution)) return;
+    if (run.steps % between != 0 || run.steps < shared_.steps_until(settings.moment)) return;
+    if (!decided(lane_index, run.steps, run.solution)) return;
     run.solution.solution.iterations = static_cast<int>(run.steps);
     solutions_[run.scene] = std::move(run.solution);
     clear(lane_index);
   }
 
   /// Fills in the outcome, if there is one by now.
-  bool decided(int i, double time, DynamicSolution& result) const {
+  bool decided(int i, long steps, DynamicSolution& result) const {
     const double unbalanced = lane(motion_.unbalanced, i) / model_.weight;
     const double kinetic = kinetic_energy(model_, motion_, i);
     const double largest = lane(motion_.largest_unbalanced, i);
-    const bool early = time < rules_.earliest_decision;
+    const bool early = steps < shared_.steps_until(rules_.earliest_decision);
     if (early && !shared_.settings.skips.early_outcome) return false;
-    const bool last = time >= rules_.latest_decision;
+    const bool last = steps >= shared_.steps_until(rules_.latest_decision);
     const bool quiet = !early && unbalanced <= rules_.standing_unbalance &&
                        kinetic <= unbalanced * shared_.natural.work &&
                        largest <= rules_.largest_standing_unbalance;
@@ -181,7 +199,7 @@ class MotionRun {
     result.solution.outcome = quiet ? Outcome::standing : falling ? Outcome::collapsed : Outcome::unresolved;
     if (falling) return true;
     result.solution.displacement = now;
-    result.time = time;
+    result.time = static_cast<double>(steps) * model_.step();
     return true;
   }
 
@@ -199,10 +217,16 @@ class MotionRun {
 
 DecisionRules patient(DecisionRules rules) {
   // Measured on the reference bridge: a bridge at rest goes below 1e-7 of its weight within a second; a block
-  // that creeps keeps 4e-3 and more of its own weight unbalanced and takes up to four seconds to move away.
+  // that creeps keeps 4e-3 and more of its own weight unbalanced.
   rules.standing_unbalance = 1e-7;
   rules.collapsing_unbalance = 1e-3;
-  rules.latest_decision = 8.0;
+  rules.latest_decision = 4.0;
+  // Damping holds what creeps: one that is nearly balanced moves away within 0.4 s without it, and what rests
+  // stays at rest. Blocks that rattle, which only damping holds, would be shaken apart.
+  rules.freer_from = 1.0;
+  rules.freer_unbalance = 2.3e-4;
+  rules.freer_until = 2.5;
+  rules.freer_damping = 0.05;
   return rules;
 }
 
@@ -231,8 +255,11 @@ DynamicSolution DynamicSolver::solve(const Scene& scene) {
   return std::move(solve(std::span(&scene, 1)).front());
 }
 
+const Pace& DynamicSolver::pace() const {
+  return workspace_->model.pace;
+}
 double DynamicSolver::step() const {
-  return workspace_->model.step;
+  return pace().step;
 }
 double DynamicSolver::critical_step() const {
   return workspace_->critical;

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/motion/block_dynamics.h"
-#include "core/motion/critical_step.h"
+#include "core/motion/pace.h"
 #include "core/statics/skips.h"
 #include "core/statics/solution.h"
 #include "core/structure/model.h"
@@ -28,6 +28,10 @@ struct DecisionRules {
   double largest_standing_unbalance = 1e-2;  ///< resultant force on a block over its weight, at most
   double moving_sags =
       2.0;  ///< blocks that have moved further than this many sags of the bonded bridge have moved away
+  double freer_from = 0.0;  ///< at this time, what is nearly balanced (sum of the blocks' resultant forces
+  double freer_unbalance = 0.0;  ///< over the bridge's weight, at most) is damped less until a later time:
+  double freer_until = 0.0;      ///< a block that creeps, held by nearly enough friction, falls the sooner
+  double freer_damping = 1.0;    ///< [-] share of the damping
 };
 
 /// Rules that follow a motion until friction that nearly holds has let go, or the bridge is really at rest.
@@ -37,7 +41,9 @@ DecisionRules patient(DecisionRules rules);
 struct DynamicSettings {
   Integrator integrator = Integrator::implicit_blocks;
   RotationalInertia inertia = RotationalInertia::lumped;
-  std::optional<double> step;  ///< empty: 0.9 times the critical step
+  std::optional<double> step;  ///< of all blocks; empty: 0.9 times the critical step, and for most blocks
+                               ///< several times that (pace.h) ..
+  int most_parts = 8;          ///< .. at most so many; 1: all blocks take the same implicit steps
   double least_step = 2e-4;  ///< joints of a block that alone would need shorter implicit steps are softened
                              ///< until it does not (softening.h); 0: none are
   double ramp = 0.3;         ///< gravity grows from 0 as 3 x^2 - 2 x^3, x = time / ramp; 0: at once
@@ -80,8 +86,9 @@ class DynamicSolver {
 
   DynamicSolution solve(const Scene& scene);
 
-  double step() const;           ///< [s]
-  double critical_step() const;  ///< [s]
+  const Pace& pace() const;
+  double step() const;           ///< of most blocks [s]
+  double critical_step() const;  ///< of all blocks [s]
   double damping() const;        ///< [1/s]
   double sag() const;            ///< of the bonded bridge [m]
 

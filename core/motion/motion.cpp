@@ -29,6 +29,13 @@ void set_pair(Pair<T>& pair, int i, double x, double y) {
   set_lane(pair.y, i, y);
 }
 
+EdgeContact contact_of(const MotionModel& model, const EdgePair& pair) {
+  EdgeContact contact = model.search.contact(pair);
+  const auto [a, b] = model.search.blocks(pair);
+  contact.quick = {model.pace.is_quick(a), model.pace.is_quick(b)};
+  return contact;
+}
+
 /// Makes room for these pairs, and forgets those that no lane holds any more.
 template <class T>
 void add_contacts(const MotionModel& model, const std::vector<EdgePair>& added, Motion<T>& motion) {
@@ -40,6 +47,7 @@ void add_contacts(const MotionModel& model, const std::vector<EdgePair>& added, 
   std::inplace_merge(pairs.begin(), pairs.begin() + kept, pairs.end());
   pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
 
+  motion.quick_contacts.clear();
   std::vector<EdgeContact> contacts;
   std::vector<Cell<T>> found(pairs.size(), Cell<T>{T{}});
   std::vector<ContactShear<T>> shear(pairs.size(), ContactShear<T>{T{}, T{}});
@@ -48,7 +56,8 @@ void add_contacts(const MotionModel& model, const std::vector<EdgePair>& added, 
     old = std::lower_bound(old, motion.pairs.end(), pairs[c]);
     const bool known = old != motion.pairs.end() && *old == pairs[c];
     const auto at = static_cast<std::size_t>(old - motion.pairs.begin());
-    contacts.push_back(known ? motion.contacts[at] : model.search.contact(pairs[c]));
+    contacts.push_back(known ? motion.contacts[at] : contact_of(model, pairs[c]));
+    if (contacts.back().meets_quick()) motion.quick_contacts.push_back(static_cast<int>(c));
     if (!known) continue;
     found[c] = motion.found[at];
     shear[c] = motion.shear[at];
@@ -61,10 +70,10 @@ void add_contacts(const MotionModel& model, const std::vector<EdgePair>& added, 
 
 }  // namespace
 
-MotionModel::MotionModel(const Model& model, std::vector<BlockBody> bodies_, double step_, double damping_,
+MotionModel::MotionModel(const Model& model, std::vector<BlockBody> bodies_, Pace pace_, double damping_,
                          double contact_damping_)
     : structure(&model),
-      step(step_),
+      pace(std::move(pace_)),
       damping(damping_),
       contact_damping(contact_damping_),
       gravity(model.parameters.gravity),
@@ -80,9 +89,10 @@ MotionModel::MotionModel(const Model& model, std::vector<BlockBody> bodies_, dou
   for (const Triangle& triangle : mesh.triangles)
     triangles.push_back(triangle_shape(mesh.position(triangle.nodes[0]), mesh.position(triangle.nodes[1]),
                                        mesh.position(triangle.nodes[2])));
-  for (const BlockBody& body : bodies) {
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
     response_of_block.push_back(responses.size());
-    const Eigen::MatrixXd response = deformation_response(body, step);  // symmetric: rows are columns
+    const Eigen::MatrixXd response =  // symmetric: rows are columns
+        deformation_response(bodies[b], pace.is_quick(b) ? pace.quick_step() : pace.step);
     responses.insert(responses.end(), response.data(), response.data() + response.size());
   }
   weight = masses.sum() * gravity;
@@ -141,6 +151,7 @@ void place_scene(const MotionModel& model, const std::vector<bool>& removed, int
     set_lane(motion.shear[c].at_1, i, 0.0);
   }
   set_lane(motion.load, i, 0.0);
+  set_lane(motion.damping, i, model.damping);
   set_lane(motion.travel, i, std::numeric_limits<double>::infinity());  // no contacts are known
 }
 

@@ -8,6 +8,7 @@
 #include "core/motion/block_dynamics.h"
 #include "core/motion/contact.h"
 #include "core/motion/contact_search.h"
+#include "core/motion/pace.h"
 #include "core/simd/pair.h"
 
 namespace voussoir {
@@ -15,17 +16,19 @@ namespace voussoir {
 /// What all scenes of a variant share at one time step.
 struct MotionModel {
   /// `bodies` as make_block_bodies gives them. The model must outlive this.
-  MotionModel(const Model& model, std::vector<BlockBody> bodies, double step, double damping,
+  MotionModel(const Model& model, std::vector<BlockBody> bodies, Pace pace, double damping,
               double contact_damping);
 
+  double step() const { return pace.step; }
+
   const Structure* structure;  ///< outlives this
-  double step;                 ///< dt [s]
-  double damping;              ///< force on a mass per mass and velocity [1/s]
-  double contact_damping;      ///< joints resist the gap and slip that they would have this much later [s]
-  double gravity;              ///< [m/s2]
+  Pace pace;
+  double damping;          ///< of a scene at first: force on a mass per mass and velocity [1/s]
+  double contact_damping;  ///< joints resist the gap and slip that they would have this much later [s]
+  double gravity;          ///< [m/s2]
   ContactSearch search;
   std::vector<BlockBody> bodies;
-  std::vector<double> responses;               ///< deformation_response of all blocks, row by row
+  std::vector<double> responses;  ///< deformation_response of all blocks to their own steps, row by row
   std::vector<std::size_t> response_of_block;  ///< where each block's begins
   Eigen::VectorXd masses;                      ///< of the nodes [kg]
   std::vector<bool> held;                      ///< per displacement component
@@ -58,10 +61,12 @@ struct Motion {
   std::vector<Pair<T>> pushes;         ///< forces on the nodes beside weight and contact [N]; empty: none
   std::vector<EdgePair> pairs;         ///< that some lane's search has found, ascending
   std::vector<EdgeContact> contacts;   ///< of `pairs`
+  std::vector<int> quick_contacts;     ///< those of quick blocks, as positions in `pairs`
   std::vector<Cell<T>> found;          ///< of `pairs`: 1 where the lane's own search has, otherwise 0
   std::vector<ContactShear<T>> shear;  ///< of `pairs`
   std::vector<Pair<T>> scratch;        ///< as long as the largest block
   alignas(sizeof(T)) T load{};         ///< share of gravity that acts
+  alignas(sizeof(T)) T damping{};      ///< force on a mass per mass and velocity [1/s]
   alignas(sizeof(T)) T travel{};       ///< bound of any node's way since the last contact search [m]
   alignas(sizeof(T)) T unbalanced{};   ///< sum over blocks of the resultant forces [N]
   alignas(sizeof(T)) T largest_unbalanced{};  ///< largest resultant force of a block over its weight

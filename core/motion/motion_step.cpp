@@ -41,22 +41,19 @@ void take_explicit_step(const MotionModel& model, Motion<double>& motion) {
   const MotionView<double> view = view_of(motion);
   start_forces(model, view);
   add_element_forces(model, motion);
-  const double half_damping = 0.5 * model.damping * model.step;
-  const double kept = (1.0 - half_damping) / (1.0 + half_damping);
-  const double gained = model.step / (1.0 + half_damping);
+  start_report(motion);
+  const BlockStep<double> step(model.step(), motion.damping);
   double longest = 0.0;
-  motion.unbalanced = 0.0;
-  motion.largest_unbalanced = 0.0;
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const BlockBody& body = model.bodies[b];
     add_weight(body, motion.load * view.present[b].value * model.gravity, view);
     report_balance(body, resultant(body, view.places[body.nodes.begin], view), model.per_weight[b], motion);
     for (int i = body.nodes.begin; i < body.nodes.end; ++i) {
       Node& rate = view.rates[i];
-      rate = rate * kept + view.forces[i] * (gained / model.masses[i]);
+      rate = rate * step.kept + view.forces[i] * (step.gained / model.masses[i]);
       if (model.held[static_cast<std::size_t>(2 * i)]) rate.x = 0.0;
       if (model.held[static_cast<std::size_t>(2 * i + 1)]) rate.y = 0.0;
-      view.moved[i] = rate * model.step;
+      view.moved[i] = rate * step.length;
       view.places[i] = view.places[i] + view.moved[i];
       longest = larger(longest, dot(view.moved[i], view.moved[i]));
     }

@@ -23,6 +23,7 @@ Forces forces_of_blocks(const MotionModel& model, const std::vector<bool>& remov
   for (std::size_t c = 0; c < motion.contacts.size(); ++c)
     if (is_gone(motion.contacts[c].nodes[0]) == is_gone(motion.contacts[c].nodes[2]))
       motion.found[c].value = 0.0;
+  for (EdgeContact& contact : motion.contacts) contact.quick = {};  // all at this moment
   start_forces(model, view_of(motion));
   for (std::size_t i = 0; i < gone.size(); ++i)
     if (gone[i]) motion.forces[i] = {0.0, 0.0};
@@ -47,7 +48,7 @@ void remove_blocks(const MotionModel& model, const std::vector<bool>& removed, M
 struct LoadedBridge::Workspace {
   Workspace(const Model& bridge, const LoadingSettings& settings_, const DynamicSolver& solver)
       : settings(settings_),
-        model(bridge, make_block_bodies(bridge, settings.motion.inertia), solver.step(), solver.damping(),
+        model(bridge, make_block_bodies(bridge, settings.motion.inertia), solver.pace(), solver.damping(),
               settings.motion.contact_damping),
         margin(search_margin(bridge)),
         far(settings.motion.decision.moving_sags * solver.sag()),
@@ -63,7 +64,7 @@ struct LoadedBridge::Workspace {
     long steps = 0;
     while (result.time < settings.patience &&
            result.time < std::max(earliest, restless) + settings.rest_time) {
-      result.time = static_cast<double>(++steps) * with.step;
+      result.time = static_cast<double>(++steps) * with.step();
       prepare(result.time);
       if (moving.travel > 0.5 * margin) search_contacts(with, margin, 0, moving);
       take_implicit_step(with, moving);
@@ -108,9 +109,9 @@ const DynamicSolution& LoadedBridge::intact() const {
 
 DynamicSolution LoadedBridge::without(const Scene& scene, const Release& release) const {
   const Workspace& w = *workspace_;
-  MotionModel model = w.model;
-  model.damping *= release.damping;
+  const MotionModel& model = w.model;
   Motion<double> motion = w.motion;
+  motion.damping *= release.damping;
   const std::vector<bool> removed = removal_mask(scene, model.bodies.size());
   const Forces carried = forces_of_blocks(model, removed, motion);
   remove_blocks(model, removed, motion);

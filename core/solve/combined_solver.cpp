@@ -9,16 +9,32 @@ CombinedSolver::CombinedSolver(const Model& model, const SolverSettings& setting
       moves_(!has_mortar(model.parameters)) {}
 
 std::vector<Solution> CombinedSolver::solve(std::span<const StageTask> tasks) {
-  std::vector<Solution> solutions = newton_.solve(tasks);
+  std::vector<Solution> solutions = search(tasks);
   if (!moves_) return solutions;
-  follow(settings_.motion.decision, tasks, solutions);
-  follow(settings_.patient, tasks, solutions);
+  follow(settings_.motion.decision, tasks, false, solutions);
+  follow(settings_.patient, tasks, true, solutions);
+  return solutions;
+}
+
+/// Newton's equilibria; `unresolved` where there is none, or where a fall is likelier.
+std::vector<Solution> CombinedSolver::search(std::span<const StageTask> tasks) {
+  const bool falls_first = settings_.newton.skips.likely_falls;
+  std::vector<StageTask> searched;
+  std::vector<std::size_t> places;
+  for (std::size_t i = 0; i < tasks.size(); ++i) {
+    if (falls_first && tasks[i].falls_likely) continue;
+    searched.push_back(tasks[i]);
+    places.push_back(i);
+  }
+  std::vector<Solution> found = newton_.solve(searched);
+  std::vector<Solution> solutions(tasks.size());
+  for (std::size_t k = 0; k < found.size(); ++k) solutions[places[k]] = std::move(found[k]);
   return solutions;
 }
 
 /// Sets the scenes that are still open in motion, which begins with nothing slipped: takes the collapses,
-/// polishes what rests.
-void CombinedSolver::follow(const DecisionRules& rules, std::span<const StageTask> tasks,
+/// polishes what rests; with all patience what rests for certain.
+void CombinedSolver::follow(const DecisionRules& rules, std::span<const StageTask> tasks, bool patiently,
                             std::vector<Solution>& solutions) {
   std::vector<std::size_t> open;
   std::vector<Scene> moving;
@@ -35,7 +51,10 @@ void CombinedSolver::follow(const DecisionRules& rules, std::span<const StageTas
     if (motions[k].solution.outcome == Outcome::collapsed) {
       solutions[open[k]] = std::move(motions[k].solution);
     } else {
-      resting.push_back({.stage = tasks[open[k]].stage, .start = &motions[k].solution.displacement});
+      const bool rests = patiently && motions[k].solution.outcome == Outcome::standing;
+      resting.push_back({.stage = tasks[open[k]].stage,
+                         .start = &motions[k].solution.displacement,
+                         .stands_likely = rests});
       resting_at.push_back(open[k]);
     }
   }

@@ -12,7 +12,8 @@ namespace voussoir {
 /// in milliseconds. Where Newton makes no progress, the scene is set in motion under growing gravity. What
 /// falls is `collapsed`, with the field at the dynamic settings' moment. What seems to come to rest is handed
 /// back to Newton, which polishes the resting field to equilibrium; if there is none near, a block creeps,
-/// held by nearly enough friction, and the motion is followed until it has come to rest or moved away.
+/// held by nearly enough friction, and the motion is followed until it has come to rest or moved away. Scenes
+/// that are said to fall are set in motion first.
 ///
 /// A solution depends on its scene and start only, to the last bit. Not thread-safe: one solver a thread. The
 /// model must outlive the solver. `residual` is a nodal one for standing scenes and that of DynamicSolution
@@ -29,7 +30,9 @@ class CombinedSolver {
   std::vector<Solution> solve(std::span<const StageTask> tasks);
 
  private:
-  void follow(const DecisionRules& rules, std::span<const StageTask> tasks, std::vector<Solution>& solutions);
+  std::vector<Solution> search(std::span<const StageTask> tasks);
+  void follow(const DecisionRules& rules, std::span<const StageTask> tasks, bool patiently,
+              std::vector<Solution>& solutions);
 
   SolverSettings settings_;
   QuasiStaticSolver newton_;

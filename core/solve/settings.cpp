@@ -86,12 +86,14 @@ void visit_newton(Settings& settings, const Visit& visit) {
   visit("newton.collapse_displacement_m", collapse_displacement);
   visit("newton.joint_integration", joint_rule);
   visit("newton.early_outcome", skips.early_outcome);
+  visit("newton.likely_falls", skips.likely_falls);
 }
 
 template <class Rules, class Visit>
 void visit_rules(const std::string& phase, Rules& rules, const Visit& visit) {
   auto& [earliest_decision, latest_decision, standing_unbalance, collapsing_unbalance, plain_unbalance,
-         largest_standing_unbalance, moving_sags] = rules;
+         largest_standing_unbalance, moving_sags, freer_from, freer_unbalance, freer_until, freer_damping] =
+      rules;
   visit(phase + ".earliest_decision_s", earliest_decision);
   visit(phase + ".latest_decision_s", latest_decision);
   visit(phase + ".standing_unbalance", standing_unbalance);
@@ -99,17 +101,24 @@ void visit_rules(const std::string& phase, Rules& rules, const Visit& visit) {
   visit(phase + ".plain_unbalance", plain_unbalance);
   visit(phase + ".largest_standing_unbalance", largest_standing_unbalance);
   visit(phase + ".moving_sags", moving_sags);
+  visit(phase + ".freer_from_s", freer_from);
+  visit(phase + ".freer_unbalance", freer_unbalance);
+  visit(phase + ".freer_until_s", freer_until);
+  visit(phase + ".freer_damping", freer_damping);
 }
 
 template <class Settings, class Visit>
 void visit_motion(Settings& settings, const Visit& visit) {
-  auto& [integrator, inertia, step, least_step, ramp, damping, contact_damping, moment, decision, skips,
-         side_by_side] = settings;
+  auto& [integrator, inertia, step, most_parts, least_step, ramp, damping, contact_damping, moment, decision,
+         skips, side_by_side] = settings;
   static_cast<void>(side_by_side);
   visit("motion.integrator", integrator);
   visit("motion.inertia", inertia);
   visit("motion.step_s", step);
-  if (integrator == Integrator::implicit_blocks) visit("motion.least_step_s", least_step);
+  if (integrator == Integrator::implicit_blocks) {
+    visit("motion.most_parts", most_parts);
+    visit("motion.least_step_s", least_step);
+  }
   visit("motion.ramp_s", ramp);
   visit("motion.damping_per_s", damping);
   visit("motion.contact_damping_s", contact_damping);

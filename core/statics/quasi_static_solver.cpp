@@ -55,6 +55,7 @@ struct LaneSearch {
   const StageTask* task = nullptr;
   std::size_t number = 0;
   int step = 0;                     ///< of the task's steps
+  QuasiStaticSettings settings;     ///< the solver's, with the task's patience
   std::optional<Coefficients> own;  ///< of a variant that is not the solver's model
   std::optional<NewtonSearch> search;
   Solution reached;  ///< at the end of the last step; what all steps have cost
@@ -64,6 +65,8 @@ struct LaneSearch {
     task = &stage_task;
     number = stage_number;
     step = 0;
+    settings = w.settings;
+    if (task->stands_likely) settings.skips.early_outcome = false;
     own.reset();
     if (task->parameters != nullptr) own.emplace(w.system, *task->parameters);
     reached = Solution{};
@@ -77,7 +80,7 @@ struct LaneSearch {
                              before != nullptr ? before->memory : std::vector<JointMemory>{});
     const int left = task->steps - ++step;
     if (left > 0) hold_back(static_cast<double>(left) / (left + 1), before, equations);
-    search.emplace(std::move(equations), w.settings, start, w.lane_of_tangents(lane));
+    search.emplace(std::move(equations), settings, start, w.lane_of_tangents(lane));
   }
 
   /// Takes what the search has found; true if that is the task's answer, otherwise the next step begins.

@@ -40,7 +40,9 @@ struct StageTask {
   /// Implicit steps. Forces that would hold the stage where the one before ended (what lost blocks carried, a
   /// new load turned round) are let go in so many equal parts, and the joints' memory is updated after each.
   int steps = 1;
-  bool keeps_steps = false;  ///< true: the solution has the states at the ends of all steps
+  bool stands_likely = false;  ///< the search is not given up early
+  bool falls_likely = false;   ///< so that who can follow a motion asks it first (CombinedSolver)
+  bool keeps_steps = false;    ///< true: the solution has the states at the ends of all steps
 };
 
 /// Solves stages of the variants of one structure, several side by side in SIMD lanes. Not thread-safe: one

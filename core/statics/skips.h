@@ -13,6 +13,9 @@ struct Skips {
   bool early_outcome = true;  ///< Newton's search without hope ends after three steps instead of thirty, and
                               ///< a plain collapse at its stated moment instead of at the earliest decision.
                               ///< Changes fields of standing scenes by less than the solver's tolerance
+  bool likely_falls = true;   ///< a scene of which a part is known to fall is set in motion at once; what
+                              ///< comes to rest Newton's method polishes. Changes fields of standing scenes
+                              ///< by less than the solver's tolerance
 };
 
 }  // namespace voussoir

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "core/geometry/polygon.h"
-#include "core/structure/mortar.h"
 #include "core/structure/block.h"
+#include "core/structure/mortar.h"
 #include "core/structure/uncertainty.h"
 
 namespace voussoir {
@@ -200,7 +200,7 @@ struct BridgeDescription {
   Material material;
   JointMaterial joints;
   std::vector<MortarRegion> mortar;  ///< later ones take the place of earlier ones
-  std::vector<Region> regions{};  ///< a later one goes before an earlier one
+  std::vector<Region> regions{};     ///< a later one goes before an earlier one
   FillWeight fill{};
   SupportDescription supports;
   ControlPointDescription control_points;

@@ -3,7 +3,6 @@
 namespace voussoir {
 namespace {
 
-
 void read_courses(TomlSection& section, WallDescription& wall) {
   section.length("length_m", wall.length);
   section.count("courses", wall.courses, 0, kMostCourses);

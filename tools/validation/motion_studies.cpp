@@ -19,8 +19,8 @@ constexpr double kGravity = 9.81;
 struct MovingBlocks {
   MovingBlocks(const Model& bridge, double size, double share_of_critical, double contact_damping)
       : model(bridge, make_block_bodies(bridge),
-              share_of_critical * critical_step(bridge, make_block_bodies(bridge),
-                                                Integrator::implicit_blocks, contact_damping),
+              Pace{share_of_critical * critical_step(bridge, make_block_bodies(bridge),
+                                                     Integrator::implicit_blocks, contact_damping)},
               0.0, contact_damping),
         motion(at_rest<One>(model)),
         margin(0.02 * size) {}
@@ -28,7 +28,7 @@ struct MovingBlocks {
   void step() {
     if (motion.travel > 0.4 * margin) search_contacts(model, margin, 0, motion);
     take_implicit_step(model, motion);
-    time += model.step;
+    time += model.step();
   }
   BlockFrame<One>& frame(std::size_t block) { return motion.frames[block]; }
 
@@ -113,7 +113,7 @@ Findings impact() {
   while (blocks.time < 0.05) {
     const double before = blocks.frame(1).velocity.x;
     blocks.step();
-    if (blocks.frame(1).velocity.x - before > 1e-9 * kSpeed) touching += blocks.model.step;
+    if (blocks.frame(1).velocity.x - before > 1e-9 * kSpeed) touching += blocks.model.step();
   }
   const double stiffness = 0.5 * bridge.parameters.contact.normal_stiffness;  // face of 0.5 m x 1 m
   const double duration = std::numbers::pi * std::sqrt(0.5 * mass / stiffness);

@@ -24,6 +24,7 @@ EdgeContact edges(double share, const ContactMaterial& material = kSmooth) {
   return {.nodes = {0, 1, 2, 3},
           .per_length = {1.0, 1.25},
           .corner_share = {share, share, share, share},
+          .joined = share == 0.0,
           .deepest = 0.5,
           .material = material};
 }
@@ -168,6 +169,7 @@ TEST_CASE("Two facing edges of one length answer as the joint law of the quasi-s
   const EdgeContact contact{.nodes = {0, 1, 2, 3},
                             .per_length = {1.0, 1.0},
                             .corner_share = {},
+                            .joined = true,
                             .deepest = 0.5,
                             .material = kRough};
   const JointStiffness joint = joint_stiffness(material_with(0.7), 1.0);
@@ -194,6 +196,7 @@ TEST_CASE("A block that leans over on its edge does not slip at the end that ope
   const EdgeContact contact{.nodes = {0, 1, 2, 3},
                             .per_length = {1.0, 1.0},
                             .corner_share = {},
+                            .joined = true,
                             .deepest = 0.5,
                             .material = kRough};
   constexpr int kSteps = 200;

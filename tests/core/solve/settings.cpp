@@ -44,7 +44,7 @@ TEST_CASE("Settings state what acts, for each phase", "[settings]") {
   CHECK_THAT(soft, !Catch::Contains("most_falling_iterations"));
   CHECK_THAT(soft, Catch::Contains("newton.early_outcome = yes\n"));
   CHECK_THAT(soft, Catch::Contains("motion.latest_decision_s = 1\n"));
-  CHECK_THAT(soft, Catch::Contains("patient.latest_decision_s = 8\n"));
+  CHECK_THAT(soft, Catch::Contains("patient.latest_decision_s = 4\n"));
   CHECK_THAT(soft, Catch::Contains("patient.standing_unbalance = 1e-07\n"));
 
   BridgeDescription stiff;
