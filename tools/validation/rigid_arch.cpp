@@ -5,20 +5,6 @@
 namespace voussoir::validation {
 namespace {
 
-/// What is left of a convex polygon where normal . x <= bound.
-Polygon cut(const Polygon& polygon, const Point& normal, double bound) {
-  Polygon rest;
-  for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const Point& a = polygon[i];
-    const Point& b = polygon[(i + 1) % polygon.size()];
-    const double over_a = normal.dot(a) - bound, over_b = normal.dot(b) - bound;
-    if (over_a <= 0.0) rest.push_back(a);
-    if ((over_a < 0.0) != (over_b < 0.0) && over_a != over_b)
-      rest.push_back(a + over_a / (over_a - over_b) * (b - a));
-  }
-  return rest;
-}
-
 /// A rigid body's movement: velocity at the origin and turning, counter-clockwise.
 struct Movement {
   Point origin = Point::Zero();
@@ -68,14 +54,14 @@ bool symmetric_arch_stands(const RigidArch& arch) {
   double weight = 0.0, moment = 0.0;
   const int n = static_cast<int>(arch.voussoirs.size());
   for (int j = n / 2; j >= 0 && !possible.empty(); --j) {  // from the crown's joint, if there is one
-    const Polygon half = cut(arch.voussoirs[static_cast<std::size_t>(j)], {1.0, 0.0}, 0.0);
+    const Polygon half = clipped(arch.voussoirs[static_cast<std::size_t>(j)], {1.0, 0.0}, 0.0);
     const double size = half.size() < 3 ? 0.0 : std::abs(area(half));
     weight += size;
     if (size > 0.0) moment += size * centroid(half).x();
     const auto& [inner, outer] = arch.joints[static_cast<std::size_t>(j)];
     // Moment of thrust and weight about the ends of the joint: of one sign inside, of the other outside.
-    possible = cut(possible, {inner.y(), -1.0}, weight * inner.x() - moment);
-    possible = cut(possible, {-outer.y(), 1.0}, moment - weight * outer.x());
+    possible = clipped(possible, {inner.y(), -1.0}, weight * inner.x() - moment);
+    possible = clipped(possible, {-outer.y(), 1.0}, moment - weight * outer.x());
   }
   return !possible.empty();
 }
