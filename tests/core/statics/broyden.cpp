@@ -24,7 +24,8 @@ struct Problem {
 
 }  // namespace
 
-TEST_CASE("Broyden's steps are those of the dense matrix with its rank-one updates (brute force)", "[solver]") {
+TEST_CASE("Broyden's steps are those of the dense matrix with its rank-one updates (brute force)",
+          "[solver]") {
   const Problem problem;
   BroydenSecants secants;
   Eigen::Matrix4d dense = problem.old;
