@@ -113,8 +113,22 @@ void add_drawing_option(CLI::App& app, BuildOptions& options) {
 struct Words {
   std::string solver = "quasi-static";
   std::string fields = "all";
+  std::string collapses = "field";
   std::vector<std::string> without;
 };
+
+/// What is kept of scenes.
+void add_kept_options(CLI::App& app, Words& words) {
+  app.add_option("--fields", words.fields, "displacements of all nodes are kept of all scenes or of none")
+      ->check(CLI::IsMember({"all", "none"}))
+      ->capture_default_str();
+  app.add_option(
+         "--collapses", words.collapses,
+         "field: scenes that fall are followed in motion and have the field at a stated moment; outcome: "
+         "only whether and what falls is found, without motion where it can be proved (faster)")
+      ->check(CLI::IsMember({"field", "outcome"}))
+      ->capture_default_str();
+}
 
 void add_options(CLI::App& app, BuildOptions& options, Words& words) {
   app.add_flag("--version", options.version,
@@ -138,9 +152,7 @@ void add_options(CLI::App& app, BuildOptions& options, Words& words) {
       ->check(CLI::IsMember({"quasi-static", "dynamic"}))
       ->capture_default_str();
   add_motion_options(app, options.motion);
-  app.add_option("--fields", words.fields, "displacements of all nodes are kept of all scenes or of none")
-      ->check(CLI::IsMember({"all", "none"}))
-      ->capture_default_str();
+  add_kept_options(app, words);
   add_format_option(app, options.json, "of the summary");
   app.add_option("--xdmf", options.request.xdmf_scenes,
                  "also write an index (.xdmf, .views.h5) with which ParaView opens these scenes");
@@ -165,6 +177,7 @@ void parse_build_options(int argc, char** argv, BuildOptions& options) {
   if (options.exit_code) return;
   if (options.variants > 0 && app.count("--scenes") == 0) options.request.scenes_of_variants = "singles";
   options.request.fields = words.fields == "all" ? KeepField::yes : KeepField::no;
+  options.request.rules.collapse_fields = words.collapses == "field";
   for (const std::string& name : words.without)
     build_switch(name).switch_off(options.request.rules, options.motion.skips);
   if (words.solver == "dynamic" &&

@@ -33,6 +33,9 @@ struct BuildPlan {
 struct PlanRules {
   bool mirror_images = true;  ///< of a scene and its mirror image one is solved
   bool warm_starts = true;    ///< searches start from the fields of intact and singles
+  /// False: of scenes that fall only that and what falls is found, not their fields, and what a single's
+  /// collapse proves to fall is not set in motion (core/statics/mechanism.h).
+  bool collapse_fields = true;
 };
 
 /// The scene that is solved to answer for this one: the lexicographically smaller of the scene and its mirror

@@ -14,6 +14,8 @@ std::span<const BuildSwitch> build_switches() {
   static constexpr std::array kSwitches = {
       BuildSwitch{"early-outcome", kSameDisplacement,
                   [](PlanRules&, Skips& skips) { skips.early_outcome = false; }},
+      BuildSwitch{"kept-factors", kSameDisplacement,
+                  [](PlanRules&, Skips& skips) { skips.kept_factors = false; }},
       BuildSwitch{"lane-refill", kNothing, [](PlanRules&, Skips& skips) { skips.lane_refill = false; }},
       BuildSwitch{"likely-falls", kSameDisplacement,
                   [](PlanRules&, Skips& skips) { skips.likely_falls = false; }},

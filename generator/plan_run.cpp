@@ -121,7 +121,7 @@ void run_plan(const BuildPlan& plan, const PlanRun& run, KnownRecords& known) {
       for (auto& [variant, starts] : read_starts(run, tasks, known)) {
         VariantSolver& solver = solvers.local();
         solver.prepare(variant, run);
-        bases[variant] = solver.states->basis(solver.solver, std::move(starts), run.rules.warm_starts);
+        bases[variant] = solver.states->basis(solver.solver, std::move(starts), run.rules);
       }
       const auto batches = split_into_batches(tasks, batch_size(tasks.size(), crew.size()));
       crew.for_each_index(batches.size(), [&](std::size_t i) {

@@ -31,7 +31,7 @@ SearchBasis basis_of(const std::set<Scene>& starting, std::int32_t number, const
     for (std::size_t state = 0; state < variant.plan.size(); ++state)
       starts.add(start, state, row ? variant.database.solution(*row, state) : anew[state]);
   }
-  return variant.equations.basis(solver, std::move(starts), variant.rules.warm_starts);
+  return variant.equations.basis(solver, std::move(starts), variant.rules);
 }
 
 std::vector<Solution> recompute(const RecordKey& key, const RecomputedVariant& variant,

@@ -12,12 +12,12 @@ namespace voussoir {
 /// What the checks of a scene need to know of its database and its variant.
 struct CheckedVariant {
   const Database& database;
-  const Model& bridge;              ///< bridge_of(database), the variant
-  const StatePlan& plan;            ///< of the database's states
-  const StateSolving& equations;    ///< of that bridge and that plan
-  SearchBasis basis;                ///< of all that any scene as lost starts from
-  double most_unbalance = 0.0;      ///< most_stored_unbalance(bridge)
-  bool mirror_images_used = false;  ///< images are then equal bit by bit
+  const Model& bridge;            ///< bridge_of(database), the variant
+  const StatePlan& plan;          ///< of the database's states
+  const StateSolving& equations;  ///< of that bridge and that plan
+  SearchBasis basis;              ///< of all that any scene as lost starts from
+  double most_unbalance = 0.0;    ///< most_stored_unbalance(bridge)
+  PlanRules rules{};  ///< by which it was built: mirror images that were used are equal bit by bit
 };
 
 struct SceneCheck {

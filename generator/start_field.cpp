@@ -38,6 +38,13 @@ std::vector<Scene> StartingFields::standing_singles(std::size_t state) const {
   return singles;
 }
 
+std::vector<std::pair<Scene, std::vector<BlockId>>> StartingFields::falling_singles(std::size_t state) const {
+  std::vector<std::pair<Scene, std::vector<BlockId>>> singles;
+  for (const auto& [place, moving] : falling_)
+    if (place.first.missing() == 1 && place.second == state) singles.emplace_back(place.first, moving);
+  return singles;
+}
+
 std::optional<Field> StartingFields::start_for(const Scene& scene, std::size_t state) const {
   const Field* intact_field = intact(state);
   if (scene.removed.empty() || intact_field == nullptr) return std::nullopt;

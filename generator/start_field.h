@@ -37,6 +37,9 @@ class StartingFields {
   /// Does one of the blocks, missing alone, let blocks fall that this scene has?
   bool falls_likely(const Scene& scene, std::size_t state) const;
 
+  /// The singles that fall in a state, in ascending order, and which of their blocks move.
+  std::vector<std::pair<Scene, std::vector<BlockId>>> falling_singles(std::size_t state) const;
+
   /// The field of the intact bridge in a state, if it stands.
   const Field* intact(std::size_t state) const { return find(Scene{}, state); }
 

@@ -1,5 +1,7 @@
 #include "generator/state_solving.h"
 
+#include <limits>
+
 #include "core/structure/mirror_symmetry.h"
 
 namespace voussoir {
@@ -77,13 +79,13 @@ std::vector<JointMemory> StateSolving::memory_before(const Scene& scene, std::si
 /// The state if it follows from others without a search.
 std::optional<Solution> StateSolving::without_search(const Scene& scene, std::size_t state,
                                                      const SceneStates& states,
-                                                     const StartingFields& starts) const {
+                                                     const SearchBasis& basis) const {
   const PlannedState& planned = plan_[state];
-  if (!planned.before) return std::nullopt;
+  if (!planned.before) return proved_fall(basis.mechanisms, scene, bridge_);
   if (planned.is_load)
     return stands(*states[*planned.before]) ? std::nullopt
                                             : std::optional(without_memory(*states[*planned.before]));
-  const bool loses_nothing = scene.removed.empty() || starts.intact(kBuilt) == nullptr;
+  const bool loses_nothing = scene.removed.empty() || basis.starts.intact(kBuilt) == nullptr;
   return loses_nothing ? std::optional(without_memory(*states[kBuilt])) : std::nullopt;
 }
 
@@ -121,7 +123,7 @@ std::vector<StateSolving::Search> StateSolving::searches_of(std::size_t state, s
   std::vector<Search> searches;
   const auto find = [&](const Scene& scene, SceneStates& states) {
     if (states[state]) return;
-    states[state] = without_search(scene, state, states, basis.starts);
+    states[state] = without_search(scene, state, states, basis);
     if (!states[state]) searches.push_back(search_for(scene, state, states, basis));
   };
   for (SceneGroup& group : groups) {
@@ -131,7 +133,10 @@ std::vector<StateSolving::Search> StateSolving::searches_of(std::size_t state, s
   return searches;
 }
 
-void StateSolving::take(std::size_t state, Solution&& solution, SceneStates& states) const {
+void StateSolving::take(std::size_t state, Solution&& solution, const SearchBasis& basis,
+                        SceneStates& states) const {
+  if (!basis.collapse_fields && solution.outcome == Outcome::collapsed)
+    solution.displacement.setConstant(std::numeric_limits<double>::quiet_NaN());
   const bool falls_as_built = plan_[state].is_loss() && !stands(solution) && !stands(*states[kBuilt]);
   states[state] = falls_as_built ? without_memory(*states[kBuilt]) : std::move(solution);
 }
@@ -149,7 +154,7 @@ bool StateSolving::lacks_memory(const SceneGroup& group, bool is_image, std::siz
   const SceneStates& states = is_image ? group.image_states : group.states;
   const Solution& lost = *states[loss];
   if (!stands(lost) || !lost.memory.empty() || basis.steps.of(scene) == 1) return false;
-  if (without_search(scene, loss, states, basis.starts)) return false;
+  if (without_search(scene, loss, states, basis)) return false;
   for (std::size_t state = loss + 1; state < plan_.size(); ++state) {
     const bool is_searched = is_image ? !plan_[state].mirrors : group.needs_all || plan_[state].mirrors;
     if (history_of(state) == loss && is_searched && !states[state]) return true;
@@ -181,7 +186,7 @@ void StateSolving::solve(const SceneSolver& solver, const SearchBasis& basis,
     const std::vector<Search> searches = searches_of(state, groups, basis);
     std::vector<Solution> solutions = solve_searches(solver, searches);
     for (std::size_t i = 0; i < searches.size(); ++i)
-      take(state, std::move(solutions[i]), *searches[i].states);
+      take(state, std::move(solutions[i]), basis, *searches[i].states);
     for (SceneGroup& group : groups)
       if (group.image && plan_[state].mirrors)
         group.image_states[state] = mirrored_solution(*group.states[state], *bridge_.symmetry);
@@ -192,33 +197,50 @@ void StateSolving::solve(const SceneSolver& solver, const SearchBasis& basis,
 void StateSolving::solve_from_intact(const SceneSolver& solver, std::span<SceneGroup> groups) const {
   StartingFields starts;
   const std::span<SceneGroup> intact = groups.first(1);
-  solve(solver, basis(solver, starts, true), intact);
+  solve(solver, basis(solver, starts, PlanRules{}), intact);
   for (std::size_t state = 0; state < plan_.size(); ++state)
     starts.add({}, state, *intact.front().states[state]);
-  solve(solver, basis(solver, std::move(starts), true), groups.subspan(1));
+  solve(solver, basis(solver, std::move(starts), PlanRules{}), groups.subspan(1));
 }
 
-SearchBasis StateSolving::basis(const SceneSolver& solver, StartingFields starts, bool warm_starts) const {
-  SearchBasis basis{std::move(starts), warm_starts, {}, {}};
-  const Field* intact = basis.starts.intact(kBuilt);
-  basis.of_intact = memory_of_intact(intact);
-  const auto lost = place_of_lost(plan_);
-  if (!lost || intact == nullptr) return basis;
-  const std::vector<Scene> singles = basis.starts.standing_singles(*lost);
+std::vector<Mechanism> StateSolving::mechanisms_of(const StartingFields& starts) const {
+  std::vector<Mechanism> mechanisms;
+  for (const auto& [single, moving] : starts.falling_singles(kBuilt))
+    if (auto mechanism = find_mechanism(bridge_, coefficients_, single, moving))
+      mechanisms.push_back(std::move(*mechanism));
+  return mechanisms;
+}
+
+/// By solving those of the singles that stand as lost again in one step.
+StepsOfLoss StateSolving::steps_of_loss(const SceneSolver& solver, const SearchBasis& basis,
+                                        std::size_t lost) const {
+  const std::vector<Scene> singles = basis.starts.standing_singles(lost);
   std::vector<Search> searches;
   for (const Scene& single : singles) {
     SceneStates states(plan_.size());
     states[kBuilt].emplace();
     if (const Field* built = basis.starts.find(single, kBuilt))
       states[kBuilt] = Solution{{*built, {}}, Outcome::standing};
-    searches.push_back(one_step_search(single, *lost, states, basis));
+    searches.push_back(one_step_search(single, lost, states, basis));
   }
   const std::vector<Solution> in_one_step = solve_searches(solver, searches);
+  StepsOfLoss steps;
   for (std::size_t i = 0; i < singles.size(); ++i)
     if (stands(in_one_step[i]) &&
-        differ_in_signal(in_one_step[i].displacement, *basis.starts.find(singles[i], *lost), *intact,
-                         bridge_.control_points))
-      basis.steps.add(singles[i].removed.front());
+        differ_in_signal(in_one_step[i].displacement, *basis.starts.find(singles[i], lost),
+                         *basis.starts.intact(kBuilt), bridge_.control_points))
+      steps.add(singles[i].removed.front());
+  return steps;
+}
+
+SearchBasis StateSolving::basis(const SceneSolver& solver, StartingFields starts,
+                                const PlanRules& rules) const {
+  SearchBasis basis{std::move(starts), rules.warm_starts, rules.collapse_fields, {}, {}, {}};
+  if (!rules.collapse_fields) basis.mechanisms = mechanisms_of(basis.starts);
+  const Field* intact = basis.starts.intact(kBuilt);
+  basis.of_intact = memory_of_intact(intact);
+  const auto lost = place_of_lost(plan_);
+  if (lost && intact != nullptr) basis.steps = steps_of_loss(solver, basis, *lost);
   return basis;
 }
 

@@ -7,6 +7,8 @@
 
 #include "core/solve/state_plan.h"
 #include "core/statics/equilibrium.h"
+#include "core/statics/mechanism.h"
+#include "generator/build_plan.h"
 #include "generator/scene_solving.h"
 #include "generator/start_field.h"
 #include "generator/steps_of_loss.h"
@@ -26,6 +28,8 @@ struct SceneGroup {
 struct SearchBasis {
   StartingFields starts;
   bool warm_starts = true;             ///< false: a search starts from rest, or from the state before
+  bool collapse_fields = true;         ///< false: solutions that fall have no field (NaN)
+  std::vector<Mechanism> mechanisms;   ///< of singles that fall; none if collapses have fields
   std::vector<JointMemory> of_intact;  ///< what joints remember of the intact bridge as built
   StepsOfLoss steps;
 };
@@ -38,7 +42,7 @@ class StateSolving {
       : bridge_(bridge), plan_(plan), system_(bridge), coefficients_(system_, bridge.parameters) {}
 
   /// Solves those of the singles that stand as lost among the starts again, in one step.
-  SearchBasis basis(const SceneSolver& solver, StartingFields starts, bool warm_starts) const;
+  SearchBasis basis(const SceneSolver& solver, StartingFields starts, const PlanRules& rules) const;
 
   /// Solves all states of the groups, state after state, many scenes side by side. `basis` has the states of
   /// the groups' starting_scenes.
@@ -67,7 +71,7 @@ class StateSolving {
   /// What the joints remember of the intact bridge as built, given its field; nothing for null.
   std::vector<JointMemory> memory_of_intact(const Field* intact) const;
   std::optional<Solution> without_search(const Scene& scene, std::size_t state, const SceneStates& states,
-                                         const StartingFields& starts) const;
+                                         const SearchBasis& basis) const;
   Search one_step_search(const Scene& scene, std::size_t state, SceneStates& states,
                          const SearchBasis& basis) const;
   Search search_for(const Scene& scene, std::size_t state, SceneStates& states,
@@ -78,7 +82,9 @@ class StateSolving {
   bool lacks_memory(const SceneGroup& group, bool is_image, std::size_t loss, const SearchBasis& basis) const;
   void find_lacking_memory(const SceneSolver& solver, std::size_t loss, std::span<SceneGroup> groups,
                            const SearchBasis& basis) const;
-  void take(std::size_t state, Solution&& solution, SceneStates& states) const;
+  void take(std::size_t state, Solution&& solution, const SearchBasis& basis, SceneStates& states) const;
+  std::vector<Mechanism> mechanisms_of(const StartingFields& starts) const;
+  StepsOfLoss steps_of_loss(const SceneSolver& solver, const SearchBasis& basis, std::size_t lost) const;
 
   const Model& bridge_;
   const StatePlan& plan_;

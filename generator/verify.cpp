@@ -165,6 +165,7 @@ SearchBasis basis_of_all(const RecomputedVariant& variant, std::int32_t number) 
 void check_variant(const VerifyRequest& request, const Database& database, const Model& bridge,
                    std::int32_t number, const StatePlan& plan, VerifyReport& report) {
   const std::string settings = database.provenance().solver_settings;
+  report.collapse_fields = rules_in(settings).collapse_fields;
   const SceneTable table = database.table(number, 0);
   const StateSolving equations(bridge, plan);
   const RecomputedVariant variant{database, bridge, plan, equations, rules_in(settings)};
@@ -174,7 +175,7 @@ void check_variant(const VerifyRequest& request, const Database& database, const
                                equations,
                                basis_of_all(variant, number),
                                most_stored_unbalance(bridge, settings),
-                               variant.rules.mirror_images};
+                               variant.rules};
   report.most_unbalance = std::max(report.most_unbalance, checked.most_unbalance);
   check_scenes(checked, table, request.threads, report);
   const auto recomputed = choose_rows(database.rows(), request.recompute, request.seed);

@@ -26,6 +26,7 @@ struct VerifyReport {
   std::string digest;  ///< as the file states it
   OutcomeCounts outcomes;
   std::size_t fields = 0;          ///< stored fields that were checked
+  bool collapse_fields = true;     ///< does it keep fields of what falls? (PlanRules)
   double largest_unbalance = 0.0;  ///< of the standing scenes' stored fields, over the largest nodal weight
   double most_unbalance = 0.0;     ///< that rounding and the solver's tolerance explain
   std::size_t mirror_pairs = 0;    ///< pairs of scenes that were compared
@@ -46,7 +47,7 @@ VerifyReport verify_database(const VerifyRequest& request);
 /// Lines for people; at most twenty problems.
 std::string to_text(const VerifyReport& report, const std::filesystem::path& database);
 
-/// One line: {"ok", "digest", what OutcomeCounts has, "fields", "largest_unbalance",
+/// One line: {"ok", "digest", what OutcomeCounts has, "collapses", "fields", "largest_unbalance",
 /// "most_unbalance", "mirror_pairs", "recomputed", "largest_recomputed_difference_m", "problems"}.
 std::string to_json(const VerifyReport& report);
 

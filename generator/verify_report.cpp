@@ -28,6 +28,7 @@ std::string to_text(const VerifyReport& report, const std::filesystem::path& dat
   text += fmt::format(
       "  fields      {} checked, largest unbalanced force {:.1e} of a weight (up to {:.1e} is round-off)\n",
       report.fields, report.largest_unbalance, report.most_unbalance);
+  if (!report.collapse_fields) text += "  collapses   whether and what falls, without fields\n";
   text += fmt::format("  mirrored    {} pairs compared\n", report.mirror_pairs);
   if (report.recomputed > 0)
     text += fmt::format("  recomputed  {} scenes, largest difference {:.1e} m\n", report.recomputed,
@@ -38,7 +39,8 @@ std::string to_text(const VerifyReport& report, const std::filesystem::path& dat
 std::string to_json(const VerifyReport& report) {
   nlohmann::ordered_json json = {{"ok", report.ok()}, {"digest", report.digest}};
   json.update(to_json(report.outcomes));
-  json.update({{"fields", report.fields},
+  json.update({{"collapses", report.collapse_fields ? "field" : "outcome"},
+               {"fields", report.fields},
                {"largest_unbalance", report.largest_unbalance},
                {"most_unbalance", report.most_unbalance},
                {"mirror_pairs", report.mirror_pairs},

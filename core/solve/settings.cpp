@@ -87,6 +87,7 @@ void visit_newton(Settings& settings, const Visit& visit) {
   visit("newton.joint_integration", joint_rule);
   visit("newton.early_outcome", skips.early_outcome);
   visit("newton.likely_falls", skips.likely_falls);
+  visit("newton.kept_factors", skips.kept_factors);
 }
 
 template <class Rules, class Visit>

@@ -134,11 +134,13 @@ void LaneFactorisation::Kernel::factorise(const Kernel& kernel, const DoubleLane
 VOUSSOIR_FOR_EVERY_PROCESSOR
 void LaneFactorisation::Kernel::substitute(const Kernel& kernel, DoubleLanes* x) {
   const Kernel f = kernel;
-  for (int k = 0; k < f.n; ++k) {
+  for (int k = 0; k < f.n;) {  // a supernode at a time
     const Supernode s = f.supernodes[f.supernode_of[k]];
-    const DoubleLanes* block = f.l + s.values + k - s.first;
-    for (int r = k + 1; r < s.first + s.width; ++r) x[r] -= block[(r - s.first) * s.width] * x[k];
-    update_rows<1>(block + s.width * s.width, s.width, f.row + s.rows, s.height, x + k, x);
+    const DoubleLanes* block = f.l + s.values;
+    for (; k < s.first + s.width; ++k)
+      for (int r = k + 1; r < s.first + s.width; ++r)
+        x[r] -= block[(r - s.first) * s.width + k - s.first] * x[k];
+    update_rows(s.width, block + s.width * s.width, s.width, f.row + s.rows, s.height, x + s.first, x);
   }
   for (int k = f.n - 1; k >= 0; --k) {
     const DoubleLanes value = x[k] / f.pivot[k];

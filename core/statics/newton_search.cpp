@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "core/statics/elements.h"
 
@@ -15,6 +16,10 @@ constexpr double kBondingFactor = 10.0;  ///< more help for a step out of bounds
 constexpr int kMostHalvings = 4;
 constexpr double kFallingSags =
     10.0;  ///< a scene that moves further than this many times the sag of the bonded one falls
+/// Of the unbalance at most so much may be left after a step if its matrix is to serve the next one, too; a
+/// new matrix costs as much as four steps with an old one (docs/numerics.md).
+constexpr double kLittleProgress = 0.3;
+constexpr std::size_t kMostSecants = 9;
 constexpr double kMovingShare = 0.1;  ///< of the way of the block that has fallen: further means moving away
 
 /// How a phase behaves.
@@ -45,11 +50,12 @@ int most_iterations(SearchPhase phase, const QuasiStaticSettings& settings) {
 }  // namespace
 
 NewtonSearch::NewtonSearch(StageEquations equations, const QuasiStaticSettings& settings, const Field* start,
-                           TangentTarget tangent)
+                           TangentTarget tangent, bool has_matrix)
     : equations_(std::move(equations)),
       settings_(&settings),
       tangent_(tangent),
       displacement_(Field::Zero(2, system().structure->mesh.node_count())) {
+  matrix_is_new_ = !has_matrix;
   if (start != nullptr)
     begin(SearchPhase::warm, *start, 0.0);
   else
@@ -63,7 +69,10 @@ void NewtonSearch::begin(SearchPhase phase, const Field& start, double bonding) 
   recent_.fill(std::numeric_limits<double>::infinity());
   steps_ = 0;
   phase_iterations_ = 0;
-  evaluate();
+  if (matrix_is_new_ || !may_keep_matrix())
+    evaluate();
+  else
+    evaluate_forces();
 }
 
 void NewtonSearch::begin_next_phase() {
@@ -87,25 +96,44 @@ void NewtonSearch::begin_next_phase() {
 
 void NewtonSearch::evaluate() {
   unbalanced_ = assemble(equations_, displacement_, bonding_, tangent_);
+  matrix_is_new_ = true;
+  secants_.clear();
 }
 
-void NewtonSearch::advance(bool regular, const Eigen::VectorXd& step) {
+void NewtonSearch::evaluate_forces() {
+  unbalanced_ = unbalanced_forces(equations_, displacement_);
+}
+
+double NewtonSearch::norm() const {
+  return (unbalanced_ / equations_.largest_load).norm();  // squares of tiny loads would vanish
+}
+
+/// Near the answer only. Mortar softens, which an old matrix knows nothing of; a bonded one is far from the
+/// tangent.
+bool NewtonSearch::may_keep_matrix() const {
+  return settings_->skips.kept_factors && phase_ == SearchPhase::warm && bonding_ == 0.0 &&
+         equations_.coefficients->mortar.empty();
+}
+
+void NewtonSearch::advance(bool regular, const Eigen::VectorXd& solution) {
   ++iterations_;
-  ++phase_iterations_;
-  if (within_bounds(regular, step)) {
-    take_step(step);
-    if (in_equilibrium() || (fallen() && phase_ != SearchPhase::warm)) {
-      phase_ = SearchPhase::done;
-      return;
-    }
+  if (!std::exchange(matrix_is_new_, false)) {
+    try_step_with_old_matrix(secants_.step(solution));
+  } else if (++phase_iterations_; within_bounds(regular, solution)) {
+    take_step(solution);
   } else if (bonding_ < 1.0) {
     bonding_ = std::clamp(bonding_ * kBondingFactor, kLeastBonding, 1.0);
     evaluate();
+    if (exhausted()) begin_next_phase();
+    return;
   } else {
     begin_next_phase();  // singular even with all joints bonded
     return;
   }
-  if (exhausted()) begin_next_phase();
+  if (in_equilibrium() || (fallen() && phase_ != SearchPhase::warm))
+    phase_ = SearchPhase::done;
+  else if (exhausted())
+    begin_next_phase();
 }
 
 bool NewtonSearch::within_bounds(bool regular, const Eigen::VectorXd& step) const {
@@ -115,27 +143,62 @@ bool NewtonSearch::within_bounds(bool regular, const Eigen::VectorXd& step) cons
          step.cwiseAbs().maxCoeff() <= rules_of(phase_).largest_step * so_far;
 }
 
+void NewtonSearch::move(const Field& from, double factor, const Eigen::VectorXd& step) {
+  displacement_ = from;
+  for (int i = 0; i < system().unknown_count(); ++i)
+    displacement_.data()[system().component[static_cast<std::size_t>(i)]] += factor * step[i];
+}
+
+void NewtonSearch::note_step(double length) {
+  last_step_ = length;
+  std::rotate(recent_.begin(), recent_.begin() + 1, recent_.end());
+  recent_.back() = norm();
+}
+
 /// Halves the step while the unbalance rises too far.
 void NewtonSearch::take_step(const Eigen::VectorXd& step) {
   const double bound = rules_of(phase_).rise * *std::max_element(recent_.begin(), recent_.end());
+  const double norm_before = norm();
   const Field before = displacement_;
+  const bool may_keep = may_keep_matrix();
   const bool bonded_from_rest = steps_ == 0 && bonding_ >= 1.0;
   bonding_ = bonding_ > kLeastBonding ? bonding_ / kBondingFactor : 0.0;
   double factor = 1.0;
-  double norm = 0.0;
   for (int halving = 0; halving <= kMostHalvings; ++halving, factor *= 0.5) {
-    displacement_ = before;
-    for (int i = 0; i < system().unknown_count(); ++i)
-      displacement_.data()[system().component[static_cast<std::size_t>(i)]] += factor * step[i];
-    evaluate();
-    norm = (unbalanced_ / equations_.largest_load).norm();  // squares of tiny loads would vanish
-    if (norm < bound) break;
+    move(before, factor, step);
+    may_keep ? evaluate_forces() : evaluate();
+    if (norm() < bound) break;
   }
-  last_step_ = factor * step.cwiseAbs().maxCoeff();
-  std::rotate(recent_.begin(), recent_.begin() + 1, recent_.end());
-  recent_.back() = norm;
+  note_step(factor * step.cwiseAbs().maxCoeff());
   if (bonded_from_rest) bonded_sag_ = last_step_;
-  if (steps_++ == 0) first_norm_ = norm;
+  if (steps_++ == 0) first_norm_ = recent_.back();
+  if (!may_keep || in_equilibrium()) return;
+  if (factor == 1.0 && norm() <= kLittleProgress * norm_before)
+    secants_.add(step);
+  else
+    evaluate();
+}
+
+/// Takes the step if it leaves less unbalance than there is.
+void NewtonSearch::try_step_with_old_matrix(const Eigen::VectorXd& step) {
+  const double norm_before = norm();
+  const Field before = displacement_;
+  const bool within = within_bounds(true, step);
+  if (within) {
+    move(before, 1.0, step);
+    evaluate_forces();
+  }
+  if (!within || !(norm() < norm_before)) {
+    displacement_ = before;
+    evaluate();
+    return;
+  }
+  note_step(step.cwiseAbs().maxCoeff());
+  if (in_equilibrium()) return;
+  if (norm() <= kLittleProgress * norm_before && secants_.size() < kMostSecants)
+    secants_.add(step);
+  else
+    evaluate();
 }
 
 bool NewtonSearch::exhausted() const {

@@ -5,6 +5,7 @@
 #include <array>
 #include <vector>
 
+#include "core/statics/broyden.h"
 #include "core/statics/equilibrium.h"
 #include "core/statics/quasi_static_solver.h"
 
@@ -20,15 +21,20 @@ enum class SearchPhase {
 };
 
 /// One scene's search. After construction, and after every `advance` that does not finish it, the target
-/// holds the tangent and `unbalanced` the right-hand side of the next linear system.
+/// holds the matrix and `unbalanced` the right-hand side of the next linear system. The matrix is the
+/// tangent, or if factors may be kept (Skips) that of an earlier place: then Broyden's secants correct the
+/// steps, until one makes too little progress.
 class NewtonSearch {
  public:
-  /// `start` may be null: the search then begins at rest. System, coefficients and settings outlive the
-  /// search.
+  /// `start` may be null: the search then begins at rest. `has_matrix`: the target holds a matrix of a search
+  /// that has just ended at `start`, which may serve this one, too. System, coefficients and settings outlive
+  /// the search.
   NewtonSearch(StageEquations equations, const QuasiStaticSettings& settings, const Field* start,
-               TangentTarget tangent);
+               TangentTarget tangent, bool has_matrix = false);
 
   bool finished() const { return phase_ == SearchPhase::done; }
+  /// Is the matrix in the target another one than that of the last linear system?
+  bool has_new_matrix() const { return matrix_is_new_; }
   const Field& unbalanced() const { return unbalanced_; }
 
   /// Takes the linear system's answer: the displacement step at the unknowns, or that the matrix is singular.
@@ -41,7 +47,13 @@ class NewtonSearch {
   void begin(SearchPhase phase, const Field& start, double bonding);
   void begin_next_phase();
   void take_step(const Eigen::VectorXd& step);
+  void try_step_with_old_matrix(const Eigen::VectorXd& step);
+  void move(const Field& from, double factor, const Eigen::VectorXd& step);
+  void note_step(double length);
   void evaluate();
+  void evaluate_forces();
+  bool may_keep_matrix() const;
+  double norm() const;
   bool within_bounds(bool regular, const Eigen::VectorXd& step) const;
   bool exhausted() const;
   bool in_equilibrium() const;
@@ -60,8 +72,10 @@ class NewtonSearch {
   TangentTarget tangent_;
   SearchPhase phase_ = SearchPhase::done;
   Field displacement_;
-  Field unbalanced_;        ///< at `displacement_` [N]
-  double bonding_ = 0.0;    ///< share of bonded joints in the tangent
+  Field unbalanced_;      ///< at `displacement_` [N]
+  double bonding_ = 0.0;  ///< share of bonded joints in the tangent
+  bool matrix_is_new_ = true;
+  BroydenSecants secants_;  ///< of the steps with the matrix in the target
   double last_step_ = 0.0;  ///< largest component [m]
   std::array<double, kRecent>
       recent_{};             ///< the last norms of `unbalanced_`: a step may rise to the worst of them

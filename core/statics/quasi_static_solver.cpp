@@ -1,5 +1,6 @@
 #include "core/statics/quasi_static_solver.h"
 
+#include <algorithm>
 #include <optional>
 
 #include "core/statics/equilibrium.h"
@@ -16,6 +17,7 @@ struct QuasiStaticSolver::Workspace {
   LaneVector tangents;
   LaneVector steps;
   Eigen::VectorXd step;
+  std::array<bool, kLanes> regular{};  ///< the matrices in the lanes, when they were factorised
 
   Workspace(const Model& model, QuasiStaticSettings settings_)
       : settings(settings_),
@@ -39,12 +41,9 @@ struct QuasiStaticSolver::Workspace {
     return step;
   }
 
-  /// Answers for the linear systems that stand in the lanes; per lane: is the matrix regular?
-  std::array<bool, kLanes> solve_linear_systems() {
+  void factorise() {
     if (!settings.skips.shared_analysis) linear = LaneFactorisation(system.pattern);
-    const std::array<bool, kLanes> regular = linear.factorise(tangents);
-    linear.solve(steps);
-    return regular;
+    regular = linear.factorise(tangents);
   }
 };
 
@@ -60,6 +59,8 @@ struct LaneSearch {
   std::optional<NewtonSearch> search;
   Solution reached;  ///< at the end of the last step; what all steps have cost
 
+  bool has_old_matrix() const { return search && !search->has_new_matrix(); }
+
   template <class Workspace>
   void begin(const StageTask& stage_task, std::size_t stage_number, std::size_t lane, Workspace& w) {
     task = &stage_task;
@@ -67,6 +68,7 @@ struct LaneSearch {
     step = 0;
     settings = w.settings;
     if (task->stands_likely) settings.skips.early_outcome = false;
+    if (task->before == nullptr) settings.skips.kept_factors = false;
     own.reset();
     if (task->parameters != nullptr) own.emplace(w.system, *task->parameters);
     reached = Solution{};
@@ -80,7 +82,7 @@ struct LaneSearch {
                              before != nullptr ? before->memory : std::vector<JointMemory>{});
     const int left = task->steps - ++step;
     if (left > 0) hold_back(static_cast<double>(left) / (left + 1), before, equations);
-    search.emplace(std::move(equations), settings, start, w.lane_of_tangents(lane));
+    search.emplace(std::move(equations), settings, start, w.lane_of_tangents(lane), step > 1);
   }
 
   /// Takes what the search has found; true if that is the task's answer, otherwise the next step begins.
@@ -113,6 +115,8 @@ QuasiStaticSolver::~QuasiStaticSolver() = default;
 QuasiStaticSolver::QuasiStaticSolver(QuasiStaticSolver&&) noexcept = default;
 QuasiStaticSolver& QuasiStaticSolver::operator=(QuasiStaticSolver&&) noexcept = default;
 
+/// A factorisation takes as long as six solutions and all lanes together, so it waits until every search
+/// needs one.
 std::vector<Solution> QuasiStaticSolver::solve(std::span<const StageTask> tasks) {
   Workspace& w = *workspace_;
   std::vector<Solution> solutions(tasks.size());
@@ -128,11 +132,13 @@ std::vector<Solution> QuasiStaticSolver::solve(std::span<const StageTask> tasks)
       }
       if (lanes[lane].search) w.put_right_hand_side(lane, lanes[lane].search->unbalanced());
     }
-    const std::array<bool, kLanes> regular = w.solve_linear_systems();
+    const bool factorises = std::ranges::none_of(lanes, &LaneSearch::has_old_matrix);
+    if (factorises) w.factorise();
+    w.linear.solve(w.steps);
     for (std::size_t lane = 0; lane < kLanes; ++lane) {
       std::optional<NewtonSearch>& search = lanes[lane].search;
-      if (!search) continue;
-      search->advance(regular[lane], w.get_step(lane));
+      if (!search || (search->has_new_matrix() && !factorises)) continue;
+      search->advance(w.regular[lane], w.get_step(lane));
       if (!search->finished() || !lanes[lane].end_step(lane, w)) continue;
       solutions[lanes[lane].number] = std::move(lanes[lane].reached);
       ++solved;

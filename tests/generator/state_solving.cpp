@@ -31,7 +31,7 @@ struct Subject {
   SceneStates states_of(const Scene& scene, const StatePlan& plan, const StartingFields& starts) const {
     SceneGroup group{.solved = scene, .states = {}, .image = {}};
     const StateSolving solving(bridge, plan);
-    solving.solve(solver, solving.basis(solver, starts, true), std::span(&group, 1));
+    solving.solve(solver, solving.basis(solver, starts, PlanRules{}), std::span(&group, 1));
     return group.states;
   }
   StartingFields intact(const StatePlan& plan) const {
@@ -102,7 +102,7 @@ TEST_CASE(
   const Scene scene = subject.scene("4,2");
   const SceneStates all = subject.states_of(scene, plan, starts);
   const StateSolving solving(subject.bridge, plan);
-  const SearchBasis basis = solving.basis(subject.solver, starts, true);
+  const SearchBasis basis = solving.basis(subject.solver, starts, PlanRules{});
   for (const std::vector<std::size_t>& unknown : {std::vector<std::size_t>{1, 3, 6}, {5, 6, 7}, {7}}) {
     SceneGroup group{.solved = scene, .states = all, .image = {}};
     for (std::optional<Solution>& state : group.states) state->memory.clear();  // as in a database

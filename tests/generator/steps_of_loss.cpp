@@ -32,7 +32,7 @@ struct Reference {
   }
   SceneStates solve(const Scene& scene) const {
     SceneGroup group{.solved = scene, .states = {}, .image = {}};
-    solving.solve(solver, solving.basis(solver, starts, true), std::span(&group, 1));
+    solving.solve(solver, solving.basis(solver, starts, PlanRules{}), std::span(&group, 1));
     return group.states;
   }
   void add(const Scene& scene) {
