@@ -9,6 +9,7 @@
 
 #include "core/random.h"
 #include "lookup/evidence/evidence.h"
+#include "lookup/evidence/scene_evidence.h"
 #include "tests/lookup/evidence/made_up_factors.h"
 
 using namespace voussoir;
@@ -73,6 +74,46 @@ TEST_CASE("What the screen leaves out or estimates changes no probability by mor
         worst =
             std::max(worst, std::abs(found.missing_probability.front() - wanted.missing_probability.front()));
       }
+  INFO(worst);
+  CHECK(worst < 1e-3);
+}
+
+TEST_CASE("Cases that are not looked at change no probability by more than a thousandth") {
+  Trial trial;
+  Random random(6);
+  const SceneTable& table = trial.library.table;
+  const Eligible eligible = eligible_rows(table, {0, 1, 2});
+  const Prior prior = stated_prior({}, false);
+  constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+  double worst = 0.0;
+  for (const ReadingKind kind : {ReadingKind::absolute, ReadingKind::change})
+    for (const std::size_t truth : {std::size_t{0}, std::size_t{5}, std::size_t{40}}) {
+      trial.measure(kind, table.outcome[truth] == 0 ? truth : 3, 3e-5, random);
+      trial.comparison.measured.sigma.assign(trial.library.points.size(), kUnknown);
+      const Observation observation = observe(trial.comparison, {NoiseShape::gaussian, std::nullopt}, {});
+      UnknownBridgeQuestion question(trial.comparison, observation, {});
+      const auto screened = question.log_evidence(eligible, prior, 10);
+      UnknownBridge bridge = question.bridge();
+      std::vector<CaseTerms> cases;
+      for (double level = 1e-3; level <= kLargestLevel; level *= 2.0)
+        for (const double conditions : kConditionSizes) {
+          set_case(observation, {level, conditions}, bridge);
+          cases.push_back(case_terms(bridge));
+        }
+      const auto logs = scatter_logs(bridge, cases, observation, table, eligible.rows, {}, 2);
+      const auto silence = log_chance_of_silence(observation, table, eligible.rows);
+      std::vector<double> exact(table.rows, -std::numeric_limits<double>::infinity());
+      for (std::size_t i = 0; i < eligible.rows.size(); ++i) {
+        double& sum = exact[eligible.rows[i]];
+        for (std::size_t k = 0; k < cases.size(); ++k)
+          sum = log_sum(sum, over_scatter(logs[i * cases.size() + k]));
+        sum += silence[i] - std::log(static_cast<double>(cases.size()));
+      }
+      const Posterior found = posterior(table, eligible, screened, prior, trial.library.blocks);
+      const Posterior wanted = posterior(table, eligible, exact, prior, trial.library.blocks);
+      for (std::size_t row = 0; row < table.rows; ++row)
+        worst = std::max(worst, std::abs(found.probability[row] - wanted.probability[row]));
+    }
   INFO(worst);
   CHECK(worst < 1e-3);
 }
