@@ -67,8 +67,8 @@ VOUSSOIR_INLINE void fill(const ReducedQuestion& q, const Projected& scene, cons
           q.others[at] + of_others[at] + square * scene.beyond[i] * scene.beyond[j] + point * q.points[at];
       if (pair) {
         bridge += second.bridge_of_pair[at] + common<kFirst>(first.first.data(), second.first.data(), i, j);
-        others += second.others_of_pair[at] +
-                  common<kEpochColumns>(first.epoch.data(), second.epoch.data(), i, j);
+        others +=
+            second.others_of_pair[at] + common<kEpochColumns>(first.epoch.data(), second.epoch.data(), i, j);
       }
       covariance[at] = others + kappa * bridge;
     }

@@ -12,8 +12,8 @@ namespace {
 
 constexpr double kImpossible = -std::numeric_limits<double>::infinity();
 constexpr double kNotWorkedOut = std::numeric_limits<double>::infinity();
-constexpr double kNegligible = 20.0;     // logarithm of how far behind the likeliest a scene's case is left out
-constexpr double kUncounted = 3e-4;      // probability of all scenes that are left at their first estimates
+constexpr double kNegligible = 20.0;  // logarithm of how far behind the likeliest a scene's case is left out
+constexpr double kUncounted = 3e-4;   // probability of all scenes that are left at their first estimates
 constexpr double kLeftEstimated = 5e-4;  // probability of all scenes that are not worked out
 constexpr double kTooLow = 0.5;          // an estimate's logarithm is hardly ever too low by more than this
 constexpr std::size_t kAtOnce = 8;       // scenes that are worked out before the next look at what matters
@@ -114,8 +114,7 @@ void ScreenedCases::look_at(Case& one) {
   std::vector<std::uint8_t> only_here;
   for (const Case& other : cases_) only_here.push_back(&other == &one ? 1 : 0);
   work_out(first_of(few_, one.estimate, kTried), only_here);
-  const double least =
-      best_ + std::log(kUncounted / static_cast<double>(rows_.size() * cases_.size()));
+  const double least = best_ + std::log(kUncounted / static_cast<double>(rows_.size() * cases_.size()));
   estimate(screen, not_ruled_out(one, least), least, one.estimate);
   for (std::size_t i = 0; i < rows_.size(); ++i)
     if (one.estimate[i] > kImpossible) estimate_[i] = log_sum(estimate_[i], one.estimate[i]);

@@ -12,7 +12,8 @@ namespace voussoir {
 
 class ScreenedCases {
  public:
-  /// `beforehand`: log prior of each of the rows. Cases come in descending order of levels and conditions. All of them outlive this; the bridge's case is changed.
+  /// `beforehand`: log prior of each of the rows. Cases come in descending order of levels and conditions.
+  /// All of them outlive this; the bridge's case is changed.
   ScreenedCases(UnknownBridge& bridge, const Observation& observation, const SceneTable& table,
                 std::span<const UnknownCase> cases, std::span<const std::size_t> rows,
                 std::span<const double> beforehand);
@@ -53,8 +54,8 @@ class ScreenedCases {
   const SceneTable& table_;
   std::span<const std::size_t> rows_;
   std::span<const double> beforehand_;
-  std::vector<std::size_t> few_, many_;  // places of rows with at most one missing block, and with more
-  std::vector<Case> cases_;              // those that widen another's covariance before it
+  std::vector<std::size_t> few_, many_;     // places of rows with at most one missing block, and with more
+  std::vector<Case> cases_;                 // those that widen another's covariance before it
   std::vector<double> estimate_;            // of each row over all cases, the same
   std::vector<std::vector<double>> exact_;  // of each row, for each case; empty: not worked out
   std::vector<bool> is_worked_out_;         // in all cases that may matter

@@ -32,11 +32,11 @@ using DirectionTriangle = std::array<double, lower_size(kDirections)>;
 struct ReducedLoss {
   DirectionVector signal{};
   std::array<double, kDirections* static_cast<std::size_t>(kFirstColumns)> first{};  ///< of A
-  std::array<double, kDirections * kEpochColumns> epoch{};  ///< of E
-  DirectionTriangle bridge{};              ///< what it adds to A A^T
-  DirectionTriangle others{};              ///< and to all else
+  std::array<double, kDirections * kEpochColumns> epoch{};                           ///< of E
+  DirectionTriangle bridge{};                            ///< what it adds to A A^T
+  DirectionTriangle others{};                            ///< and to all else
   DirectionTriangle bridge_of_pair{}, others_of_pair{};  ///< the same where a pair shares the columns above
-  const double* signal_of_rows = nullptr;  ///< in rows of y
+  const double* signal_of_rows = nullptr;                ///< in rows of y
   bool known = false;
 };
 
