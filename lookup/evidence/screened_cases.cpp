@@ -17,8 +17,8 @@ constexpr double kUncounted = 3e-4;   // probability of all scenes that are left
 constexpr double kLeftEstimated = 5e-4;  // probability of all scenes that are not worked out
 constexpr double kTooLow = 0.5;          // an estimate's logarithm is hardly ever too low by more than this
 constexpr std::size_t kAtOnce = 8;       // scenes that are worked out before the next look at what matters
-constexpr std::size_t kMostWorkedOut = 96;  // likely scenes; others count by their estimates
-constexpr std::size_t kTried = 4;           // scenes with which a case is tried before pairs are looked at
+constexpr std::size_t kMostWorkedOut = 400;  // likely scenes; others count by their estimates
+constexpr std::size_t kTried = 4;            // scenes with which a case is tried before pairs are looked at
 
 /// An estimate that failed counts as likely: the scene is worked out.
 double usable(double estimate) {
@@ -35,6 +35,7 @@ ScreenedCases::ScreenedCases(UnknownBridge& bridge, const Observation& observati
       table_(table),
       rows_(rows),
       beforehand_(beforehand),
+      likelihoods_(bridge, observation, table),
       exact_(rows.size()),
       is_worked_out_(rows.size(), false) {
   for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -144,10 +145,15 @@ std::vector<std::size_t> ScreenedCases::most_likely(std::size_t count) const {
 }
 
 /// In the cases that are wanted of each place, those worked out before left out.
-void ScreenedCases::work_out(std::span<const std::size_t> places, std::span<const std::uint8_t> wanted) {
+void ScreenedCases::work_out(std::span<const std::size_t> places, std::span<const std::uint8_t> wanted,
+                             const Eigen::MatrixXd* rise) {
   std::vector<std::size_t> rows;
   std::vector<CaseTerms> terms;
   std::vector<std::uint8_t> missing;
+  CasePruning pruning;
+  std::vector<double> least;
+  for (const std::size_t place : places) least.push_back(best_ - kNegligible - beforehand_[place]);
+  if (rise != nullptr) pruning = {least, *rise};
   for (const Case& one : cases_) terms.push_back(one.terms);
   for (std::size_t i = 0; i < places.size(); ++i) {
     rows.push_back(rows_[places[i]]);
@@ -157,7 +163,8 @@ void ScreenedCases::work_out(std::span<const std::size_t> places, std::span<cons
       missing.push_back(wanted[wanted.size() == cases_.size() ? k : i * cases_.size() + k] != 0 &&
                         exact[k] == kNotWorkedOut);
   }
-  const auto logs = scatter_logs(bridge_, terms, observation_, table_, rows, missing, hardware_threads());
+  const auto logs =
+      likelihoods_(terms, rows, missing, hardware_threads(), rise != nullptr ? &pruning : nullptr);
   for (std::size_t i = 0; i < logs.size(); ++i) {
     if (missing[i] == 0) continue;
     const std::size_t place = places[i / cases_.size()], number = i % cases_.size();
@@ -174,7 +181,7 @@ void ScreenedCases::work_out_where_likely(std::span<const std::size_t> places) {
     is_worked_out_[place] = true;
     for (const Case& one : cases_) wanted.push_back(one.estimate[place] < best_ - kNegligible ? 0 : 1);
   }
-  work_out(places, wanted);
+  work_out(places, wanted, &rise_);
 }
 
 /// log of the sum over the cases in which the place was worked out.
@@ -189,6 +196,19 @@ double ScreenedCases::total(std::size_t place) const {
 void ScreenedCases::look_at_cases() {
   work_out(nearest_singles(), std::vector<std::uint8_t>(cases_.size(), 1));
   for (Case& one : cases_) look_at(one);
+  rise_ = rises();
+}
+
+/// From each case to those that are nowhere wider.
+Eigen::MatrixXd ScreenedCases::rises() const {
+  const auto count = static_cast<Eigen::Index>(cases_.size());
+  Eigen::MatrixXd result = Eigen::MatrixXd::Constant(count, count, std::numeric_limits<double>::infinity());
+  for (std::size_t i = 0; i < cases_.size(); ++i)
+    for (std::size_t j = i + 1; j < cases_.size(); ++j)
+      if (cases_[j].one.level <= cases_[i].one.level && cases_[j].one.conditions <= cases_[i].one.conditions)
+        result(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) =
+            rise(cases_[i].peaks, cases_[j].peaks);
+  return result;
 }
 
 /// How far sums of estimates are too high, of scenes that are worked out.

@@ -44,7 +44,9 @@ class ScreenedCases {
                                     std::size_t count) const;
   std::vector<std::size_t> most_likely(std::size_t count) const;
   double work_out_likely(std::size_t count);
-  void work_out(std::span<const std::size_t> places, std::span<const std::uint8_t> wanted);
+  Eigen::MatrixXd rises() const;
+  void work_out(std::span<const std::size_t> places, std::span<const std::uint8_t> wanted,
+                const Eigen::MatrixXd* rise = nullptr);
   void work_out_where_likely(std::span<const std::size_t> places);
   double total(std::size_t place) const;
   double shift_of(std::span<const std::size_t> places) const;
@@ -54,10 +56,12 @@ class ScreenedCases {
   const SceneTable& table_;
   std::span<const std::size_t> rows_;
   std::span<const double> beforehand_;
-  std::vector<std::size_t> few_, many_;     // places of rows with at most one missing block, and with more
-  std::vector<Case> cases_;                 // those that widen another's covariance before it
-  std::vector<double> estimate_;            // of each row over all cases, the same
+  std::vector<std::size_t> few_, many_;  // places of rows with at most one missing block, and with more
+  std::vector<Case> cases_;              // those that widen another's covariance before it
+  std::vector<double> estimate_;         // of each row over all cases, the same
+  SceneLikelihoods likelihoods_;
   std::vector<std::vector<double>> exact_;  // of each row, for each case; empty: not worked out
+  Eigen::MatrixXd rise_;                    // CasePruning::rise, once all cases were looked at
   std::vector<bool> is_worked_out_;         // in all cases that may matter
   std::size_t likeliest_ = 0;
   double best_ = -std::numeric_limits<double>::infinity();  // of any scene in any case, worked out

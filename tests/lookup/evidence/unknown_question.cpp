@@ -124,7 +124,7 @@ bool one_in(std::uint32_t many, Random& random) {
 /// Any of the questions that a bridge which is not known may be asked.
 Asked random_question(std::unique_ptr<Trial>& trial, Random& random) {
   trial =
-      std::make_unique<Trial>(2 + static_cast<int>(random.below(3)), 4 + static_cast<int>(random.below(5)),
+      std::make_unique<Trial>(2 + static_cast<int>(random.below(3)), 4 + static_cast<int>(random.below(9)),
                               3 + random.below(30), between(3e-6, 3e-4, random));
   const SceneTable& table = trial->library.table;
   const bool change = one_in(2, random);
@@ -156,7 +156,7 @@ Asked random_question(std::unique_ptr<Trial>& trial, Random& random) {
 }
 
 /// Of so many questions. As long as few scenes are likely a probability is off by a thousandth at most; of
-/// more than a hundred the others are estimated, and together they may be off by this.
+/// more than four hundred the others are estimated, and together they may be off by this.
 constexpr double kMostOff = 0.02;
 
 void check_random_questions(std::uint64_t seed, int questions) {
