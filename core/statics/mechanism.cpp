@@ -45,7 +45,8 @@ class MovingBlocks {
     const int place = place_[static_cast<std::size_t>(value(block))];
     if (place < 0) return;
     const auto k = static_cast<std::size_t>(place);
-    column.segment<3>(3 * place) += Eigen::Vector3d(force.x(), force.y(), cross(at - centres_[k], force) / sizes_[k]);
+    column.segment<3>(3 * place) +=
+        Eigen::Vector3d(force.x(), force.y(), cross(at - centres_[k], force) / sizes_[k]);
   }
 
   /// What carries the blocks' weight.
@@ -130,8 +131,7 @@ std::optional<Solution> proved_fall(std::span<const Mechanism> mechanisms, const
     if (!proves_fall(mechanism, scene)) continue;
     std::ranges::copy_if(mechanism.blocks, std::inserter(moving, moving.end()),
                          [&](BlockId block) { return !scene.lacks(block); });
-    solution.residual =
-        std::max(solution.residual, sum_over_present(mechanism, scene, mechanism.unbalanced));
+    solution.residual = std::max(solution.residual, sum_over_present(mechanism, scene, mechanism.unbalanced));
   }
   if (moving.empty()) return std::nullopt;
   solution.outcome = Outcome::collapsed;

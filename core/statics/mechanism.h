@@ -3,14 +3,15 @@
 ///
 /// A joint's force on a block is a sum of non-negative multiples of four: at either end of the stretch, from
 /// either edge of Coulomb's cone, n +- mu t. With these as columns of A and the forces and moments that would
-/// carry the blocks' weight as g, the blocks can be in equilibrium only if A x = g for some x >= 0. The x with
-/// the least |A x - g| leaves r = g - A x, and for that r, as virtual velocities upwards,
+/// carry the blocks' weight as g, the blocks can be in equilibrium only if A x = g for some x >= 0. The x
+/// with the least |A x - g| leaves r = g - A x, and for that r, as virtual velocities upwards,
 ///     A^T r <= 0 and r . g = |r|^2
-/// (Farkas' lemma): if r is not zero, the weight does work, in going down by r, that no joint resists. Geometry
-/// is that of the bridge as built and blocks are rigid, so the share of the work has to be clearly positive.
+/// (Farkas' lemma): if r is not zero, the weight does work, in going down by r, that no joint resists.
+/// Geometry is that of the bridge as built and blocks are rigid, so the share of the work has to be clearly
+/// positive.
 ///
-/// A scene with more blocks missing has fewer joints, so what proves its fall is the work alone that r does on
-/// the blocks which it still has.
+/// A scene with more blocks missing has fewer joints, so what proves its fall is the work alone that r does
+/// on the blocks which it still has.
 
 #include <Eigen/Core>
 #include <optional>
@@ -25,10 +26,10 @@ namespace voussoir {
 /// Blocks that fall without those of `scene`, and what r does on each.
 struct Mechanism {
   Scene scene;
-  std::vector<BlockId> blocks;      ///< ascending
-  std::vector<double> work;         ///< r . g [N2]
-  std::vector<double> load;         ///< g . g [N2]
-  std::vector<double> unbalanced;   ///< the force in r over the bridge's weight [-]
+  std::vector<BlockId> blocks;     ///< ascending
+  std::vector<double> work;        ///< r . g [N2]
+  std::vector<double> load;        ///< g . g [N2]
+  std::vector<double> unbalanced;  ///< the force in r over the bridge's weight [-]
 };
 
 /// Why these blocks cannot all stay without the scene's if nothing beyond them moves; nothing if some forces

@@ -70,8 +70,7 @@ TEST_CASE("With outcomes only, the same scenes fall as in motion, and those that
   CHECK(verify_database({.database = fields.path}).collapse_fields);
 }
 
-TEST_CASE("With outcomes only, the same scenes of the reference bridge fall as in motion",
-          "[whole-build]") {
+TEST_CASE("With outcomes only, the same scenes of the reference bridge fall as in motion", "[whole-build]") {
   const test::TemporaryFolder folder;
   const std::string scenes = "singles;0,5+*,*;0,10+*,*;8,1+*,*;10,1+11,*";
   check_same_outcomes(build(folder, reference_bridge_file(), scenes, true),

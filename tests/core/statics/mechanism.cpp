@@ -19,8 +19,8 @@ Model overhanging(double overhang) {
   description.wall.length = 4.0;
   description.spans.clear();
   description.supports.sides = SupportKind::free;
-  return validation::assemble_blocks(description, {rectangle(Point(1.0, 0.0), 1.0, 0.5),
-                                                   rectangle(Point(1.0 + overhang, 0.5), 1.0, 0.5)});
+  return validation::assemble_blocks(
+      description, {rectangle(Point(1.0, 0.0), 1.0, 0.5), rectangle(Point(1.0 + overhang, 0.5), 1.0, 0.5)});
 }
 
 std::optional<Mechanism> mechanism_of(const Model& model, const Scene& scene, std::vector<BlockId> blocks) {
@@ -30,7 +30,8 @@ std::optional<Mechanism> mechanism_of(const Model& model, const Scene& scene, st
 }  // namespace
 
 TEST_CASE("A block topples when its centre is beyond the edge that carries it (statics)", "[solver]") {
-  for (const double overhang : {0.0, 0.3, 0.49}) CHECK_FALSE(mechanism_of(overhanging(overhang), {}, {kUpper}));
+  for (const double overhang : {0.0, 0.3, 0.49})
+    CHECK_FALSE(mechanism_of(overhanging(overhang), {}, {kUpper}));
   for (const double overhang : {0.6, 0.8}) {
     const auto topples = mechanism_of(overhanging(overhang), {}, {kUpper});
     REQUIRE(topples);
