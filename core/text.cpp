@@ -69,4 +69,25 @@ std::string quoted(std::string_view text) {
   return result + (text.size() > kLongestQuote ? "...'" : "'");
 }
 
+std::string escaped(std::string_view text) {
+  std::string result;
+  for (const char c : text) switch (c) {
+      case '&':
+        result += "&amp;";
+        break;
+      case '<':
+        result += "&lt;";
+        break;
+      case '>':
+        result += "&gt;";
+        break;
+      case '"':
+        result += "&quot;";
+        break;
+      default:
+        result += c;
+    }
+  return result;
+}
+
 }  // namespace voussoir

@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "core/structure/loads.h"
+#include "core/text.h"
 
 namespace voussoir {
 namespace {
@@ -36,17 +37,6 @@ struct Frame {
   }
   double height() const { return 3.0 * kMargin + scale * (high.y() - low.y()); }
 };
-
-std::string escaped(const std::string& text) {
-  std::string result;
-  for (const char c : text)
-    result += c == '&'   ? "&amp;"
-              : c == '<' ? "&lt;"
-              : c == '>' ? "&gt;"
-              : c == '"' ? "&quot;"
-                         : std::string(1, c);
-  return result;
-}
 
 std::string text_at(const Point& at, const char* css_class, const std::string& text) {
   return fmt::format("<text class=\"{}\" x=\"{:.1f}\" y=\"{:.1f}\">{}</text>\n", css_class, at.x(), at.y(),
@@ -81,9 +71,8 @@ std::string labels(const BlockLayout& layout, const Frame& frame) {
 std::string joints(const Structure& bridge, const Frame& frame) {
   std::string data;
   for (const Joint& joint : bridge.joints) {
-    const Point from = bridge.mesh.position(joint.first_edge.from);
-    const Point along = bridge.mesh.position(joint.first_edge.to) - from;
-    const Point a = frame(from + joint.first_at[0] * along), b = frame(from + joint.first_at[1] * along);
+    const auto ends = ends_of(joint, bridge.mesh);
+    const Point a = frame(ends[0]), b = frame(ends[1]);
     fmt::format_to(std::back_inserter(data), "M{:.1f} {:.1f}L{:.1f} {:.1f}", a.x(), a.y(), b.x(), b.y());
   }
   return data.empty() ? "" : fmt::format("<path class=\"joint\" d=\"{}\"/>\n", data);

@@ -1,12 +1,11 @@
 /// @file build-database: from a bridge file to its database.
 
-#include <csignal>
 #include <iostream>
 
-#include "core/error.h"
 #include "core/text_file.h"
 #include "generator/bridge_drawing.h"
 #include "generator/build_options.h"
+#include "generator/command_line.h"
 #include "generator/summary.h"
 #include "generator/variants.h"
 
@@ -14,7 +13,7 @@ using namespace voussoir;
 
 namespace {
 
-int run(BuildOptions options) {
+int run(BuildOptions& options) {
   options.request.bridge = options.bridge ? read_bridge_file(*options.bridge) : reference_bridge_file();
   if (!options.quiet)
     for (const std::string& note : options.request.bridge.notes)
@@ -38,25 +37,12 @@ int run(BuildOptions options) {
   return std::cout ? 0 : 1;
 }
 
-/// For people on stderr; for schedulers, with --format json, also as a line on stdout.
-int fail(const std::string& message, bool json, int exit_code) {
-  std::cerr << "build-database: " << message << '\n';
-  if (json) std::cout << failure_to_json(message);
-  return exit_code;
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
-  std::signal(SIGXFSZ, SIG_IGN);  // a file size limit shows as an error of write(), as a full disk does
-  bool json = false;
-  try {
-    BuildOptions options = parse_build_options(argc, argv);
-    json = options.json;
-    return options.exit_code ? *options.exit_code : run(std::move(options));
-  } catch (const InputError& error) {
-    return fail(error.what(), json, 2);
-  } catch (const std::exception& error) {
-    return fail(error.what(), json, 1);
-  }
+  BuildOptions options;
+  return run_writer("build-database", options.json, [&] {
+    parse_build_options(argc, argv, options);
+    return options.exit_code ? *options.exit_code : run(options);
+  });
 }

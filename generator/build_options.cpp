@@ -1,19 +1,17 @@
 #include "generator/build_options.h"
 
-#include <CLI/CLI.hpp>
 #include <map>
 
 #include "core/error.h"
 #include "core/solve/state_name.h"
 #include "core/text.h"
 #include "generator/build_switches.h"
+#include "generator/command_line.h"
 
 namespace voussoir {
 namespace {
 
-constexpr int kMostThreads = 4096;
 constexpr int kMostVariants = 10000;
-constexpr int kBadUsage = 2;
 
 constexpr const char* kFooter =
     "Examples: build-database examples/bridges/small.toml -o small.h5 --scenes 'singles;4,2+5,1..3'\n"
@@ -116,7 +114,6 @@ struct Words {
   std::string solver = "quasi-static";
   std::string fields = "all";
   std::string collapses = "field";
-  std::string format = "text";
   std::vector<std::string> without;
 };
 
@@ -149,18 +146,14 @@ void add_options(CLI::App& app, BuildOptions& options, Words& words) {
       ->capture_default_str();
   add_drawing_option(app, options);
   add_uncertainty_options(app, options);
-  app.add_option("--threads", options.request.threads, "threads, 0: one for each core")
-      ->check(CLI::Range(0, kMostThreads))
-      ->capture_default_str();
+  add_threads_option(app, options.request.threads);
   app.add_option("--solver", words.solver,
                  "quasi-static: Newton for scenes that stand, motion for the others; dynamic: motion for all")
       ->check(CLI::IsMember({"quasi-static", "dynamic"}))
       ->capture_default_str();
   add_motion_options(app, options.motion);
   add_kept_options(app, words);
-  app.add_option("--format", words.format, "of the summary")
-      ->check(CLI::IsMember({"text", "json"}))
-      ->capture_default_str();
+  add_format_option(app, options.json, "of the summary");
   app.add_option("--xdmf", options.request.xdmf_scenes,
                  "also write an index (.xdmf, .views.h5) with which ParaView opens these scenes");
   app.add_option("--without", words.without,
@@ -173,20 +166,15 @@ void add_options(CLI::App& app, BuildOptions& options, Words& words) {
 
 }  // namespace
 
-BuildOptions parse_build_options(int argc, char** argv) {
-  BuildOptions options;
+void parse_build_options(int argc, char** argv, BuildOptions& options) {
   CLI::App app("Computes the database of a bridge: the displacements of every scene with missing blocks.",
                "build-database");
   app.footer(kFooter);
   Words words;
   add_options(app, options, words);
   add_shard_option(app, options);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    options.exit_code = app.exit(error) == 0 ? 0 : kBadUsage;
-  }
-  options.json = words.format == "json";
+  options.exit_code = parse_command_line(app, argc, argv);
+  if (options.exit_code) return;
   if (options.variants > 0 && app.count("--scenes") == 0) options.request.scenes_of_variants = "singles";
   options.request.fields = words.fields == "all" ? KeepField::yes : KeepField::no;
   options.request.rules.collapse_fields = words.collapses == "field";
@@ -198,7 +186,6 @@ BuildOptions parse_build_options(int argc, char** argv) {
         "--solver dynamic solves the history built without loads only: expected --history built and --loads "
         "none");
   options.solver = words.solver == "dynamic" ? dynamic(options.motion) : quasi_static(options.motion);
-  return options;
 }
 
 }  // namespace voussoir

@@ -21,7 +21,7 @@ struct BuildOptions {
   std::optional<int> exit_code;  ///< set if the program is to end at once (--help, --version, bad usage)
 };
 
-/// Prints help, version or what is wrong with the command line itself.
-BuildOptions parse_build_options(int argc, char** argv);
+/// Fills in the options; prints help, version or what is wrong with the command line itself.
+void parse_build_options(int argc, char** argv, BuildOptions& options);
 
 }  // namespace voussoir

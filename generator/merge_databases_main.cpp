@@ -1,9 +1,8 @@
 /// @file merge-databases: from the parts of a database to the whole.
 
-#include <csignal>
 #include <iostream>
 
-#include "core/error.h"
+#include "generator/command_line.h"
 #include "generator/merge_options.h"
 #include "generator/summary.h"
 
@@ -20,24 +19,12 @@ int run(const MergeOptions& options) {
   return std::cout ? 0 : 1;
 }
 
-int fail(const std::string& message, bool json, int exit_code) {
-  std::cerr << "merge-databases: " << message << '\n';
-  if (json) std::cout << failure_to_json(message);
-  return exit_code;
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
-  std::signal(SIGXFSZ, SIG_IGN);  // a file size limit shows as an error of write(), as a full disk does
-  bool json = false;
-  try {
-    const MergeOptions options = parse_merge_options(argc, argv);
-    json = options.json;
+  MergeOptions options;
+  return run_writer("merge-databases", options.json, [&] {
+    parse_merge_options(argc, argv, options);
     return options.exit_code ? *options.exit_code : run(options);
-  } catch (const InputError& error) {
-    return fail(error.what(), json, 2);
-  } catch (const std::exception& error) {
-    return fail(error.what(), json, 1);
-  }
+  });
 }

@@ -1,19 +1,11 @@
 #include "generator/merge_options.h"
 
-#include <CLI/CLI.hpp>
-
 #include "database/records/provenance.h"
+#include "generator/command_line.h"
 
 namespace voussoir {
-namespace {
 
-constexpr int kMostThreads = 4096;
-constexpr int kBadUsage = 2;
-
-}  // namespace
-
-MergeOptions parse_merge_options(int argc, char** argv) {
-  MergeOptions options;
+void parse_merge_options(int argc, char** argv, MergeOptions& options) {
   CLI::App app("Puts the parts of a database together that build-database --shard has computed.",
                "merge-databases");
   app.footer(
@@ -22,26 +14,15 @@ MergeOptions parse_merge_options(int argc, char** argv) {
       "The database is the one that a single build gives: same content, same digest. Exit codes: 0 done, 1 "
       "could not be\ndone, 2 bad usage or parts that do not fit together.");
   app.set_version_flag("--version", version_text("merge-databases"));
-  std::string format = "text";
   app.add_option("parts", options.request.parts, "files that build-database --shard I/N wrote, in any order")
       ->required()
       ->option_text("PART...");
   app.add_option("-o,--output", options.request.output, "database to write")->capture_default_str();
-  app.add_option("--threads", options.request.threads, "threads, 0: one for each core")
-      ->check(CLI::Range(0, kMostThreads))
-      ->capture_default_str();
-  app.add_option("--format", format, "of the summary")
-      ->check(CLI::IsMember({"text", "json"}))
-      ->capture_default_str();
+  add_threads_option(app, options.request.threads);
+  add_format_option(app, options.json, "of the summary");
   app.add_flag("--force", options.request.force, "build anew even if the file is up to date");
   app.add_flag("--quiet", options.quiet, "no messages");
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    options.exit_code = app.exit(error) == 0 ? 0 : kBadUsage;
-  }
-  options.json = format == "json";
-  return options;
+  options.exit_code = parse_command_line(app, argc, argv);
 }
 
 }  // namespace voussoir

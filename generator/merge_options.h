@@ -14,7 +14,7 @@ struct MergeOptions {
   std::optional<int> exit_code;  ///< set if the program is to end at once (--help, --version, bad usage)
 };
 
-/// Prints help, version or what is wrong with the command line itself.
-MergeOptions parse_merge_options(int argc, char** argv);
+/// Fills in the options; prints help, version or what is wrong with the command line itself.
+void parse_merge_options(int argc, char** argv, MergeOptions& options);
 
 }  // namespace voussoir

@@ -3,17 +3,11 @@
 #include <algorithm>
 
 #include "core/error.h"
+#include "database/records/stored_bridge.h"
 #include "generator/scene_derivatives.h"
 
 namespace voussoir {
 namespace {
-
-SceneStates stored_states(const Database& database, std::size_t row, const StatePlan& plan) {
-  SceneStates states;
-  for (std::size_t state = 0; state < plan.size(); ++state)
-    states.emplace_back(database.solution(row, state));
-  return states;
-}
 
 double largest(const Eigen::MatrixXd& matrix) {
   return matrix.size() == 0 ? 0.0 : matrix.cwiseAbs().maxCoeff();

@@ -15,23 +15,12 @@ std::vector<Polygon> triangles_of(const Polygon& polygon) {
   return triangles;
 }
 
-/// What of a convex polygon lies left of a line.
-Polygon left_of(const Polygon& polygon, const Point& from, const Point& to) {
-  Polygon rest;
-  for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const Point& a = polygon[i];
-    const Point& b = polygon[(i + 1) % polygon.size()];
-    const double left_a = cross(to - from, a - from), left_b = cross(to - from, b - from);
-    if (left_a >= 0.0) rest.push_back(a);
-    if ((left_a > 0.0 && left_b < 0.0) || (left_a < 0.0 && left_b > 0.0))
-      rest.push_back(a + left_a / (left_a - left_b) * (b - a));
-  }
-  return rest;
-}
-
 Polygon common(Polygon polygon, const Polygon& triangle) {
-  for (std::size_t i = 0; i < 3 && polygon.size() > 2; ++i)
-    polygon = left_of(polygon, triangle[i], triangle[(i + 1) % 3]);
+  for (std::size_t i = 0; i < 3 && polygon.size() > 2; ++i) {
+    const Point& from = triangle[i];
+    const Point along = triangle[(i + 1) % 3] - from;
+    polygon = clipped(polygon, [&](const Point& p) { return -cross(along, p - from); });
+  }
   return polygon;
 }
 

@@ -46,6 +46,27 @@ std::vector<Polygon> subtract(const Polygon& subject, const Polygon& hole, doubl
 /// as lying there.
 std::optional<Polygon> joined(const Polygon& first, const Polygon& second);
 
+/// What of a convex polygon lies where `over`, linear in the place, is not positive: cut along a straight
+/// line.
+template <class Over>
+Polygon clipped(const Polygon& polygon, Over over) {
+  Polygon rest;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Point& a = polygon[i];
+    const Point& b = polygon[(i + 1) % polygon.size()];
+    const double over_a = over(a), over_b = over(b);
+    if (over_a <= 0.0) rest.push_back(a);
+    if ((over_a < 0.0 && over_b > 0.0) || (over_a > 0.0 && over_b < 0.0))
+      rest.push_back(a + over_a / (over_a - over_b) * (b - a));
+  }
+  return rest;
+}
+
+/// What of a convex polygon lies where normal . place <= bound.
+inline Polygon clipped(const Polygon& polygon, const Point& normal, double bound) {
+  return clipped(polygon, [&](const Point& p) { return normal.dot(p) - bound; });
+}
+
 /// Mirror image across the vertical line at `axis_x`, counter-clockwise again.
 Polygon mirrored(const Polygon& polygon, double axis_x);
 

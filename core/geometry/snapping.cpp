@@ -1,8 +1,9 @@
 #include "core/geometry/snapping.h"
 
-#include <limits>
+#include <algorithm>
 #include <utility>
 
+#include "core/geometry/box.h"
 #include "core/geometry/columns.h"
 
 namespace voussoir {
@@ -17,19 +18,9 @@ struct Network {
   std::vector<std::vector<int>> outlines;  ///< of each polygon, as numbers of places
 };
 
-std::pair<double, double> extent_along_x(const std::vector<Polygon>& polygons) {
-  double left = std::numeric_limits<double>::infinity(), right = -left;
-  for (const Polygon& polygon : polygons)
-    for (const Point& p : polygon) {
-      left = std::min(left, p.x());
-      right = std::max(right, p.x());
-    }
-  return {left, right};
-}
-
 Network network_of(const std::vector<Polygon>& polygons, double tolerance) {
-  const auto [left, right] = extent_along_x(polygons);
-  Columns columns(left, right, kColumns);
+  const Box box = box_of(polygons);
+  Columns columns(box.min().x(), box.max().x(), kColumns);
   Network network;
   for (const Polygon& polygon : polygons) {
     std::vector<int>& outline = network.outlines.emplace_back();
@@ -56,8 +47,8 @@ Network network_of(const std::vector<Polygon>& polygons, double tolerance) {
 
 /// Bends edges so that they pass through the places near them: those become corners of the outline. Returns
 /// how many, and how far the farthest was off.
-Snapping bend_edges(Network& network, double left, double right, double tolerance) {
-  Columns columns(left, right, kColumns);
+Snapping bend_edges(Network& network, const Box& box, double tolerance) {
+  Columns columns(box.min().x(), box.max().x(), kColumns);
   for (std::size_t i = 0; i < network.places.size(); ++i)
     columns.add(static_cast<int>(i), network.places[i].x(), network.places[i].x());
   const auto at = [&](int i) -> const Point& { return network.places[static_cast<std::size_t>(i)]; };
@@ -91,9 +82,9 @@ Snapping bend_edges(Network& network, double left, double right, double toleranc
 
 Snapping snap(std::vector<Polygon>& polygons, double tolerance) {
   if (polygons.empty()) return {};
-  const auto [left, right] = extent_along_x(polygons);
+  const Box box = box_of(polygons);
   Network network = network_of(polygons, tolerance);
-  Snapping result = bend_edges(network, left, right, tolerance);
+  Snapping result = bend_edges(network, box, tolerance);
   for (std::size_t p = 0; p < polygons.size(); ++p) {
     const Polygon before = std::exchange(polygons[p], {});
     for (const int i : network.outlines[p])

@@ -16,13 +16,6 @@ JointCondition condition_of(const JointContact& contact) {
                                                                : JointCondition::sticking;
 }
 
-/// Places on the first edge at the stretch's ends.
-std::array<Point, 2> ends_of(const Joint& joint, const Mesh& mesh) {
-  const Point from = mesh.nodes.col(value(joint.first_edge.from));
-  const Point to = mesh.nodes.col(value(joint.first_edge.to));
-  return {from + joint.first_at[0] * (to - from), from + joint.first_at[1] * (to - from)};
-}
-
 /// The force along the joint as it has turned: `force` is (along the normal, along the joint) [N]. Gap and
 /// slip of an end change with a movement of the second block by just these directions.
 Point pulled_by(const JointKinematics& kinematics, const Eigen::Vector2d& force) {

@@ -75,16 +75,15 @@ Eigen::MatrixXd cone_edges(const Model& model, const MovingBlocks& moving, const
     const Joint& joint = model.joints[j];
     if (scene.lacks(joint.first) || scene.lacks(joint.second)) continue;
     if (!moving.moves(joint.first) && !moving.moves(joint.second)) continue;
-    const Point from = model.mesh.position(joint.first_edge.from);
-    const Point along = model.mesh.position(joint.first_edge.to) - from;
-    const Point direction = along.normalized();
+    const std::array<Point, 2> ends = ends_of(joint, model.mesh);
+    const Point direction = (ends[1] - ends[0]).normalized();
     const Point normal(direction.y(), -direction.x());
     const double friction = model.parameters.joints[j].friction_coefficient();
-    for (const double share : joint.first_at)
+    for (const Point& end : ends)
       for (const double slope : {-friction, friction}) {
         Eigen::VectorXd& column = columns.emplace_back(Eigen::VectorXd::Zero(moving.rows()));
-        moving.add(joint.first, from + share * along, -normal - slope * direction, column);
-        moving.add(joint.second, from + share * along, normal + slope * direction, column);
+        moving.add(joint.first, end, -normal - slope * direction, column);
+        moving.add(joint.second, end, normal + slope * direction, column);
       }
   }
   Eigen::MatrixXd matrix(moving.rows(), static_cast<Eigen::Index>(columns.size()));

@@ -5,21 +5,16 @@
 #include <map>
 #include <tuple>
 
+#include "core/structure/block_boxes.h"
+
 namespace voussoir {
 namespace {
 
 /// A place below each ring: its middle at the height of its feet.
 std::map<int, Point> places_below(const BlockLayout& layout) {
-  std::map<int, std::pair<Point, Point>> boxes;
-  for (const Block& block : layout.blocks)
-    for (const Point& corner : block.polygon) {
-      const auto [box, is_new] = boxes.try_emplace(block.ring, corner, corner);
-      box->second.first = box->second.first.cwiseMin(corner);
-      box->second.second = box->second.second.cwiseMax(corner);
-    }
   std::map<int, Point> places;
-  for (const auto& [ring, box] : boxes)
-    places[ring] = {0.5 * (box.first.x() + box.second.x()), box.first.y()};
+  for (const auto& [ring, box] : boxes_of_rings(layout.blocks))
+    places[ring] = {box.center().x(), box.min().y()};
   return places;
 }
 

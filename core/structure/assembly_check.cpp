@@ -6,16 +6,17 @@
 #include <set>
 
 #include "core/error.h"
+#include "core/geometry/box.h"
 #include "core/geometry/columns.h"
 #include "core/geometry/facing_edges.h"
 #include "core/geometry/overlap.h"
 #include "core/geometry/snapping.h"
+#include "core/structure/block_limits.h"
 #include "core/text.h"
 
 namespace voussoir {
 namespace {
 
-constexpr std::size_t kMostCorners = 200;
 constexpr std::size_t kLongestLabel = 31;  ///< bytes that a database keeps
 constexpr double kSmallestArea = 1e-6;     ///< [m2] of a block
 
@@ -62,39 +63,25 @@ void check_outline(const Block& block) {
         fmt::format("block '{}': its outline crosses or touches itself {}", block.label, at(*place)));
 }
 
-struct Box {
-  Point low, high;
-  bool meets(const Box& other) const {
-    return (low.array() <= other.high.array()).all() && (other.low.array() <= high.array()).all();
-  }
-};
-
-Box box_of(const Polygon& polygon, double margin) {
-  Box box{polygon.front(), polygon.front()};
-  for (const Point& p : polygon) {
-    box.low = box.low.cwiseMin(p);
-    box.high = box.high.cwiseMax(p);
-  }
-  return {box.low.array() - margin, box.high.array() + margin};
-}
-
 /// Pairs of blocks whose boxes come nearer than `distance` [m].
 std::vector<std::pair<std::size_t, std::size_t>> near_pairs(const std::vector<Block>& blocks,
                                                             double distance) {
+  const Point margin = Point::Constant(0.5 * distance);
   std::vector<Box> boxes;
-  double left = std::numeric_limits<double>::infinity(), right = -left;
+  Box all;
   for (const Block& block : blocks) {
-    boxes.push_back(box_of(block.polygon, 0.5 * distance));
-    left = std::min(left, boxes.back().low.x());
-    right = std::max(right, boxes.back().high.x());
+    const Box box = box_of(block.polygon);
+    boxes.emplace_back(box.min() - margin, box.max() + margin);
+    all.extend(boxes.back());
   }
-  Columns columns(left, right, 1000);
+  Columns columns(all.min().x(), all.max().x(), 1000);
   std::vector<std::pair<std::size_t, std::size_t>> pairs;
   for (std::size_t i = 0; i < blocks.size(); ++i) {
-    for (const int j : columns.between(boxes[i].low.x(), boxes[i].high.x()))
-      if (boxes[i].meets(boxes[static_cast<std::size_t>(j)]))
+    const double left = boxes[i].min().x(), right = boxes[i].max().x();
+    for (const int j : columns.between(left, right))
+      if (boxes[i].intersects(boxes[static_cast<std::size_t>(j)]))
         pairs.emplace_back(static_cast<std::size_t>(j), i);
-    columns.add(static_cast<int>(i), boxes[i].low.x(), boxes[i].high.x());
+    columns.add(static_cast<int>(i), left, right);
   }
   return pairs;
 }
@@ -166,17 +153,12 @@ void check_carried(const std::vector<Block>& blocks,
 
 /// Corners that lie this near to the ground or to the left or right end lie there.
 void level(std::vector<Polygon>& polygons, double tolerance) {
-  Point low = polygons.front().front(), high = low;
-  for (const Polygon& polygon : polygons)
-    for (const Point& p : polygon) {
-      low = low.cwiseMin(p);
-      high = high.cwiseMax(p);
-    }
+  const Box box = box_of(polygons);
   for (Polygon& polygon : polygons)
     for (Point& p : polygon) {
-      if (p.y() < low.y() + tolerance) p.y() = low.y();
-      if (p.x() < low.x() + tolerance) p.x() = low.x();
-      if (p.x() > high.x() - tolerance) p.x() = high.x();
+      if (p.y() < box.min().y() + tolerance) p.y() = box.min().y();
+      if (p.x() < box.min().x() + tolerance) p.x() = box.min().x();
+      if (p.x() > box.max().x() - tolerance) p.x() = box.max().x();
     }
 }
 

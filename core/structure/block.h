@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "core/geometry/polygon.h"
 
@@ -48,6 +50,12 @@ inline const char* name_of(BlockRole role) {
   return kRoleNames[static_cast<std::size_t>(role)];
 }
 
+/// The role of this name, or nothing.
+std::optional<BlockRole> find_role(std::string_view name);
+
+/// "wall, ring, ...", for messages.
+std::string role_names();
+
 /// How a block was cut out; the mesh rule depends on it.
 enum class BlockKind : std::uint8_t {
   leg,       ///< stone below an end of the ring: straight leg, skewback
@@ -70,5 +78,11 @@ struct Block {
       intrados{};  ///< [m] ends of its edge on the intrados, along the ring from
                    ///< the left. Databases keep the control points instead
 };
+
+/// Is this the block's label or the name of its role?
+bool is_called(const Block& block, std::string_view name);
+
+/// Gives blocks that are in the order of their courses their positions, from the left, and labels.
+void number_by_courses(std::vector<Block>& blocks);
 
 }  // namespace voussoir

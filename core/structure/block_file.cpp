@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.h"
+#include "core/structure/block_limits.h"
 #include "core/text.h"
 #include "core/text_file.h"
 
@@ -13,9 +14,6 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr std::size_t kLargestFile = 1 << 26;  ///< [bytes]
-constexpr std::size_t kMostBlocks = 20000;
-constexpr double kFarthest = 1e5;  ///< [m] of anything
-constexpr int kMostRings = 1000;
 
 /// What is read, for messages: "survey.json: block 3".
 struct Place {
@@ -30,11 +28,9 @@ struct Place {
 BlockRole role_of(const Json& entry, const Place& place) {
   const auto role = entry.find("role");
   if (role == entry.end()) return BlockRole::wall;
-  const auto found =
-      role->is_string() ? std::ranges::find(kRoleNames, role->get<std::string>()) : kRoleNames.end();
-  if (found == kRoleNames.end())
-    place.refuse(fmt::format("role: expected one of {}", fmt::join(kRoleNames, ", ")));
-  return static_cast<BlockRole>(found - kRoleNames.begin());
+  const auto found = role->is_string() ? find_role(role->get<std::string>()) : std::nullopt;
+  if (!found) place.refuse(fmt::format("role: expected one of {}", role_names()));
+  return *found;
 }
 
 Polygon vertices_of(const Json& entry, const Place& place) {
@@ -45,9 +41,9 @@ Polygon vertices_of(const Json& entry, const Place& place) {
     const bool pair =
         vertex.is_array() && vertex.size() >= 2 && vertex[0].is_number() && vertex[1].is_number();
     const Point point = pair ? Point(vertex[0].get<double>(), vertex[1].get<double>()) : Point::Zero();
-    if (!pair || !(point.cwiseAbs().maxCoeff() <= kFarthest))
+    if (!pair || !(point.cwiseAbs().maxCoeff() <= kLargestLength))
       place.refuse(fmt::format("vertex {}: expected [x, y], numbers of at most {:g} m", polygon.size() + 1,
-                               kFarthest));
+                               kLargestLength));
     polygon.push_back(point);
   }
   return polygon;

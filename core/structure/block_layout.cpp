@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <map>
 
 #include "core/error.h"
 #include "core/structure/arch.h"
 #include "core/structure/assembly_check.h"
+#include "core/structure/block_boxes.h"
 #include "core/structure/exposed_edges.h"
 
 namespace voussoir {
@@ -16,14 +16,8 @@ namespace {
 /// An arch's outline and how far it reaches.
 struct Opening {
   Polygon enclosed;
-  double left, right;  ///< [m]
+  Box box;
 };
-
-Opening opening_of(const Polygon& enclosed) {
-  const auto [left, right] = std::minmax_element(
-      enclosed.begin(), enclosed.end(), [](const Point& a, const Point& b) { return a.x() < b.x(); });
-  return {enclosed, left->x(), right->x()};
-}
 
 /// The rings of all spans, ring by ring from the intrados outwards, each from left to right. Returns what the
 /// arches leave free.
@@ -40,7 +34,7 @@ std::vector<Opening> add_arches(const BridgeDescription& description, std::vecto
       blocks.push_back(std::move(block));
     }
     rings += ring_count(span);
-    openings.push_back(opening_of(arch.enclosed));
+    openings.push_back({arch.enclosed, box_of(arch.enclosed)});
   }
   const auto place = [&](const Block& block) {
     return order[static_cast<std::size_t>(block.index.position)];
@@ -65,7 +59,9 @@ std::vector<Polygon> cut_by_arches(const Polygon& rectangle, const std::vector<O
                                    double smallest_piece) {
   std::vector<Polygon> parts = {rectangle};
   for (const Opening& opening : openings) {
-    if (rectangle[1].x() <= opening.left || rectangle[0].x() >= opening.right) continue;  // beside the span
+    const bool beside =
+        rectangle[1].x() <= opening.box.min().x() || rectangle[0].x() >= opening.box.max().x();
+    if (beside) continue;
     std::vector<Polygon> remaining;
     for (const Polygon& part : parts)
       for (Polygon& piece : subtract(part, opening.enclosed, smallest_piece))
@@ -109,16 +105,6 @@ SmallPieces add_part(const WallPart& part, int courses_before, const std::vector
   return result;
 }
 
-/// Numbers the blocks of every course from the left, and calls them by that.
-void number(std::vector<Block>& blocks) {
-  BlockIndex last;
-  for (Block& block : blocks) {
-    last = {block.index.course, block.index.course == last.course ? last.position + 1 : 1};
-    block.index = last;
-    block.label = to_string(last);
-  }
-}
-
 /// Of a bridge with further parts the top is whatever is seen from above.
 void mark_top(std::vector<Block>& blocks) {
   for (Block& block : blocks) block.top_course = is_seen_from_above(block, blocks);
@@ -128,17 +114,10 @@ void mark_top(std::vector<Block>& blocks) {
 /// blocks and the ground below counts as its intrados.
 BlockLayout given_blocks(const BridgeDescription& description) {
   BlockLayout layout{.blocks = description.blocks};
-  std::map<int, std::pair<double, double>> extents;  // of each ring along x
-  for (const Block& block : layout.blocks)
-    for (const Point& p : block.polygon) {
-      auto& [left, right] = extents.try_emplace(block.ring, p.x(), p.x()).first->second;
-      left = std::min(left, p.x());
-      right = std::max(right, p.x());
-    }
+  const std::map<int, Box> rings = boxes_of_rings(layout.blocks);
   const double ground = bounds_of(description).corner.y();
   for (Block& block : layout.blocks) {
-    const auto& [left, right] = extents.at(block.ring);
-    const Point middle(0.5 * (left + right), ground);
+    const Point middle(rings.at(block.ring).center().x(), ground);
     if (block.role == BlockRole::ring)
       block.intrados = open_face_towards(block, layout.blocks, middle, description.joint_tolerance);
     block.top_course = is_seen_from_above(block, layout.blocks);
@@ -155,16 +134,19 @@ std::optional<BlockId> first_block(const std::vector<Block>& blocks, Condition c
 
 }  // namespace
 
-std::string to_string(BlockIndex index) {
-  return fmt::format("{},{}", index.course, index.position);
-}
-
 std::optional<BlockId> BlockLayout::find(BlockIndex index) const {
   return first_block(blocks, [&](const Block& b) { return b.index == index; });
 }
 
 std::optional<BlockId> BlockLayout::find_label(std::string_view label) const {
   return first_block(blocks, [&](const Block& b) { return b.label == label; });
+}
+
+void BlockLayout::expect(const std::string& where, const std::vector<std::string>& names) const {
+  for (const std::string& name : names)
+    if (!find_role(name) && !find_label(name))
+      throw InputError(fmt::format("{}: '{}' is no block: expected the label of a block or a role ({})",
+                                   where, name, role_names()));
 }
 
 int BlockLayout::count_with(BlockRole role) const {
@@ -190,7 +172,7 @@ BlockLayout lay_blocks(const BridgeDescription& description) {
     layout.small_pieces.left += pieces.left;
     courses += part.courses.courses;
   }
-  number(layout.blocks);
+  number_by_courses(layout.blocks);
   if (layout.blocks.empty()) throw InputError("the bridge has no blocks: give it courses or spans");
   if (description.parts.empty()) return layout;
   mark_top(layout.blocks);

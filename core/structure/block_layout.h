@@ -2,6 +2,7 @@
 /// @file From the description of a bridge to its blocks.
 
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -23,6 +24,9 @@ struct BlockLayout {
   /// The block with this index or label, or nothing.
   std::optional<BlockId> find(BlockIndex index) const;
   std::optional<BlockId> find_label(std::string_view label) const;
+
+  /// Throws InputError "where: ..." unless every name is a role's or a block's label.
+  void expect(const std::string& where, const std::vector<std::string>& names) const;
 
   /// Number of blocks that play this part.
   int count_with(BlockRole role) const;

@@ -4,15 +4,13 @@
 
 #include "core/structure/assembly_check.h"
 #include "core/structure/block_file.h"
+#include "core/structure/block_limits.h"
 #include "core/structure/parts_section.h"
 
 namespace voussoir {
 namespace {
 
-constexpr std::size_t kMostBlocks = 20000;
-constexpr std::size_t kMostCorners = 200;
 constexpr std::size_t kCornersOfLine = 20;
-constexpr int kMostRings = 1000;
 
 /// A text as TOML writes it; what cannot stand in a label is refused when it is read.
 std::string in_quotes(const std::string& text) {

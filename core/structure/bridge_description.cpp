@@ -1,16 +1,13 @@
 #include "core/structure/bridge_description.h"
 
+#include "core/structure/block_boxes.h"
+
 namespace voussoir {
 
 Bounds bounds_of(const BridgeDescription& description) {
   if (description.blocks.empty()) return {Point::Zero(), description.wall.length};
-  Point low = description.blocks.front().polygon.front(), high = low;
-  for (const Block& block : description.blocks)
-    for (const Point& corner : block.polygon) {
-      low = low.cwiseMin(corner);
-      high = high.cwiseMax(corner);
-    }
-  return {low, high.x() - low.x()};
+  const Box box = box_of(description.blocks);
+  return {box.min(), box.sizes().x()};
 }
 
 }  // namespace voussoir

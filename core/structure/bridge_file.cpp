@@ -4,7 +4,9 @@
 #include <limits>
 #include <utility>
 
+#include "core/geometry/box.h"
 #include "core/structure/arch.h"
+#include "core/structure/block_limits.h"
 #include "core/structure/blocks_section.h"
 #include "core/structure/loads_section.h"
 #include "core/structure/materials_section.h"
@@ -21,8 +23,7 @@ namespace {
 
 constexpr std::uintmax_t kLargestFile = 1 << 20;  ///< [bytes] a bridge file is a page or two
 constexpr std::size_t kLongestLine = 4096;        ///< [bytes] bounds how deep dotted keys nest
-constexpr double kMostBlocks = 20000;
-constexpr double kMostPieces = 300000;  ///< blocks, each counted four times a level of refinement
+constexpr double kMostPieces = 300000;            ///< blocks, each counted four times a level of refinement
 
 void read_supports(TomlSection section, SupportDescription& supports) {
   for (const auto& [key, target] : {std::pair{"base", &supports.base}, std::pair{"sides", &supports.sides},
@@ -58,10 +59,10 @@ void check_size(const BridgeDescription& description, const std::string& file, l
     blocks += span.voussoirs + 2;
     for (const RingDescription& ring : span.outer_rings) blocks += ring.voussoirs + 1;
   }
-  if (blocks > kMostBlocks)
+  if (blocks > static_cast<double>(kMostBlocks))
     throw InputError(at_line(
         file, wall_line,
-        fmt::format("the bridge would have {:.0f} blocks: expected at most {:.0f}", blocks, kMostBlocks)));
+        fmt::format("the bridge would have {:.0f} blocks: expected at most {}", blocks, kMostBlocks)));
   if (blocks * std::pow(4.0, description.mesh.refinement) > kMostPieces)
     throw InputError(at_line(
         file, wall_line,
@@ -74,9 +75,8 @@ Interval extent_of(const SpanDescription& span, const WallDescription& wall) {
   if (span.shape == IntradosShape::semicircular && span.outer_rings.empty())
     return {span.centre_x - span.extrados_radius(), span.centre_x + span.extrados_radius()};
   const Arch arch = make_arch(span, wall.courses > 0);
-  Interval extent{arch.enclosed.front().x(), arch.enclosed.front().x()};
-  for (const Point& p : arch.enclosed) extent = {std::min(extent.left, p.x()), std::max(extent.right, p.x())};
-  return extent;
+  const Box box = box_of(arch.enclosed);
+  return {box.min().x(), box.max().x()};
 }
 
 /// Spans must lie in the wall and beside each other.

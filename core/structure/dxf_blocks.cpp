@@ -7,14 +7,13 @@
 
 #include "core/error.h"
 #include "core/structure/block_file.h"
+#include "core/structure/block_limits.h"
 #include "core/text.h"
 
 namespace voussoir {
 namespace {
 
 constexpr std::size_t kMostOutlines = 20000;
-constexpr std::size_t kMostVertices = 200;
-constexpr double kFarthest = 1e5;                        ///< [m] of anything
 constexpr double kChordAngle = std::numbers::pi / 18.0;  ///< [rad] of the chords of an arc, at most
 constexpr int kFirstUnit = 4, kLastUnit = 6;             ///< of $INSUNITS: mm, cm, m
 constexpr double kUnits[] = {1e-3, 1e-2, 1.0};           ///< [m]
@@ -140,8 +139,8 @@ class DrawingReader {
 
   void add_vertex(const Group& group) {
     std::vector<Vertex>& vertices = drawing_.outlines.back().vertices;
-    if (vertices.size() >= kMostVertices)
-      groups_.refuse(group.line, fmt::format("expected at most {} vertices of an outline", kMostVertices));
+    if (vertices.size() >= kMostCorners)
+      groups_.refuse(group.line, fmt::format("expected at most {} vertices of an outline", kMostCorners));
     vertices.emplace_back();
   }
 
@@ -215,13 +214,12 @@ std::optional<RoleAndRing> role_of_layer(const std::string& layer) {
   for (const char c : layer) name += static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c);
   const std::size_t end = name.find_last_not_of("0123456789 _-");
   const std::string word = end == std::string::npos ? "" : name.substr(0, end + 1);
-  const auto found = std::ranges::find(kRoleNames, word);
-  if (found == kRoleNames.end()) return std::nullopt;
-  const auto role = static_cast<BlockRole>(found - kRoleNames.begin());
+  const std::optional<BlockRole> role = find_role(word);
+  if (!role) return std::nullopt;
   const std::size_t digits = name.find_first_of("0123456789", end);
   const auto number = digits == std::string::npos ? std::nullopt : parse_whole_number(name.substr(digits));
-  return RoleAndRing{role,
-                     role == BlockRole::ring ? std::max(0, std::min(number.value_or(1), 1000) - 1) : kNoRing};
+  const int ring = std::max(0, std::min(number.value_or(1), kMostRings) - 1);
+  return RoleAndRing{*role, *role == BlockRole::ring ? ring : kNoRing};
 }
 
 bool is_inside(const Polygon& polygon, const Point& point) {
@@ -264,9 +262,9 @@ BlockFile parse_dxf_blocks(std::string_view text, const std::string& name) {
     block.ring = role->ring;
     block.polygon = polygon_of(outline, drawing.unit);
     for (const Point& p : block.polygon)
-      if (!(p.cwiseAbs().maxCoeff() <= kFarthest))
+      if (!(p.cwiseAbs().maxCoeff() <= kLargestLength))
         throw InputError(
-            at_line(name, outline.line, fmt::format("a vertex is farther than {:g} m", kFarthest)));
+            at_line(name, outline.line, fmt::format("a vertex is farther than {:g} m", kLargestLength)));
   }
   for (const auto& [layer, count] : left_out)
     file.notes.push_back(
@@ -274,7 +272,7 @@ BlockFile parse_dxf_blocks(std::string_view text, const std::string& name) {
   if (open > 0) file.notes.push_back(fmt::format("left out {} outlines that are not closed", open));
   if (file.blocks.empty())
     throw InputError(fmt::format("{}: no closed polylines on layers that name roles: expected layers {}",
-                                 name, fmt::join(kRoleNames, ", ")));
+                                 name, role_names()));
   name_blocks(drawing, file.blocks);
   return file;
 }

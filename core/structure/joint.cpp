@@ -44,6 +44,12 @@ std::optional<Joint> joint_between(const PlacedEdge& a, const PlacedEdge& b, dou
 
 }  // namespace
 
+std::array<Point, 2> ends_of(const Joint& joint, const Mesh& mesh) {
+  const Point from = mesh.position(joint.first_edge.from);
+  const Point along = mesh.position(joint.first_edge.to) - from;
+  return {from + joint.first_at[0] * along, from + joint.first_at[1] * along};
+}
+
 std::vector<Joint> find_joints(const Mesh& mesh, double tolerance) {
   const std::vector<PlacedEdge> edges = edges_by_left_end(mesh);
   std::vector<Joint> joints;

@@ -23,6 +23,9 @@ struct Joint {
   double length;                    ///< [m]
 };
 
+/// The stretch's two ends [m], on the first edge.
+std::array<Point, 2> ends_of(const Joint& joint, const Mesh& mesh);
+
 /// All stretches longer than `tolerance` [m] where edges of different blocks run against each other within
 /// it.
 std::vector<Joint> find_joints(const Mesh& mesh, double tolerance);

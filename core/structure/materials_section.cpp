@@ -3,7 +3,6 @@
 namespace voussoir {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr std::size_t kMostSurfacePoints = 1000;
 
 void read_material_keys(TomlSection& section, Material& material) {
@@ -18,9 +17,7 @@ void read_material_keys(TomlSection& section, Material& material) {
 void read_joint_keys(TomlSection& section, JointMaterial& joints) {
   section.positive("normal_stiffness_Pa_per_m", joints.normal_stiffness);
   section.positive("tangential_stiffness_Pa_per_m", joints.tangential_stiffness);
-  double degrees = joints.friction_angle / kDegree;
-  section.number("friction_angle_deg", degrees, 0.0, 89.0, true);
-  joints.friction_angle = degrees * kDegree;
+  section.friction_angle(joints.friction_angle, 0.0);
 }
 
 }  // namespace

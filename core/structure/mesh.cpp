@@ -1,9 +1,9 @@
 #include "core/structure/mesh.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
+#include "core/geometry/box.h"
 #include "core/geometry/triangulation.h"
 
 namespace voussoir {
@@ -14,8 +14,7 @@ constexpr double kTouching = 1e-6;  ///< [m] a corner this close to an edge touc
 
 /// Corners of other blocks that touch the block's boundary away from its own corners.
 std::vector<Point> touching_corners(const Polygon& polygon, const std::vector<Block>& blocks) {
-  Eigen::AlignedBox2d box;
-  for (const Point& p : polygon) box.extend(p);
+  const Box box = box_of(polygon);
   const auto is_far = [&](const Point& p) { return box.squaredExteriorDistance(p) > kTouching * kTouching; };
   std::vector<Point> touching;
   for (const Block& block : blocks)
@@ -45,8 +44,7 @@ bool symmetric(const Polygon& polygon, double axis) {
 
 /// What lies left of the axis, cut between its corners, and its mirror image.
 Triangulation cut_in_halves(const Polygon& polygon, double axis) {
-  Eigen::AlignedBox2d box;
-  for (const Point& p : polygon) box.extend(p);
+  const Box box = box_of(polygon);
   const Polygon right_side = {{axis, box.min().y() - 1.0},
                               {box.max().x() + 1.0, box.min().y() - 1.0},
                               {box.max().x() + 1.0, box.max().y() + 1.0},

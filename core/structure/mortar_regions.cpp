@@ -8,10 +8,6 @@
 namespace voussoir {
 namespace {
 
-bool is_called(const Block& block, const std::string& name) {
-  return block.label == name || name == name_of(block.role);
-}
-
 bool lies_in(const MortarRegion& region, const Block& first, const Block& second) {
   const auto& names = region.between;
   if (names.empty()) return true;
@@ -19,23 +15,12 @@ bool lies_in(const MortarRegion& region, const Block& first, const Block& second
          (is_called(first, names[1]) && is_called(second, names[0]));
 }
 
-bool is_role(const std::string& name) {
-  return std::ranges::find(kRoleNames, name) != kRoleNames.end();
-}
-
-void check_names(const MortarRegion& region, const BlockLayout& layout) {
-  for (const std::string& name : region.between)
-    if (!is_role(name) && !layout.find_label(name))
-      throw InputError(
-          fmt::format("between in [[mortar]]: '{}' is no block: expected a label of a block or one of {}",
-                      name, fmt::join(kRoleNames, ", ")));
-}
-
 }  // namespace
 
 void lay_mortar(const BridgeDescription& description, const Structure& structure, Parameters& parameters) {
   const BlockLayout& layout = structure.layout;
-  for (const MortarRegion& region : description.mortar) check_names(region, layout);
+  for (const MortarRegion& region : description.mortar)
+    layout.expect("between in [[mortar]]", region.between);
   const bool held_together = std::ranges::any_of(description.mortar, &MortarRegion::within_blocks);
   if (description.wall.halved && !held_together)
     throw InputError("halved in [wall]: expected a table [[mortar]] with within_blocks = true beside it");

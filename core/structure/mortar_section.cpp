@@ -1,12 +1,9 @@
 #include "core/structure/mortar_section.h"
 
 #include <cmath>
-#include <numbers>
 
 namespace voussoir {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 /// Refuses what would break by itself, or be stronger in tension than Coulomb's line allows.
 void check_strength(const TomlSection& section, const JointMaterial& joints, const MortarRegion& region) {
@@ -42,9 +39,8 @@ void read_strength(TomlSection& section, const JointMaterial& joints, MortarRegi
   required("opening_energy_J_m2", mortar.opening_energy);
   required("cohesion_Pa", mortar.cohesion);
   required("slip_energy_J_m2", mortar.slip_energy);
-  double degrees = joints.friction_angle / kDegree;
-  section.number("friction_angle_deg", degrees, joints.friction_angle / kDegree, 89.0, true);
-  mortar.friction_angle = degrees * kDegree;
+  mortar.friction_angle = joints.friction_angle;
+  section.friction_angle(mortar.friction_angle, joints.friction_angle);
   section.positive("compressive_strength_Pa", mortar.compressive_strength);
   section.positive("crushing_energy_J_m2", mortar.crushing_energy);
   check_strength(section, joints, region);

@@ -23,14 +23,9 @@ void read_wall(TomlSection section, WallDescription& wall) {
 }
 
 void read_role(TomlSection& section, const char* key, BlockRole& role) {
-  section.choice(key, role,
-                 {{"wall", BlockRole::wall},
-                  {"ring", BlockRole::ring},
-                  {"pier", BlockRole::pier},
-                  {"abutment", BlockRole::abutment},
-                  {"parapet", BlockRole::parapet},
-                  {"backing", BlockRole::backing},
-                  {"fill", BlockRole::fill}});
+  std::vector<std::pair<const char*, BlockRole>> roles;
+  for (const char* const name : kRoleNames) roles.emplace_back(name, *find_role(name));
+  section.choice(key, role, roles);
 }
 
 WallPart read_part(TomlSection section, const WallDescription& wall) {

@@ -5,21 +5,11 @@
 #include <cmath>
 #include <map>
 
-#include "core/error.h"
-
 namespace voussoir {
 namespace {
 
 bool names(const Region& region, const Block& block) {
-  return std::ranges::any_of(
-      region.of, [&](const std::string& name) { return name == block.label || name == name_of(block.role); });
-}
-
-void check_names(const Region& region, const BlockLayout& layout) {
-  for (const std::string& name : region.of)
-    if (std::ranges::find(kRoleNames, name) == kRoleNames.end() && !layout.find_label(name))
-      throw InputError(fmt::format("a region is of '{}': expected a role ({}) or the label of a block", name,
-                                   fmt::join(kRoleNames, ", ")));
+  return std::ranges::any_of(region.of, [&](const std::string& name) { return is_called(block, name); });
 }
 
 bool same(const Material& a, const Material& b) {
@@ -38,7 +28,7 @@ JointMaterial weaker(const JointMaterial& a, const JointMaterial& b) {
 void set_regions(const BridgeDescription& description, const Structure& structure, Parameters& parameters) {
   std::vector<JointMaterial> of_block(structure.layout.size(), description.joints);
   for (const Region& region : description.regions) {
-    check_names(region, structure.layout);
+    structure.layout.expect("of in [[regions]]", region.of);
     for (std::size_t b = 0; b < structure.layout.size(); ++b) {
       if (!names(region, structure.layout.blocks[b])) continue;
       parameters.blocks[b] = region.material;

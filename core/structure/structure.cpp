@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <set>
+#include <utility>
 
 #include "core/error.h"
 #include "core/structure/halved_blocks.h"
@@ -41,10 +42,12 @@ Structure assemble(std::vector<Block> blocks, const AssemblyRules& rules) {
 
 Structure make_structure(const BridgeDescription& description) {
   const Bounds bounds = bounds_of(description);
-  Structure structure = assemble(halved(lay_blocks(description).blocks, description.wall),
+  BlockLayout laid = lay_blocks(description);
+  Structure structure = assemble(halved(std::move(laid.blocks), description.wall),
                                  {.mesh = description.mesh,
                                   .joint_tolerance = description.joint_tolerance,
                                   .mirror_axis = bounds.corner.x() + 0.5 * bounds.length});
+  structure.layout.small_pieces = laid.small_pieces;
   structure.supports = box_supports(structure.mesh, description.supports, bounds.length, bounds.corner);
   hold_top(description, structure.layout, structure.mesh, structure.supports);
   structure.control_points = find_control_points(structure.layout, structure.mesh, description);

@@ -1,6 +1,7 @@
 #include "core/structure/toml_section.h"
 
 #include <cmath>
+#include <numbers>
 
 namespace voussoir {
 
@@ -22,6 +23,14 @@ void TomlSection::number(const char* key, double& target, double least, double m
     refuse(key, fmt::format("is {}: expected a number {} {:g} and at most {:g}", *number,
                             least_allowed ? "of at least" : "greater than", least, most));
   target = *number;
+}
+
+void TomlSection::friction_angle(double& radians, double least) {
+  constexpr double kDegree = std::numbers::pi / 180.0;
+  constexpr double kMostDegrees = 89.0;
+  double degrees = radians / kDegree;
+  number("friction_angle_deg", degrees, least / kDegree, kMostDegrees, true);
+  radians = degrees * kDegree;
 }
 
 void TomlSection::count(const char* key, int& target, int least, int most) {

@@ -3,20 +3,20 @@
 
 #include <toml++/toml.h>
 
-#include <initializer_list>
 #include <set>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
 #include "core/error.h"
 #include "core/geometry/polygon.h"
+#include "core/structure/block_limits.h"
 
 namespace voussoir {
 
 inline constexpr double kMostOfAnySetting = 1e15;
 inline constexpr double kSmallestLength = 1e-3;  ///< [m] of any part: joints are found within 1e-6 m
-inline constexpr double kLargestLength = 1e5;    ///< [m] of anything
 
 /// Reads the keys of one table; remembers which were asked for, so that the others can be refused. A key that
 /// is not there leaves its target as it was. All members throw InputError "file:line: message".
@@ -29,6 +29,8 @@ class TomlSection {
   void number(const char* key, double& target, double least, double most, bool least_allowed);
   void positive(const char* key, double& target) { number(key, target, 0.0, kMostOfAnySetting, false); }
   void length(const char* key, double& target) { number(key, target, kSmallestLength, kLargestLength, true); }
+  /// "friction_angle_deg", into radians of at least `least`.
+  void friction_angle(double& radians, double least);
   void not_negative(const char* key, double& target) { number(key, target, 0.0, kMostOfAnySetting, true); }
   void count(const char* key, int& target, int least, int most);
   void flag(const char* key, bool& target);
@@ -40,7 +42,7 @@ class TomlSection {
 
   template <typename Choice>
   void choice(const char* key, Choice& target,
-              std::initializer_list<std::pair<const char*, Choice>> choices) {
+              const std::vector<std::pair<const char*, std::type_identity_t<Choice>>>& choices) {
     const toml::node* node = take(key);
     if (node == nullptr) return;
     std::string names;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 
+#include "core/geometry/box.h"
 #include "core/random.h"
 
 namespace voussoir {
@@ -83,13 +84,9 @@ void apply(const UncertainAction& action, double theta, Parameters& parameters) 
 }
 
 Point middle(const Support& support, const Mesh& mesh) {
-  Point least = mesh.position(support.nodes.front());
-  Point most = least;
-  for (const NodeId node : support.nodes) {
-    least = least.cwiseMin(mesh.position(node));
-    most = most.cwiseMax(mesh.position(node));
-  }
-  return 0.5 * (least + most);
+  Box box;
+  for (const NodeId node : support.nodes) box.extend(mesh.position(node));
+  return box.center();
 }
 
 }  // namespace

@@ -45,4 +45,12 @@ Model bridge_of(const Database& database) {
   return with_nominal_parameters(std::move(structure), description);
 }
 
+SceneStates stored_states(const Database& database, std::size_t row, const StatePlan& plan) {
+  SceneStates states(plan.size());
+  for (std::size_t state = 0; state < plan.size(); ++state)
+    if (const auto stored = database.find_state(plan[state].name))
+      states[state] = database.solution(row, *stored);
+  return states;
+}
+
 }  // namespace voussoir

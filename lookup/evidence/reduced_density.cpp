@@ -9,7 +9,8 @@ namespace {
 
 constexpr std::size_t K = kDirections;
 constexpr auto kFirst = static_cast<std::size_t>(kFirstColumns);
-static_assert(K % kLanes == 0 && kFirstDirections % kLanes == 0 && kFirst % kLanes == 0);
+static_assert(K % kLanes == 0 && kFirstDirections % kLanes == 0 && kFirst % kLanes == 0 &&
+              kEpochColumns % kLanes == 0);
 static_assert(kScatterFactors.size() == kLanes, "one lane for each");
 
 /// A scene's signal in the directions, beyond that of its losses, and the mean square of the latter.
@@ -39,15 +40,13 @@ VOUSSOIR_INLINE void project(const ReducedQuestion& q, const double* prediction,
   to.mean_square = squares / q.changed;
 }
 
-/// What the first columns of two losses have in common.
-VOUSSOIR_INLINE double common(const ReducedLoss& first, const ReducedLoss& second, std::size_t i,
-                              std::size_t j) {
+/// What columns of two losses have in common.
+template <std::size_t kColumns>
+VOUSSOIR_INLINE double common(const double* first, const double* second, std::size_t i, std::size_t j) {
   DoubleLanes sum{};
-  for (std::size_t p = 0; p < kFirst; p += kLanes)
-    sum += load<DoubleLanes>(first.first.data() + i * kFirst + p) *
-               load<DoubleLanes>(second.first.data() + j * kFirst + p) +
-           load<DoubleLanes>(first.first.data() + j * kFirst + p) *
-               load<DoubleLanes>(second.first.data() + i * kFirst + p);
+  for (std::size_t p = 0; p < kColumns; p += kLanes)
+    sum += load<DoubleLanes>(first + i * kColumns + p) * load<DoubleLanes>(second + j * kColumns + p) +
+           load<DoubleLanes>(first + j * kColumns + p) * load<DoubleLanes>(second + i * kColumns + p);
   return sum_of(sum);
 }
 
@@ -57,13 +56,20 @@ VOUSSOIR_INLINE void fill(const ReducedQuestion& q, const Projected& scene, cons
                           const ReducedLoss& second, DoubleLanes* covariance) {
   const DoubleLanes kappa = load<DoubleLanes>(kScatterFactors.data());
   const double square = q.spread * q.spread, point = square * scene.mean_square;
+  const bool pair = second.known;
+  const double* const of_bridge = pair ? first.bridge_of_pair.data() : first.bridge.data();
+  const double* const of_others = pair ? first.others_of_pair.data() : first.others.data();
   for (std::size_t i = 0; i < N; ++i)
     for (std::size_t j = 0; j <= i; ++j) {
       const std::size_t at = lower_size(i) + j;
-      double bridge = q.bridge[at] + first.bridge[at] + second.bridge[at];
-      if (second.known) bridge += common(first, second, i, j);
-      const double others = q.others[at] + first.others[at] + second.others[at] +
-                            square * scene.beyond[i] * scene.beyond[j] + point * q.points[at];
+      double bridge = q.bridge[at] + of_bridge[at];
+      double others =
+          q.others[at] + of_others[at] + square * scene.beyond[i] * scene.beyond[j] + point * q.points[at];
+      if (pair) {
+        bridge += second.bridge_of_pair[at] + common<kFirst>(first.first.data(), second.first.data(), i, j);
+        others +=
+            second.others_of_pair[at] + common<kEpochColumns>(first.epoch.data(), second.epoch.data(), i, j);
+      }
       covariance[at] = others + kappa * bridge;
     }
 }

@@ -83,7 +83,7 @@ double likeliest_level(NoiseShape shape, const RowStatistics& statistics, std::s
 
 double log_sum(double a, double b) {
   const double larger = std::max(a, b);
-  return larger == kImpossible ? kImpossible : larger + std::log1p(std::exp(std::min(a, b) - larger));
+  return std::isinf(larger) ? larger : larger + std::log1p(std::exp(std::min(a, b) - larger));
 }
 
 }  // namespace voussoir

@@ -31,7 +31,7 @@ double log_evidence(NoiseShape shape, const RowStatistics& statistics, std::size
 double likeliest_level(NoiseShape shape, const RowStatistics& statistics, std::size_t count,
                        double taken_at = 1.0);
 
-/// log(exp(a) + exp(b)) without overflow; -infinity is the logarithm of zero.
+/// log(exp(a) + exp(b)) without overflow; -infinity is the logarithm of zero, infinity stays what it is.
 double log_sum(double a, double b);
 
 }  // namespace voussoir

@@ -11,15 +11,14 @@ namespace voussoir {
 namespace {
 
 constexpr double kImpossible = -std::numeric_limits<double>::infinity();
-constexpr double kNone = -std::numeric_limits<double>::max();
-constexpr double kNegligible = 20.0;     // logarithm of how far behind the likeliest a case is given up
-constexpr double kUncounted = 3e-4;      // probability of all scenes that are left at their first estimates
+constexpr double kNotWorkedOut = std::numeric_limits<double>::infinity();
+constexpr double kNegligible = 20.0;  // logarithm of how far behind the likeliest a scene's case is left out
+constexpr double kUncounted = 3e-4;   // probability of all scenes that are left at their first estimates
 constexpr double kLeftEstimated = 5e-4;  // probability of all scenes that are not worked out
 constexpr double kTooLow = 0.5;          // an estimate's logarithm is hardly ever too low by more than this
-constexpr double kEstimate = 6.0;        // nor too high by so much less than those of likely scenes
 constexpr std::size_t kAtOnce = 8;       // scenes that are worked out before the next look at what matters
-constexpr std::size_t kMostWorkedOut = 96;  // scenes; others that may matter count by their estimates
-constexpr std::size_t kRemembered = 4;      // likeliest scenes of one case that others are tried with
+constexpr std::size_t kMostWorkedOut = 400;  // likely scenes; others count by their estimates
+constexpr std::size_t kTried = 4;            // scenes with which a case is tried before pairs are looked at
 
 /// An estimate that failed counts as likely: the scene is worked out.
 double usable(double estimate) {
@@ -36,7 +35,9 @@ ScreenedCases::ScreenedCases(UnknownBridge& bridge, const Observation& observati
       table_(table),
       rows_(rows),
       beforehand_(beforehand),
-      exact_(rows.size()) {
+      likelihoods_(bridge, observation, table),
+      exact_(rows.size()),
+      is_worked_out_(rows.size(), false) {
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const bool few = table.most_missing < 2 || table.removed[rows[i] * table.most_missing + 1] < 0;
     (few ? few_ : many_).push_back(i);
@@ -58,7 +59,7 @@ std::vector<std::size_t> ScreenedCases::nearest_singles() const {
   std::sort(distances.begin(), distances.end());
   std::vector<std::size_t> places;
   for (const auto& [distance, place] : distances)
-    if (places.size() < kRemembered || table_.removed[rows_[place] * table_.most_missing] < 0)
+    if (places.size() < kTried || table_.removed[rows_[place] * table_.most_missing] < 0)
       places.push_back(place);
   return places;
 }
@@ -76,15 +77,46 @@ void ScreenedCases::estimate(const UnknownScreen& screen, std::span<const std::s
     estimates[places[i]] = usable(logs[i]) + beforehand_[places[i]];
 }
 
+/// How much a density rises at most if the covariance becomes that of another case, which is nowhere wider.
+/// Of log det that is as much as for the intact bridge at most, as long as losses widen covariances.
+double rise(const ScatterLogs& from, const ScatterLogs& to) {
+  double most = kImpossible;
+  for (std::size_t k = 0; k < from.size(); ++k) most = std::max(most, to[k] - from[k]);
+  return most;
+}
+
+/// Scenes with many missing blocks that may matter in a case, by its highest density and by what cases with
+/// wider covariances left of them. The others' estimates become these bounds.
+std::vector<std::size_t> ScreenedCases::not_ruled_out(Case& one, double least) const {
+  std::vector<double>& bounds = one.estimate;
+  for (const std::size_t place : many_) bounds[place] = over_scatter(one.peaks) + beforehand_[place];
+  for (const Case& wider : cases_) {
+    if (&wider == &one) break;
+    const bool next = wider.one.level == one.one.level || wider.one.conditions == one.one.conditions;
+    if (!next || wider.one.conditions < one.one.conditions) continue;
+    const double more = rise(wider.peaks, one.peaks);
+    for (const std::size_t place : many_)
+      bounds[place] = std::min(bounds[place], wider.estimate[place] + more);
+  }
+  std::vector<std::size_t> places;
+  for (const std::size_t place : many_)
+    if (!(bounds[place] < least)) places.push_back(place);
+  return places;
+}
+
 /// Estimates all scenes in a case; those with many missing blocks no better than they have to be, which the
 /// likeliest of the others show.
 void ScreenedCases::look_at(Case& one) {
   set_case(observation_, one.one, bridge_);
   const UnknownScreen screen(bridge_, observation_, table_, hardware_threads());
+  one.peaks = screen.peaks();
   one.estimate.assign(rows_.size(), kImpossible);
   estimate(screen, few_, kImpossible, one.estimate);
-  work_out(first_of(few_, one.estimate, kRemembered), kNone);
-  estimate(screen, many_, best_ + std::log(kUncounted / static_cast<double>(rows_.size())), one.estimate);
+  std::vector<std::uint8_t> only_here;
+  for (const Case& other : cases_) only_here.push_back(&other == &one ? 1 : 0);
+  work_out(first_of(few_, one.estimate, kTried), only_here);
+  const double least = best_ + std::log(kUncounted / static_cast<double>(rows_.size() * cases_.size()));
+  estimate(screen, not_ruled_out(one, least), least, one.estimate);
   for (std::size_t i = 0; i < rows_.size(); ++i)
     if (one.estimate[i] > kImpossible) estimate_[i] = log_sum(estimate_[i], one.estimate[i]);
 }
@@ -112,59 +144,74 @@ std::vector<std::size_t> ScreenedCases::most_likely(std::size_t count) const {
   return first_of(std::move(places), estimate_, count);
 }
 
-/// In all cases that were not found to be worse than this.
-void ScreenedCases::work_out(std::span<const std::size_t> places, double worst_case) {
-  std::vector<std::size_t> missing, rows;
+/// In the cases that are wanted of each place, those worked out before left out.
+void ScreenedCases::work_out(std::span<const std::size_t> places, std::span<const std::uint8_t> wanted,
+                             const Eigen::MatrixXd* rise) {
+  std::vector<std::size_t> rows;
   std::vector<CaseTerms> terms;
-  for (const std::size_t place : places)
-    if (exact_[place].empty()) missing.push_back(place), rows.push_back(rows_[place]);
+  std::vector<std::uint8_t> missing;
+  CasePruning pruning;
+  std::vector<double> least;
+  for (const std::size_t place : places) least.push_back(best_ - kNegligible - beforehand_[place]);
+  if (rise != nullptr) pruning = {least, *rise};
   for (const Case& one : cases_) terms.push_back(one.terms);
-  std::vector<std::uint8_t> wanted;
-  for (std::size_t i = 0; i < rows.size(); ++i)
-    for (const Case& one : cases_)
-      wanted.push_back(one.best_tried > kImpossible && one.best_tried < worst_case ? 0 : 1);
-  const auto logs = scatter_logs(bridge_, terms, observation_, table_, rows, wanted, hardware_threads());
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    rows.push_back(rows_[places[i]]);
+    std::vector<double>& exact = exact_[places[i]];
+    exact.resize(cases_.size(), kNotWorkedOut);
+    for (std::size_t k = 0; k < cases_.size(); ++k)
+      missing.push_back(wanted[wanted.size() == cases_.size() ? k : i * cases_.size() + k] != 0 &&
+                        exact[k] == kNotWorkedOut);
+  }
+  const auto logs =
+      likelihoods_(terms, rows, missing, hardware_threads(), rise != nullptr ? &pruning : nullptr);
   for (std::size_t i = 0; i < logs.size(); ++i) {
-    const std::size_t place = missing[i / cases_.size()], number = i % cases_.size();
-    exact_[place].push_back(over_scatter(logs[i]));
-    const double log = exact_[place].back() + beforehand_[place];
-    cases_[number].best_tried = std::max(cases_[number].best_tried, log);
+    if (missing[i] == 0) continue;
+    const std::size_t place = places[i / cases_.size()], number = i % cases_.size();
+    exact_[place][number] = over_scatter(logs[i]);
+    const double log = exact_[place][number] + beforehand_[place];
     if (log > best_) best_ = log, likeliest_ = number;
   }
 }
 
-/// log of the sum over cases.
+/// In all cases that may matter beside the likeliest scene's.
+void ScreenedCases::work_out_where_likely(std::span<const std::size_t> places) {
+  std::vector<std::uint8_t> wanted;
+  for (const std::size_t place : places) {
+    is_worked_out_[place] = true;
+    for (const Case& one : cases_) wanted.push_back(one.estimate[place] < best_ - kNegligible ? 0 : 1);
+  }
+  work_out(places, wanted, &rise_);
+}
+
+/// log of the sum over the cases in which the place was worked out.
 double ScreenedCases::total(std::size_t place) const {
   double sum = kImpossible;
-  for (const double one : exact_[place]) sum = log_sum(sum, one);
+  for (const double one : exact_[place])
+    if (one != kNotWorkedOut) sum = log_sum(sum, one);
   return sum;
 }
 
-/// Tries all cases with a few scenes, looks at the likeliest case, tries all cases with the scenes that it
-/// shows to be likely, and so on until no case is left that can matter.
+/// Tries all cases with a few scenes, then looks at each of them.
 void ScreenedCases::look_at_cases() {
-  work_out(nearest_singles(), kNone);
-  while (true) {
-    Case* next = nullptr;
-    for (Case& one : cases_)
-      if (one.estimate.empty() && (next == nullptr || one.best_tried > next->best_tried)) next = &one;
-    if (next == nullptr || next->best_tried < best_ - kNegligible) return;
-    look_at(*next);
-    work_out(most_likely(kRemembered), kNone);
-  }
+  work_out(nearest_singles(), std::vector<std::uint8_t>(cases_.size(), 1));
+  for (Case& one : cases_) look_at(one);
+  rise_ = rises();
 }
 
-/// log of the sum of the estimates of all places but these.
-double ScreenedCases::others_estimate(std::span<const std::size_t> places) const {
-  std::vector<bool> among(rows_.size(), false);
-  for (const std::size_t place : places) among[place] = true;
-  double sum = 0.0;
-  for (std::size_t place = 0; place < rows_.size(); ++place)
-    if (!among[place]) sum += std::exp(estimate_[place] - best_);
-  return std::log(sum) + best_;
+/// From each case to those that are nowhere wider.
+Eigen::MatrixXd ScreenedCases::rises() const {
+  const auto count = static_cast<Eigen::Index>(cases_.size());
+  Eigen::MatrixXd result = Eigen::MatrixXd::Constant(count, count, std::numeric_limits<double>::infinity());
+  for (std::size_t i = 0; i < cases_.size(); ++i)
+    for (std::size_t j = i + 1; j < cases_.size(); ++j)
+      if (cases_[j].one.level <= cases_[i].one.level && cases_[j].one.conditions <= cases_[i].one.conditions)
+        result(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) =
+            rise(cases_[i].peaks, cases_[j].peaks);
+  return result;
 }
 
-/// How far sums of estimates are off, of scenes that are worked out.
+/// How far sums of estimates are too high, of scenes that are worked out.
 double ScreenedCases::shift_of(std::span<const std::size_t> places) const {
   double exact = kImpossible, estimated = kImpossible;
   for (const std::size_t place : places) {
@@ -172,34 +219,38 @@ double ScreenedCases::shift_of(std::span<const std::size_t> places) const {
     exact = log_sum(exact, total(place) + beforehand_[place]);
     estimated = log_sum(estimated, estimate_[place]);
   }
-  return exact > kImpossible ? exact - estimated : 0.0;
+  return exact > kImpossible ? std::min(0.0, exact - estimated) : 0.0;
 }
 
 /// Works out scenes in the order of their estimates, so many at a time, until what is left can change no
-/// probability by more than kLeftEstimated, and those without an estimate; the others count by their
-/// estimates, shifted by what those of the last worked out are off.
+/// probability by more than kLeftEstimated. If more scenes than can be worked out are likely indeed, the
+/// others count by their estimates, shifted by what those of the last worked out are off.
+double ScreenedCases::work_out_likely(std::size_t count) {
+  const std::vector<std::size_t> order = most_likely(rows_.size());
+  std::vector<double> left(order.size() + 1, kImpossible);  // at each place and behind it
+  for (std::size_t i = order.size(); i-- > 0;) left[i] = log_sum(left[i + 1], estimate_[order[i]]);
+  double shift = 0.0;
+  std::size_t likely = 0;
+  for (std::size_t first = 0; first < order.size(); first += kAtOnce) {
+    const bool enough = left[first] + kTooLow < best_ + std::log(kLeftEstimated);
+    if (first >= count && (enough || likely >= kMostWorkedOut)) break;
+    const auto some = std::span(order).subspan(first, std::min(kAtOnce, order.size() - first));
+    work_out_where_likely(some);
+    shift = shift_of(some);
+    for (const std::size_t place : some)
+      if (total(place) + beforehand_[place] > best_ + std::log(kLeftEstimated / kMostWorkedOut)) ++likely;
+  }
+  return shift;
+}
+
 std::vector<double> ScreenedCases::evidence(std::size_t count) {
   look_at_cases();
-  const std::vector<std::size_t> order = most_likely(std::max(count, kMostWorkedOut));
-  std::vector<double> left(order.size() + 1, others_estimate(order));  // at each place and behind it
-  for (std::size_t i = order.size(); i-- > 0;) left[i] = log_sum(left[i + 1], estimate_[order[i]]);
-  double shift = 0.0, most_shift = kImpossible;  // of exact less estimate
-  for (std::size_t first = 0; first < order.size(); first += kAtOnce) {
-    const double too_low = std::min(kTooLow, most_shift + kEstimate);
-    if (first >= std::max(count, kAtOnce) && left[first] + too_low < best_ + std::log(kLeftEstimated)) break;
-    const auto some = std::span(order).subspan(first, std::min(kAtOnce, order.size() - first));
-    work_out(some, best_ - kNegligible);
-    shift = shift_of(some);
-    for (const std::size_t place : some) {
-      const double off = total(place) + beforehand_[place] - estimate_[place];
-      if (std::isfinite(off)) most_shift = std::max(most_shift, off);
-    }
-  }
+  const double shift = work_out_likely(std::max(count, kAtOnce));
   std::vector<double> result(rows_.size(), kImpossible);
   const double log_cases = std::log(static_cast<double>(cases_.size()));
   for (std::size_t place = 0; place < rows_.size(); ++place) {
-    if (std::isinf(estimate_[place]) && estimate_[place] > 0.0) work_out({&place, 1}, best_ - kNegligible);
-    const double log = exact_[place].empty() ? estimate_[place] - beforehand_[place] + shift : total(place);
+    if (std::isinf(estimate_[place]) && estimate_[place] > 0.0) work_out_where_likely({&place, 1});
+    const double log = is_worked_out_[place] ? total(place) : estimate_[place] - beforehand_[place] + shift;
     result[place] = log - log_cases;
   }
   return result;

@@ -12,7 +12,8 @@ namespace voussoir {
 
 class ScreenedCases {
  public:
-  /// `beforehand`: log prior of each of the rows. All of them outlive this; the bridge's case is changed.
+  /// `beforehand`: log prior of each of the rows. Cases come in descending order of levels and conditions.
+  /// All of them outlive this; the bridge's case is changed.
   ScreenedCases(UnknownBridge& bridge, const Observation& observation, const SceneTable& table,
                 std::span<const UnknownCase> cases, std::span<const std::size_t> rows,
                 std::span<const double> beforehand);
@@ -29,20 +30,24 @@ class ScreenedCases {
   struct Case {
     UnknownCase one;
     CaseTerms terms;
-    std::vector<double> estimate{};  ///< of each row, with what was known beforehand; empty: not looked at
-    double best_tried = -std::numeric_limits<double>::infinity();  ///< of scenes worked out, the same
+    std::vector<double> estimate{};  ///< of each row, with what was known beforehand
+    ScatterLogs peaks{};             ///< UnknownScreen::peaks
   };
 
   std::vector<std::size_t> nearest_singles() const;
   void estimate(const UnknownScreen& screen, std::span<const std::size_t> places, double least,
                 std::vector<double>& estimates) const;
+  std::vector<std::size_t> not_ruled_out(Case& one, double least) const;
   void look_at(Case& one);
   void look_at_cases();
   std::vector<std::size_t> first_of(std::vector<std::size_t> places, std::span<const double> estimates,
                                     std::size_t count) const;
   std::vector<std::size_t> most_likely(std::size_t count) const;
-  double others_estimate(std::span<const std::size_t> places) const;
-  void work_out(std::span<const std::size_t> places, double worst_case);
+  double work_out_likely(std::size_t count);
+  Eigen::MatrixXd rises() const;
+  void work_out(std::span<const std::size_t> places, std::span<const std::uint8_t> wanted,
+                const Eigen::MatrixXd* rise = nullptr);
+  void work_out_where_likely(std::span<const std::size_t> places);
   double total(std::size_t place) const;
   double shift_of(std::span<const std::size_t> places) const;
 
@@ -52,9 +57,12 @@ class ScreenedCases {
   std::span<const std::size_t> rows_;
   std::span<const double> beforehand_;
   std::vector<std::size_t> few_, many_;  // places of rows with at most one missing block, and with more
-  std::vector<Case> cases_;
-  std::vector<double> estimate_;            // of each row over all cases looked at, the same
+  std::vector<Case> cases_;              // those that widen another's covariance before it
+  std::vector<double> estimate_;         // of each row over all cases, the same
+  SceneLikelihoods likelihoods_;
   std::vector<std::vector<double>> exact_;  // of each row, for each case; empty: not worked out
+  Eigen::MatrixXd rise_;                    // CasePruning::rise, once all cases were looked at
+  std::vector<bool> is_worked_out_;         // in all cases that may matter
   std::size_t likeliest_ = 0;
   double best_ = -std::numeric_limits<double>::infinity();  // of any scene in any case, worked out
 };

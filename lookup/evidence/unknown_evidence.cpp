@@ -33,31 +33,20 @@ void store_rows(const MatrixXd& matrix, std::vector<double>& rows) {
 /// Memory of one thread.
 struct Work {
   ScatterDensity density;
-  std::vector<double> difference, columns, others;
+  std::vector<double> difference, columns;
   LowerTriangle noise, bridge, epoch, always;
 };
 
-/// What losses have of their own in rows of y, one beside the other.
-MatrixXd beside(const UnknownBridge& bridge, const SceneLoss& loss, MatrixXd SignalFactors::*member,
-                bool of_bridge) {
-  Index columns = 0;
-  for (const Loss* one : loss.known) columns += one->factors->signal.own.cols();
-  MatrixXd result(static_cast<Index>(bridge.rows.size()), columns);
-  Index first = 0;
-  for (const Loss* one : loss.known) {
-    const MatrixXd& from = one->factors->signal.*member;
-    for (Index k = 0; k < result.rows(); ++k) {
-      const ReadingRow& row = bridge.rows[static_cast<std::size_t>(k)];
-      result.row(k).segment(first, from.cols()) =
-          (of_bridge ? row.of_bridge() : row.after) * from.row(static_cast<Index>(row.channel));
-    }
-    first += from.cols();
-  }
-  return result;
+/// Channels in rows of y, as they count after the loss or as what is the same in both epochs does.
+MatrixXd rows_after(const UnknownBridge& bridge, const MatrixXd& channels) {
+  return in_rows(bridge.rows, MatrixXd::Zero(channels.rows(), channels.cols()), channels);
+}
+MatrixXd rows_of_bridge(const UnknownBridge& bridge, const MatrixXd& channels) {
+  return in_rows(bridge.rows, channels, channels);
 }
 
-/// A A^T of the intact bridge where it is the same in both epochs.
-void store_intact(const UnknownBridge& bridge, LowerTriangle& lower) {
+LowerTriangle intact_triangle(const UnknownBridge& bridge) {
+  LowerTriangle lower(lower_size(bridge.rows.size()));
   double* to = lower.data();
   for (std::size_t i = 0; i < bridge.rows.size(); ++i) {
     const auto at = static_cast<Index>(bridge.rows[i].channel);
@@ -69,36 +58,11 @@ void store_intact(const UnknownBridge& bridge, LowerTriangle& lower) {
                 : c * other * bridge.factors->intact_product(static_cast<Index>(bridge.rows[j].channel), at);
     }
   }
+  return lower;
 }
 
-/// What two losses' leading columns have in common.
-void add_common(const UnknownBridge& bridge, const SceneLoss& loss, Work& work) {
-  const auto lead = [&](std::size_t i, std::vector<double>& rows) {
-    const MatrixXd& columns = loss.known[i]->factors->lead;
-    store_rows(in_rows(bridge.rows, MatrixXd::Zero(columns.rows(), columns.cols()), columns), rows);
-  };
-  lead(0, work.columns);
-  lead(1, work.others);
-  add_symmetric_product(work.columns, work.others, bridge.rows.size(), work.bridge);
-}
-
-/// A A^T. A is c A_intact + a D in rows of y, c of what is the same in both epochs and a of what is after; so
-/// a D (a D)^T + a D (c A_intact)^T + c A_intact (a D)^T = X Y^T + Y X^T with X = a B and Y = c H + a B / 2.
-void store_bridge(const UnknownBridge& bridge, const SceneLoss& loss, Work& work) {
-  const std::size_t n = bridge.rows.size();
-  work.bridge.resize(lower_size(n));
-  store_intact(bridge, work.bridge);
-  if (loss.known.empty()) return;
-  const MatrixXd own = beside(bridge, loss, &SignalFactors::own, false);
-  const MatrixXd intact = beside(bridge, loss, &SignalFactors::intact, true);
-  store_rows(own, work.columns);
-  if (intact.isZero(0.0)) {
-    add_outer_product(work.columns, n, work.bridge);
-  } else {
-    store_rows(intact + 0.5 * own, work.others);
-    add_symmetric_product(work.columns, work.others, n, work.bridge);
-  }
-  if (loss.known.size() == 2) add_common(bridge, loss, work);
+void add_to(LowerTriangle& sum, const LowerTriangle& more) {
+  for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += more[i];
 }
 
 void store_outer_product(const MatrixXd& columns, std::vector<double>& rows, LowerTriangle& lower) {
@@ -107,11 +71,10 @@ void store_outer_product(const MatrixXd& columns, std::vector<double>& rows, Low
   add_outer_product(rows, static_cast<std::size_t>(columns.rows()), lower);
 }
 
-/// What no case changes of the scene's Gaussian.
+/// What no case changes of the scene's Gaussian, but for A A^T.
 void store_scene(const UnknownBridge& bridge, const SceneLoss& loss, Work& work) {
   const Eigen::VectorXd difference = bridge.reading - loss.signal;
   work.difference.assign(difference.begin(), difference.end());
-  store_bridge(bridge, loss, work);
   store_outer_product(epoch_columns(bridge, loss), work.columns, work.epoch);
   store_outer_product(other_columns(bridge, loss), work.columns, work.always);
 }
@@ -139,21 +102,89 @@ CaseTerms case_terms(const UnknownBridge& bridge) {
   return {bridge.conditions, bridge.spread, lower_of(bridge.noise)};
 }
 
-std::vector<ScatterLogs> scatter_logs(const UnknownBridge& bridge, std::span<const CaseTerms> cases,
-                                      const Observation& observation, const SceneTable& table,
-                                      std::span<const std::size_t> rows, std::span<const std::uint8_t> wanted,
-                                      int threads) {
+SceneLikelihoods::SceneLikelihoods(const UnknownBridge& bridge, const Observation& observation,
+                                   const SceneTable& table)
+    : bridge_(bridge),
+      observation_(observation),
+      table_(table),
+      intact_(intact_triangle(bridge)),
+      losses_(bridge.losses.size()) {}
+
+/// A is c A_intact + a D in rows of y, c of what is the same in both epochs and a of what is after; so
+/// a D (a D)^T + a D (c A_intact)^T + c A_intact (a D)^T = X Y^T + Y X^T with X = a B and Y = c H + a B / 2.
+/// Of two losses' leading columns L and M, L M^T + M L^T = (L + M) (L + M)^T - L L^T - M M^T.
+SceneLikelihoods::Products SceneLikelihoods::products_of(const Loss& loss) const {
+  const std::size_t n = bridge_.rows.size();
+  Products result;
+  std::vector<double> columns, others;
+  const MatrixXd own = rows_after(bridge_, loss.factors->signal.own),
+                 intact = rows_of_bridge(bridge_, loss.factors->signal.intact);
+  result.alone.assign(lower_size(n), 0.0);
+  store_rows(own, columns);
+  if (intact.isZero(0.0)) {
+    add_outer_product(columns, n, result.alone);
+  } else {
+    store_rows(intact + 0.5 * own, others);
+    add_symmetric_product(columns, others, n, result.alone);
+  }
+  store_rows(rows_after(bridge_, loss.factors->lead), result.lead);
+  LowerTriangle leading(lower_size(n), 0.0);
+  add_outer_product(result.lead, n, leading);
+  result.beside = result.alone;
+  for (std::size_t i = 0; i < leading.size(); ++i) result.beside[i] -= leading[i];
+  return result;
+}
+
+/// Of all losses that the scenes have.
+void SceneLikelihoods::prepare(std::span<const std::size_t> rows, int threads) {
+  std::vector<std::size_t> missing;
+  for (const std::size_t row : rows) {
+    const KnownLosses known = known_losses(bridge_, table_, row);
+    for (const std::size_t place : std::span(known.place).first(known.count))
+      if (losses_[place].alone.empty()) missing.push_back(place);
+  }
+  std::sort(missing.begin(), missing.end());
+  missing.erase(std::unique(missing.begin(), missing.end()), missing.end());
+  for_each_index_on_threads(missing.size(), threads, [&](std::size_t i) {
+    losses_[missing[i]] = products_of(bridge_.losses[missing[i]]);
+  });
+}
+
+std::vector<ScatterLogs> SceneLikelihoods::operator()(std::span<const CaseTerms> cases,
+                                                      std::span<const std::size_t> rows,
+                                                      std::span<const std::uint8_t> wanted, int threads,
+                                                      const CasePruning* pruning) {
+  prepare(rows, threads);
   ScatterLogs impossible;
   impossible.fill(kImpossible);
   std::vector<ScatterLogs> result(rows.size() * cases.size(), impossible);
   for_each_index_on_threads(rows.size(), threads, [&](std::size_t i) {
     thread_local Work work;
-    const auto loss = scene_loss(bridge, observation, table, rows[i]);
+    const auto loss = scene_loss(bridge_, observation_, table_, rows[i]);
     if (!loss) return;
-    store_scene(bridge, *loss, work);
-    for (std::size_t at = i * cases.size(); at < (i + 1) * cases.size(); ++at)
-      if (wanted.empty() || wanted[at] != 0)
-        result[at] = logs_of(bridge, *loss, cases[at % cases.size()], work);
+    store_scene(bridge_, *loss, work);
+    work.bridge = intact_;
+    const KnownLosses known = known_losses(bridge_, table_, rows[i]);
+    for (const std::size_t place : std::span(known.place).first(known.count))
+      add_to(work.bridge, known.count == 1 ? losses_[place].alone : losses_[place].beside);
+    if (known.count == 2) {
+      work.columns = losses_[known.place[0]].lead;
+      for (std::size_t k = 0; k < work.columns.size(); ++k)
+        work.columns[k] += losses_[known.place[1]].lead[k];
+      add_outer_product(work.columns, bridge_.rows.size(), work.bridge);
+    }
+    std::vector<double> bounds(cases.size(), std::numeric_limits<double>::infinity());
+    for (std::size_t k = 0; k < cases.size(); ++k) {
+      const std::size_t at = i * cases.size() + k;
+      if (!wanted.empty() && wanted[at] == 0) continue;
+      if (pruning != nullptr && bounds[k] < pruning->least[i]) continue;
+      result[at] = logs_of(bridge_, *loss, cases[k], work);
+      if (pruning == nullptr) continue;
+      const double log = over_scatter(result[at]);
+      for (std::size_t later = k + 1; later < cases.size(); ++later)
+        bounds[later] =
+            std::min(bounds[later], log + pruning->rise(static_cast<Index>(k), static_cast<Index>(later)));
+    }
   });
   return result;
 }
@@ -162,7 +193,7 @@ std::vector<ScatterLogs> scatter_logs(const UnknownBridge& bridge, const Observa
                                       const SceneTable& table, std::span<const std::size_t> rows,
                                       int threads) {
   const std::array<CaseTerms, 1> cases = {case_terms(bridge)};
-  return scatter_logs(bridge, cases, observation, table, rows, {}, threads);
+  return SceneLikelihoods(bridge, observation, table)(cases, rows, {}, threads);
 }
 
 }  // namespace voussoir

@@ -2,6 +2,7 @@
 /// @file The evidence of scenes of a bridge that is not exactly known.
 
 #include <array>
+#include <span>
 #include <vector>
 
 #include "lookup/evidence/scatter_density.h"
@@ -17,15 +18,45 @@ struct CaseTerms {
 };
 CaseTerms case_terms(const UnknownBridge& bridge);
 
-/// log p(readings | scene, case, kappa) of these rows of a table, for each of kScatterFactors: row by row,
-/// for each of the cases; -infinity for impossible scenes and where it is not `wanted` (the same order;
-/// empty: all are). Silent sensors are left out. Works on so many threads; their number changes no result.
-std::vector<ScatterLogs> scatter_logs(const UnknownBridge& bridge, std::span<const CaseTerms> cases,
-                                      const Observation& observation, const SceneTable& table,
-                                      std::span<const std::size_t> rows, std::span<const std::uint8_t> wanted,
-                                      int threads);
+/// What need not be worked out, as cases with wider covariances show.
+struct CasePruning {
+  std::span<const double> least;  ///< of each row: densities below do not matter
+  Eigen::MatrixXd rise;  ///< by how much a logarithm is larger at most in a case (column) than in one before
+                         ///< it (row); infinity where nothing is known
+};
 
-/// The same in the bridge's own case.
+/// Works scenes out. What a loss adds to the covariance is kept for all scenes that have it.
+class SceneLikelihoods {
+ public:
+  /// All of them outlive this.
+  SceneLikelihoods(const UnknownBridge& bridge, const Observation& observation, const SceneTable& table);
+
+  /// log p(readings | scene, case, kappa) of these rows of a table, for each of kScatterFactors: row by row,
+  /// for each of the cases; -infinity for impossible scenes and where it is not `wanted` (the same order;
+  /// empty: all are). Silent sensors are left out. What is pruned is -infinity, too. Works on so many
+  /// threads; their number changes no result.
+  std::vector<ScatterLogs> operator()(std::span<const CaseTerms> cases, std::span<const std::size_t> rows,
+                                      std::span<const std::uint8_t> wanted, int threads,
+                                      const CasePruning* pruning = nullptr);
+
+ private:
+  /// What no case changes of a loss's part of A A^T: alone; and beside another loss, where the leading
+  /// columns of both together come on top.
+  struct Products {
+    LowerTriangle alone, beside;
+    std::vector<double> lead;  // rows of y x leading columns, filled up for lanes
+  };
+  void prepare(std::span<const std::size_t> rows, int threads);
+  Products products_of(const Loss& loss) const;
+
+  const UnknownBridge& bridge_;
+  const Observation& observation_;
+  const SceneTable& table_;
+  LowerTriangle intact_;          // A A^T of the intact bridge where it is the same in both epochs
+  std::vector<Products> losses_;  // of UnknownBridge::losses; empty until they are needed
+};
+
+/// The same of a few rows in the bridge's own case.
 std::vector<ScatterLogs> scatter_logs(const UnknownBridge& bridge, const Observation& observation,
                                       const SceneTable& table, std::span<const std::size_t> rows,
                                       int threads);

@@ -1,6 +1,8 @@
 #include "lookup/evidence/unknown_question.h"
 
+#include <algorithm>
 #include <limits>
+#include <ranges>
 
 #include "lookup/evidence/evidence.h"
 #include "lookup/evidence/scene_evidence.h"
@@ -17,16 +19,17 @@ std::vector<double> levels_of(const Observation& observation) {
   if (!observation.unknown_level) return {observation.noise.relative.value_or(0.0)};
   std::vector<double> levels;
   for (double level = kSmallestCounted; level <= kLargestLevel; level *= 2.0) levels.push_back(level);
+  std::reverse(levels.begin(), levels.end());
   return levels;
 }
 
-/// All equally likely beforehand.
+/// All equally likely beforehand; those with the widest covariances first.
 std::vector<UnknownCase> cases_of(const Observation& observation, Conditions conditions) {
   std::vector<UnknownCase> cases;
   for (const double level : levels_of(observation)) {
     if (conditions == Conditions::known) cases.push_back({level, 0.0});
     if (conditions == Conditions::uncertain)
-      for (const double size : kConditionSizes) cases.push_back({level, size});
+      for (const double size : std::views::reverse(kConditionSizes)) cases.push_back({level, size});
   }
   return cases;
 }

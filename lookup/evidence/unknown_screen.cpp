@@ -19,7 +19,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr auto K = static_cast<Index>(kDirections);
-constexpr Index kOwnColumns = 16;  // of a loss's own, which leave out a thousandth of its variance
+constexpr auto kEpochs = static_cast<Index>(kEpochColumns);
 constexpr auto kFew = static_cast<Index>(kFirstDirections);
 constexpr std::size_t kBlockRows = 256;  // that a thread takes at a time
 constexpr int kIterations = 2;           // of the leading directions, which need not be exact
@@ -80,6 +80,12 @@ void store(const VectorXd& vector, DirectionVector& to) {
   std::copy(vector.begin(), vector.end(), to.begin());
 }
 
+/// Row by row, each filled up to `width`.
+void store_rows(const MatrixXd& matrix, Index width, double* rows) {
+  for (Index i = 0; i < matrix.rows(); ++i)
+    for (Index j = 0; j < matrix.cols(); ++j) rows[i * width + j] = matrix(i, j);
+}
+
 void store_lower(const MatrixXd& matrix, DirectionTriangle& lower) {
   for (Index i = 0; i < K; ++i)
     for (Index j = 0; j <= i; ++j)
@@ -122,11 +128,14 @@ UnknownScreen::UnknownScreen(const UnknownBridge& bridge, const Observation& obs
   others.noalias() += epoch * epoch.transpose();
   others.noalias() += bridge.scale * bridge.scale * bridge.movement * bridge.movement.transpose();
   choose_directions(others + product);
+  choose_epoch_columns();
   intact_epochs_ = directions_.transpose() * epoch;
   const MatrixXd reduced_product = directions_.transpose() * (product * directions_);
   MatrixXd reduced_others = directions_.transpose() * (others * directions_);
   const ScatterLogs whole = log_peak(others, product);
   const Index rows = directions_.rows(), used = std::min(K, rows);
+  for (std::size_t k = 0; k < whole.size(); ++k)
+    peaks_[k] = whole[k] - 0.5 * static_cast<double>(rows) * std::log(2.0 * std::numbers::pi);
   offset_ = log_outside(whole, reduced_others, reduced_product, rows, used);
   offset_of_few_ = log_outside(whole, reduced_others, reduced_product, rows, std::min(used, kFew));
   for (Index i = used; i < K; ++i) reduced_others(i, i) = 1.0;  // no direction is left
@@ -170,33 +179,57 @@ void UnknownScreen::choose_directions(const MatrixXd& reference) {
   store(directions_.transpose() * bridge_.reading, reading_);
 }
 
+/// The combinations of an epoch's parameters in which losses change most.
+void UnknownScreen::choose_epoch_columns() {
+  const Index parameters = bridge_.factors->of_epoch();
+  MatrixXd product = MatrixXd::Zero(parameters, parameters);
+  for (const Loss& loss : bridge_.losses) {
+    if (!loss.known()) continue;
+    const MatrixXd reduced = of_loss_.transpose() * loss.factors->epoch;
+    product.noalias() += reduced.transpose() * reduced;
+  }
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(product);
+  epoch_columns_ = solver.eigenvectors().rightCols(std::min(parameters, kEpochs));
+}
+
+/// What a loss adds to A A^T; of pairs, whose common part only the first columns show, the rest once more.
+void UnknownScreen::reduce_bridge(const LossFactors& factors, ReducedLoss& to) const {
+  const Index width = std::min(kFirstColumns, factors.lead.cols());
+  const MatrixXd first = of_loss_.transpose() * factors.lead.leftCols(width);
+  store_rows(first, kFirstColumns, to.first.data());
+  const MatrixXd own = of_loss_.transpose() * factors.signal.own;
+  const MatrixXd product = own * own.transpose();
+  MatrixXd bridge = product;
+  if (!of_bridge_.isZero(0.0)) {
+    const MatrixXd cross = (of_bridge_.transpose() * factors.signal.intact) * own.transpose();
+    bridge += cross + cross.transpose();
+  }
+  store_lower(bridge, to.bridge);
+  store_lower(bridge + product - first * first.transpose(), to.bridge_of_pair);
+}
+
+/// The same of all else.
+void UnknownScreen::reduce_others(const LossFactors& factors, const VectorXd& signal, ReducedLoss& to) const {
+  const MatrixXd change = bridge_.conditions * (of_loss_.transpose() * factors.epoch);
+  const MatrixXd first = change * epoch_columns_;
+  store_rows(first, kEpochs, to.epoch.data());
+  MatrixXd epochs = intact_epochs_;
+  epochs.rightCols(change.cols()) += change;
+  MatrixXd others = epochs * epochs.transpose() - intact_epochs_ * intact_epochs_.transpose();
+  others += bridge_.model_error * bridge_.model_error * signal * signal.transpose();
+  store_lower(others, to.others);
+  store_lower(others + change * change.transpose() - first * first.transpose(), to.others_of_pair);
+}
+
 ReducedLoss UnknownScreen::reduced(const Loss& loss) const {
-  const LossFactors& factors = *loss.factors;
   ReducedLoss result;
   result.signal_of_rows = loss.signal.data();
   result.known = true;
   const VectorXd counted = loss.signal.array().isNaN().select(0.0, loss.signal);
   const VectorXd signal = directions_.transpose() * counted;
   store(signal, result.signal);
-  const Index width = std::min(kFirstColumns, factors.lead.cols());
-  const MatrixXd first = of_loss_.transpose() * factors.lead.leftCols(width);
-  for (Index i = 0; i < K; ++i)
-    for (Index j = 0; j < width; ++j)
-      result.first[static_cast<std::size_t>(i * kFirstColumns + j)] = first(i, j);
-  const Index columns = std::min(kOwnColumns, factors.signal.own.cols());
-  const MatrixXd own = of_loss_.transpose() * factors.signal.own.leftCols(columns);
-  MatrixXd bridge = own * own.transpose();
-  if (!of_bridge_.isZero(0.0)) {
-    const MatrixXd cross =
-        (of_bridge_.transpose() * factors.signal.intact.leftCols(columns)) * own.transpose();
-    bridge += cross + cross.transpose();
-  }
-  store_lower(bridge, result.bridge);
-  MatrixXd epochs = intact_epochs_;
-  epochs.rightCols(factors.epoch.cols()) += bridge_.conditions * (of_loss_.transpose() * factors.epoch);
-  MatrixXd others = epochs * epochs.transpose() - intact_epochs_ * intact_epochs_.transpose();
-  others += bridge_.model_error * bridge_.model_error * signal * signal.transpose();
-  store_lower(others, result.others);
+  reduce_bridge(*loss.factors, result);
+  reduce_others(*loss.factors, signal, result);
   return result;
 }
 

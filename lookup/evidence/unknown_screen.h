@@ -5,8 +5,10 @@
 /// Readings are whitened by the intact bridge's covariance. Of all directions the readings themselves come
 /// first, then those in which losses show most: the leading principal directions of what all losses change,
 /// their signals and their scatter. In kDirections of them the scene's Gaussian is worked out, with what two
-/// blocks' signals have in common as far as kFirstColumns show it. What lies in no direction counts as it
-/// does for the intact bridge: a loss can only widen it, so an estimate is rarely too low.
+/// blocks' signals have in common as far as kFirstColumns show it; the rest of either counts twice. So a
+/// pair's covariance is never less than the true one, and never loses its positive sign: X Y^T + Y X^T lies
+/// between -(X X^T + Y Y^T) and X X^T + Y Y^T. What lies in no direction counts as it does for the intact
+/// bridge: a loss can only widen it, so an estimate is rarely too low.
 
 #include <array>
 #include <limits>
@@ -21,6 +23,7 @@ namespace voussoir {
 
 inline constexpr std::size_t kDirections = 16;
 inline constexpr std::size_t kFirstDirections = 8;  ///< that pairs are looked at in first
+inline constexpr std::size_t kEpochColumns = 4;     ///< combinations of an epoch's parameters, the leading
 
 using DirectionVector = std::array<double, kDirections>;
 using DirectionTriangle = std::array<double, lower_size(kDirections)>;
@@ -29,9 +32,11 @@ using DirectionTriangle = std::array<double, lower_size(kDirections)>;
 struct ReducedLoss {
   DirectionVector signal{};
   std::array<double, kDirections* static_cast<std::size_t>(kFirstColumns)> first{};  ///< of A
-  DirectionTriangle bridge{};              ///< what it adds to A A^T
-  DirectionTriangle others{};              ///< and to all else
-  const double* signal_of_rows = nullptr;  ///< in rows of y
+  std::array<double, kDirections * kEpochColumns> epoch{};                           ///< of E
+  DirectionTriangle bridge{};                            ///< what it adds to A A^T
+  DirectionTriangle others{};                            ///< and to all else
+  DirectionTriangle bridge_of_pair{}, others_of_pair{};  ///< the same where a pair shares the columns above
+  const double* signal_of_rows = nullptr;                ///< in rows of y
   bool known = false;
 };
 
@@ -45,9 +50,16 @@ class UnknownScreen {
   /// NaN where the estimate fails. Where it is below `least` of a row, it may be anything below.
   std::vector<double> estimates(std::span<const std::size_t> rows, std::span<const double> least) const;
 
+  /// log density of readings that the intact bridge would show exactly, for each of kScatterFactors: the most
+  /// that any scene can have that widens its covariance.
+  const ScatterLogs& peaks() const { return peaks_; }
+
  private:
   void choose_directions(const Eigen::MatrixXd& reference);
+  void choose_epoch_columns();
   ReducedLoss reduced(const Loss& loss) const;
+  void reduce_bridge(const LossFactors& factors, ReducedLoss& to) const;
+  void reduce_others(const LossFactors& factors, const Eigen::VectorXd& signal, ReducedLoss& to) const;
 
   const UnknownBridge& bridge_;
   const Observation& observation_;
@@ -56,8 +68,8 @@ class UnknownScreen {
   int threads_;
   Eigen::MatrixXd directions_;           // rows of y x directions: T^T
   Eigen::MatrixXd of_loss_, of_bridge_;  // the same by channel, as losses and the bridge count
-  Eigen::MatrixXd intact_first_;         // directions x kFirstColumns
   Eigen::MatrixXd intact_epochs_;        // directions x columns of E
+  Eigen::MatrixXd epoch_columns_;        // parameters of an epoch x kEpochColumns
   std::vector<ReducedLoss> losses_;      // of UnknownBridge::losses
   std::vector<double> nothing_;
   ReducedLoss none_;  // of scenes with fewer known losses
@@ -65,7 +77,7 @@ class UnknownScreen {
   DirectionTriangle points_{};  // what a unit variance at each changed point adds
   DirectionVector reading_{};
   // Logarithm of the density of what lies in no direction, and in none of kFirstDirections, by kappa.
-  ScatterLogs offset_{}, offset_of_few_{};
+  ScatterLogs offset_{}, offset_of_few_{}, peaks_{};
 };
 
 }  // namespace voussoir

@@ -7,15 +7,6 @@
 namespace voussoir {
 namespace {
 
-/// Of a scene in the database, as far as its states are kept there.
-SceneStates stored_states(const Database& database, std::size_t row, const StatePlan& plan) {
-  SceneStates states(plan.size());
-  for (std::size_t state = 0; state < plan.size(); ++state)
-    if (const auto stored = database.find_state(plan[state].name))
-      states[state] = database.solution(row, *stored);
-  return states;
-}
-
 /// Of the intact bridge, which a database may lack.
 SceneStates intact_states(const Database& database, const StatePlan& plan, QuasiStaticSolver& solver) {
   const auto row = database.find(Scene{});
@@ -35,10 +26,9 @@ SceneForces scene_forces(const Database& database, std::size_t row, std::size_t 
                     database.states()[state]));
   const Model bridge = bridge_of(database);
   const StatePlan plan = plan_states(database.states(), bridge, description_of(database));
-  const EquilibriumSystem system(bridge);
-  const Coefficients coefficients(system, bridge.parameters);
   QuasiStaticSolver solver(bridge);
-  const StateEquations equations{system, coefficients, plan,
+  const Coefficients coefficients(solver.system(), bridge.parameters);
+  const StateEquations equations{solver.system(), coefficients, plan,
                                  [&solver](const StageTask& task) { return solver.solve(task); }, 0.0};
   const auto planned = std::ranges::find(plan, database.states()[state], &PlannedState::name);
   const auto history =

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "core/geometry/box.h"
+
 namespace voussoir {
 
 std::string ordinal(int number) {
@@ -23,14 +25,9 @@ std::string percent(double share) {
 
 std::string place_in_words(BlockId id, const BlockLayout& layout) {
   const Block& block = layout[id];
-  Point low = block.polygon.front();
-  Point high = low;
-  for (const Point& corner : block.polygon) {
-    low = low.cwiseMin(corner);
-    high = high.cwiseMax(corner);
-  }
-  const std::string box =
-      fmt::format("x {:.4g}..{:.4g} m, y {:.4g}..{:.4g} m", low.x(), high.x(), low.y(), high.y());
+  const Box around = box_of(block.polygon);
+  const std::string box = fmt::format("x {:.4g}..{:.4g} m, y {:.4g}..{:.4g} m", around.min().x(),
+                                      around.max().x(), around.min().y(), around.max().y());
   if (block.index.course > 0)
     return fmt::format("course {}, {} from the left, {}", block.index.course, ordinal(block.index.position),
                        box);

@@ -4,6 +4,7 @@
 #include <random>
 #include <thread>
 
+#include "core/text_file.h"
 #include "database/format/sha256.h"
 #include "database/records/database.h"
 #include "database/records/journal.h"
@@ -53,6 +54,19 @@ TEST_CASE("build-database reports a whole build in one line of JSON and leaves o
         742);
   CHECK(json.at("digest") == Database::open(site.output).digest());
   CHECK(std::distance(std::filesystem::directory_iterator(site.folder.path()), {}) == 1);
+}
+
+TEST_CASE("build-database says how many small pieces were joined to their neighbours (by hand)") {
+  const Site site;
+  write_file(site.folder / "wall.toml",
+             "spans = []\n[wall]\nlength_m = 3.05\ncourses = 2\ncourse_height_m = 0.5\nblock_length_m = 1.0\n"
+             "bond = \"stack\"\n[control_points]\narch = false\n");
+  const auto build = [&](const std::string& format) {
+    return test::run("build-database", {(site.folder / "wall.toml").string(), "-o", site.output.string(),
+                                        "--scenes", "intact", "--format", format, "--force"});
+  };
+  CHECK(test::json_of(build("json")).at("joined_pieces") == 2);
+  CHECK(build("text").out.find("joined      2 pieces") != std::string::npos);
 }
 
 TEST_CASE("build-database run again says that the file is up to date and ends with 0") {

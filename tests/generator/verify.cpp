@@ -157,7 +157,7 @@ TEST_CASE("100 single bits flipped in scene data are all found, and the scene or
 }
 
 TEST_CASE("1,000 single bits flipped in scene data are all found, and the scene or dataset is named",
-          "[many-scenes]") {
+          "[many-solutions]") {
   flip_bits_and_verify(1000);
 }
 

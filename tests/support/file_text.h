@@ -6,6 +6,7 @@
 
 namespace voussoir::test {
 
+/// Throws std::runtime_error if it cannot be opened.
 std::string text_of(const std::filesystem::path& path);
 
 }  // namespace voussoir::test

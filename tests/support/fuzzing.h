@@ -9,10 +9,11 @@
 #include <chrono>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <random>
 #include <string>
 #include <vector>
+
+#include "tests/support/file_text.h"
 
 namespace voussoir::test {
 
@@ -22,18 +23,18 @@ inline std::size_t below(Chance& chance, std::size_t bound) {
   return static_cast<std::size_t>(chance() % bound);
 }
 
+inline std::filesystem::path corpus_folder(const std::string& folder) {
+  return std::filesystem::path(VOUSSOIR_SOURCE_DIR) / "tests/corpus" / folder;
+}
+
 /// All files of a folder of tests/corpus, in the order of their names.
 inline std::vector<std::string> corpus(const std::string& folder) {
   std::vector<std::filesystem::path> paths;
-  for (const auto& entry :
-       std::filesystem::directory_iterator(std::string(VOUSSOIR_SOURCE_DIR) + "/tests/corpus/" + folder))
+  for (const auto& entry : std::filesystem::directory_iterator(corpus_folder(folder)))
     paths.push_back(entry.path());
   std::sort(paths.begin(), paths.end());
   std::vector<std::string> texts;
-  for (const auto& path : paths) {
-    std::ifstream stream(path, std::ios::binary);
-    texts.emplace_back(std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>());
-  }
+  for (const auto& path : paths) texts.push_back(text_of(path));
   return texts;
 }
 

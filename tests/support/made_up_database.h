@@ -29,7 +29,7 @@ inline Solution made_up_solution(const Model& bridge, const Scene& scene) {
     field.col(node) << 1e-4 * std::sin(position.x() + phase), -1e-3 * (1.2 + std::cos(position.y() - phase));
   }
   for (const BlockId id : scene.removed) {
-    const IndexRange gone = bridge.mesh.block_nodes[static_cast<std::size_t>(value(id))];
+    const IndexRange gone = bridge.mesh.block_nodes.at(static_cast<std::size_t>(value(id)));
     field.middleCols(gone.begin, gone.size()).setConstant(std::numeric_limits<double>::quiet_NaN());
   }
   const bool collapsed = static_cast<int>(10.0 * phase) % 7 == 3;

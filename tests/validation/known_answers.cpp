@@ -46,7 +46,7 @@ TEST_CASE("The quick studies' known answers are within tolerance and their hard 
 }
 
 TEST_CASE("Quick studies of many scenes, too, have answers within tolerance and correct hard cases",
-          "[validation][many-scenes]") {
+          "[validation][many-solutions]") {
   std::vector<Study> many = chosen_studies({}, true);
   std::erase_if(many, std::not_fn(solves_many_scenes));
   run_and_check(many);

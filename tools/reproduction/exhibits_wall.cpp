@@ -29,11 +29,8 @@ std::vector<std::size_t> shown_steps(const WallTest& test, std::size_t count) {
 }
 
 std::string crack_element(const WallTest& test, const Crack& crack, const BridgeFrame& frame) {
-  const Joint& joint = test.model.joints[crack.joint];
-  const Point from = test.model.mesh.position(joint.first_edge.from);
-  const Point along = test.model.mesh.position(joint.first_edge.to) - from;
-  const Point a = frame(from + joint.first_at[0] * along);
-  const Point b = frame(from + joint.first_at[1] * along);
+  const auto ends = ends_of(test.model.joints[crack.joint], test.model.mesh);
+  const Point a = frame(ends[0]), b = frame(ends[1]);
   const Point way = (b - a).normalized();
   const Point across = kHalfCrack * Point(-way.y(), way.x());
   const std::array<Point, 4> outline = {a + across, b + across, b - across, a - across};

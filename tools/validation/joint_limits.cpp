@@ -3,16 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/error.h"
 #include "core/statics/quasi_static_solver.h"
 #include "tools/validation/bisection.h"
+#include "tools/validation/trial_arches.h"
 
 namespace voussoir::validation {
-namespace {
-
-constexpr double kSpecificWeight = 2400.0 * 9.81;  ///< [N/m3]
-
-}  // namespace
-
 double compliance(double normal_stiffness) {
   return kSpecificWeight / normal_stiffness;
 }
@@ -31,10 +27,28 @@ bool newton_stands(const Model& bridge, Field& start, const Field& load) {
   return true;
 }
 
-Limit find_limit(const std::vector<double>& stiffnesses, const std::function<double(double)>& value) {
+double continued_down(double from, double step, double width, const std::function<Model(double)>& bridge_of) {
+  Field at;
+  if (!newton_stands(bridge_of(from), at)) throw Failure("no equilibrium to go on from");
+  Field per_step = Field::Zero(2, at.cols());
+  while (step > width) {
+    Field next = at + step * per_step;
+    if (newton_stands(bridge_of(from - step), next)) {
+      per_step = (next - at) / step;
+      at = std::move(next);
+      from -= step;
+    } else {
+      step *= 0.5;
+    }
+  }
+  return from;
+}
+
+Limit find_limit(const std::vector<double>& stiffnesses, const std::function<double(double)>& value,
+                 double power) {
   Limit limit;
   for (const double stiffness : stiffnesses) {
-    limit.roots.push_back(std::cbrt(compliance(stiffness)));
+    limit.roots.push_back(std::pow(compliance(stiffness), power));
     limit.values.push_back(value(stiffness));
   }
   const std::size_t order = std::max<std::size_t>(3, stiffnesses.size() - 1);

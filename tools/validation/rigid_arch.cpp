@@ -1,23 +1,11 @@
 #include "tools/validation/rigid_arch.h"
 
 #include <Eigen/Dense>
+#include <algorithm>
+#include <limits>
 
 namespace voussoir::validation {
 namespace {
-
-/// What is left of a convex polygon where normal . x <= bound.
-Polygon cut(const Polygon& polygon, const Point& normal, double bound) {
-  Polygon rest;
-  for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const Point& a = polygon[i];
-    const Point& b = polygon[(i + 1) % polygon.size()];
-    const double over_a = normal.dot(a) - bound, over_b = normal.dot(b) - bound;
-    if (over_a <= 0.0) rest.push_back(a);
-    if ((over_a < 0.0) != (over_b < 0.0) && over_a != over_b)
-      rest.push_back(a + over_a / (over_a - over_b) * (b - a));
-  }
-  return rest;
-}
 
 /// A rigid body's movement: velocity at the origin and turning, counter-clockwise.
 struct Movement {
@@ -61,23 +49,62 @@ bool opens(const std::array<Movement, 3>& bodies, bool first_inside) {
   return true;
 }
 
-}  // namespace
+/// What a joint of the left half allows of the thrust H at the crown and its moment H y, (H, H y) = p.
+struct JointBounds {
+  int number;
+  Point inner, outer;     ///< [m] its ends
+  double weight, moment;  ///< of what lies between it and the crown, per specific weight
+  /// Moments of thrust and weight about the ends, of one sign inside, of the other outside.
+  double inner_room(const Point& p) const { return weight * inner.x() - moment - inner.y() * p.x() + p.y(); }
+  double outer_room(const Point& p) const { return moment - weight * outer.x() + outer.y() * p.x() - p.y(); }
+};
 
-bool symmetric_arch_stands(const RigidArch& arch) {
-  Polygon possible = {{0.0, -1e3}, {1e3, -1e3}, {1e3, 1e3}, {0.0, 1e3}};  // thrust H, moment H y
+/// From the crown to the left springing.
+std::vector<JointBounds> bounds_of_joints(const RigidArch& arch) {
+  std::vector<JointBounds> bounds;
   double weight = 0.0, moment = 0.0;
   const int n = static_cast<int>(arch.voussoirs.size());
-  for (int j = n / 2; j >= 0 && !possible.empty(); --j) {  // from the crown's joint, if there is one
-    const Polygon half = cut(arch.voussoirs[static_cast<std::size_t>(j)], {1.0, 0.0}, 0.0);
+  for (int j = n / 2; j >= 0; --j) {  // from the crown's joint, if there is one
+    const Polygon half = clipped(arch.voussoirs[static_cast<std::size_t>(j)], {1.0, 0.0}, 0.0);
     const double size = half.size() < 3 ? 0.0 : std::abs(area(half));
     weight += size;
     if (size > 0.0) moment += size * centroid(half).x();
     const auto& [inner, outer] = arch.joints[static_cast<std::size_t>(j)];
-    // Moment of thrust and weight about the ends of the joint: of one sign inside, of the other outside.
-    possible = cut(possible, {inner.y(), -1.0}, weight * inner.x() - moment);
-    possible = cut(possible, {-outer.y(), 1.0}, moment - weight * outer.x());
+    bounds.push_back({j, inner, outer, weight, moment});
   }
-  return !possible.empty();
+  return bounds;
+}
+
+/// All (H, H y) with which the thrust passes through all joints.
+Polygon possible_thrusts(const RigidArch& arch) {
+  Polygon possible = {{0.0, -1e3}, {1e3, -1e3}, {1e3, 1e3}, {0.0, 1e3}};
+  for (const JointBounds& joint : bounds_of_joints(arch)) {
+    possible = clipped(possible, [&](const Point& p) { return -joint.inner_room(p); });
+    possible = clipped(possible, [&](const Point& p) { return -joint.outer_room(p); });
+  }
+  return possible;
+}
+
+}  // namespace
+
+bool symmetric_arch_stands(const RigidArch& arch) {
+  return !possible_thrusts(arch).empty();
+}
+
+std::optional<LeastThrust> least_thrust(const RigidArch& arch) {
+  const Polygon possible = possible_thrusts(arch);
+  if (possible.empty()) return std::nullopt;
+  const Point least = *std::ranges::min_element(possible, {}, [](const Point& p) { return p.x(); });
+  LeastThrust found{.thrust = least.x()};
+  double outer_room = std::numeric_limits<double>::infinity(), inner_room = outer_room;
+  for (const JointBounds& joint : bounds_of_joints(arch)) {
+    const double outer = joint.outer_room(least), inner = joint.inner_room(least);
+    if (outer < outer_room) found.outer = joint.number;
+    if (inner < inner_room) found.inner = joint.number;
+    outer_room = std::min(outer_room, outer);
+    inner_room = std::min(inner_room, inner);
+  }
+  return found;
 }
 
 std::optional<Mechanism> weakest_mechanism(const RigidArch& arch, int loaded, const Point& place) {

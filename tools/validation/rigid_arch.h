@@ -27,6 +27,16 @@ struct RigidArch {
 /// them by two straight lines.
 bool symmetric_arch_stands(const RigidArch& arch);
 
+/// The least of all thrusts that stay within the joints: what an arch comes to when its feet give way
+/// (Heyman, The Stone Skeleton, 1995).
+struct LeastThrust {
+  double thrust = 0.0;       ///< [over the weight of 1 m2]
+  int outer = 0, inner = 0;  ///< the joints of the left half on whose outer and inner ends it passes: hinges
+};
+
+/// Of an arch that is its own mirror image across x = 0; nothing if it cannot stand.
+std::optional<LeastThrust> least_thrust(const RigidArch& arch);
+
 /// A mechanism of four hinges.
 struct Mechanism {
   double load = 0.0;            ///< at which it moves [N/m of depth over the weight of 1 m2]

@@ -13,21 +13,6 @@ namespace {
 constexpr double kThickest = 0.6;
 constexpr double kBisectionWidth = 1e-7;  ///< of the bisection
 
-/// What is left of a convex polygon where normal . x <= bound.
-Polygon cut(const Polygon& polygon, const Point& normal, double bound) {
-  Polygon rest;
-  for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const Point& a = polygon[i];
-    const Point& b = polygon[(i + 1) % polygon.size()];
-    const double over_a = normal.dot(a) - bound;
-    const double over_b = normal.dot(b) - bound;
-    if (over_a <= 0.0) rest.push_back(a);
-    if ((over_a < 0.0) != (over_b < 0.0) && over_a != over_b)
-      rest.push_back(a + over_a / (over_a - over_b) * (b - a));
-  }
-  return rest;
-}
-
 /// Weight of unit specific weight, and its first moment about the vertical through the centre.
 struct Weight {
   double size;
@@ -83,9 +68,9 @@ bool ring_stands(int voussoirs, double thickness, double friction, VoussoirShape
     for (const double side : {1.0, -1.0}) {
       const double radius = 1.0 + side * 0.5 * thickness;
       possible =
-          cut(possible, side * Point(-radius * s, 1.0), side * (above.moment + radius * above.size * c));
-      possible =
-          cut(possible, {-side * c - friction * s, 0.0}, friction * above.size * c - side * above.size * s);
+          clipped(possible, side * Point(-radius * s, 1.0), side * (above.moment + radius * above.size * c));
+      possible = clipped(possible, {-side * c - friction * s, 0.0},
+                         friction * above.size * c - side * above.size * s);
     }
   }
   return !possible.empty();

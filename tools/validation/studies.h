@@ -20,6 +20,9 @@ std::vector<Study> arch_studies();
 /// Segmental and pointed arches: least thickness, collapse under a point load.
 std::vector<Study> shape_studies();
 
+/// Arches whose feet give way.
+std::vector<Study> spreading_studies();
+
 /// The reference bridge: what its discretisation costs.
 std::vector<Study> bridge_studies();
 

@@ -40,8 +40,8 @@ bool fits(const Study& study, const std::string& word) {
 std::vector<Study> all_studies() {
   std::vector<Study> all;
   for (auto group : {elasticity_studies(), rest_studies(), motion_studies(), arch_studies(), shape_studies(),
-                     bridge_studies(), load_studies(), loss_studies(), wall_studies(), material_sweeps(),
-                     geometry_sweeps(), solver_sweeps()})
+                     spreading_studies(), bridge_studies(), load_studies(), loss_studies(), wall_studies(),
+                     material_sweeps(), geometry_sweeps(), solver_sweeps()})
     std::move(group.begin(), group.end(), std::back_inserter(all));
   return all;
 }

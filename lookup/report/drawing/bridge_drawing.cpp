@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "core/structure/block_boxes.h"
 #include "lookup/report/drawing/colour_map.h"
 
 namespace voussoir {
@@ -13,30 +14,16 @@ constexpr double kSide = 0.25;     // [m] free at the left and right
 constexpr double kBarShare = 0.5;  // of the frame's width
 constexpr double kBarThickness = 12.0;
 
-struct Box {
-  Point low, high;
-};
-
-Box box_of(const BlockLayout& layout) {
-  Box box{layout.blocks.front().polygon.front(), layout.blocks.front().polygon.front()};
-  for (const Block& block : layout.blocks)
-    for (const Point& corner : block.polygon) {
-      box.low = box.low.cwiseMin(corner);
-      box.high = box.high.cwiseMax(corner);
-    }
-  return box;
-}
-
 }  // namespace
 
 BridgeFrame frame_of(const BlockLayout& layout, double width, double above, double below) {
-  const Box box = box_of(layout);
+  const Box box = box_of(layout.blocks);
   BridgeFrame frame;
-  frame.scale = width / (box.high.x() - box.low.x() + 2.0 * kSide);
-  frame.left = box.low.x() - kSide;
-  frame.top = box.high.y() + above;
+  frame.scale = width / (box.sizes().x() + 2.0 * kSide);
+  frame.left = box.min().x() - kSide;
+  frame.top = box.max().y() + above;
   frame.width = width;
-  frame.height = frame.scale * (frame.top - box.low.y() + below);
+  frame.height = frame.scale * (frame.top - box.min().y() + below);
   return frame;
 }
 
@@ -64,10 +51,10 @@ std::string block_label(const Block& block, const BridgeFrame& frame) {
 }
 
 std::string ground_element(const BlockLayout& layout, const BridgeFrame& frame) {
-  const Box box = box_of(layout);
-  const Point left = frame(box.low);
+  const Box box = box_of(layout.blocks);
+  const Point left = frame(box.min());
   return path_element("axis", fmt::format("M{:.1f} {:.1f}H{:.1f}", left.x() - 6.0, left.y() + 1.0,
-                                          frame(box.high).x() + 6.0));
+                                          frame(box.max()).x() + 6.0));
 }
 
 std::string colour_bar(const ColourBar& bar, double width, double height) {

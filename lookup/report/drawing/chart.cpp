@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/text.h"
 #include "lookup/report/drawing/style.h"
 
 namespace voussoir {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "core/text.h"
 #include "lookup/report/drawing/style.h"
 
 namespace voussoir {

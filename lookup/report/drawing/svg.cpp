@@ -4,6 +4,7 @@
 
 #include <iterator>
 
+#include "core/text.h"
 #include "lookup/report/drawing/style.h"
 
 namespace voussoir {
@@ -16,27 +17,6 @@ std::string opening(const Drawing& drawing, std::string_view more) {
 }
 
 }  // namespace
-
-std::string escaped(std::string_view text) {
-  std::string result;
-  for (const char c : text) switch (c) {
-      case '&':
-        result += "&amp;";
-        break;
-      case '<':
-        result += "&lt;";
-        break;
-      case '>':
-        result += "&gt;";
-        break;
-      case '"':
-        result += "&quot;";
-        break;
-      default:
-        result += c;
-    }
-  return result;
-}
 
 std::string svg_element(const Drawing& drawing) {
   const std::string size = fmt::format(" style=\"max-width:{:.6g}px\"", drawing.width);

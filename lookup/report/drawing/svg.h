@@ -18,9 +18,6 @@ struct Drawing {
   std::string elements;  ///< SVG
 };
 
-/// The text with &, <, > and quotation marks as character references.
-std::string escaped(std::string_view text);
-
 /// As an element of an HTML page that has the style sheet.
 std::string svg_element(const Drawing& drawing);
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "core/text.h"
 #include "lookup/report/drawing/svg.h"
 
 namespace voussoir {

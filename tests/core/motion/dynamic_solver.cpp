@@ -76,7 +76,7 @@ DynamicSettings patient() {
 
 TEST_CASE(
     "Standing scenes of the reference bridge: dynamic and quasi-static solver agree (independent solver)",
-    "[many-scenes]") {
+    "[many-solutions]") {
   const Model& bridge = reference();
   std::vector<Scene> scenes;
   for (const char* text : {"intact", "10,4", "6,4", "2,6", "4,10", "8,12", "10,12", "4,2+11,3", "4,10+2,6"})
@@ -126,7 +126,7 @@ TEST_CASE(
 }
 
 TEST_CASE("Where gravity acts at once, the half blocks slide down and the arch falls as the paper describes",
-          "[many-scenes]") {
+          "[many-solutions]") {
   // Oracle: the paper's words for its cases with collapse: local above the missing blocks, or of the arch by
   // the keystone. With slow gravity (the default) the half blocks hang by friction, see the case before.
   DynamicSettings sudden;
@@ -207,7 +207,7 @@ TEST_CASE("One scene at a time and four side by side give the same bits, in any 
 }
 
 TEST_CASE("Every scene of a thick ring has the same bits alone and in company, and stands if Newton says so",
-          "[many-scenes]") {
+          "[many-solutions]") {
   // Oracles: the scalar solver, the quasi-static solver.
   const Model bridge = thick_ring();
   const std::vector<Scene> scenes = all_scenes(bridge.layout.size(), 1);
@@ -288,7 +288,7 @@ TEST_CASE("Metres or millimetres, the answer is the same but for the unit (dimen
 }
 
 TEST_CASE("What creeps moves away soon once it is damped less, and what rests stays (the same, fully damped)",
-          "[many-scenes]") {
+          "[many-solutions]") {
   const Model& bridge = reference();
   std::vector<Scene> scenes;
   for (const char* text : {"2,9+10,1", "10,1+12,15", "10,1", "8,1"})

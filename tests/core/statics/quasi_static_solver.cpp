@@ -203,7 +203,8 @@ TEST_CASE("A mirrored scene has the mirrored field", "[solver]") {
   }
 }
 
-TEST_CASE("Every wall single of the reference bridge stands, no arch single does", "[solver][many-scenes]") {
+TEST_CASE("Every wall single of the reference bridge stands, no arch single does",
+          "[solver][many-solutions]") {
   const Model bridge = test::reference_bridge();
   QuasiStaticSolver solver(bridge);
   const Solution intact = solver.solve(Scene{});
@@ -252,7 +253,8 @@ TEST_CASE("A removed block has no displacement and the others have one", "[solve
   CHECK(solution.displacement.array().isNaN().count() == 2 * gone.size());
 }
 
-TEST_CASE("The signal of a removal is within two per cent of the converged answer", "[solver][many-scenes]") {
+TEST_CASE("The signal of a removal is within two per cent of the converged answer",
+          "[solver][many-solutions]") {
   // Oracle: the same bridge with two more levels of refinement (16 times the triangles).
   BridgeDescription fine_description;
   fine_description.mesh.refinement = 2;

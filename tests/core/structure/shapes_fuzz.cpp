@@ -18,6 +18,9 @@ double between(test::Chance& chance, double low, double high) {
   return low + (high - low) * static_cast<double>(chance() >> 11) * 0x1p-53;
 }
 
+/// With fewer the straight back of an outer voussoir can cut through the inner ring where the haunch bends.
+constexpr unsigned kFewestOfRings = 9;
+
 /// A span between x = 1 and x = 1 + width at most, with its rings, as a bridge file says it.
 std::string random_span(const std::string& shape, test::Chance& chance) {
   const double span = between(chance, 2.0, 5.0);
@@ -39,7 +42,8 @@ std::string random_span(const std::string& shape, test::Chance& chance) {
     text += fmt::format(
         "rings = [{{thickness_m = {}, voussoirs = {}}}, {{thickness_m = {}, voussoirs = {}, staggered = "
         "{}}}]\n",
-        0.5 * thickness, 5 + chance() % 20, 0.5 * thickness, 5 + chance() % 20, chance() % 2 == 0);
+        0.5 * thickness, kFewestOfRings + chance() % 16, 0.5 * thickness, kFewestOfRings + chance() % 16,
+        chance() % 2 == 0);
   else if (chance() % 2 == 0)
     text += fmt::format("ring_thickness_m = {}\nvoussoirs = {}\n", thickness, 5 + chance() % 25);
   else
@@ -67,6 +71,16 @@ std::string random_file(const std::string& shape, test::Chance& chance) {
 const std::vector<std::string> kShapes = {"semicircular",  "segmental", "pointed",
                                           "three-centred", "elliptic",  "points"};
 
+/// [m] Corners this close to each other, or to an edge, count as lying there (polygon.h): edges of the mesh
+/// may be off by that.
+constexpr double kSamePlace = 1e-6;
+
+double perimeter(const Polygon& polygon) {
+  double sum = (polygon.front() - polygon.back()).norm();
+  for (std::size_t i = 1; i < polygon.size(); ++i) sum += (polygon[i] - polygon[i - 1]).norm();
+  return sum;
+}
+
 void mesh_and_solve(const std::string& text) {
   const Model bridge = make_model(parse_bridge_file(text, "random.toml").description);
   for (std::size_t block = 0; block < bridge.layout.size(); ++block) {
@@ -77,7 +91,8 @@ void mesh_and_solve(const std::string& text) {
       REQUIRE(part > 0.0);
       filled += part;
     }
-    REQUIRE(filled == Approx(area(bridge.layout.blocks[block].polygon)).epsilon(1e-9));
+    const Polygon& polygon = bridge.layout.blocks[block].polygon;
+    REQUIRE(std::abs(filled - area(polygon)) <= kSamePlace * perimeter(polygon));
   }
   REQUIRE(!bridge.joints.empty());
   QuasiStaticSolver solver(bridge);

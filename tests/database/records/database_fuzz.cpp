@@ -51,11 +51,11 @@ Good good_file(const std::string& bridge, std::vector<Scene> scenes, KeepField f
 /// Databases of a bridge of the corpus: one scene (a single chunk), some (an index of chunks), none with
 /// fields.
 std::vector<Good> good_files() {
-  const std::string bridge = test::corpus("bridges").at(1);  // a single block
-  const std::string arch = test::corpus("bridges").at(2);
+  const std::string block = test::text_of(test::corpus_folder("bridges") / "one-block.toml");
+  const std::string arch = test::text_of(test::corpus_folder("bridges") / "one-span.toml");
   auto scenes = all_scenes(20, 1);
   scenes.resize(4);
-  return {good_file(bridge, {Scene{}}, KeepField::yes), good_file(arch, scenes, KeepField::yes),
+  return {good_file(block, {Scene{}}, KeepField::yes), good_file(arch, scenes, KeepField::yes),
           good_file(arch, scenes, KeepField::no)};
 }
 

@@ -1,0 +1,57 @@
+#include "generator/command_line.h"
+
+#include <csignal>
+#include <iostream>
+
+#include "core/error.h"
+#include "generator/summary.h"
+
+namespace voussoir {
+namespace {
+
+constexpr int kMostThreads = 4096;
+constexpr int kFailed = 1;
+constexpr int kBadUsage = 2;
+
+int fail(const std::string& name, const std::exception& error, bool json, int exit_code) {
+  std::cerr << name << ": " << error.what() << '\n';
+  if (json) std::cout << failure_to_json(error.what());
+  return exit_code;
+}
+
+}  // namespace
+
+std::optional<int> parse_command_line(CLI::App& app, int argc, char** argv) {
+  try {
+    app.parse(argc, argv);
+    return std::nullopt;
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : kBadUsage;
+  }
+}
+
+void add_threads_option(CLI::App& app, int& threads) {
+  app.add_option("--threads", threads, "threads, 0: one for each core")
+      ->check(CLI::Range(0, kMostThreads))
+      ->capture_default_str();
+}
+
+void add_format_option(CLI::App& app, bool& json, const std::string& of_what) {
+  app.add_option_function<std::string>(
+         "--format", [&json](const std::string& format) { json = format == "json"; }, of_what)
+      ->check(CLI::IsMember({"text", "json"}))
+      ->default_str("text");
+}
+
+int run_writer(const std::string& name, const bool& json, const std::function<int()>& program) {
+  std::signal(SIGXFSZ, SIG_IGN);
+  try {
+    return program();
+  } catch (const InputError& error) {
+    return fail(name, error, json, kBadUsage);
+  } catch (const std::exception& error) {
+    return fail(name, error, json, kFailed);
+  }
+}
+
+}  // namespace voussoir
