@@ -20,6 +20,7 @@ constexpr double kImpossible = -std::numeric_limits<double>::infinity();
 constexpr std::size_t kBlockRows = 1024;  // worked out together: intermediate results stay in the cache
 constexpr double kCommonLevel = 0.05;     // from which the likeliest rows are looked for
 constexpr std::size_t kLikely = 8;        // rows with which all levels are tried
+constexpr double kOtherShape = 36.0;  // logarithm of how far behind another shape's best row one is left out
 
 using Rows = std::span<const std::size_t>;
 
@@ -35,10 +36,10 @@ std::vector<double> block_by_block(Rows rows, Function function) {
   return result;
 }
 
-/// The possible shapes in groups that share their sums.
+/// The possible shapes in groups that share their sums, bounded errors last: they take longest.
 std::vector<std::vector<NoiseShape>> groups_of(const NoiseModel& noise) {
   if (noise.shape != NoiseShape::automatic) return {{noise.shape}};
-  return {{NoiseShape::uniform}, {NoiseShape::gaussian, NoiseShape::laplace}};
+  return {{NoiseShape::gaussian, NoiseShape::laplace}, {NoiseShape::uniform}};
 }
 
 using Logs = std::vector<std::vector<double>>;  // for each shape, of each row
@@ -106,12 +107,15 @@ std::vector<double> peaks(const Observation& observation, Shapes shapes, double 
   });
 }
 
-/// The evidence of shapes over all levels; rows that are hopeless beside the best get -infinity.
-Logs over_levels(const Observation& observation, Shapes shapes, const SceneTable& table, Rows rows) {
+/// The evidence of shapes over all levels; rows that are hopeless beside the best get -infinity, and those
+/// that are beside what is known to be likely under another shape.
+Logs over_levels(const Observation& observation, Shapes shapes, const SceneTable& table, Rows rows,
+                 double known) {
   const auto likely = rows_with_largest(peaks(observation, shapes, kCommonLevel, table, rows), rows, kLikely);
   const double level = likeliest_level(observation, shapes, table, likely);
   const std::vector<double> estimates = peaks(observation, shapes, level, table, rows);
-  const double least = *std::max_element(estimates.begin(), estimates.end()) - kHopeless;
+  const double least = std::max(*std::max_element(estimates.begin(), estimates.end()) - kHopeless,
+                                known - log_width(shapes.front(), observation.count) - kOtherShape);
   std::vector<std::size_t> places, kept;
   for (std::size_t i = 0; i < rows.size(); ++i)
     if (estimates[i] > kImpossible && estimates[i] >= least) {
@@ -132,8 +136,12 @@ std::vector<double> log_evidence(const Observation& observation, const SceneTabl
                     rows);
   if (has_closed_form(observation)) return over_levels_in_closed_form(observation, table, rows);
   Logs logs;
-  for (const auto& shapes : groups_of(observation.noise))
-    append(over_levels(observation, shapes, table, rows), logs);
+  double known = kImpossible;
+  for (const auto& shapes : groups_of(observation.noise)) {
+    append(over_levels(observation, shapes, table, rows, known), logs);
+    for (const std::vector<double>& of_shape : logs)
+      known = std::max(known, *std::max_element(of_shape.begin(), of_shape.end()));
+  }
   return log_mean(std::move(logs));
 }
 

@@ -15,7 +15,7 @@ constexpr double kNotWorkedOut = std::numeric_limits<double>::infinity();
 constexpr double kNegligible = 20.0;  // logarithm of how far behind the likeliest a scene's case is left out
 constexpr double kUncounted = 3e-4;   // probability of all scenes that are left at their first estimates
 constexpr double kLeftEstimated = 5e-4;  // probability of all scenes that are not worked out
-constexpr double kTooLow = 0.5;          // an estimate's logarithm is hardly ever too low by more than this
+constexpr double kTooLow = 0.5;          // what an estimate's logarithm may be too low by at least
 constexpr std::size_t kAtOnce = 8;       // scenes that are worked out before the next look at what matters
 constexpr std::size_t kMostWorkedOut = 400;  // likely scenes; others count by their estimates
 constexpr std::size_t kTried = 4;            // scenes with which a case is tried before pairs are looked at
@@ -36,6 +36,7 @@ ScreenedCases::ScreenedCases(UnknownBridge& bridge, const Observation& observati
       rows_(rows),
       beforehand_(beforehand),
       likelihoods_(bridge, observation, table),
+      too_low_(kTooLow),
       exact_(rows.size()),
       is_worked_out_(rows.size(), false) {
   for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -115,7 +116,10 @@ void ScreenedCases::look_at(Case& one) {
   std::vector<std::uint8_t> only_here;
   for (const Case& other : cases_) only_here.push_back(&other == &one ? 1 : 0);
   work_out(first_of(few_, one.estimate, kTried), only_here);
-  const double least = best_ + std::log(kUncounted / static_cast<double>(rows_.size() * cases_.size()));
+  for (const std::size_t place : few_)
+    if (!exact_[place].empty()) check_estimate(place, static_cast<std::size_t>(&one - cases_.data()));
+  const double least =
+      best_ - too_low_ + std::log(kUncounted / static_cast<double>(rows_.size() * cases_.size()));
   estimate(screen, not_ruled_out(one, least), least, one.estimate);
   for (std::size_t i = 0; i < rows_.size(); ++i)
     if (one.estimate[i] > kImpossible) estimate_[i] = log_sum(estimate_[i], one.estimate[i]);
@@ -144,6 +148,14 @@ std::vector<std::size_t> ScreenedCases::most_likely(std::size_t count) const {
   return first_of(std::move(places), estimate_, count);
 }
 
+/// Of a scene that was worked out in a case, if it is likely: how much its estimate is too low.
+void ScreenedCases::check_estimate(std::size_t place, std::size_t number) {
+  const std::vector<double>& estimates = cases_[number].estimate;
+  const double log = exact_[place][number] + beforehand_[place];
+  if (!estimates.empty() && exact_[place][number] != kNotWorkedOut && log > best_ - kNegligible)
+    too_low_ = std::max(too_low_, log - estimates[place]);
+}
+
 /// In the cases that are wanted of each place, those worked out before left out.
 void ScreenedCases::work_out(std::span<const std::size_t> places, std::span<const std::uint8_t> wanted,
                              const Eigen::MatrixXd* rise) {
@@ -152,7 +164,7 @@ void ScreenedCases::work_out(std::span<const std::size_t> places, std::span<cons
   std::vector<std::uint8_t> missing;
   CasePruning pruning;
   std::vector<double> least;
-  for (const std::size_t place : places) least.push_back(best_ - kNegligible - beforehand_[place]);
+  for (const std::size_t place : places) least.push_back(best_ - too_low_ - kNegligible - beforehand_[place]);
   if (rise != nullptr) pruning = {least, *rise};
   for (const Case& one : cases_) terms.push_back(one.terms);
   for (std::size_t i = 0; i < places.size(); ++i) {
@@ -171,6 +183,7 @@ void ScreenedCases::work_out(std::span<const std::size_t> places, std::span<cons
     exact_[place][number] = over_scatter(logs[i]);
     const double log = exact_[place][number] + beforehand_[place];
     if (log > best_) best_ = log, likeliest_ = number;
+    check_estimate(place, number);
   }
 }
 
@@ -179,7 +192,8 @@ void ScreenedCases::work_out_where_likely(std::span<const std::size_t> places) {
   std::vector<std::uint8_t> wanted;
   for (const std::size_t place : places) {
     is_worked_out_[place] = true;
-    for (const Case& one : cases_) wanted.push_back(one.estimate[place] < best_ - kNegligible ? 0 : 1);
+    for (const Case& one : cases_)
+      wanted.push_back(one.estimate[place] + too_low_ < best_ - kNegligible ? 0 : 1);
   }
   work_out(places, wanted, &rise_);
 }
@@ -229,10 +243,12 @@ double ScreenedCases::work_out_likely(std::size_t count) {
   const std::vector<std::size_t> order = most_likely(rows_.size());
   std::vector<double> left(order.size() + 1, kImpossible);  // at each place and behind it
   for (std::size_t i = order.size(); i-- > 0;) left[i] = log_sum(left[i + 1], estimate_[order[i]]);
+  for (std::size_t place = 0; place < rows_.size(); ++place)
+    if (!exact_[place].empty()) work_out_where_likely({&place, 1});  // was tried
   double shift = 0.0;
   std::size_t likely = 0;
   for (std::size_t first = 0; first < order.size(); first += kAtOnce) {
-    const bool enough = left[first] + kTooLow < best_ + std::log(kLeftEstimated);
+    const bool enough = left[first] + too_low_ < best_ + std::log(kLeftEstimated);
     if (first >= count && (enough || likely >= kMostWorkedOut)) break;
     const auto some = std::span(order).subspan(first, std::min(kAtOnce, order.size() - first));
     work_out_where_likely(some);

@@ -45,6 +45,7 @@ class ScreenedCases {
   std::vector<std::size_t> most_likely(std::size_t count) const;
   double work_out_likely(std::size_t count);
   Eigen::MatrixXd rises() const;
+  void check_estimate(std::size_t place, std::size_t number);
   void work_out(std::span<const std::size_t> places, std::span<const std::uint8_t> wanted,
                 const Eigen::MatrixXd* rise = nullptr);
   void work_out_where_likely(std::span<const std::size_t> places);
@@ -60,6 +61,7 @@ class ScreenedCases {
   std::vector<Case> cases_;              // those that widen another's covariance before it
   std::vector<double> estimate_;         // of each row over all cases, the same
   SceneLikelihoods likelihoods_;
+  double too_low_;  // by how much estimates of likely scenes were found to be too low at most
   std::vector<std::vector<double>> exact_;  // of each row, for each case; empty: not worked out
   Eigen::MatrixXd rise_;                    // CasePruning::rise, once all cases were looked at
   std::vector<bool> is_worked_out_;         // in all cases that may matter

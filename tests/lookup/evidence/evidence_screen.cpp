@@ -1,5 +1,6 @@
 /// @file The screened posterior against the one that works out every row.
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -95,4 +96,30 @@ TEST_CASE("Sensors' own sigmas are screened as well, and a library without an in
     measured.sigma.assign(measured.sigma.size(), 3e-5);
     check_same(library, screen, eligible, {}, measured, {{}, {}, {0.1, 0.05, {}}});
   }
+}
+
+TEST_CASE("What one shape leaves out because another explains the readings changes no probability") {
+  const SyntheticLibrary library(3, 7);
+  const Eligible eligible = eligible_rows(library.table, {0, 1, 2});
+  Random random(4);
+  for (const NoiseShape truth : {NoiseShape::uniform, NoiseShape::gaussian, NoiseShape::laplace})
+    for (const double level : {0.003, 0.02, 0.1}) {
+      const std::size_t row = random.below(static_cast<std::uint32_t>(library.table.rows));
+      const Measurements measured = library.measure(row, level, truth, random);
+      std::vector<double> sum(library.table.rows, 0.0);
+      const auto evidence_of = [&](NoiseShape shape) {
+        const Observation observation = library.observe(measured, {shape}, {0.01});
+        return log_evidence_of_rows(observation, library.table, eligible.rows);
+      };
+      const std::vector<double> together = evidence_of(NoiseShape::automatic);
+      const double best = *std::max_element(together.begin(), together.end());
+      for (const NoiseShape shape : {NoiseShape::uniform, NoiseShape::gaussian, NoiseShape::laplace}) {
+        const std::vector<double> logs = evidence_of(shape);
+        for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += std::exp(logs[i] - best) / 3.0;
+      }
+      double off = 0.0;  // relative to the likeliest scene, all scenes together
+      for (std::size_t i = 0; i < sum.size(); ++i) off += std::abs(sum[i] - std::exp(together[i] - best));
+      INFO(to_string(truth) << " " << level);
+      CHECK(off < kScreenedAway);
+    }
 }
