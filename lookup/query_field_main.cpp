@@ -34,6 +34,7 @@ std::string query(const Options& options) {
     return voussoir::forces_report(database, row, state, options.show, options.format);
   const auto outcome =
       static_cast<voussoir::Outcome>(database.table(voussoir::kNominalVariant, state).outcome[row]);
+  voussoir::expect_displacements(database, row, state);
   if (outcome != voussoir::Outcome::standing)
     fmt::print(stderr, "query-field: note: scene {} is {} as {}, its field is no equilibrium\n",
                options.scene, voussoir::to_string(outcome), database.states()[state]);

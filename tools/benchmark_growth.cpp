@@ -130,16 +130,16 @@ BridgeDescription with_smallest_piece(double wanted) {
 
 std::vector<Growth> measure_growth(int most_spans, int scenes,
                                    const std::function<void(const Growth&)>& progress) {
-  std::vector<Growth> all = {{"blocks", "blocks", {}}, {"stiffness", "p_n [Pa/m]", {}},
-                             {"piece", "smallest piece [m2]", {}}};
+  std::vector<Growth> all = {
+      {"blocks", "blocks", {}}, {"stiffness", "p_n [Pa/m]", {}}, {"piece", "smallest piece [m2]", {}}};
   const auto add = [&](Growth& growth, GrowthPoint point) {
     growth.points.push_back(point);
     progress(growth);
   };
   for (int spans = 1; spans <= most_spans; spans *= 2) {
     const Model model = make_model(viaduct(spans));
-    add(all[0], measure<QuasiStaticSolver>(model.block_count(), model,
-                                           spread_singles(model, kViaductScenes, true)));
+    add(all[0],
+        measure<QuasiStaticSolver>(model.block_count(), model, spread_singles(model, kViaductScenes, true)));
   }
   for (const double stiffness : decades(7, 12)) {
     BridgeDescription bridge;
@@ -151,8 +151,7 @@ std::vector<Growth> measure_growth(int most_spans, int scenes,
   for (const double piece : decades(-6, -1)) {
     const BridgeDescription bridge = with_smallest_piece(piece);
     const Model model = make_model(bridge);
-    add(all[2],
-        measure<CombinedSolver>(smallest_piece(bridge), model, spread_singles(model, scenes, false)));
+    add(all[2], measure<CombinedSolver>(smallest_piece(bridge), model, spread_singles(model, scenes, false)));
   }
   return all;
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/error.h"
 #include "lookup/readings/noise_scale.h"
 
 namespace voussoir {
@@ -93,6 +94,11 @@ ReadingsFile simulate_file(const ReadingsFile& blank, const Comparison& comparis
                            const NoiseModel& noise, const Levelling& levelling, Random& random) {
   const std::vector<double> origin = origin_of(comparison);
   const std::span<const double> prediction = comparison.library.table.row(row);
+  if (std::ranges::all_of(prediction, [](double value) { return std::isnan(value); }))
+    throw Failure(
+        "of this scene the database says only that it falls, without displacements to read: expected one "
+        "that "
+        "stands, or a database built with --collapses field");
   std::vector<double> truth(prediction.size());
   for (std::size_t i = 0; i < truth.size(); ++i) truth[i] = prediction[i] - origin[i];
   Measurements measured = simulate_readings(truth, noise, random);

@@ -29,7 +29,7 @@ ReadingsFile blank_file(const SensorList& list, ReadingKind kind, const std::vec
 /// The file's rows as the sensors would read them in a scene, with errors. `blank` is what `comparison` was
 /// made of; of two epochs the first is what the intact bridge shows, and errors are those of the change.
 /// `row` is the scene's in the comparison's library. Gaussian noise without relative part is stated as each
-/// row's sigma.
+/// row's sigma. Throws Failure if the scene has no displacements.
 ReadingsFile simulate_file(const ReadingsFile& blank, const Comparison& comparison, std::size_t row,
                            const NoiseModel& noise, const Levelling& levelling, Random& random);
 

@@ -144,6 +144,21 @@ TEST_CASE("query-field shows stresses, joints and thrust lines in every format, 
   CHECK(mixed.exit_code == 2);
 }
 
+TEST_CASE("Of scenes that fall a database may keep only that: nothing is shown or measured of them") {
+  const Site site;
+  REQUIRE(site.build({"--collapses", "outcome"}).exit_code == 0);
+  for (const std::string option : {"--at=control", "--format=svg"}) {
+    const test::ProgramResult field = test::run("query-field", {"-d", site.database, "0,4", option});
+    CHECK(field.exit_code == 1);
+    CHECK(field.out.empty());
+    CHECK(field.err.find("scene 0,4 falls as built, and the database keeps only that") != std::string::npos);
+  }
+  const test::ProgramResult readings = test::run("make-measurements", {"-d", site.database, "0,4"});
+  CHECK(readings.exit_code == 1);
+  CHECK(readings.err.find("without displacements to read") != std::string::npos);
+  CHECK(test::run("query-field", {"-d", site.database, "3,2"}).exit_code == 0);
+}
+
 TEST_CASE("States and numbers that cannot be are bad usage") {
   const Site site;
   const auto refused = [&](const std::vector<std::string>& options, const char* why) {
