@@ -34,10 +34,10 @@ struct Comparison {
 Comparison absolute_readings(Library library, Measurements measured);
 
 struct ComparisonSettings {
-  std::optional<std::string> history;   ///< "built" or "lost"; nothing: what fits the readings
-  std::optional<double> sigma{};        ///< [m] of readings that do not state their own
-  std::optional<double> model_error{};  ///< share of a signal, in the place of what the database states
-  bool known_bridge = false;            ///< what is uncertain of the bridge is left out
+  std::optional<std::string> history{};  ///< "built" or "lost"; nothing: what fits the readings
+  std::optional<double> sigma{};         ///< [m] of readings that do not state their own
+  std::optional<double> model_error{};   ///< share of a signal, in the place of what the database states
+  bool known_bridge = false;             ///< what is uncertain of the bridge is left out
 };
 
 /// Readings beside the predictions of the database's states. Without a wish absolute readings are compared

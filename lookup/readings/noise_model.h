@@ -26,10 +26,10 @@ enum class NoiseShape {
 
 struct NoiseModel {
   NoiseShape shape = NoiseShape::automatic;
-  std::optional<double> relative;   ///< [-] of the displacement; nothing: unknown, and marginalised
-  double floor = 0.0;               ///< [m] absolute part
-  double degrees_of_freedom = 4.0;  ///< of Student's t, more than 2
-  double silence = 0.1;             ///< chance that a sensor on a standing block gives no reading
+  std::optional<double> relative{};  ///< [-] of the displacement; nothing: unknown, and marginalised
+  double floor = 0.0;                ///< [m] absolute part
+  double degrees_of_freedom = 4.0;   ///< of Student's t, more than 2
+  double silence = 0.1;              ///< chance that a sensor on a standing block gives no reading
 };
 
 /// An unknown level has a prior uniform in its logarithm between these two [-].
