@@ -32,7 +32,7 @@ struct LookupSettings {
   Epochs epochs = Epochs::change;  ///< this and the next: if the bridge is not known
   Conditions conditions = Conditions::uncertain;
   std::size_t top = 10;  ///< candidates wanted
-  GeneticSettings genetic;
+  GeneticSettings genetic{};
 };
 
 /// A scene that may explain the readings.

@@ -207,7 +207,8 @@ TEST_CASE("Cases that are not looked at change no probability by more than a tho
   CHECK(worst < 1e-3);
 }
 
-TEST_CASE("Whatever a bridge is asked that is not known, the screen hardly changes a probability") {
+TEST_CASE("Whatever a bridge is asked that is not known, the screen hardly changes a probability",
+          "[many-solutions]") {
   check_random_questions(2, 150);
 }
 
