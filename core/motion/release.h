@@ -16,9 +16,16 @@ struct Release {
   static Release sudden() { return {.duration = 0.0, .damping = 1.0}; }
 };
 
+/// Those of all blocks: in longer ones a loose block trembles more.
+inline DynamicSettings short_steps() {
+  DynamicSettings settings;
+  settings.most_parts = 1;
+  return settings;
+}
+
 struct LoadingSettings {
-  DynamicSettings motion{};  ///< step, damping, integration; the ramp is this:
-  double ramp = 3.0;         ///< gravity grows over this time [s]
+  DynamicSettings motion = short_steps();  ///< step, damping, integration; the ramp is this:
+  double ramp = 3.0;                       ///< gravity grows over this time [s]
   double rest = 1e-7;  ///< the bridge rests when no more of its weight is unbalanced (sum over the blocks) ..
   double rest_time = 0.1;   ///< .. for this long [s]
   double patience = 6.0;    ///< for that [s]
