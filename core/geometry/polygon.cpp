@@ -105,9 +105,13 @@ Point centroid(const Polygon& polygon) {
   return origin + moment / twice;
 }
 
-double distance_to_segment(const Point& a, const Point& b, const Point& point) {
+Point nearest_on_segment(const Point& a, const Point& b, const Point& point) {
   const double t = std::clamp((point - a).dot(b - a) / (b - a).squaredNorm(), 0.0, 1.0);
-  return (a + t * (b - a) - point).norm();
+  return a + t * (b - a);
+}
+
+double distance_to_segment(const Point& a, const Point& b, const Point& point) {
+  return (nearest_on_segment(a, b, point) - point).norm();
 }
 
 double distance_to_boundary(const Polygon& polygon, const Point& point) {

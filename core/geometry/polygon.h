@@ -23,7 +23,8 @@ double area(const Polygon& polygon);
 /// Centre of gravity [m]. Precondition: the area is not zero.
 Point centroid(const Polygon& polygon);
 
-/// Distance [m] of a point from the straight line between a and b.
+/// The place between a and b nearest to a point, and the distance [m] from there.
+Point nearest_on_segment(const Point& a, const Point& b, const Point& point);
 double distance_to_segment(const Point& a, const Point& b, const Point& point);
 
 /// Distance [m] of a point from the nearest edge, or corner, of a polygon.

@@ -7,6 +7,7 @@
 namespace voussoir {
 namespace {
 
+constexpr double kRoundOff = 1e-9;   ///< [m] points this close to an edge lie on it
 constexpr double kTieMargin = 1e-9;  ///< relative: shapes that differ by round-off count as equal
 
 /// Area over the sum of squared sides: 0.144 for an equilateral triangle, 0 or less for a flat or inverted
@@ -105,10 +106,12 @@ Triangulation fan_about_edge(const Polygon& polygon, int edge) {
 void split_boundary_at(Triangulation& triangulation, const Point& point, double tolerance) {
   const auto at = [&](int i) -> const Point& { return triangulation.points[static_cast<std::size_t>(i)]; };
   for (const auto& [a, b] : boundary(triangulation)) {
-    if (distance_to_segment(at(a), at(b), point) > tolerance) continue;
+    const Point foot = nearest_on_segment(at(a), at(b), point);
+    const double off = (foot - point).norm();
+    if (off > tolerance) continue;
     if ((at(a) - point).norm() <= tolerance || (at(b) - point).norm() <= tolerance) return;
     const int middle = static_cast<int>(triangulation.points.size());
-    triangulation.points.push_back(point);
+    triangulation.points.push_back(off > kRoundOff ? foot : point);
     for (auto& t : triangulation.triangles)
       for (std::size_t k = 0; k < 3; ++k)
         if (t[k] == a && t[(k + 1) % 3] == b) {

@@ -27,8 +27,8 @@ Triangulation fan_about_centre(const Polygon& polygon);
 /// Triangles from the middle of edge `edge` (corner `edge` to the next) to every other edge.
 Triangulation fan_about_edge(const Polygon& polygon, int edge);
 
-/// Puts a point on the boundary edge that passes it within `tolerance` [m] and cuts that edge's triangle in
-/// two; does nothing where a point is already.
+/// Puts a point onto the boundary edge that passes it within `tolerance` [m] and cuts that edge's triangle in
+/// two, whose area stays; does nothing where a point is already.
 void split_boundary_at(Triangulation& triangulation, const Point& point, double tolerance);
 
 /// Every triangle cut into four at the middles of its edges; midpoints are shared.
