@@ -165,10 +165,10 @@ SearchBasis basis_of_all(const RecomputedVariant& variant, std::int32_t number) 
 void check_variant(const VerifyRequest& request, const Database& database, const Model& bridge,
                    std::int32_t number, const StatePlan& plan, VerifyReport& report) {
   const std::string settings = database.provenance().solver_settings;
-  report.collapse_fields = rules_in(settings).collapse_fields;
   const SceneTable table = database.table(number, 0);
   const StateSolving equations(bridge, plan);
   const RecomputedVariant variant{database, bridge, plan, equations, rules_in(settings)};
+  report.collapse_fields = variant.rules.collapse_fields;
   const CheckedVariant checked{database,
                                bridge,
                                plan,

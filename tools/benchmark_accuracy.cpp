@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 #include <functional>
 #include <optional>
 
@@ -10,15 +9,12 @@
 #include "core/motion/dynamic_solver.h"
 #include "core/statics/quasi_static_solver.h"
 #include "lookup/report/drawing/chart.h"
+#include "tools/timing.h"
 
 namespace voussoir {
 namespace {
 
 constexpr const char* kDefaultMesh = "split edges";
-
-double processor_seconds() {
-  return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
-}
 
 /// Readings [m] of intact and of every scene, and what they cost.
 struct Readings {

@@ -5,10 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 #include <numbers>
 
 #include "core/random.h"
+#include "tools/timing.h"
 
 namespace voussoir {
 namespace {
@@ -31,10 +31,6 @@ class Draw {
  private:
   Random random_;
 };
-
-double processor_seconds() {
-  return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
-}
 
 std::vector<Scene> drawn_scenes(const Model& model, int count, std::uint64_t seed) {
   std::vector<Scene> scenes = all_scenes(static_cast<std::size_t>(model.block_count()), 1);

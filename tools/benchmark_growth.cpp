@@ -5,21 +5,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 #include <limits>
 
 #include "core/solve/combined_solver.h"
 #include "lookup/report/drawing/chart.h"
+#include "tools/timing.h"
 
 namespace voussoir {
 namespace {
 
 /// Scenes of a viaduct: enough to fill the lanes some times.
 constexpr int kViaductScenes = 24;
-
-double processor_seconds() {
-  return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
-}
 
 double megabytes_in_use() {
   const struct mallinfo2 info = mallinfo2();

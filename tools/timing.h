@@ -1,11 +1,17 @@
 #pragma once
-/// @file What is said of a repeated measurement.
+/// @file Processor time, and what is said of repeated measurements.
 
 #include <algorithm>
+#include <ctime>
 #include <string>
 #include <vector>
 
 namespace voussoir {
+
+/// What this process has used of all processors so far.
+inline double processor_seconds() {
+  return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
+}
 
 struct Timing {
   std::string name;

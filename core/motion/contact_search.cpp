@@ -4,20 +4,17 @@
 #include <cmath>
 #include <map>
 
+#include "core/geometry/box.h"
+
 namespace voussoir {
 namespace {
 
 /// Angles this close to a straight one belong to nodes inside a straight side [rad].
 constexpr double kStraight = 1e-6;
 
-struct Box {
-  Point low;
-  Point high;
-};
-
 bool near(const Box& a, const Box& b, double margin) {
-  return a.low.x() <= b.high.x() + margin && b.low.x() <= a.high.x() + margin &&
-         a.low.y() <= b.high.y() + margin && b.low.y() <= a.high.y() + margin;
+  return a.min().x() <= b.max().x() + margin && b.min().x() <= a.max().x() + margin &&
+         a.min().y() <= b.max().y() + margin && b.min().y() <= a.max().y() + margin;
 }
 
 Box box_of(const Eigen::Matrix2Xd& places, const BoundaryEdge& edge) {
@@ -37,12 +34,12 @@ std::vector<std::pair<int, int>> near_blocks(const std::vector<Box>& boxes, cons
   std::vector<int> order;
   for (std::size_t b = 0; b < boxes.size(); ++b)
     if (!absent[b]) order.push_back(static_cast<int>(b));
-  const auto left = [&](int b) { return boxes[static_cast<std::size_t>(b)].low.x(); };
+  const auto left = [&](int b) { return boxes[static_cast<std::size_t>(b)].min().x(); };
   std::sort(order.begin(), order.end(), [&](int a, int b) { return left(a) < left(b); });
   std::vector<std::pair<int, int>> pairs;
   for (std::size_t i = 0; i < order.size(); ++i) {
     const Box& box = boxes[static_cast<std::size_t>(order[i])];
-    for (std::size_t j = i + 1; j < order.size() && left(order[j]) <= box.high.x() + margin; ++j)
+    for (std::size_t j = i + 1; j < order.size() && left(order[j]) <= box.max().x() + margin; ++j)
       if (near(box, boxes[static_cast<std::size_t>(order[j])], margin))
         pairs.emplace_back(std::min(order[i], order[j]), std::max(order[i], order[j]));
   }
@@ -116,18 +113,24 @@ ContactSearch::ContactSearch(const Model& model)
       corner_share_[static_cast<std::size_t>(value(edge->to))] = corner_share(along(*edge), along(*next));
     }
   }
-  const std::vector<int> edge_from = edges_by_first_node(mesh);
-  const auto edge = [&](const BoundaryEdge& e) { return edge_from[static_cast<std::size_t>(value(e.from))]; };
+  edge_from_ = edges_by_first_node(mesh);
   std::map<EdgePair, ContactMaterial> joined;
   for (std::size_t j = 0; j < model.joints.size(); ++j) {
     const Joint& joint = model.joints[j];
-    joined[{edge(joint.first_edge), edge(joint.second_edge)}] =
+    joined[pair_of(joint)] =
         ContactMaterial(model.parameters.joints[j], joint_thickness(joint, model.parameters));
   }
   for (const auto& [pair, material] : joined) {
     joined_.push_back(pair);
     joined_material_.push_back(material);
   }
+}
+
+EdgePair ContactSearch::pair_of(const Joint& joint) const {
+  const auto edge = [&](const BoundaryEdge& e) {
+    return edge_from_[static_cast<std::size_t>(value(e.from))];
+  };
+  return {edge(joint.first_edge), edge(joint.second_edge)};
 }
 
 std::vector<EdgePair> ContactSearch::candidates(const Eigen::Matrix2Xd& places,

@@ -31,6 +31,9 @@ class ContactSearch {
   /// as in the quasi-static equations; others share out what penetrates at corners (see contact.h).
   EdgeContact contact(const EdgePair& pair) const;
 
+  /// The edges that a joint lies on.
+  EdgePair pair_of(const Joint& joint) const;
+
   /// The blocks of the two edges.
   std::array<std::size_t, 2> blocks(const EdgePair& pair) const;
 
@@ -39,6 +42,7 @@ class ContactSearch {
 
   const Mesh* mesh_;
   const Parameters* parameters_;
+  std::vector<int> edge_from_;                    ///< per node: the edge that begins there
   std::vector<int> edge_block_;                   ///< per edge
   std::vector<double> corner_share_;              ///< per node, see EdgeContact
   std::vector<double> behind_;                    ///< per edge: how far its block reaches behind it [m]

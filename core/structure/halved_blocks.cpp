@@ -45,7 +45,7 @@ bool are_halves(const Block& first, const Block& second, const WallDescription& 
   if (!wall.halved || first.index.course != second.index.course || first.kind != BlockKind::plain ||
       second.kind != BlockKind::plain)
     return false;
-  const Box both = box_of(std::vector{first.polygon, second.polygon});
+  const Box both = box_of(first.polygon).merged(box_of(second.polygon));
   const bool shifted = wall.bond == Bond::running && first.index.course % 2 == 1;
   const double blocks_before = both.min().x() / wall.block_length - (shifted ? 0.5 : 0.0);
   return std::abs(both.sizes().x() - wall.block_length) < kSame * wall.block_length &&

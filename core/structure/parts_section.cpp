@@ -24,7 +24,8 @@ void read_wall(TomlSection section, WallDescription& wall) {
 
 void read_role(TomlSection& section, const char* key, BlockRole& role) {
   std::vector<std::pair<const char*, BlockRole>> roles;
-  for (const char* const name : kRoleNames) roles.emplace_back(name, *find_role(name));
+  for (std::size_t i = 0; i < kRoleNames.size(); ++i)
+    roles.emplace_back(kRoleNames.at(i), static_cast<BlockRole>(i));
   section.choice(key, role, roles);
 }
 

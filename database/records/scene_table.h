@@ -24,6 +24,7 @@ struct SceneTable {
 
   std::span<const double> row(std::size_t scene) const { return vertical.subspan(scene * points, points); }
   bool stands(std::size_t scene) const;
+  bool has_displacements(std::size_t scene) const;  ///< at any control point
   Scene scene(std::size_t row) const;
   std::optional<std::size_t> find(const Scene& scene) const;  ///< its row
 };

@@ -1,6 +1,7 @@
 #include "database/records/stored_table.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/statics/solution.h"
 #include "database/records/schema.h"
@@ -36,6 +37,10 @@ std::optional<Ids> scene_in(Ids row, std::size_t blocks) {
 }
 
 }  // namespace
+
+bool SceneTable::has_displacements(std::size_t scene) const {
+  return std::ranges::any_of(row(scene), [](double value) { return !std::isnan(value); });
+}
 
 bool SceneTable::stands(std::size_t scene) const {
   return outcome[scene] == static_cast<std::uint8_t>(Outcome::standing);

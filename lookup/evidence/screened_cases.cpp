@@ -25,6 +25,14 @@ double usable(double estimate) {
   return std::isnan(estimate) ? std::numeric_limits<double>::infinity() : estimate;
 }
 
+/// How much a density rises at most if the covariance becomes that of another case, which is nowhere wider.
+/// Of log det that is as much as for the intact bridge at most, as long as losses widen covariances.
+double highest_rise(const ScatterLogs& from, const ScatterLogs& to) {
+  double most = kImpossible;
+  for (std::size_t k = 0; k < from.size(); ++k) most = std::max(most, to[k] - from[k]);
+  return most;
+}
+
 }  // namespace
 
 ScreenedCases::ScreenedCases(UnknownBridge& bridge, const Observation& observation, const SceneTable& table,
@@ -78,14 +86,6 @@ void ScreenedCases::estimate(const UnknownScreen& screen, std::span<const std::s
     estimates[places[i]] = usable(logs[i]) + beforehand_[places[i]];
 }
 
-/// How much a density rises at most if the covariance becomes that of another case, which is nowhere wider.
-/// Of log det that is as much as for the intact bridge at most, as long as losses widen covariances.
-double rise(const ScatterLogs& from, const ScatterLogs& to) {
-  double most = kImpossible;
-  for (std::size_t k = 0; k < from.size(); ++k) most = std::max(most, to[k] - from[k]);
-  return most;
-}
-
 /// Scenes with many missing blocks that may matter in a case, by its highest density and by what cases with
 /// wider covariances left of them. The others' estimates become these bounds.
 std::vector<std::size_t> ScreenedCases::not_ruled_out(Case& one, double least) const {
@@ -95,7 +95,7 @@ std::vector<std::size_t> ScreenedCases::not_ruled_out(Case& one, double least) c
     if (&wider == &one) break;
     const bool next = wider.one.level == one.one.level || wider.one.conditions == one.one.conditions;
     if (!next || wider.one.conditions < one.one.conditions) continue;
-    const double more = rise(wider.peaks, one.peaks);
+    const double more = highest_rise(wider.peaks, one.peaks);
     for (const std::size_t place : many_)
       bounds[place] = std::min(bounds[place], wider.estimate[place] + more);
   }
@@ -113,11 +113,10 @@ void ScreenedCases::look_at(Case& one) {
   one.peaks = screen.peaks();
   one.estimate.assign(rows_.size(), kImpossible);
   estimate(screen, few_, kImpossible, one.estimate);
-  std::vector<std::uint8_t> only_here;
-  for (const Case& other : cases_) only_here.push_back(&other == &one ? 1 : 0);
-  work_out(first_of(few_, one.estimate, kTried), only_here);
+  const auto here = static_cast<std::size_t>(&one - cases_.data());
+  work_out(first_of(few_, one.estimate, kTried), [&](std::size_t, std::size_t k) { return k == here; });
   for (const std::size_t place : few_)
-    if (!exact_[place].empty()) check_estimate(place, static_cast<std::size_t>(&one - cases_.data()));
+    if (!exact_[place].empty()) check_estimate(place, here);
   const double least =
       best_ - too_low_ + std::log(kUncounted / static_cast<double>(rows_.size() * cases_.size()));
   estimate(screen, not_ruled_out(one, least), least, one.estimate);
@@ -156,8 +155,8 @@ void ScreenedCases::check_estimate(std::size_t place, std::size_t number) {
     too_low_ = std::max(too_low_, log - estimates[place]);
 }
 
-/// In the cases that are wanted of each place, those worked out before left out.
-void ScreenedCases::work_out(std::span<const std::size_t> places, std::span<const std::uint8_t> wanted,
+/// In the cases that are wanted of each place, by their numbers, those worked out before left out.
+void ScreenedCases::work_out(std::span<const std::size_t> places, const WantedCase& is_wanted,
                              const Eigen::MatrixXd* rise) {
   std::vector<std::size_t> rows;
   std::vector<CaseTerms> terms;
@@ -167,13 +166,12 @@ void ScreenedCases::work_out(std::span<const std::size_t> places, std::span<cons
   for (const std::size_t place : places) least.push_back(best_ - too_low_ - kNegligible - beforehand_[place]);
   if (rise != nullptr) pruning = {least, *rise};
   for (const Case& one : cases_) terms.push_back(one.terms);
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    rows.push_back(rows_[places[i]]);
-    std::vector<double>& exact = exact_[places[i]];
+  for (const std::size_t place : places) {
+    rows.push_back(rows_[place]);
+    std::vector<double>& exact = exact_[place];
     exact.resize(cases_.size(), kNotWorkedOut);
     for (std::size_t k = 0; k < cases_.size(); ++k)
-      missing.push_back(wanted[wanted.size() == cases_.size() ? k : i * cases_.size() + k] != 0 &&
-                        exact[k] == kNotWorkedOut);
+      missing.push_back(is_wanted(place, k) && exact[k] == kNotWorkedOut);
   }
   const auto logs =
       likelihoods_(terms, rows, missing, hardware_threads(), rise != nullptr ? &pruning : nullptr);
@@ -189,13 +187,11 @@ void ScreenedCases::work_out(std::span<const std::size_t> places, std::span<cons
 
 /// In all cases that may matter beside the likeliest scene's.
 void ScreenedCases::work_out_where_likely(std::span<const std::size_t> places) {
-  std::vector<std::uint8_t> wanted;
-  for (const std::size_t place : places) {
-    is_worked_out_[place] = true;
-    for (const Case& one : cases_)
-      wanted.push_back(one.estimate[place] + too_low_ < best_ - kNegligible ? 0 : 1);
-  }
-  work_out(places, wanted, &rise_);
+  for (const std::size_t place : places) is_worked_out_[place] = true;
+  const auto may_matter = [&](std::size_t place, std::size_t number) {
+    return !(cases_[number].estimate[place] + too_low_ < best_ - kNegligible);
+  };
+  work_out(places, may_matter, &rise_);
 }
 
 /// log of the sum over the cases in which the place was worked out.
@@ -208,7 +204,7 @@ double ScreenedCases::total(std::size_t place) const {
 
 /// Tries all cases with a few scenes, then looks at each of them.
 void ScreenedCases::look_at_cases() {
-  work_out(nearest_singles(), std::vector<std::uint8_t>(cases_.size(), 1));
+  work_out(nearest_singles(), [](std::size_t, std::size_t) { return true; });
   for (Case& one : cases_) look_at(one);
   rise_ = rises();
 }
@@ -221,7 +217,7 @@ Eigen::MatrixXd ScreenedCases::rises() const {
     for (std::size_t j = i + 1; j < cases_.size(); ++j)
       if (cases_[j].one.level <= cases_[i].one.level && cases_[j].one.conditions <= cases_[i].one.conditions)
         result(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) =
-            rise(cases_[i].peaks, cases_[j].peaks);
+            highest_rise(cases_[i].peaks, cases_[j].peaks);
   return result;
 }
 

@@ -2,6 +2,7 @@
 /// @file The evidence of all scenes over all cases of a bridge that is not exactly known, of which estimates
 /// say which scenes, in which cases, are worth working out.
 
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -27,6 +28,8 @@ class ScreenedCases {
   std::size_t likeliest() const { return likeliest_; }
 
  private:
+  using WantedCase = std::function<bool(std::size_t place, std::size_t number)>;
+
   struct Case {
     UnknownCase one;
     CaseTerms terms;
@@ -46,7 +49,7 @@ class ScreenedCases {
   double work_out_likely(std::size_t count);
   Eigen::MatrixXd rises() const;
   void check_estimate(std::size_t place, std::size_t number);
-  void work_out(std::span<const std::size_t> places, std::span<const std::uint8_t> wanted,
+  void work_out(std::span<const std::size_t> places, const WantedCase& is_wanted,
                 const Eigen::MatrixXd* rise = nullptr);
   void work_out_where_likely(std::span<const std::size_t> places);
   double total(std::size_t place) const;

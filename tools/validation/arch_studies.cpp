@@ -13,7 +13,6 @@
 namespace voussoir::validation {
 namespace {
 
-constexpr double kHighFriction = 2.0;
 constexpr double kPublishedDigits = 5e-5;  ///< half a unit of the fourth digit
 constexpr double kBisection = 1e-6;        ///< of t/R
 

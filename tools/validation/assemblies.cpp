@@ -93,32 +93,34 @@ Model column(int courses, double young_modulus) {
   return make_model(description);
 }
 
-Model semicircular_ring(int voussoirs, double thickness, double friction, double normal_stiffness) {
-  constexpr double kFooting = 0.1;
-  constexpr double kCentre = 50.0;
-  const double inner = 1.0 - 0.5 * thickness;
-  const double outer = 1.0 + 0.5 * thickness;
-  const int chords = 32 / voussoirs + 1;
-  const auto at = [&](double radius, int j, int chord) {
-    const double angle = std::numbers::pi * (j + static_cast<double>(chord) / chords) / voussoirs;
-    return Point(kCentre - radius * std::cos(angle), kFooting + radius * std::sin(angle));
-  };
-  std::vector<Polygon> blocks = {rectangle({kCentre - outer, 0.0}, thickness, kFooting),
-                                 rectangle({kCentre + inner, 0.0}, thickness, kFooting)};
-  for (int j = 0; j < voussoirs; ++j) {
-    Polygon& block = blocks.emplace_back();
-    for (int i = 0; i <= chords; ++i) block.push_back(at(inner, j, i));
-    for (int i = chords; i >= 0; --i) block.push_back(at(outer, j, i));
-  }
+BridgeDescription arch_description(double normal_stiffness, double friction) {
   BridgeDescription description;
-  description.wall.length = 2.0 * kCentre;
+  description.wall = {.length = 2.0 * kArchCentre, .courses = 0};
   description.supports.sides = SupportKind::free;
   description.material.young_modulus = 100.0 * normal_stiffness;
   description.joints = {.normal_stiffness = normal_stiffness,
                         .tangential_stiffness = normal_stiffness,
                         .friction_angle = std::atan(friction)};
   description.mesh.split_at_corners = false;
-  return assemble_blocks(description, blocks);
+  return description;
+}
+
+Model semicircular_ring(int voussoirs, double thickness, double friction, double normal_stiffness) {
+  const double inner = 1.0 - 0.5 * thickness;
+  const double outer = 1.0 + 0.5 * thickness;
+  const int chords = 32 / voussoirs + 1;
+  const auto at = [&](double radius, int j, int chord) {
+    const double angle = std::numbers::pi * (j + static_cast<double>(chord) / chords) / voussoirs;
+    return Point(kArchCentre - radius * std::cos(angle), kFooting + radius * std::sin(angle));
+  };
+  std::vector<Polygon> blocks = {rectangle({kArchCentre - outer, 0.0}, thickness, kFooting),
+                                 rectangle({kArchCentre + inner, 0.0}, thickness, kFooting)};
+  for (int j = 0; j < voussoirs; ++j) {
+    Polygon& block = blocks.emplace_back();
+    for (int i = 0; i <= chords; ++i) block.push_back(at(inner, j, i));
+    for (int i = chords; i >= 0; --i) block.push_back(at(outer, j, i));
+  }
+  return assemble_blocks(arch_description(normal_stiffness, friction), blocks);
 }
 
 Field boundary_tractions(const Model& bridge, const Eigen::Vector3d& stress) {

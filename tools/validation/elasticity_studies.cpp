@@ -192,7 +192,7 @@ Findings cantilever() {
   const double before = tips[kLevels - 2] - tips[kLevels - 3];
   const double last = tips[kLevels - 1] - tips[kLevels - 2];
   const double converged = tips.back() + last / 3.0;  // Richardson, order 2
-  const double load = 2400.0 * 9.81;
+  const double load = kSpecificWeight;
   const double bending = load * std::pow(kBeamLength, 4) * 12.0 / (8.0 * 1e12);
   const double shear = 1.2 * load * kBeamLength * kBeamLength / (2.0 * 0.5e12);
   findings.cases = {

@@ -166,7 +166,7 @@ HardCase uneven_stack(double thin) {
   description.supports.sides = SupportKind::free;
   description.material.poisson_ratio = 0.0;
   std::vector<Polygon> blocks = {rectangle({50.0, 0.0}, 1.0, 1.0)};
-  constexpr double weight = 2400.0 * 9.81;  // [N/m3]
+  constexpr double weight = kSpecificWeight;
   double top = 1.0;
   double settlement =
       weight * (kPairs * (1.0 + thin) + 0.5) / description.material.young_modulus;  // the lowest block
@@ -200,7 +200,7 @@ HardCase uneven_stack(double thin) {
 HardCase at_angle(const std::string& name, double slope) {
   const Model bridge = block_on_wedge(slope, std::atan(2.0));
   const Solution solution = QuasiStaticSolver(bridge).solve(Scene{});
-  const double weight = 0.5 * 2400.0 * 9.81;
+  const double weight = 0.5 * kSpecificWeight;
   HardCase row{.sweep = "direction of a joint",
                .setting = name,
                .scene = "wedge",

@@ -5,8 +5,8 @@
 
 #include "core/error.h"
 #include "core/statics/quasi_static_solver.h"
+#include "tools/validation/assemblies.h"
 #include "tools/validation/bisection.h"
-#include "tools/validation/trial_arches.h"
 
 namespace voussoir::validation {
 double compliance(double normal_stiffness) {

@@ -35,6 +35,9 @@ inline constexpr double kAtLimit = 1.0 / 3.0;
 /// compliance.
 inline constexpr double kAtGivenTurn = 1.0 / 2.0;
 
+/// [Pa/m] Hinges of the softest are a hundredth of the radius wide, a fraction of the thinnest ring.
+inline const std::vector<double> kStiffForThinRings = {1e10, 1e11, 1e12};
+
 /// `value` of each stiffness [Pa/m], ascending, extrapolated in this power of the compliance.
 Limit find_limit(const std::vector<double>& stiffnesses, const std::function<double(double)>& value,
                  double power = kAtLimit);

@@ -16,7 +16,7 @@ Findings stack() {
   constexpr int kCourses = 12;
   const Model bridge = column(kCourses, 1e16);
   const Field field = QuasiStaticSolver(bridge).solve(Scene{}).displacement;
-  const double block = 0.5 * 2400.0 * 9.81;
+  const double block = 0.5 * kSpecificWeight;
   double largest = 0.0;
   double settlement = 0.0;
   for (int below = 1; below < kCourses; ++below) {
@@ -78,7 +78,7 @@ double topples_at(double normal_stiffness) {
 /// Angle [rad] at which a rigid block topples off an elastic joint without tension: the resultant N keeps a
 /// third of the closed width a from the edge, and the block leans by 2 N / (p_n a^2); the best a.
 double topples_on_elastic_joint(double normal_stiffness) {
-  const double normal = kBlockWidth * kHeight * 2400.0 * 9.81 * std::cos(std::atan(kBlockWidth / kHeight));
+  const double normal = kBlockWidth * kHeight * kSpecificWeight * std::cos(std::atan(kBlockWidth / kHeight));
   double best = 0.0;
   for (double a = kBlockWidth; a > 1e-5 * kBlockWidth; a *= 0.999)
     best = std::max(best, std::atan((0.5 * kBlockWidth - a / 3.0) / (0.5 * kHeight)) -

@@ -16,8 +16,6 @@ namespace voussoir::validation {
 namespace {
 
 const std::vector<double> kStiffnesses = {1e9, 1e10, 1e11};  ///< [Pa/m] those of the semicircle
-/// Hinges of the softest are a hundredth of the radius wide, a fraction of the thinnest ring.
-const std::vector<double> kStiffOfThinRings = {1e10, 1e11, 1e12};
 constexpr double kBisection = 1e-6;
 
 using SpanOfThickness = std::function<SpanDescription(double thickness)>;
@@ -29,7 +27,7 @@ double least_rigid_thickness(const SpanOfThickness& span) {
 
 Case thickness_case(const std::string& name, const SpanOfThickness& span) {
   const double expected = least_rigid_thickness(span);
-  const Limit limit = find_limit(kStiffOfThinRings, [&](double stiffness) {
+  const Limit limit = find_limit(kStiffForThinRings, [&](double stiffness) {
     return continued_down(3.0 * expected + 0.05, 0.1 * expected, kBisection,
                           [&](double thickness) { return elastic(span(thickness), stiffness); });
   });

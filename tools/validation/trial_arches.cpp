@@ -6,13 +6,7 @@
 #include "core/structure/arch.h"
 
 namespace voussoir::validation {
-namespace {
 
-constexpr double kFooting = 0.1;  ///< [m] of the stones below the springings
-
-}  // namespace
-
-/// The segment of a ring of mean radius 1 m that reaches `half_angle` to both sides of the crown.
 SpanDescription segmental(double half_angle, double thickness, int voussoirs) {
   const double inner = 1.0 - 0.5 * thickness;
   SpanDescription span{
@@ -23,7 +17,6 @@ SpanDescription segmental(double half_angle, double thickness, int voussoirs) {
   return span;
 }
 
-/// Two arcs of mean radius 1 m with their centres `beyond` [m] past the axis, on the springing line.
 SpanDescription pointed(double beyond, double thickness, int voussoirs) {
   const double inner = 1.0 - 0.5 * thickness;
   SpanDescription span{
@@ -35,7 +28,6 @@ SpanDescription pointed(double beyond, double thickness, int voussoirs) {
   return span;
 }
 
-/// The voussoirs alone, rigid, about x = 0.
 RigidArch rigid(const SpanDescription& span) {
   const Curve curve = intrados_of(span);
   const Point shift(kArchCentre, 0.0);
@@ -52,17 +44,9 @@ RigidArch rigid(const SpanDescription& span) {
   return arch;
 }
 
-/// The same with elastic joints, on clamped stones.
 Model elastic(const SpanDescription& span, double normal_stiffness) {
-  BridgeDescription description;
-  description.wall = {.length = 2.0 * kArchCentre, .courses = 0};
+  BridgeDescription description = arch_description(normal_stiffness, kHighFriction);
   description.spans = {span};
-  description.supports.sides = SupportKind::free;
-  description.material.young_modulus = 100.0 * normal_stiffness;
-  description.joints = {.normal_stiffness = normal_stiffness,
-                        .tangential_stiffness = normal_stiffness,
-                        .friction_angle = std::atan(kHighFriction)};
-  description.mesh.split_at_corners = false;
   return make_model(description);
 }
 

@@ -3,13 +3,10 @@
 /// them, the rigid voussoirs alone, and the bridge with elastic joints.
 
 #include "core/structure/model.h"
+#include "tools/validation/assemblies.h"
 #include "tools/validation/rigid_arch.h"
 
 namespace voussoir::validation {
-
-inline constexpr double kArchCentre = 50.0;  ///< [m] x of the crown
-inline constexpr double kHighFriction = 2.0;
-inline constexpr double kSpecificWeight = 2400.0 * 9.81;  ///< [N/m3]
 
 /// The segment of a ring of mean radius 1 m that reaches `half_angle` to both sides of the crown.
 SpanDescription segmental(double half_angle, double thickness, int voussoirs);

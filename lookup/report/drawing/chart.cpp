@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
+#include "core/geometry/box.h"
 #include "core/text.h"
 #include "lookup/report/drawing/style.h"
 
@@ -152,8 +152,6 @@ class Notes {
   }
 
  private:
-  using Box = Eigen::AlignedBox2d;
-
   static Box around(const Point& middle, double half_width, double half_height) {
     const Point half(half_width, half_height);
     return {middle - half, middle + half};
