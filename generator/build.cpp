@@ -60,11 +60,21 @@ std::vector<RecordKey> wanted_keys(const BuildRequest& request, std::size_t vari
   return wanted;
 }
 
+bool asks_for_sensitivities(const BuildRequest& request) {
+  return !request.known_bridge && !request.shard && is_uncertain(request.bridge.description.uncertainty);
+}
+
+/// Derivatives of the joints' law are those of dry joints.
+bool wants_sensitivities(const BuildRequest& request, const Model& bridge) {
+  return asks_for_sensitivities(request) && !has_mortar(bridge.parameters);
+}
+
 Build prepare(const BuildRequest& request, const SolverChoice& solver, Progress& progress) {
   std::vector<Model> bridges = {make_model(request.bridge.description)};
-  if (has_mortar(bridges.front().parameters))
-    throw InputError(fmt::format("{}: has [[mortar]]: expected dry joints, others a database cannot hold yet",
-                                 request.bridge.name));
+  if (asks_for_sensitivities(request) && !wants_sensitivities(request, bridges.front()))
+    progress.say(
+        "joints with mortar: the database does not hold how displacements change with what is uncertain of "
+        "the bridge, and locate-damage takes the bridge as exactly known");
   std::vector<VariantParameters> variants = {parameters_of(bridges.front())};
   for (const VariantParameters& parameters : request.other_variants) {
     bridges.push_back(variant_of(bridges.front(), parameters));
@@ -146,7 +156,7 @@ std::size_t reuse(const Build& build, Database old, KnownRecords& known) {
 
 /// Of the nominal variant, unless the bridge is said to be known.
 std::optional<Sensitivities> sensitivities_of(const Build& build, const KnownRecords& known) {
-  if (build.request.known_bridge || build.request.shard) return std::nullopt;
+  if (!wants_sensitivities(build.request, build.bridge())) return std::nullopt;
   std::vector<Scene> scenes;
   for (const RecordKey& key : build.wanted)
     if (key.variant == kNominalVariant) scenes.push_back(key.scene);
@@ -243,8 +253,7 @@ ExistingDatabase examine(const Build& build) {
   return examine_existing(
       request.output,
       {build.provenance, build.variants, build.wanted, kept_names(build.states), build.fields,
-       !request.known_bridge && !request.shard && is_uncertain(request.bridge.description.uncertainty),
-       shard_statement(request)},
+       wants_sensitivities(request, build.bridge()), shard_statement(request)},
       request.force);
 }
 

@@ -1,5 +1,6 @@
 #include "core/law/cohesive_law.h"
 
+#include <algorithm>
 #include <boost/math/quadrature/gauss.hpp>
 #include <cmath>
 
@@ -8,6 +9,7 @@
 namespace voussoir {
 namespace {
 
+constexpr double kLittle = 0.01;       ///< share of a bond's strength that does not count as holding
 constexpr int kMostNewtonSteps = 100;  ///< quadratic from one side: about six are needed
 
 /// The bond before slip wears it further, and its derivative by the gap.
@@ -223,6 +225,23 @@ JointResponse integrate_bond(const CohesiveStiffness& joint, const JointMemory& 
         response.force.tail<2>() += point.at * stress;
       });
   return response;
+}
+
+JointContact bond_contact(const CohesiveStiffness& joint, const JointMemory& memory,
+                          const JointState& state) {
+  JointContact contact;
+  for_bond_points(joint, memory, state, [&](const BondPoint& point, std::size_t i, const BondResponse& now) {
+    if (!(now.normal < 0.0) && bond_left(joint, now.memory) < kLittle) return;
+    contact.closed += point.weight;
+    if (now.memory.slipped > memory_at(memory, i).slipped) contact.sliding += point.weight;
+  });
+  return contact;
+}
+
+double bond_pressure(const CohesiveStiffness& joint, const JointMemory& memory, const JointState& state,
+                     int end) {
+  const BondMemory& nearest = memory_at(memory, end == 0 ? 0 : kBondPoints - 1);
+  return std::max(0.0, -bond_response(joint, nearest, state[2 * end], state[2 * end + 1]).normal);
 }
 
 JointMemory updated_bond(const CohesiveStiffness& joint, const JointMemory& memory, const JointState& state) {

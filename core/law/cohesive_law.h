@@ -84,6 +84,14 @@ double bond_left(const CohesiveStiffness& joint, const BondMemory& memory);
 JointResponse integrate_bond(const CohesiveStiffness& joint, const JointMemory& memory,
                              const JointState& state);
 
+/// Shares of the stretch in which the faces press on each other or the bond has a hundredth of its strength,
+/// and in which slip has worn the bond in the step that would end in this state.
+JointContact bond_contact(const CohesiveStiffness& joint, const JointMemory& memory, const JointState& state);
+
+/// Pressure at an end of the stretch, times its area [N]; what its nearest point has been crushed by counts.
+double bond_pressure(const CohesiveStiffness& joint, const JointMemory& memory, const JointState& state,
+                     int end);
+
 /// What the joint remembers when a step ends in this state.
 JointMemory updated_bond(const CohesiveStiffness& joint, const JointMemory& memory, const JointState& state);
 

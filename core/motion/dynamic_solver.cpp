@@ -45,6 +45,15 @@ std::unique_ptr<Model> softened_bridge(const Model& bridge, const std::vector<Bl
   return as_it_is ? nullptr : std::make_unique<Model>(softened(bridge, shares));
 }
 
+/// The largest share of its stiffness that a joint has left.
+double stiffest_share(const Model& bridge, const Model& softer) {
+  double share = 0.0;
+  for (std::size_t j = 0; j < bridge.joints.size(); ++j)
+    share = std::max(
+        share, softer.parameters.joints[j].normal_stiffness / bridge.parameters.joints[j].normal_stiffness);
+  return share;
+}
+
 }  // namespace
 
 struct DynamicSolver::Workspace {
@@ -55,6 +64,7 @@ struct DynamicSolver::Workspace {
             const DynamicSettings& settings_)
       : settings(settings_),
         softer(softened_bridge(bridge, bodies, settings)),
+        stiffness_share(stiffest_share(bridge, followed(bridge))),
         natural(natural_motion(followed(bridge), system)),
         critical(
             voussoir::critical_step(followed(bridge), bodies, settings.integrator, settings.contact_damping)),
@@ -68,6 +78,7 @@ struct DynamicSolver::Workspace {
 
   DynamicSettings settings;
   std::unique_ptr<Model> softer;  ///< what is followed if it is not the bridge
+  double stiffness_share;
   NaturalMotion natural;
   double critical;
   MotionModel model;
@@ -230,11 +241,18 @@ DecisionRules patient(DecisionRules rules) {
   return rules;
 }
 
+DynamicSettings acting_settings(DynamicSettings settings, const Model& model) {
+  if (!has_mortar(model.parameters)) return settings;
+  settings.most_parts = 1;
+  settings.least_step = 0.0;
+  return settings;
+}
+
 DynamicSolver::DynamicSolver(const Model& model, DynamicSettings settings)
     : DynamicSolver(model, EquilibriumSystem(model), settings) {}
 
 DynamicSolver::DynamicSolver(const Model& model, const EquilibriumSystem& system, DynamicSettings settings)
-    : workspace_(std::make_unique<Workspace>(model, system, settings)) {}
+    : workspace_(std::make_unique<Workspace>(model, system, acting_settings(settings, model))) {}
 DynamicSolver::~DynamicSolver() = default;
 DynamicSolver::DynamicSolver(DynamicSolver&&) noexcept = default;
 DynamicSolver& DynamicSolver::operator=(DynamicSolver&&) noexcept = default;
@@ -266,6 +284,9 @@ double DynamicSolver::critical_step() const {
 }
 double DynamicSolver::damping() const {
   return workspace_->model.damping;
+}
+double DynamicSolver::stiffness_share() const {
+  return workspace_->stiffness_share;
 }
 double DynamicSolver::sag() const {
   return workspace_->natural.sag;

@@ -56,6 +56,9 @@ struct DynamicSettings {
   int side_by_side = 4;  ///< scenes at a time: 1 or 4; the answers have the same bits
 };
 
+/// The settings that act on this model: bonds of mortar are followed in one pace, as stiff as they are.
+DynamicSettings acting_settings(DynamicSettings settings, const Model& model);
+
 /// What happened to a scene in motion.
 struct DynamicSolution {
   Solution solution;  ///< `residual` is the sum of the blocks' resultant forces over the bridge's weight;
@@ -87,10 +90,11 @@ class DynamicSolver {
   DynamicSolution solve(const Scene& scene);
 
   const Pace& pace() const;
-  double step() const;           ///< of most blocks [s]
-  double critical_step() const;  ///< of all blocks [s]
-  double damping() const;        ///< [1/s]
-  double sag() const;            ///< of the bonded bridge [m]
+  double step() const;             ///< of most blocks [s]
+  double critical_step() const;    ///< of all blocks [s]
+  double damping() const;          ///< [1/s]
+  double sag() const;              ///< of the bonded bridge [m]
+  double stiffness_share() const;  ///< no joint has more of its stiffness in motion (softening.h) [-]
 
  private:
   struct Workspace;

@@ -36,6 +36,21 @@ EdgeContact contact_of(const MotionModel& model, const EdgePair& pair) {
   return contact;
 }
 
+/// Edges that a bond holds together, ascending.
+std::vector<EdgePair> bonded_pairs(const MotionModel& model, const std::vector<MortarBond>& bonds) {
+  std::vector<EdgePair> pairs;
+  for (std::size_t k = 0; k < bonds.size(); ++k)
+    if (bonds[k].holds) pairs.push_back(model.bonds[k].pair);
+  return pairs;
+}
+
+/// Both ascending.
+void leave_out(const std::vector<EdgePair>& some, std::vector<EdgePair>& pairs) {
+  std::vector<EdgePair> others;
+  std::ranges::set_difference(pairs, some, std::back_inserter(others));
+  pairs = std::move(others);
+}
+
 /// Makes room for these pairs, and forgets those that no lane holds any more.
 template <class T>
 void add_contacts(const MotionModel& model, const std::vector<EdgePair>& added, Motion<T>& motion) {
@@ -78,6 +93,7 @@ MotionModel::MotionModel(const Model& model, std::vector<BlockBody> bodies_, Pac
       contact_damping(contact_damping_),
       gravity(model.parameters.gravity),
       search(model),
+      bonds(bonded_joints(model, search)),
       bodies(std::move(bodies_)),
       masses(lumped_masses(model)),
       held(held_components(model.supports, model.mesh)) {
@@ -150,6 +166,7 @@ void place_scene(const MotionModel& model, const std::vector<bool>& removed, int
     set_lane(motion.shear[c].at_0, i, 0.0);
     set_lane(motion.shear[c].at_1, i, 0.0);
   }
+  motion.bonds[static_cast<std::size_t>(i)].assign(model.bonds.size(), {});
   set_lane(motion.load, i, 0.0);
   set_lane(motion.damping, i, model.damping);
   set_lane(motion.travel, i, std::numeric_limits<double>::infinity());  // no contacts are known
@@ -157,8 +174,9 @@ void place_scene(const MotionModel& model, const std::vector<bool>& removed, int
 
 template <class T>
 void search_contacts(const MotionModel& model, double margin, int i, Motion<T>& motion) {
-  const std::vector<EdgePair> found =
+  std::vector<EdgePair> found =
       model.search.candidates(places_in_lane(motion, i), absent_in_lane(motion, i), margin);
+  leave_out(bonded_pairs(model, motion.bonds[static_cast<std::size_t>(i)]), found);
   for (Cell<T>& cell : motion.found) set_lane(cell.value, i, 0.0);
   if (!std::includes(motion.pairs.begin(), motion.pairs.end(), found.begin(), found.end()))
     add_contacts(model, found, motion);
@@ -168,6 +186,35 @@ void search_contacts(const MotionModel& model, double margin, int i, Motion<T>& 
     set_lane(motion.found[static_cast<std::size_t>(pair - motion.pairs.begin())].value, i, 1.0);
   }
   set_lane(motion.travel, i, 0.0);
+}
+
+template <class T>
+void follow_bonds(const MotionModel& model, Motion<T>& motion) {
+  if (model.bonds.empty()) return;
+  motion.held.assign(motion.places.size(), {T{}, T{}});
+  const double ahead = model.contact_damping / model.pace.step;
+  for (int i = 0; i < kLaneCount<T>; ++i)
+    for (std::size_t k = 0; k < model.bonds.size(); ++k) {
+      const BondedJoint& joint = model.bonds[k];
+      MortarBond& bond = motion.bonds[static_cast<std::size_t>(i)][k];
+      const auto is_there = [&](std::size_t block) { return lane(motion.present[block].value, i) != 0.0; };
+      if (!bond.holds || !is_there(joint.blocks[0]) || !is_there(joint.blocks[1])) continue;
+      Vector8d displacement;
+      for (std::size_t corner = 0; corner < 4; ++corner) {
+        const auto node = static_cast<std::size_t>(joint.nodes[corner]);
+        const Pair<T> place = motion.places[node] + motion.moved[node] * ahead;
+        displacement.segment<2>(2 * static_cast<Eigen::Index>(corner)) =
+            Point(lane(place.x, i), lane(place.y, i)) -
+            model.structure->mesh.position(NodeId{joint.nodes[corner]});
+      }
+      const Vector8d force = follow_bond(joint, displacement, bond);
+      for (std::size_t corner = 0; corner < 4; ++corner) {
+        Pair<T>& sum = motion.held[static_cast<std::size_t>(joint.nodes[corner])];
+        const auto c = 2 * static_cast<Eigen::Index>(corner);
+        set_pair(sum, i, lane(sum.x, i) + force[c], lane(sum.y, i) + force[c + 1]);
+      }
+      if (!bond.holds) set_lane(motion.travel, i, std::numeric_limits<double>::infinity());
+    }
 }
 
 template <class T>
@@ -203,6 +250,7 @@ double kinetic_energy(const MotionModel& model, const Motion<T>& motion, int i) 
   template Motion<T> at_rest<T>(const MotionModel&);                                           \
   template void place_scene<T>(const MotionModel&, const std::vector<bool>&, int, Motion<T>&); \
   template void search_contacts<T>(const MotionModel&, double, int, Motion<T>&);               \
+  template void follow_bonds<T>(const MotionModel&, Motion<T>&);                               \
   template Field displacement<T>(const MotionModel&, const Motion<T>&, int);                   \
   template double kinetic_energy<T>(const MotionModel&, const Motion<T>&, int);
 VOUSSOIR_INSTANTIATE(double)

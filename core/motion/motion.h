@@ -1,11 +1,13 @@
 #pragma once
 /// @file Scenes in motion side by side: their state, and what all scenes of a bridge share.
 
+#include <array>
 #include <cstddef>
 #include <vector>
 
 #include "core/law/triangle.h"
 #include "core/motion/block_dynamics.h"
+#include "core/motion/bonds.h"
 #include "core/motion/contact.h"
 #include "core/motion/contact_search.h"
 #include "core/motion/pace.h"
@@ -27,6 +29,7 @@ struct MotionModel {
   double contact_damping;  ///< joints resist the gap and slip that they would have this much later [s]
   double gravity;          ///< [m/s2]
   ContactSearch search;
+  std::vector<BondedJoint> bonds;
   std::vector<BlockBody> bodies;
   std::vector<double> responses;  ///< deformation_response of all blocks to their own steps, row by row
   std::vector<std::size_t> response_of_block;  ///< where each block's begins
@@ -57,18 +60,20 @@ struct Motion {
   std::vector<Pair<T>> deformed;  ///< u of the nodes in their block's frame [m]
   std::vector<Pair<T>> rates;     ///< du/dt [m/s]; with explicit steps the nodes' velocities
   std::vector<BlockFrame<T>> frames;
-  std::vector<Cell<T>> present;        ///< per block: 1, or 0 where it is removed
-  std::vector<Pair<T>> pushes;         ///< forces on the nodes beside weight and contact [N]; empty: none
-  std::vector<EdgePair> pairs;         ///< that some lane's search has found, ascending
-  std::vector<EdgeContact> contacts;   ///< of `pairs`
-  std::vector<int> quick_contacts;     ///< those of quick blocks, as positions in `pairs`
-  std::vector<Cell<T>> found;          ///< of `pairs`: 1 where the lane's own search has, otherwise 0
-  std::vector<ContactShear<T>> shear;  ///< of `pairs`
-  std::vector<Pair<T>> scratch;        ///< as long as the largest block
-  alignas(sizeof(T)) T load{};         ///< share of gravity that acts
-  alignas(sizeof(T)) T damping{};      ///< force on a mass per mass and velocity [1/s]
-  alignas(sizeof(T)) T travel{};       ///< bound of any node's way since the last contact search [m]
-  alignas(sizeof(T)) T unbalanced{};   ///< sum over blocks of the resultant forces [N]
+  std::vector<Cell<T>> present;  ///< per block: 1, or 0 where it is removed
+  std::vector<Pair<T>> pushes;   ///< forces on the nodes beside weight and joints [N]; empty: none
+  std::vector<Pair<T>> held;     ///< what bonds do to the nodes [N]; empty: there are none
+  std::array<std::vector<MortarBond>, kLaneCount<T>> bonds;  ///< of each lane's scene
+  std::vector<EdgePair> pairs;                               ///< that some lane's search has found, ascending
+  std::vector<EdgeContact> contacts;                         ///< of `pairs`
+  std::vector<int> quick_contacts;            ///< those of quick blocks, as positions in `pairs`
+  std::vector<Cell<T>> found;                 ///< of `pairs`: 1 where the lane's own search has, otherwise 0
+  std::vector<ContactShear<T>> shear;         ///< of `pairs`
+  std::vector<Pair<T>> scratch;               ///< as long as the largest block
+  alignas(sizeof(T)) T load{};                ///< share of gravity that acts
+  alignas(sizeof(T)) T damping{};             ///< force on a mass per mass and velocity [1/s]
+  alignas(sizeof(T)) T travel{};              ///< bound of any node's way since the last contact search [m]
+  alignas(sizeof(T)) T unbalanced{};          ///< sum over blocks of the resultant forces [N]
   alignas(sizeof(T)) T largest_unbalanced{};  ///< largest resultant force of a block over its weight
 };
 
@@ -88,6 +93,11 @@ double grown_share(double time, double ramp);
 /// no difference to this one, nor this one to them.
 template <class T>
 void search_contacts(const MotionModel& model, double margin, int lane_index, Motion<T>& motion);
+
+/// Evaluates the bonds that hold, at the places in a step of length `step` [s] from now on; those that are
+/// worn away turn into contacts at the next search.
+template <class T>
+void follow_bonds(const MotionModel& model, Motion<T>& motion);
 
 /// Displacements in one lane [m], NaN at the nodes of removed blocks.
 template <class T>

@@ -17,6 +17,7 @@ struct MotionView {
   BlockFrame<T>* frames;
   const Cell<T>* present;
   const Pair<T>* pushes;  ///< null: none
+  const Pair<T>* held;    ///< null: none
   const EdgeContact* contacts;
   const Cell<T>* found;
   ContactShear<T>* shear;
@@ -37,6 +38,7 @@ MotionView<T> view_of(Motion<T>& motion) {
           .frames = motion.frames.data(),
           .present = motion.present.data(),
           .pushes = motion.pushes.empty() ? nullptr : motion.pushes.data(),
+          .held = motion.held.empty() ? nullptr : motion.held.data(),
           .contacts = motion.contacts.data(),
           .found = motion.found.data(),
           .shear = motion.shear.data(),
@@ -209,6 +211,8 @@ template <class T>
 VOUSSOIR_INLINE void clear_forces(const IndexRange& nodes, const MotionView<T>& view) {
   for (int i = nodes.begin; i < nodes.end; ++i)
     view.forces[i] = view.pushes != nullptr ? view.pushes[i] : Pair<T>{T{}, T{}};
+  if (view.held == nullptr) return;
+  for (int i = nodes.begin; i < nodes.end; ++i) view.forces[i] = view.forces[i] + view.held[i];
 }
 
 /// forces += contact, but for quick blocks.
@@ -219,7 +223,7 @@ VOUSSOIR_INLINE void add_contact_forces(const MotionModel& model, const MotionVi
     if (!view.contacts[c].meets_quick()) add_contact_forces(c, now, view);
 }
 
-/// forces = pushes + contact, but for quick blocks.
+/// forces = pushes + bonds + contact, but for quick blocks.
 template <class T>
 VOUSSOIR_INLINE void start_forces(const MotionModel& model, const MotionView<T>& view) {
   clear_forces({0, static_cast<int>(view.node_count)}, view);

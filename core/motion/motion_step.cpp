@@ -29,15 +29,18 @@ void add_element_forces(const MotionModel& model, Motion<double>& motion) {
 }  // namespace
 
 void take_implicit_step(const MotionModel& model, Motion<double>& motion) {
+  follow_bonds(model, motion);
   implicit_step(model, motion);
 }
 
 VOUSSOIR_FOR_EVERY_PROCESSOR void take_implicit_step(const MotionModel& model, Motion<DoubleLanes>& motion) {
+  follow_bonds(model, motion);
   implicit_step(model, motion);
 }
 
 void take_explicit_step(const MotionModel& model, Motion<double>& motion) {
   using Node = Pair<double>;
+  follow_bonds(model, motion);
   const MotionView<double> view = view_of(motion);
   start_forces(model, view);
   add_element_forces(model, motion);

@@ -12,7 +12,7 @@ namespace {
 
 using Forces = std::vector<Pair<double>>;
 
-/// Forces of the contacts with these blocks on the nodes of all others [N].
+/// Forces of the joints with these blocks on the nodes of all others [N].
 Forces forces_of_blocks(const MotionModel& model, const std::vector<bool>& removed, Motion<double> motion) {
   const Mesh& mesh = model.structure->mesh;
   std::vector<bool> gone(motion.places.size(), false);
@@ -24,6 +24,10 @@ Forces forces_of_blocks(const MotionModel& model, const std::vector<bool>& remov
     if (is_gone(motion.contacts[c].nodes[0]) == is_gone(motion.contacts[c].nodes[2]))
       motion.found[c].value = 0.0;
   for (EdgeContact& contact : motion.contacts) contact.quick = {};  // all at this moment
+  for (std::size_t k = 0; k < model.bonds.size(); ++k)
+    if (removed[model.bonds[k].blocks[0]] == removed[model.bonds[k].blocks[1]])
+      motion.bonds[0][k].holds = false;
+  follow_bonds(model, motion);
   start_forces(model, view_of(motion));
   for (std::size_t i = 0; i < gone.size(); ++i)
     if (gone[i]) motion.forces[i] = {0.0, 0.0};

@@ -1,6 +1,7 @@
 #pragma once
 /// @file The solver that builds databases: Newton for scenes that stand, motion for all others.
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -9,7 +10,8 @@
 namespace voussoir {
 
 /// Solves scenes of one variant, several side by side. Most scenes stand and Newton finds their equilibrium
-/// in milliseconds. Where Newton makes no progress, the scene is set in motion under growing gravity. What
+/// in milliseconds; where joints are far stiffer than blocks, at times only from softer ones
+/// (softer_joints.h). Where Newton makes no progress, the scene is set in motion under growing gravity. What
 /// falls is `collapsed`, with the field at the dynamic settings' moment. What seems to come to rest is handed
 /// back to Newton, which polishes the resting field to equilibrium; if there is none near, a block creeps,
 /// held by nearly enough friction, and the motion is followed until it has come to rest or moved away. Scenes
@@ -31,13 +33,15 @@ class CombinedSolver {
 
  private:
   std::vector<Solution> search(std::span<const StageTask> tasks);
-  void follow(const DecisionRules& rules, std::span<const StageTask> tasks, bool patiently,
-              std::vector<Solution>& solutions);
+  std::vector<bool> approach(std::span<const StageTask> tasks, std::vector<Solution>& solutions);
+  void follow(const DecisionRules& rules, std::span<const StageTask> tasks, const std::vector<bool>& left_out,
+              bool patiently, std::vector<Solution>& solutions);
 
   SolverSettings settings_;
+  const Parameters* parameters_;
   QuasiStaticSolver newton_;
+  std::optional<QuasiStaticSolver> approaching_;  ///< where joints are stiff
   DynamicSolver motion_;
-  bool moves_;  ///< motion knows no mortar: with it, Newton has the last word
 };
 
 }  // namespace voussoir

@@ -130,9 +130,11 @@ void visit_motion(Settings& settings, const Visit& visit) {
 
 template <class Settings, class Visit>
 void visit_settings(Settings& settings, const Visit& visit) {
-  auto& [kind, newton, motion, patient] = settings;
+  auto& [kind, newton, softest_joints, motion, patient] = settings;
   visit("solver", kind);
   if (kind == SolverKind::quasi_static) visit_newton(newton, visit);
+  if (kind == SolverKind::quasi_static && !newton.skips.early_outcome)
+    visit("newton.softest_joints", softest_joints);
   visit_motion(motion, visit);
   if (kind == SolverKind::quasi_static) visit_rules("patient", patient, visit);
 }
@@ -166,21 +168,19 @@ SolverSettings acting_settings(SolverSettings settings, const Model& model) {
   // That three steps show whether there is a way was measured on joints much softer than blocks (0.03 in p_n
   // b / E with a mean block's size b). From 0.1 on bridges that stand take up to fifty, and a motion that is
   // not needed takes a hundred times as long as those.
+  constexpr double kSoftJoints = 0.03;
   constexpr double kStiffJoints = 0.1;
   constexpr int kMostOfStiffJoints = 60;
-  if (has_mortar(model.parameters)) {
-    if (settings.kind == SolverKind::dynamic)
-      throw InputError(
-          "motion knows no mortar: expected a bridge without [[mortar]] or the quasi-static solver");
-    settings.newton.follow_falls = true;
-  }
+  settings.motion = acting_settings(settings.motion, model);
   double stiffest = model.parameters.contact.normal_stiffness;
   for (const JointMaterial& joint : model.parameters.joints)
     stiffest = std::max(stiffest, joint.normal_stiffness);
   double softest = model.parameters.blocks.front().young_modulus;
   for (const Material& material : model.parameters.blocks)
     softest = std::min(softest, material.young_modulus);
-  if (stiffest * mean_block_size(model) / softest > kStiffJoints) {
+  const double ratio = stiffest * mean_block_size(model) / softest;
+  if (ratio > kStiffJoints) {
+    if (!has_mortar(model.parameters)) settings.softest_joints = kSoftJoints / ratio;
     settings.newton.skips.early_outcome = false;
     settings.newton.most_iterations = std::max(settings.newton.most_iterations, kMostOfStiffJoints);
   }

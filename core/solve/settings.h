@@ -18,6 +18,8 @@ enum class SolverKind {
 struct SolverSettings {
   SolverKind kind = SolverKind::quasi_static;
   QuasiStaticSettings newton{};  ///< of the quasi-static kind
+  double softest_joints = 1.0;   ///< share of the joints' stiffness from which equilibria are approached that
+                                 ///< Newton's method does not find (softer_joints.h); 1: they are not
   DynamicSettings motion{};      ///< of scenes in motion
   DecisionRules patient{};       ///< of the quasi-static kind: for what neither rests nor falls soon
 
@@ -26,8 +28,7 @@ struct SolverSettings {
 };
 
 /// The settings that act on this model: where joints are stiffer than blocks, Newton's search is not given up
-/// early; where they have mortar, which motion does not know, it follows falls itself. Throws InputError if
-/// motion is asked for with mortar.
+/// early, and what it does not find is approached from softer joints; of motion see its own.
 SolverSettings acting_settings(SolverSettings settings, const Model& model);
 
 /// "key = value" lines, a key for every setting that acts, named for its phase: "newton.tolerance",

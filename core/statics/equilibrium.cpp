@@ -81,18 +81,6 @@ void add_local(const std::array<int, N>& slots, const Matrix& local, TangentTarg
     if (slots[k] >= 0) tangent.first[static_cast<std::size_t>(slots[k]) * tangent.stride] += local.data()[k];
 }
 
-/// The joint's mortar, or null if it is dry.
-const CohesiveStiffness* mortar_of(const Coefficients& with, std::size_t joint) {
-  return with.mortar.empty() || !with.mortar[joint] ? nullptr : &*with.mortar[joint];
-}
-
-JointResponse joint_response(const StageEquations& equations, std::size_t j, const JointState& state) {
-  const Coefficients& with = *equations.coefficients;
-  if (const CohesiveStiffness* mortar = mortar_of(with, j))
-    return integrate_bond(*mortar, equations.memory[j], state);
-  return integrate_joint(with.joints[j], equations.memory[j], state, equations.system->joint_rule);
-}
-
 /// Gives the unknowns of removed blocks an equation of their own: 1 * change = 0.
 void pin_removed(const StageEquations& equations, TangentTarget tangent) {
   const EquilibriumSystem& system = *equations.system;
@@ -233,13 +221,20 @@ Field assemble(const StageEquations& equations, const Field& displacement, doubl
   return forces;
 }
 
+JointResponse joint_response(const StageEquations& equations, std::size_t joint, const JointState& state) {
+  const Coefficients& with = *equations.coefficients;
+  const JointMemory& memory = equations.memory[joint];
+  if (const CohesiveStiffness* mortar = with.mortar_of(joint)) return integrate_bond(*mortar, memory, state);
+  return integrate_joint(with.joints[joint], memory, state, equations.system->joint_rule);
+}
+
 std::vector<JointMemory> updated_memory(const StageEquations& equations, const Field& displacement) {
   const EquilibriumSystem& system = *equations.system;
   std::vector<JointMemory> memory = equations.memory;
   for_present_joints(equations, [&](const Joint& joint, std::size_t j) {
     const JointKinematics kinematics =
         joint_kinematics(system.joints[j], gathered(displacement, corners(joint)));
-    if (const CohesiveStiffness* mortar = mortar_of(*equations.coefficients, j))
+    if (const CohesiveStiffness* mortar = equations.coefficients->mortar_of(j))
       memory[j] = updated_bond(*mortar, memory[j], kinematics.state);
     else
       memory[j] = updated_memory(equations.coefficients->joints[j], memory[j], kinematics.state);

@@ -50,6 +50,11 @@ struct Coefficients {
   std::vector<JointStiffness> joints;                    ///< of each joint
   std::vector<std::optional<CohesiveStiffness>> mortar;  ///< of each joint; empty if all are dry
   Eigen::VectorXd weight;                                ///< of each node under full gravity [N], positive
+
+  /// Null if the joint is dry.
+  const CohesiveStiffness* mortar_of(std::size_t joint) const {
+    return mortar.empty() || !mortar[joint] ? nullptr : &*mortar[joint];
+  }
 };
 
 /// The equations of one stage of one variant. Shares `system` and `coefficients`, which must outlive it.
@@ -70,6 +75,9 @@ struct StageEquations {
   double largest_load;     ///< component of the load on the whole bridge [N]: the unit of residuals; 1 if
                            ///< nothing is loaded
 };
+
+/// What a joint does in this state, by the law that it has.
+JointResponse joint_response(const StageEquations& equations, std::size_t joint, const JointState& state);
 
 /// Unbalanced force of every displacement component [N] (2 x nodes); zero at removed blocks and held
 /// components.

@@ -16,6 +16,22 @@ JointCondition condition_of(const JointContact& contact) {
                                                                : JointCondition::sticking;
 }
 
+JointContact contact_of(const StageEquations& equations, std::size_t joint, const JointState& state) {
+  const Coefficients& with = *equations.coefficients;
+  const JointMemory& memory = equations.memory[joint];
+  if (const CohesiveStiffness* mortar = with.mortar_of(joint)) return bond_contact(*mortar, memory, state);
+  return joint_contact(with.joints[joint], memory, state);
+}
+
+/// [Pa]
+double pressure_at(const StageEquations& equations, std::size_t joint, double normal_stiffness,
+                   const JointState& state, int end) {
+  const Coefficients& with = *equations.coefficients;
+  const CohesiveStiffness* mortar = with.mortar_of(joint);
+  if (mortar == nullptr) return normal_stiffness * std::max(0.0, -state[2 * end]);
+  return bond_pressure(*mortar, equations.memory[joint], state, end) / mortar->dry.normal * normal_stiffness;
+}
+
 /// The force along the joint as it has turned: `force` is (along the normal, along the joint) [N]. Gap and
 /// slip of an end change with a movement of the second block by just these directions.
 Point pulled_by(const JointKinematics& kinematics, const Eigen::Vector2d& force) {
@@ -35,20 +51,19 @@ std::vector<JointForces> joint_forces(const StageEquations& equations, const Par
   const EquilibriumSystem& system = *equations.system;
   std::vector<JointForces> result;
   for_present_joints(equations, [&](const Joint& joint, std::size_t j) {
-    const JointStiffness& stiffness = equations.coefficients->joints[j];
-    const JointMemory memory = equations.memory.empty() ? JointMemory{} : equations.memory[j];
     const JointKinematics kinematics =
         joint_kinematics(system.joints[j], gathered(displacement, corners(joint)));
     const JointState& state = kinematics.state;
-    const Eigen::Vector4d force = integrate_joint(stiffness, memory, state).force;
-    const JointContact contact = joint_contact(stiffness, memory, state);
+    const Eigen::Vector4d force = joint_response(equations, j, state).force;
+    const JointContact contact = contact_of(equations, j, state);
     JointForces& found = result.emplace_back();
     found.joint = j;
     found.ends = ends_of(joint, system.structure->mesh);
     found.gap = {state[0], state[2]};
     found.slip = {state[1], state[3]};
-    for (std::size_t end = 0; end < 2; ++end)
-      found.pressure.at(end) = parameters.joints[j].normal_stiffness * std::max(0.0, -found.gap.at(end));
+    for (int end = 0; end < 2; ++end)
+      found.pressure.at(static_cast<std::size_t>(end)) =
+          pressure_at(equations, j, parameters.joints[j].normal_stiffness, state, end);
     found.normal = 0.0 - force[0] - force[2];
     found.shear = force[1] + force[3];
     for (int end = 0; end < 2; ++end)

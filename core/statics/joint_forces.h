@@ -10,9 +10,9 @@
 namespace voussoir {
 
 enum class JointCondition {
-  open,      ///< the faces are apart all along the stretch
-  sticking,  ///< friction holds them, at least on a part of where they touch
-  sliding    ///< friction has given way wherever they touch
+  open,      ///< the faces are apart all along the stretch, and no mortar holds them
+  sticking,  ///< friction or mortar holds them, at least on a part of where they touch
+  sliding    ///< friction, or mortar, has given way wherever they touch
 };
 
 /// "open", "sticking", "sliding"
@@ -25,11 +25,11 @@ struct JointForces {
   std::array<double, 2> gap{};       ///< [m] positive where the faces are apart
   std::array<double, 2> slip{};      ///< [m] of the second face along the joint, from end 0 to end 1
   std::array<double, 2> pressure{};  ///< [Pa]
-  double normal = 0.0;               ///< [N] compression through the stretch, never negative
+  double normal = 0.0;               ///< [N] compression through the stretch; negative where mortar pulls
   double shear = 0.0;                ///< [N] with which friction resists the slip, with its sign
   std::array<Point, 2> on_second{};  ///< [N] forces on the second block in the ends: they are equivalent to
                                      ///< the stresses along the stretch
-  double closed_share = 0.0;         ///< [-] of the stretch
+  double closed_share = 0.0;         ///< [-] of the stretch: faces touch, or mortar holds them
   double sliding_share = 0.0;        ///< [-] of the stretch
   JointCondition condition = JointCondition::open;
 };

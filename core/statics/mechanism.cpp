@@ -103,6 +103,7 @@ double sum_over_present(const Mechanism& mechanism, const Scene& scene, const st
 
 std::optional<Mechanism> find_mechanism(const Model& model, const Coefficients& coefficients,
                                         const Scene& scene, std::span<const BlockId> blocks) {
+  if (has_mortar(model.parameters)) return std::nullopt;
   const MovingBlocks moving(model, scene, blocks);
   const Eigen::VectorXd carrying = moving.carrying(coefficients);
   const Eigen::MatrixXd edges = cone_edges(model, moving, scene);

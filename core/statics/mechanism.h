@@ -33,8 +33,8 @@ struct Mechanism {
 };
 
 /// Why these blocks cannot all stay without the scene's if nothing beyond them moves; nothing if some forces
-/// could carry them. Blocks that a support holds are taken for fixed. Only the weight acts. Precondition: dry
-/// joints.
+/// could carry them, and nothing where joints have mortar, whose strength is not looked at. Blocks that a
+/// support holds are taken for fixed. Only the weight acts.
 std::optional<Mechanism> find_mechanism(const Model& model, const Coefficients& coefficients,
                                         const Scene& scene, std::span<const BlockId> blocks);
 

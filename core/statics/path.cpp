@@ -40,12 +40,12 @@ Stage stage_at(const PathTask& task, double share) {
 
 double dissipated_by_mortar(const StageEquations& equations, const Field& displacement) {
   double sum = 0.0;
-  const Coefficients& with = *equations.coefficients;
   for_present_joints(equations, [&](const Joint& joint, std::size_t j) {
-    if (with.mortar.empty() || !with.mortar[j]) return;
+    const CohesiveStiffness* mortar = equations.coefficients->mortar_of(j);
+    if (mortar == nullptr) return;
     const JointKinematics kinematics =
         joint_kinematics(equations.system->joints[j], gathered(displacement, corners(joint)));
-    sum += dissipated_energy(*with.mortar[j], equations.memory[j], kinematics.state);
+    sum += dissipated_energy(*mortar, equations.memory[j], kinematics.state);
   });
   return sum;
 }
