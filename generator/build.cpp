@@ -208,10 +208,10 @@ void run(const Build& build, std::optional<Database> old, BuildSummary& summary)
     build.progress.say(
         fmt::format("going on with an interrupted build: {} scenes are done", summary.resumed));
   if (old) summary.reused = reuse(build, std::move(*old), known);
-  const BuildPlan plan = plan_of(build, known);
+  BuildPlan plan = plan_of(build, known);
   summary.computed = plan.records();
   build.progress.start(summary.resumed + summary.reused + summary.computed, summary.resumed + summary.reused);
-  run_plan(plan,
+  run_plan(std::move(plan),
            {build.bridges, build.solver, build.provenance.solver_settings, build.request.rules, build.states,
             build.fields, most_missing_of_starts(build.wanted), build.request.threads, build.progress},
            known);

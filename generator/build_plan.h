@@ -35,6 +35,7 @@ struct PlanRules {
   bool mirror_images = true;  ///< of a scene and its mirror image one is solved
   bool warm_starts = true;    ///< searches start from the fields of scenes with fewer missing blocks
   bool inherited = true;      ///< collapses of scenes with fewer missing blocks are passed on (Origin)
+  bool composed = true;       ///< triples are composed of pairs where a check allows it (Composition)
   /// False: of scenes that fall only that and what falls is found, not their fields, and what a single's
   /// collapse proves to fall is not set in motion (core/statics/mechanism.h).
   bool collapse_fields = true;

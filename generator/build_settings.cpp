@@ -10,6 +10,7 @@ namespace {
 constexpr const char* kMirrorImages = "mirror_images";
 constexpr const char* kWarmStarts = "warm_starts";
 constexpr const char* kInherited = "inherited";
+constexpr const char* kComposed = "composed";
 constexpr const char* kCollapseOutcomes = "collapses = outcome\n";
 constexpr const char* kCollapseFields = "collapses = field\n";
 
@@ -28,6 +29,7 @@ std::string line_if_off(const char* rule, bool used) {
 std::string build_settings(const SolverChoice& solver, const Model& bridge, const PlanRules& rules) {
   return solver.settings(bridge) + line(kMirrorImages, rules.mirror_images && bridge.symmetry.has_value()) +
          line(kWarmStarts, rules.warm_starts) + line_if_off(kInherited, rules.inherited) +
+         line_if_off(kComposed, rules.composed) +
          (rules.collapse_fields ? kCollapseFields : kCollapseOutcomes) +
          fmt::format("storage_step_m = {}\n", kStorageStep);
 }
@@ -37,6 +39,7 @@ PlanRules rules_in(const std::string& settings) {
   return {.mirror_images = used(kMirrorImages),
           .warm_starts = used(kWarmStarts),
           .inherited = settings.find(line(kInherited, false)) == std::string::npos,
+          .composed = settings.find(line(kComposed, false)) == std::string::npos,
           .collapse_fields = settings.find(kCollapseOutcomes) == std::string::npos};
 }
 

@@ -25,6 +25,6 @@ struct PlanRun {
 };
 
 /// Appends the records of all tasks to the journal of what is known.
-void run_plan(const BuildPlan& plan, const PlanRun& run, KnownRecords& known);
+void run_plan(BuildPlan plan, const PlanRun& run, KnownRecords& known);
 
 }  // namespace voussoir

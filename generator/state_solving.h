@@ -8,6 +8,7 @@
 #include "core/solve/state_plan.h"
 #include "core/statics/equilibrium.h"
 #include "generator/build_plan.h"
+#include "generator/composition.h"
 #include "generator/proved_falls.h"
 #include "generator/scene_solving.h"
 #include "generator/start_field.h"
@@ -30,6 +31,7 @@ struct SearchBasis {
   bool warm_starts = true;             ///< false: a search starts from rest, or from the state before
   bool collapse_fields = true;         ///< false: solutions that fall have no field (NaN)
   ProvedFalls falls;                   ///< as built, of which no field is wanted
+  Composition composition;             ///< as built, of what needs no search
   std::vector<JointMemory> of_intact;  ///< what joints remember of the intact bridge as built
   StepsOfLoss steps;
 };
