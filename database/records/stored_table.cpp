@@ -1,6 +1,7 @@
 #include "database/records/stored_table.h"
 
 #include <algorithm>
+#include <ranges>
 
 #include "core/statics/solution.h"
 #include "database/records/schema.h"
@@ -49,9 +50,14 @@ Scene SceneTable::scene(std::size_t row) const {
 }
 
 std::optional<std::size_t> SceneTable::find(const Scene& wanted) const {
-  for (std::size_t row = 0; row < rows; ++row)
-    if (scene(row) == wanted) return row;
-  return std::nullopt;
+  const auto ids = [&](std::size_t row) {
+    return without_padding(removed.subspan(row * most_missing, most_missing));
+  };
+  const auto found = std::ranges::partition_point(
+      std::views::iota(std::size_t{0}, rows),
+      [&](std::size_t row) { return row_order(0, ids(row), 0, wanted.removed) < 0; });
+  const std::size_t row = *found;
+  return row < rows && row_order(0, ids(row), 0, wanted.removed) == 0 ? std::optional(row) : std::nullopt;
 }
 
 ByteView read_column(const Hdf5File& file, const Column& column, const Sizes& sizes) {
