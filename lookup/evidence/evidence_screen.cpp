@@ -101,12 +101,11 @@ std::optional<double> EvidenceScreen::least_that_matters(const Observation& obse
 
 std::vector<std::size_t> EvidenceScreen::rows_within_bounds(const Observation& observation,
                                                             std::size_t count) const {
-  const std::optional<double> threshold = least_that_matters(observation, count);
-  if (!threshold) return eligible_.rows;
+  const double threshold = least_that_matters(observation, count).value_or(-kInfinity);
   const std::vector<double> bounds = cluster_bounds(observation, index_);
   std::vector<std::size_t> clusters;
   for (std::size_t i = 0; i < bounds.size(); ++i)
-    if (bounds[i] + cluster_log_prior_[i] >= *threshold) clusters.push_back(i);
+    if (bounds[i] + cluster_log_prior_[i] >= threshold && bounds[i] > -kInfinity) clusters.push_back(i);
   return rows_of(clusters);
 }
 
