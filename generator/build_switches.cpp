@@ -14,6 +14,7 @@ std::span<const BuildSwitch> build_switches() {
   static constexpr std::array kSwitches = {
       BuildSwitch{"early-outcome", kSameDisplacement,
                   [](PlanRules&, Skips& skips) { skips.early_outcome = false; }},
+      BuildSwitch{"inherited", kNothing, [](PlanRules& rules, Skips&) { rules.inherited = false; }},
       BuildSwitch{"kept-factors", kSameDisplacement,
                   [](PlanRules&, Skips& skips) { skips.kept_factors = false; }},
       BuildSwitch{"lane-refill", kNothing, [](PlanRules&, Skips& skips) { skips.lane_refill = false; }},

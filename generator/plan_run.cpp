@@ -36,7 +36,7 @@ void keep_records(const PlanRun& run, const SolvingTask& task, const SceneGroup&
   const auto keep = [&](const Scene& scene, const SceneStates& states) {
     std::vector<Solution> solutions;
     for (const std::optional<Solution>& state : states) solutions.push_back(state.value());
-    const KeepField field = starts_others(scene) ? KeepField::yes : run.fields;
+    const KeepField field = scene.missing() <= run.most_starting ? KeepField::yes : run.fields;
     known.journal().append(
         make_record({task.variant, scene}, solutions, bridge.control_points, field, run.fields));
     run.progress.advance(1);

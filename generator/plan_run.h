@@ -19,7 +19,8 @@ struct PlanRun {
   PlanRules rules;
   const StatePlan& states;
   KeepField fields;
-  int threads = 0;  ///< 0: one for each core
+  int most_starting;  ///< scenes with at most so many missing blocks keep their fields to start others
+  int threads = 0;    ///< 0: one for each core
   Progress& progress;
 };
 

@@ -81,7 +81,7 @@ std::optional<Solution> StateSolving::without_search(const Scene& scene, std::si
                                                      const SceneStates& states,
                                                      const SearchBasis& basis) const {
   const PlannedState& planned = plan_[state];
-  if (!planned.before) return proved_fall(basis.mechanisms, scene, bridge_);
+  if (!planned.before) return basis.falls.of(scene, bridge_);
   if (planned.is_load)
     return stands(*states[*planned.before]) ? std::nullopt
                                             : std::optional(without_memory(*states[*planned.before]));
@@ -203,14 +203,6 @@ void StateSolving::solve_from_intact(const SceneSolver& solver, std::span<SceneG
   solve(solver, basis(solver, std::move(starts), PlanRules{}), groups.subspan(1));
 }
 
-std::vector<Mechanism> StateSolving::mechanisms_of(const StartingFields& starts) const {
-  std::vector<Mechanism> mechanisms;
-  for (const auto& [single, moving] : starts.falling_singles(kBuilt))
-    if (auto mechanism = find_mechanism(bridge_, coefficients_, single, moving))
-      mechanisms.push_back(std::move(*mechanism));
-  return mechanisms;
-}
-
 /// By solving those of the singles that stand as lost again in one step.
 StepsOfLoss StateSolving::steps_of_loss(const SceneSolver& solver, const SearchBasis& basis,
                                         std::size_t lost) const {
@@ -236,7 +228,7 @@ StepsOfLoss StateSolving::steps_of_loss(const SceneSolver& solver, const SearchB
 SearchBasis StateSolving::basis(const SceneSolver& solver, StartingFields starts,
                                 const PlanRules& rules) const {
   SearchBasis basis{std::move(starts), rules.warm_starts, rules.collapse_fields, {}, {}, {}};
-  if (!rules.collapse_fields) basis.mechanisms = mechanisms_of(basis.starts);
+  basis.falls = ProvedFalls(basis.starts, bridge_, coefficients_, rules);
   const Field* intact = basis.starts.intact(kBuilt);
   basis.of_intact = memory_of_intact(intact);
   const auto lost = place_of_lost(plan_);

@@ -50,14 +50,14 @@ Scene SceneTable::scene(std::size_t row) const {
 }
 
 std::optional<std::size_t> SceneTable::find(const Scene& wanted) const {
-  const auto ids = [&](std::size_t row) {
-    return without_padding(removed.subspan(row * most_missing, most_missing));
+  const auto order = [&](std::size_t row) {
+    const Ids ids = without_padding(removed.subspan(row * most_missing, most_missing));
+    return row_order(kNominalVariant, ids, kNominalVariant, wanted.removed);
   };
-  const auto found = std::ranges::partition_point(
-      std::views::iota(std::size_t{0}, rows),
-      [&](std::size_t row) { return row_order(0, ids(row), 0, wanted.removed) < 0; });
-  const std::size_t row = *found;
-  return row < rows && row_order(0, ids(row), 0, wanted.removed) == 0 ? std::optional(row) : std::nullopt;
+  const auto every = std::views::iota(std::size_t{0}, rows);
+  const std::size_t row =
+      *std::ranges::partition_point(every, [&](std::size_t each) { return order(each) < 0; });
+  return row < rows && order(row) == 0 ? std::optional(row) : std::nullopt;
 }
 
 ByteView read_column(const Hdf5File& file, const Column& column, const Sizes& sizes) {
@@ -87,6 +87,7 @@ void StoredTable::read_views(const Hdf5File& file) {
   removed_ = read_numbers<std::int32_t>(file, dataset::kRemoved, sizes_);
   outcome_ = read_numbers<std::uint8_t>(file, dataset::kOutcome, sizes_);
   collapse_ = read_numbers<std::uint8_t>(file, dataset::kCollapse, sizes_);
+  if (file.has(dataset::kOrigin)) origin_ = read_numbers<std::uint8_t>(file, dataset::kOrigin, sizes_);
   vertical_ = read_numbers<double>(file, dataset::kVertical, sizes_);
 }
 
@@ -113,6 +114,7 @@ void StoredTable::check_values(const Hdf5File& file) const {
   };
   check(outcome_, static_cast<std::uint8_t>(Outcome::unresolved), dataset::kOutcome);
   check(collapse_, static_cast<std::uint8_t>(CollapseExtent::arch), dataset::kCollapse);
+  check(origin_, static_cast<std::uint8_t>(Origin::inherited), dataset::kOrigin);
 }
 
 SceneTable StoredTable::part(std::size_t variant, std::size_t state) const {
@@ -126,6 +128,7 @@ SceneTable StoredTable::part(std::size_t variant, std::size_t state) const {
           removed_.subspan(first * sizes_.most_missing, rows * sizes_.most_missing),
           outcome_.subspan(place, rows),
           collapse_.subspan(place, rows),
+          origin_.empty() ? origin_ : origin_.subspan(place, rows),
           first};
 }
 
