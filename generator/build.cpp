@@ -116,7 +116,8 @@ std::string journal_key(const Build& build) {
   std::string key = build.provenance.results_key + " " + to_hexadecimal(hash.finish());
   for (const ControlPoint& point : build.bridge().control_points)
     key += fmt::format(" {}", value(point.node));
-  return key + (build.fields == KeepField::yes ? " with fields" : " without fields");
+  if (build.fields == KeepField::yes) return key + " with fields";
+  return key + (most_missing_of_starts(build.wanted) > 1 ? " with fields of pairs" : " without fields");
 }
 
 KnownRecords open_records(const Build& build) {
@@ -217,12 +218,12 @@ void run(const Build& build, std::optional<Database> old, BuildSummary& summary)
     build.progress.say(
         fmt::format("going on with an interrupted build: {} scenes are done", summary.resumed));
   if (old) summary.reused = reuse(build, std::move(*old), known);
-  const BuildPlan plan = plan_of(build, known);
+  BuildPlan plan = plan_of(build, known);
   summary.computed = plan.records();
   build.progress.start(summary.resumed + summary.reused + summary.computed, summary.resumed + summary.reused);
-  run_plan(plan,
+  run_plan(std::move(plan),
            {build.bridges, build.solver, build.provenance.solver_settings, build.request.rules, build.states,
-            build.fields, build.request.threads, build.progress},
+            build.fields, most_missing_of_starts(build.wanted), build.request.threads, build.progress},
            known);
   build.progress.finish();
   finish(build, known, summary);

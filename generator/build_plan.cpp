@@ -4,11 +4,12 @@
 #include <map>
 
 #include "core/structure/mirror_symmetry.h"
+#include "generator/start_field.h"
 
 namespace voussoir {
 namespace {
 
-constexpr int kStages = 3;  // intact; singles; the rest
+constexpr int kStages = 4;  // intact; singles; pairs; the rest
 
 int stage_of(const Scene& scene) {
   return std::min(scene.missing(), kStages - 1);
@@ -28,19 +29,20 @@ std::set<RecordKey> missing_records(const std::vector<RecordKey>& wanted, const 
   std::set<RecordKey> missing;
   for (const RecordKey& key : wanted)
     if (!known.has_record(key)) missing.insert(missing.end(), key);
-  for (int pass = 1; pass < kStages; ++pass)  // pairs start from singles, singles from the intact bridge
-    for (const RecordKey& key : std::vector<RecordKey>(missing.begin(), missing.end())) {
+  std::set<RecordKey> starting;  // that were looked at
+  std::vector<RecordKey> added(missing.begin(), missing.end());
+  while (!added.empty()) {  // what starts others starts from scenes with fewer missing blocks
+    std::vector<RecordKey> more;
+    for (const RecordKey& key : added) {
       const auto [solved, image] = solved_and_image(key, basis);
-      for (const Scene& start : starting_scenes(solved, image, basis.rules, basis.states))
-        if (!known.can_start({key.variant, start})) missing.insert({key.variant, start});
+      for (const Scene& start : starting_scenes(solved, image, basis.rules, basis.states)) {
+        const auto [place, is_new] = starting.insert({key.variant, start});
+        if (is_new && !known.can_start(*place) && missing.insert(*place).second) more.push_back(*place);
+      }
     }
+    added = std::move(more);
+  }
   return missing;
-}
-
-void add_starts(const Scene& scene, std::set<Scene>& starts) {
-  if (!scene.removed.empty()) starts.insert(Scene{});
-  if (scene.missing() > 1)
-    for (const BlockId block : scene.removed) starts.insert(Scene{{block}});
 }
 
 }  // namespace
@@ -53,9 +55,14 @@ Scene representative(const Scene& scene, const Model& bridge, const PlanRules& r
 std::set<Scene> starting_scenes(const Scene& solved, const std::optional<Scene>& image,
                                 const PlanRules& rules, const StatePlan& states) {
   std::set<Scene> scenes;
-  const bool are_needed = rules.warm_starts || place_of_lost(states);
-  if (are_needed) add_starts(solved, scenes);
-  if (are_needed && image && has_one_sided_loads(states)) add_starts(*image, scenes);
+  const auto add = [&](const Scene& scene) {
+    if (!rules.warm_starts && !place_of_lost(states) &&
+        !((rules.inherited || rules.composed) && scene.missing() > 2))
+      return;
+    for (Scene& subset : starting_subsets(scene)) scenes.insert(std::move(subset));
+  };
+  add(solved);
+  if (image && has_one_sided_loads(states)) add(*image);
   return scenes;
 }
 
@@ -83,6 +90,12 @@ BuildPlan plan_build(const std::vector<RecordKey>& wanted, const PlanBasis& basi
   for (auto& [key, task] : tasks)
     plan.stages[static_cast<std::size_t>(stage_of(key.scene))].push_back(std::move(task));
   return plan;
+}
+
+int most_missing_of_starts(const std::vector<RecordKey>& wanted) {
+  const bool several =
+      std::ranges::any_of(wanted, [](const RecordKey& key) { return key.scene.missing() > 2; });
+  return several ? 2 : 1;
 }
 
 std::vector<RecordKey> keys_of_shard(const std::vector<RecordKey>& wanted, const PlanBasis& basis,

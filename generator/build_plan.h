@@ -22,7 +22,8 @@ struct SolvingTask {
 };
 
 struct BuildPlan {
-  /// Stages follow each other: intact, then singles, then everything else, which starts from their fields.
+  /// Stages follow each other: intact, then singles, then pairs, then everything else, each of which starts
+  /// from the fields of those before.
   /// Tasks of a stage do not depend on each other and are ordered by variant.
   std::vector<std::vector<SolvingTask>> stages;
 
@@ -32,7 +33,9 @@ struct BuildPlan {
 /// What a build makes use of so that it solves less and starts nearer.
 struct PlanRules {
   bool mirror_images = true;  ///< of a scene and its mirror image one is solved
-  bool warm_starts = true;    ///< searches start from the fields of intact and singles
+  bool warm_starts = true;    ///< searches start from the fields of scenes with fewer missing blocks
+  bool inherited = true;      ///< collapses of scenes with fewer missing blocks are passed on (Origin)
+  bool composed = true;       ///< triples are composed of pairs where a check allows it (Composition)
   /// False: of scenes that fall only that and what falls is found, not their fields, and what a single's
   /// collapse proves to fall is not set in motion (core/statics/mechanism.h).
   bool collapse_fields = true;
@@ -61,11 +64,15 @@ struct KnownKeys {
   std::function<bool(const RecordKey&)> can_start;   ///< all states of it, so that others can start from them
 };
 
-/// A task for every wanted record and for the intact bridge and the singles that wanted scenes start from, in
-/// the same variant, except for those known already. With a mirror symmetry of the variant the
+/// A task for every wanted record and for the intact bridge, singles and pairs that wanted scenes start from,
+/// in the same variant, except for those known already. With a mirror symmetry of the variant the
 /// lexicographically smaller of a scene and its image is solved, whatever records are wanted, so that a
 /// record does not depend on the rest of the list.
 BuildPlan plan_build(const std::vector<RecordKey>& wanted, const PlanBasis& basis, const KnownKeys& known);
+
+/// The most missing blocks of scenes that any of these starts from. Their fields are needed even if the
+/// database is to hold none.
+int most_missing_of_starts(const std::vector<RecordKey>& wanted);
 
 /// Those of the keys that this part of the whole holds, in their order. Tasks of the whole are dealt out one
 /// after the other, so every part has its share of what is hard; the intact bridge is in every part.

@@ -12,8 +12,10 @@ std::span<const BuildSwitch> build_switches() {
   // the same equilibrium, or contacts are added up in another order, two solutions of the same scene differ.
   constexpr double kNothing = 0.0;
   static constexpr std::array kSwitches = {
+      BuildSwitch{"composed", kNothing, [](PlanRules& rules, Skips&) { rules.composed = false; }},
       BuildSwitch{"early-outcome", kSameDisplacement,
                   [](PlanRules&, Skips& skips) { skips.early_outcome = false; }},
+      BuildSwitch{"inherited", kNothing, [](PlanRules& rules, Skips&) { rules.inherited = false; }},
       BuildSwitch{"kept-factors", kSameDisplacement,
                   [](PlanRules&, Skips& skips) { skips.kept_factors = false; }},
       BuildSwitch{"lane-refill", kNothing, [](PlanRules&, Skips& skips) { skips.lane_refill = false; }},

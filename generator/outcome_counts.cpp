@@ -14,6 +14,8 @@ constexpr std::size_t kMostListed = 20;  ///< unresolved scenes
 
 void count(const RecordedState& state, const RecordKey& key, const BlockLayout& layout,
            StateOutcomes& counts) {
+  if (state.origin == Origin::composed) ++counts.composed;
+  if (state.origin == Origin::inherited) ++counts.inherited;
   if (state.outcome == Outcome::standing) ++counts.standing;
   if (state.outcome == Outcome::unresolved)
     counts.unresolved.push_back({to_string(key, layout), state.residual});
@@ -27,6 +29,12 @@ std::string state_text(const StateOutcomes& counts) {
   std::string text = fmt::format("  standing    {}\n", counts.standing);
   text += fmt::format("  collapsed   {} ({} of the arch, {} of wall blocks only)\n", counts.collapsed,
                       counts.arch_collapses, counts.local_collapses);
+  if (counts.composed > 0)
+    text += fmt::format("  composed    {} of those that stand, from scenes with fewer missing blocks\n",
+                        counts.composed);
+  if (counts.inherited > 0)
+    text += fmt::format("  inherited   {} of the collapses, from scenes with fewer missing blocks\n",
+                        counts.inherited);
   text += fmt::format("  unresolved  {}\n", counts.unresolved.size());
   for (std::size_t i = 0; i < std::min(counts.unresolved.size(), kMostListed); ++i)
     text +=
@@ -44,6 +52,8 @@ nlohmann::ordered_json state_json(const StateOutcomes& counts) {
           {"collapsed", counts.collapsed},
           {"arch_collapses", counts.arch_collapses},
           {"local_collapses", counts.local_collapses},
+          {"composed", counts.composed},
+          {"inherited", counts.inherited},
           {"unresolved", counts.unresolved.size()},
           {"unresolved_scenes", unresolved}};
 }
@@ -70,6 +80,7 @@ OutcomeCounts count_outcomes(const Database& database) {
         RecordedState state;
         state.outcome = static_cast<Outcome>(table.outcome[row]);
         state.extent = static_cast<CollapseExtent>(table.collapse[row]);
+        state.origin = table.origin_of(row);
         RecordKey key;
         if (state.outcome == Outcome::unresolved) {  // the only ones of which more is told
           Record record = database.record(table.first_record + row);

@@ -22,6 +22,8 @@ struct StateOutcomes {
   std::size_t collapsed = 0;
   std::size_t arch_collapses = 0;   ///< of the collapsed: blocks of the arch move away
   std::size_t local_collapses = 0;  ///< of the collapsed: wall blocks only move away
+  std::size_t composed = 0;         ///< of all: with this origin
+  std::size_t inherited = 0;        ///< and with this one
   std::vector<UnresolvedScene> unresolved;
 };
 
@@ -42,9 +44,9 @@ OutcomeCounts count_outcomes(const Database& database);
 /// States are named if there are several; those with loads have a line each.
 std::string to_text(const OutcomeCounts& counts);
 
-/// {"scenes", "standing", "collapsed", "arch_collapses", "local_collapses", "unresolved",
-/// "unresolved_scenes": [{"scene", "residual"}]} of the first state, and "states": [{"state", the same}] of
-/// all.
+/// {"scenes", "standing", "collapsed", "arch_collapses", "local_collapses", "composed",
+/// "inherited", "unresolved", "unresolved_scenes": [{"scene", "residual"}]} of the first state, and "states":
+/// [{"state", the same}] of all.
 nlohmann::ordered_json to_json(const OutcomeCounts& counts);
 
 }  // namespace voussoir

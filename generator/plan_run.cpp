@@ -12,7 +12,7 @@
 namespace voussoir {
 namespace {
 
-using Tasks = std::span<const SolvingTask>;
+using Tasks = std::span<SolvingTask>;
 
 /// A thread's solver, of the variant that it worked on last: tasks are ordered by variant.
 struct VariantSolver {
@@ -36,7 +36,7 @@ void keep_records(const PlanRun& run, const SolvingTask& task, const SceneGroup&
   const auto keep = [&](const Scene& scene, const SceneStates& states) {
     std::vector<Solution> solutions;
     for (const std::optional<Solution>& state : states) solutions.push_back(state.value());
-    const KeepField field = starts_others(scene) ? KeepField::yes : run.fields;
+    const KeepField field = scene.missing() <= run.most_starting ? KeepField::yes : run.fields;
     known.journal().append(
         make_record({task.variant, scene}, solutions, bridge.control_points, field, run.fields));
     run.progress.advance(1);
@@ -109,12 +109,25 @@ std::vector<Tasks> split_into_batches(Tasks tasks, std::size_t size) {
   return batches;
 }
 
+/// Those last that will be set in motion, so that they fill the lanes of a motion together.
+void put_motions_last(const PlanRun& run, const std::map<std::int32_t, SearchBasis>& bases, Tasks tasks) {
+  while (!tasks.empty()) {
+    const Tasks variant = first_variant(tasks);
+    const SearchBasis& basis = bases.at(variant.front().variant);
+    std::stable_partition(variant.begin(), variant.end(), [&](const SolvingTask& task) {
+      return !basis.starts.falls_likely(task.solved, kBuilt) ||
+             basis.falls.of(task.solved, run.bridges.front());
+    });
+    tasks = tasks.subspan(variant.size());
+  }
+}
+
 }  // namespace
 
-void run_plan(const BuildPlan& plan, const PlanRun& run, KnownRecords& known) {
+void run_plan(BuildPlan plan, const PlanRun& run, KnownRecords& known) {
   Crew crew(run.threads);
   oneapi::tbb::enumerable_thread_specific<VariantSolver> solvers;
-  for (const auto& stage : plan.stages)
+  for (auto& stage : plan.stages)
     for (Tasks left = stage; !left.empty();) {
       const Tasks tasks = first_variants(left);
       std::map<std::int32_t, SearchBasis> bases;
@@ -123,6 +136,7 @@ void run_plan(const BuildPlan& plan, const PlanRun& run, KnownRecords& known) {
         solver.prepare(variant, run);
         bases[variant] = solver.states->basis(solver.solver, std::move(starts), run.rules);
       }
+      put_motions_last(run, bases, tasks);
       const auto batches = split_into_batches(tasks, batch_size(tasks.size(), crew.size()));
       crew.for_each_index(batches.size(), [&](std::size_t i) {
         const std::int32_t variant = batches[i].front().variant;

@@ -19,11 +19,12 @@ struct PlanRun {
   PlanRules rules;
   const StatePlan& states;
   KeepField fields;
-  int threads = 0;  ///< 0: one for each core
+  int most_starting;  ///< scenes with at most so many missing blocks keep their fields to start others
+  int threads = 0;    ///< 0: one for each core
   Progress& progress;
 };
 
 /// Appends the records of all tasks to the journal of what is known.
-void run_plan(const BuildPlan& plan, const PlanRun& run, KnownRecords& known);
+void run_plan(BuildPlan plan, const PlanRun& run, KnownRecords& known);
 
 }  // namespace voussoir

@@ -49,6 +49,7 @@ ReusedRecords::ReusedRecords(Database old, const NewRecords& records, const Reco
     : old_(std::move(old)), bridges_(records.bridges), fields_(records.fields), plan_(records.states) {
   match_states(records.description);
   const std::set<RecordKey> wanted(records.wanted.begin(), records.wanted.end());
+  const int most_starting = most_missing_of_starts(records.wanted);
   const auto& old_variants = old_.variants();
   for (const VariantParameters& variant : records.variants) {
     const auto same = std::ranges::find(old_variants, variant);
@@ -58,7 +59,7 @@ ReusedRecords::ReusedRecords(Database old, const NewRecords& records, const Reco
     const SceneTable table = old_.table(number, 0);
     for (std::size_t row = 0; row < table.rows; ++row) {
       const RecordKey key{static_cast<std::int32_t>(old_variant_.size() - 1), table.scene(row)};
-      const bool useful = starts_others(key.scene) || wanted.contains(key);
+      const bool useful = key.scene.missing() <= most_starting || wanted.contains(key);
       std::vector<Field> fields;
       if (useful && !known.contains(key) && old_record(key, fields)) keys_.insert(key);
     }

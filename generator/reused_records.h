@@ -60,9 +60,4 @@ class ReusedRecords {
   std::set<RecordKey> keys_;
 };
 
-/// True if fields of this scene start others and are kept even if the database is to hold none.
-inline bool starts_others(const Scene& scene) {
-  return scene.missing() <= 1;
-}
-
 }  // namespace voussoir

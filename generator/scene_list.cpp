@@ -11,7 +11,8 @@ namespace voussoir {
 namespace {
 
 constexpr std::size_t kMostCombinations = 1'000'000;  ///< of one range: some hundred megabytes of scenes
-constexpr std::size_t kMostPairs = 10'000'000;        ///< of a bridge: 4,472 blocks, a gigabyte of scenes
+constexpr std::size_t kMostScenes = 10'000'000;  ///< of a bridge: pairs of 4,472 blocks or triples of 392, a
+                                                 ///< gigabyte of scenes
 
 struct NumberRange {
   int first = 0;
@@ -20,10 +21,10 @@ struct NumberRange {
 };
 
 [[noreturn]] void refuse(std::string_view item) {
-  throw InputError(
-      fmt::format("--scenes: cannot read '{}': expected all, singles, pairs, intact, a scene such as 10,4 or "
-                  "10,4+6,4, or a range such as 10,1..20 or 0,*",
-                  item));
+  throw InputError(fmt::format(
+      "--scenes: cannot read '{}': expected all, singles, pairs, triples, intact, a scene such as 10,4 or "
+      "10,4+6,4, or a range such as 10,1..20 or 0,*",
+      item));
 }
 
 int number_in(std::string_view text, std::string_view item) {
@@ -83,19 +84,24 @@ std::vector<Scene> scenes_of_range(std::string_view item, const BlockLayout& lay
   return scenes;
 }
 
-std::vector<Scene> up_to_pairs(std::string_view item, const BlockLayout& layout) {
-  if (layout.size() * layout.size() / 2 > kMostPairs)
+/// All scenes with at most so many missing blocks.
+std::vector<Scene> scenes_up_to(int most_missing, std::string_view item, const BlockLayout& layout) {
+  std::size_t count = 1;  // of the largest sets
+  for (std::size_t k = 0; k < static_cast<std::size_t>(most_missing); ++k)
+    count = count * (layout.size() - std::min(k, layout.size())) / (k + 1);
+  if (count > kMostScenes)
     throw InputError(
         fmt::format("--scenes: '{}' of a bridge with {} blocks stands for more than {} scenes: name fewer",
-                    item, layout.size(), kMostPairs));
-  return all_scenes(layout.size(), 2);
+                    item, layout.size(), kMostScenes));
+  return all_scenes(layout.size(), most_missing);
 }
 
 std::vector<Scene> scenes_of_item(std::string_view item, const BlockLayout& layout) {
-  if (item == "all") return up_to_pairs(item, layout);
-  if (item == "singles") return all_scenes(layout.size(), 1);
+  if (item == "singles") return scenes_up_to(1, item, layout);
+  if (item == "all") return scenes_up_to(2, item, layout);
+  if (item == "triples") return scenes_up_to(3, item, layout);
   if (item == "pairs") {
-    auto scenes = up_to_pairs(item, layout);
+    auto scenes = scenes_up_to(2, item, layout);
     std::erase_if(scenes, [](const Scene& scene) { return scene.missing() != 2; });
     return scenes;
   }

@@ -13,8 +13,9 @@ namespace voussoir {
 ///   all       intact, all singles and all pairs,
 ///   singles   intact and all singles,
 ///   pairs     all pairs,
+///   triples   all sets of three blocks, with what they are made of: intact, all singles and all pairs,
 ///   intact    the bridge without missing blocks,
-///   a scene   10,4 or 10,4+6,4,
+///   a scene   10,4 or 10,4+6,4 or 10,4+6,4+2,1,
 ///   a range   as a scene, with from..to or * for a course or a position: 10,1..20   0,*   10,4+2..4,*
 ///             stands for every scene that it can be read as; combinations that name a block twice are left
 ///             out.

@@ -11,19 +11,35 @@ Field zero_for_nan(const Field& field) {
 
 }  // namespace
 
+std::vector<Scene> starting_subsets(const Scene& scene) {
+  std::vector<Scene> subsets;
+  if (!scene.removed.empty()) subsets.emplace_back();
+  if (scene.missing() > 1)
+    for (const BlockId block : scene.removed) subsets.push_back(Scene{{block}});
+  if (scene.missing() > 2)
+    for (std::size_t i = 0; i < scene.removed.size(); ++i)
+      for (std::size_t j = i + 1; j < scene.removed.size(); ++j)
+        subsets.push_back(Scene{{scene.removed[i], scene.removed[j]}});
+  return subsets;
+}
+
 void StartingFields::add(const Scene& scene, std::size_t state, const Solution& solution) {
-  if (scene.missing() > 1) return;
+  if (scene.missing() > 2) return;
   if (solution.outcome == Outcome::standing) standing_[{scene, state}] = solution.displacement;
   if (solution.outcome == Outcome::collapsed) falling_[{scene, state}] = solution.moving;
 }
 
 bool StartingFields::falls_likely(const Scene& scene, std::size_t state) const {
-  if (scene.missing() < 2) return false;
   const auto is_there = [&](BlockId block) { return !std::ranges::binary_search(scene.removed, block); };
-  return std::ranges::any_of(scene.removed, [&](BlockId block) {
-    const auto single = falling_.find({Scene{{block}}, state});
-    return single != falling_.end() && std::ranges::any_of(single->second, is_there);
+  return std::ranges::any_of(starting_subsets(scene), [&](const Scene& fewer) {
+    const std::vector<BlockId>* falling = fewer.removed.empty() ? nullptr : find_falling(fewer, state);
+    return falling != nullptr && std::ranges::any_of(*falling, is_there);
   });
+}
+
+const std::vector<BlockId>* StartingFields::find_falling(const Scene& scene, std::size_t state) const {
+  const auto found = falling_.find({scene, state});
+  return found == falling_.end() ? nullptr : &found->second;
 }
 
 const Field* StartingFields::find(const Scene& scene, std::size_t state) const {
@@ -38,11 +54,17 @@ std::vector<Scene> StartingFields::standing_singles(std::size_t state) const {
   return singles;
 }
 
-std::vector<std::pair<Scene, std::vector<BlockId>>> StartingFields::falling_singles(std::size_t state) const {
-  std::vector<std::pair<Scene, std::vector<BlockId>>> singles;
+std::vector<std::pair<Scene, std::vector<BlockId>>> StartingFields::falling(std::size_t state) const {
+  std::vector<std::pair<Scene, std::vector<BlockId>>> scenes;
   for (const auto& [place, moving] : falling_)
-    if (place.first.missing() == 1 && place.second == state) singles.emplace_back(place.first, moving);
-  return singles;
+    if (place.second == state) scenes.emplace_back(place.first, moving);
+  std::ranges::stable_sort(scenes, {}, [](const auto& scene) { return scene.first.missing(); });
+  return scenes;
+}
+
+bool StartingFields::has_pairs() const {
+  const auto is_pair = [](const auto& entry) { return entry.first.first.missing() == 2; };
+  return std::ranges::any_of(standing_, is_pair) || std::ranges::any_of(falling_, is_pair);
 }
 
 std::optional<Field> StartingFields::start_for(const Scene& scene, std::size_t state) const {
@@ -52,6 +74,13 @@ std::optional<Field> StartingFields::start_for(const Scene& scene, std::size_t s
   if (scene.missing() == 1) return start;
   for (const BlockId block : scene.removed)
     if (const Field* single = find(Scene{{block}}, state)) start += *single - *intact_field;
+  for (const Scene& pair : starting_subsets(scene)) {
+    const Field* both = pair.missing() == 2 ? find(pair, state) : nullptr;
+    if (both == nullptr) continue;
+    const Field* first = find(Scene{{pair.removed.front()}}, state);
+    const Field* second = find(Scene{{pair.removed.back()}}, state);
+    if (first != nullptr && second != nullptr) start += *both - *first - *second + *intact_field;
+  }
   return zero_for_nan(start);
 }
 

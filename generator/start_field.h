@@ -11,19 +11,25 @@
 
 namespace voussoir {
 
-/// Solved fields of the intact bridge and the singles, in storage precision, that other scenes start from.
+/// What the starts of a scene are made of: the intact bridge; of a scene with several missing blocks the
+/// singles within it, too, and of one with more than two also the pairs within it. In the order of rows.
+std::vector<Scene> starting_subsets(const Scene& scene);
+
+/// Solved fields of the intact bridge, singles and pairs, in storage precision, that other scenes start from.
 /// Starts depend on these fields and the scene's own only, so every build of a scene starts from the same
 /// numbers whatever was computed before it. They are zero wherever a field has no displacement.
 class StartingFields {
  public:
-  /// Takes in a state of the intact bridge or a single if it stands or falls; anything else is ignored. Not
-  /// thread-safe.
+  /// Takes in a state of the intact bridge, a single or a pair if it stands or falls; anything else is
+  /// ignored. Not thread-safe.
   void add(const Scene& scene, std::size_t state, const Solution& solution);
 
   /// The start for a state of a scene of which nothing is known: nothing (zero) for the intact bridge, the
   /// intact field for a single, and for a scene with more missing blocks the sum of what each of its blocks
   /// changes when it alone is missing,
   ///     d = d_intact + sum_i (d_i - d_intact)   over the singles i that stand,
+  /// with more than two and what each two change beyond that,
+  ///     + sum_ij (d_ij - d_i - d_j + d_intact)   over the pairs ij that stand with both of their singles,
   /// and nothing for any scene if the intact bridge does not stand.
   std::optional<Field> start_for(const Scene& scene, std::size_t state = 0) const;
 
@@ -34,16 +40,23 @@ class StartingFields {
   /// both. Where the intact bridge does not stand in both: `own`.
   Field start_after(const Scene& scene, const Field& own, std::size_t before, std::size_t after) const;
 
-  /// Does one of the blocks, missing alone, let blocks fall that this scene has?
+  /// Does one of the singles, or with more than two missing blocks one of the pairs, within the scene let
+  /// blocks fall that this scene has?
   bool falls_likely(const Scene& scene, std::size_t state) const;
 
-  /// The singles that fall in a state, in ascending order, and which of their blocks move.
-  std::vector<std::pair<Scene, std::vector<BlockId>>> falling_singles(std::size_t state) const;
+  /// The singles and pairs that fall in a state, in the order of rows, and which of their blocks move.
+  std::vector<std::pair<Scene, std::vector<BlockId>>> falling(std::size_t state) const;
+
+  /// Is a pair among the scenes, so that scenes with more missing blocks start here?
+  bool has_pairs() const;
+
+  /// The blocks that move in a single or pair that falls in a state; null for others.
+  const std::vector<BlockId>* find_falling(const Scene& scene, std::size_t state) const;
 
   /// The field of the intact bridge in a state, if it stands.
   const Field* intact(std::size_t state) const { return find(Scene{}, state); }
 
-  /// The field of the intact bridge or a single in a state, if it is there and stands.
+  /// The field of the intact bridge, a single or a pair in a state, if it is there and stands.
   const Field* find(const Scene& scene, std::size_t state) const;
 
   /// The singles that stand in a state, in ascending order.

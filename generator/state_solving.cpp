@@ -30,13 +30,15 @@ struct StateSolving::Search {
   std::optional<State> before;
   int steps = 1;
   bool falls_likely = false;
+  bool starts_near = false;
 
   StageTask task() const {
     return {.stage = stage,
             .start = start ? &*start : nullptr,
             .before = before ? &*before : nullptr,
             .steps = steps,
-            .falls_likely = falls_likely};
+            .falls_likely = falls_likely,
+            .starts_near = starts_near};
   }
 
   /// Lets what the lost blocks carried go in so many steps. Several begin at the intact field, where most of
@@ -81,7 +83,10 @@ std::optional<Solution> StateSolving::without_search(const Scene& scene, std::si
                                                      const SceneStates& states,
                                                      const SearchBasis& basis) const {
   const PlannedState& planned = plan_[state];
-  if (!planned.before) return proved_fall(basis.mechanisms, scene, bridge_);
+  if (!planned.before) {
+    auto falls = basis.falls.of(scene, bridge_);
+    return falls ? falls : basis.composition.of(scene, basis.starts, equations(scene, state, {}));
+  }
   if (planned.is_load)
     return stands(*states[*planned.before]) ? std::nullopt
                                             : std::optional(without_memory(*states[*planned.before]));
@@ -97,6 +102,7 @@ StateSolving::Search StateSolving::one_step_search(const Scene& scene, std::size
     if (!basis.warm_starts) return search;
     search.start = basis.starts.start_for(scene, state);
     search.falls_likely = basis.starts.falls_likely(scene, state);
+    search.starts_near = scene.missing() > 2;  // of pairs
     return search;
   }
   search.before.emplace(State{{}, memory_before(scene, state, states, basis.of_intact)});
@@ -203,14 +209,6 @@ void StateSolving::solve_from_intact(const SceneSolver& solver, std::span<SceneG
   solve(solver, basis(solver, std::move(starts), PlanRules{}), groups.subspan(1));
 }
 
-std::vector<Mechanism> StateSolving::mechanisms_of(const StartingFields& starts) const {
-  std::vector<Mechanism> mechanisms;
-  for (const auto& [single, moving] : starts.falling_singles(kBuilt))
-    if (auto mechanism = find_mechanism(bridge_, coefficients_, single, moving))
-      mechanisms.push_back(std::move(*mechanism));
-  return mechanisms;
-}
-
 /// By solving those of the singles that stand as lost again in one step.
 StepsOfLoss StateSolving::steps_of_loss(const SceneSolver& solver, const SearchBasis& basis,
                                         std::size_t lost) const {
@@ -235,9 +233,11 @@ StepsOfLoss StateSolving::steps_of_loss(const SceneSolver& solver, const SearchB
 
 SearchBasis StateSolving::basis(const SceneSolver& solver, StartingFields starts,
                                 const PlanRules& rules) const {
-  SearchBasis basis{std::move(starts), rules.warm_starts, rules.collapse_fields, {}, {}, {}};
-  if (!rules.collapse_fields) basis.mechanisms = mechanisms_of(basis.starts);
+  SearchBasis basis{std::move(starts), rules.warm_starts, rules.collapse_fields, {}, {}, {}, {}};
+  basis.falls = ProvedFalls(basis.starts, bridge_, coefficients_, rules);
   const Field* intact = basis.starts.intact(kBuilt);
+  if (rules.composed && intact != nullptr && basis.starts.has_pairs())
+    basis.composition = Composition(equations(Scene{}, kBuilt, {}), *intact);
   basis.of_intact = memory_of_intact(intact);
   const auto lost = place_of_lost(plan_);
   if (lost && intact != nullptr) basis.steps = steps_of_loss(solver, basis, *lost);

@@ -7,8 +7,9 @@
 
 #include "core/solve/state_plan.h"
 #include "core/statics/equilibrium.h"
-#include "core/statics/mechanism.h"
 #include "generator/build_plan.h"
+#include "generator/composition.h"
+#include "generator/proved_falls.h"
 #include "generator/scene_solving.h"
 #include "generator/start_field.h"
 #include "generator/steps_of_loss.h"
@@ -29,7 +30,8 @@ struct SearchBasis {
   StartingFields starts;
   bool warm_starts = true;             ///< false: a search starts from rest, or from the state before
   bool collapse_fields = true;         ///< false: solutions that fall have no field (NaN)
-  std::vector<Mechanism> mechanisms;   ///< of singles that fall; none if collapses have fields
+  ProvedFalls falls;                   ///< as built, of which no field is wanted
+  Composition composition;             ///< as built, of what needs no search
   std::vector<JointMemory> of_intact;  ///< what joints remember of the intact bridge as built
   StepsOfLoss steps;
 };
@@ -83,7 +85,6 @@ class StateSolving {
   void find_lacking_memory(const SceneSolver& solver, std::size_t loss, std::span<SceneGroup> groups,
                            const SearchBasis& basis) const;
   void take(std::size_t state, Solution&& solution, const SearchBasis& basis, SceneStates& states) const;
-  std::vector<Mechanism> mechanisms_of(const StartingFields& starts) const;
   StepsOfLoss steps_of_loss(const SceneSolver& solver, const SearchBasis& basis, std::size_t lost) const;
 
   const Model& bridge_;

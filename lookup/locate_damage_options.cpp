@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kMetresPerMillimetre = 1e-3;
 constexpr std::size_t kMostCandidates = 100000;
-constexpr int kMostMissing = 2;
+constexpr int kMostMissing = 3;
 constexpr double kLargestWeight = 1e12;
 constexpr double kLargestError = 1e6;  // [mm], and [mm per m]: beyond it nothing is known at all
 
@@ -25,14 +25,16 @@ void add_search_options(CLI::App& app, LocateDamageOptions& options) {
       app, "--objective", settings.objective,
       {{"posterior", Objective::posterior}, {"paper", Objective::paper}},
       "posterior (default): probability given the noise; paper: the misfit log(sum |d_measured - d_scene|)");
-  app.add_option("--missing", settings.prior.missing, "numbers of missing blocks to consider, default 0,1,2")
+  app.add_option("--missing", settings.prior.missing,
+                 "numbers of missing blocks to consider, such as 0,1; default: those that the database holds")
       ->delimiter(',')
       ->check(CLI::Range(0, kMostMissing))
       ->option_text("LIST");
   app.add_option(
          "--prior", settings.prior.weight,
-         "weights of these numbers, what is believed beforehand; default 1000,10,1: a block has gone in "
-         "one of a hundred bridges, two in one of a thousand (with --known-bridge 8,1,1)")
+         "weights of these numbers, what is believed beforehand; default 1000,10,1,0.1: a block has gone in "
+         "one of a hundred bridges, two in one of a thousand, three in one of ten thousand (with "
+         "--known-bridge 8,1,1,1)")
       ->delimiter(',')
       ->check(number_in_range(0.0, kLargestWeight, "LIST"))
       ->option_text("LIST");

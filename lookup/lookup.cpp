@@ -25,7 +25,7 @@ std::vector<ScoredRow> run_genetic(const Library& library, const Observation& ob
                                    const LookupSettings& settings, Answer& answer) {
   const GeneSpace space(library.layout, library.table);
   std::vector<ScoredRow> found;
-  for (const int missing : settings.prior.missing) {
+  for (const int missing : answer.prior.missing) {
     if (missing == 0) {
       found.push_back({0, sum_of_differences(observation.displacement, library.table.row(0))});
       continue;
@@ -216,14 +216,14 @@ bool counts_as_known(const Comparison& comparison, const LookupSettings& setting
 Answer locate_damage(const Comparison& comparison, const LookupSettings& settings) {
   const Library& library = comparison.library;
   const bool known = counts_as_known(comparison, settings);
-  const Prior prior = stated_prior(settings.prior, known);
-  const Eligible eligible = eligible_rows(library.table, settings.prior.missing);
+  Answer answer;
+  answer.prior = stated_prior(settings.prior, library.table, known);
+  const Eligible eligible = eligible_rows(library.table, answer.prior.missing);
   if (eligible.rows.empty())
     throw Failure(fmt::format("the database has no solved scene with {} missing blocks",
-                              fmt::join(settings.prior.missing, ", ")));
+                              fmt::join(answer.prior.missing, ", ")));
   const Observation observation =
       observe(comparison, known ? settings.noise : gaussian_noise(settings.noise), settings.nuisance);
-  Answer answer;
   answer.readings = comparison.measured.count();
   answer.searched = eligible.rows.size();
   answer.unresolved = eligible.unresolved;
@@ -235,9 +235,10 @@ Answer locate_damage(const Comparison& comparison, const LookupSettings& setting
                      UnknownSettings{settings.epochs, settings.conditions, settings.nuisance.scale});
   if (settings.objective == Objective::posterior) {
     const std::vector<double> evidence =
-        question ? question->log_evidence(eligible, prior, settings.top)
-                 : EvidenceScreen(library.table, library.index, eligible, prior)(observation, settings.top);
-    answer.posterior = posterior(library.table, eligible, evidence, prior, library.layout.size());
+        question
+            ? question->log_evidence(eligible, answer.prior, settings.top)
+            : EvidenceScreen(library.table, library.index, eligible, answer.prior)(observation, settings.top);
+    answer.posterior = posterior(library.table, eligible, evidence, answer.prior, library.layout.size());
   }
   const std::vector<ScoredRow> found = found_rows(library, observation, eligible, settings, answer);
   for (const ScoredRow& row : found)

@@ -58,10 +58,11 @@ struct Answer {
   std::optional<Fit> fit;                 ///< of the best candidate; with Objective::posterior
   std::vector<SensorResidual> residuals;  ///< of the best candidate, a value for each reading
   std::optional<BridgeAnswer> bridge;     ///< unless the bridge counts as known, or no scene is possible
+  Prior prior;                            ///< as it was used (stated_prior)
   std::size_t readings = 0;
   std::size_t searched = 0;            ///< scenes
   std::size_t unresolved = 0;          ///< scenes left out because the solver gave no answer
-  std::vector<GeneticResult> genetic;  ///< with Search::genetic: for one and for two missing blocks
+  std::vector<GeneticResult> genetic;  ///< with Search::genetic: for each number of missing blocks but 0
 };
 
 /// True if the answer is one for a bridge that is exactly as the model says: it is wanted so, nothing is

@@ -87,7 +87,7 @@ void time_searches(const Library& library, const std::vector<Query>& queries, co
 void time_posteriors(const Library& library, const std::vector<Query>& queries, const Eligible& eligible,
                      LookupTimings& timings) {
   const SceneTable& table = library.table;
-  const Prior prior;
+  const Prior prior = stated_prior({}, table, true);
   const EvidenceScreen screen(table, library.index, eligible, prior);
   for (const bool stated : {true, false}) {
     const auto observed = [&](std::size_t i) {

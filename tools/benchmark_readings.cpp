@@ -87,10 +87,11 @@ Rates look_up(const TwoBridges& bridges, const Scene& scene, const Eligible& eli
 
 Rates find_again(const TwoBridges& bridges, const std::vector<Scene>& scenes, const Prior& prior,
                  const Instrument& instrument, int times, std::uint64_t seed) {
-  const Eligible eligible = eligible_rows(bridges.library.table, prior.missing);
+  const Prior stated = stated_prior(prior, bridges.library.table, true);
+  const Eligible eligible = eligible_rows(bridges.library.table, stated.missing);
   std::vector<Rates> parts(scenes.size());
   tbb::parallel_for(std::size_t{0}, scenes.size(), [&](std::size_t i) {
-    parts[i] = look_up(bridges, scenes[i], eligible, prior, instrument, times, seed + i);
+    parts[i] = look_up(bridges, scenes[i], eligible, stated, instrument, times, seed + i);
   });
   Rates sum;
   for (const Rates& part : parts) {

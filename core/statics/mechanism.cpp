@@ -123,15 +123,16 @@ bool proves_fall(const Mechanism& mechanism, const Scene& scene) {
          kLeastShare * sum_over_present(mechanism, scene, mechanism.load);
 }
 
-std::optional<Solution> proved_fall(std::span<const Mechanism> mechanisms, const Scene& scene,
+std::optional<Solution> proved_fall(std::span<const Mechanism* const> mechanisms, const Scene& scene,
                                     const Structure& structure) {
   Solution solution;
   std::set<BlockId> moving;
-  for (const Mechanism& mechanism : mechanisms) {
-    if (!proves_fall(mechanism, scene)) continue;
-    std::ranges::copy_if(mechanism.blocks, std::inserter(moving, moving.end()),
+  for (const Mechanism* mechanism : mechanisms) {
+    if (!proves_fall(*mechanism, scene)) continue;
+    std::ranges::copy_if(mechanism->blocks, std::inserter(moving, moving.end()),
                          [&](BlockId block) { return !scene.lacks(block); });
-    solution.residual = std::max(solution.residual, sum_over_present(mechanism, scene, mechanism.unbalanced));
+    solution.residual =
+        std::max(solution.residual, sum_over_present(*mechanism, scene, mechanism->unbalanced));
   }
   if (moving.empty()) return std::nullopt;
   solution.outcome = Outcome::collapsed;

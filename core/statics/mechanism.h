@@ -44,7 +44,7 @@ bool proves_fall(const Mechanism& mechanism, const Scene& scene);
 /// What is known of a scene that one of the mechanisms proves to fall: `moving` are the blocks that it has of
 /// all mechanisms that do, `residual` is the sum of their unbalanced forces over the bridge's weight in that
 /// where it is largest; no field (NaN). Nothing if none does.
-std::optional<Solution> proved_fall(std::span<const Mechanism> mechanisms, const Scene& scene,
+std::optional<Solution> proved_fall(std::span<const Mechanism* const> mechanisms, const Scene& scene,
                                     const Structure& structure);
 
 }  // namespace voussoir

@@ -68,7 +68,7 @@ struct LaneSearch {
     step = 0;
     settings = w.settings;
     if (task->stands_likely) settings.skips.early_outcome = false;
-    if (task->before == nullptr) settings.skips.kept_factors = false;
+    if (task->before == nullptr && !task->starts_near) settings.skips.kept_factors = false;
     own.reset();
     if (task->parameters != nullptr) own.emplace(w.system, *task->parameters);
     reached = Solution{};

@@ -42,6 +42,8 @@ struct StageTask {
   int steps = 1;
   bool stands_likely = false;  ///< the search is not given up early
   bool falls_likely = false;   ///< so that who can follow a motion asks it first (CombinedSolver)
+  bool starts_near = false;    ///< the start is so near the answer that a factorisation serves several steps
+                               ///< even of a stage with nothing before it
   bool keeps_steps = false;    ///< true: the solution has the states at the ends of all steps
 };
 

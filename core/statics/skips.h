@@ -16,8 +16,9 @@ struct Skips {
   bool likely_falls = true;   ///< a scene of which a part is known to fall is set in motion at once; what
                               ///< comes to rest Newton's method polishes. Changes fields of standing scenes
                               ///< by less than the solver's tolerance
-  bool kept_factors = true;  ///< in all stages but the first, a factorisation serves several steps as long as
-                             ///< they make progress. Changes fields by less than the solver's tolerance
+  bool kept_factors = true;   ///< in all stages but the first, and from near starts there, too, a
+                              ///< factorisation serves several steps as long as they make progress. Changes
+                              ///< fields by less than the solver's tolerance
 };
 
 }  // namespace voussoir

@@ -14,4 +14,16 @@ std::string_view to_string(Outcome outcome) {
   return "unresolved";
 }
 
+std::string_view to_string(Origin origin) {
+  switch (origin) {
+    case Origin::composed:
+      return "composed";
+    case Origin::inherited:
+      return "inherited";
+    case Origin::solved:
+      break;
+  }
+  return "solved";
+}
+
 }  // namespace voussoir

@@ -18,6 +18,16 @@ enum class Outcome : std::uint8_t {
 /// "standing", "collapsed", "unresolved"
 std::string_view to_string(Outcome outcome);
 
+/// Where an outcome comes from.
+enum class Origin : std::uint8_t {
+  solved = 0,    ///< its own equilibrium or motion was followed, or its fall proved
+  composed = 1,  ///< from solutions of scenes with fewer missing blocks, after a check
+  inherited = 2  ///< collapsed, as a scene does that misses some of the same blocks; no field (NaN)
+};
+
+/// "solved", "composed", "inherited"
+std::string_view to_string(Origin origin);
+
 /// A state, and how it came about. The memory is that of standing scenes; empty otherwise.
 struct Solution : State {
   Outcome outcome = Outcome::unresolved;
@@ -26,6 +36,7 @@ struct Solution : State {
             ///< a collapse in motion: sum of the blocks' resultant forces over the bridge's weight [-]
   int iterations = 0;  ///< linear systems solved; time steps for a collapse in motion
   CollapseExtent extent = CollapseExtent::none;  ///< of what `moving` says
+  Origin origin = Origin::solved;
   std::vector<BlockId>
       moving{};  ///< blocks that had moved away when the scene's collapse was decided, ascending;
                  ///< of a scene in motion that stands those that slid and were caught

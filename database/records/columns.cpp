@@ -18,6 +18,9 @@ bool exists(Outcome outcome) {
 bool exists(CollapseExtent extent) {
   return extent <= CollapseExtent::arch;
 }
+bool exists(Origin origin) {
+  return origin <= Origin::inherited;
+}
 template <class Number>
 bool exists(Number) {
   return true;
@@ -74,12 +77,13 @@ constexpr ElementType type_in_file(Form form) {
 }
 
 constexpr bool kInChecksum = true;
+constexpr bool kOptional = true;
 
 /// `Place` is a captureless function from a record and the number of a state to the member that the column
 /// holds.
 template <class Place>
 Column column(const char* path, std::vector<Extent> shape, Place place, Form form, bool in_checksum,
-              const char* units, const char* meaning) {
+              const char* units, const char* meaning, bool optional = false) {
   Record example;
   example.states.resize(1);
   using T = typename ValueOf<std::remove_cvref_t<decltype(place(example, 0))>>::Type;
@@ -87,6 +91,7 @@ Column column(const char* path, std::vector<Extent> shape, Place place, Form for
           std::move(shape),
           form,
           in_checksum,
+          optional,
           units,
           meaning,
           type_in_file<T>(form),
@@ -142,7 +147,9 @@ std::vector<Column> columns_of_state() {
       column(dataset::kField, {states, records, nodes, components}, kOfState<&State::packed_field>,
              Form::packed, kInChecksum, "m", "ux, uy of each node; NaN in removed blocks"),
       column(dataset::kChunkCrc, {states, records}, kOfState<&State::field_crc>, Form::plain, !kInChecksum,
-             "1", "CRC-32 (zlib's) of the field's compressed chunk as it stands in the file")};
+             "1", "CRC-32 (zlib's) of the field's compressed chunk as it stands in the file"),
+      column(dataset::kOrigin, {states, records}, kOfState<&State::origin>, Form::plain, kInChecksum, "1",
+             "0 solved, 1 composed, 2 inherited; missing if all are 0", kOptional)};
 }
 
 std::uint64_t size_of(Extent extent, const Sizes& sizes) {
@@ -223,6 +230,10 @@ std::vector<std::uint64_t> shape_of(const Column& column, const Sizes& sizes) {
   std::vector<std::uint64_t> shape;
   for (const Extent extent : column.shape) shape.push_back(size_of(extent, sizes));
   return shape;
+}
+
+bool is_zero(ByteView values) {
+  return std::ranges::all_of(values, [](std::byte value) { return value == std::byte{0}; });
 }
 
 std::size_t row_size(const Column& column, const Sizes& sizes) {

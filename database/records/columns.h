@@ -36,6 +36,7 @@ struct Column {
   std::vector<Extent> shape;  ///< {records, ..}, or {states, records, ..} of what every state has
   Form form;
   bool in_checksum;
+  bool optional;  ///< missing in a file in which all its values are zero
   const char* units;
   const char* meaning;
   ElementType type;         ///< in the file
@@ -52,6 +53,11 @@ struct Column {
 /// Columns of the record, then those of its states, in the order of checksum and journal.
 const std::vector<Column>& record_columns();
 
+/// The column's place among record_columns(). Precondition: it is one of them.
+inline std::size_t number_of(const Column& column) {
+  return static_cast<std::size_t>(&column - record_columns().data());
+}
+
 /// The column at this path. Precondition: there is one.
 const Column& column_at(const char* path);
 
@@ -67,6 +73,9 @@ void for_each_column(std::size_t states, const Visit& visit) {
 }
 
 std::vector<std::uint64_t> shape_of(const Column& column, const Sizes& sizes);
+
+/// Are all bytes zero?
+bool is_zero(ByteView values);
 
 /// Bytes of a row in the file.
 std::size_t row_size(const Column& column, const Sizes& sizes);

@@ -14,7 +14,7 @@
 namespace voussoir {
 namespace {
 
-constexpr std::string_view kMagic = "VOUSSOIR JOURNAL 3\n";
+constexpr std::string_view kMagic = "VOUSSOIR JOURNAL 4\n";
 constexpr std::size_t kFrameHead = 2 * sizeof(std::uint32_t);
 
 /// A whole frame's content at the front of the reader, or nothing.

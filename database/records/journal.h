@@ -1,7 +1,7 @@
 #pragma once
 /// @file The records of an unfinished build, safe as soon as each is computed.
 ///
-/// A plain file next to the database that will be. It begins with the bytes "VOUSSOIR JOURNAL 3\n" and a
+/// A plain file next to the database that will be. It begins with the bytes "VOUSSOIR JOURNAL 4\n" and a
 /// frame that holds the build's provenance; a frame with one record follows for every scene of a variant that
 /// is done. A frame is the size of its content (uint32), the content's CRC-32 (uint32) and the content. The
 /// file only ever grows, so whatever moment the program or the machine stops at, all frames but the last are

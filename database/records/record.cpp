@@ -13,6 +13,7 @@ RecordedState make_state(const Solution& solution, const std::vector<ControlPoin
   state.iterations = solution.iterations;
   state.extent = solution.extent;
   state.moving = solution.moving;
+  state.origin = solution.origin;
   const Eigen::VectorXd vertical = vertical_displacements(solution.displacement, points);
   state.vertical.assign(vertical.begin(), vertical.end());
   if (keep == KeepField::yes) {
@@ -51,6 +52,7 @@ Solution solution_of(const RecordedState& state, Field displacement) {
   solution.iterations = state.iterations;
   solution.extent = state.extent;
   solution.moving = state.moving;
+  solution.origin = state.origin;
   return solution;
 }
 
@@ -59,7 +61,7 @@ Sha256 scene_checksum(const Record& record, std::span<const std::span<const doub
   const auto states = static_cast<std::uint32_t>(record.states.size());
   hash.add(std::as_bytes(std::span(&states, 1)));
   for_each_column(record.states.size(), [&](const Column& column, std::size_t state) {
-    if (!column.in_checksum) return;
+    if (!column.in_checksum || (column.optional && is_zero(column.values(record, state)))) return;
     if (column.form != Form::packed)
       add_counted(column.values(record, state), column.value_width, hash);
     else

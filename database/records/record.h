@@ -18,6 +18,7 @@ struct RecordedState {
   CollapseExtent extent = CollapseExtent::none;  ///< as in Solution
   std::vector<BlockId> moving;                   ///< as in Solution
   std::vector<double> vertical;                  ///< [m] at the control points, NaN where the block is gone
+  Origin origin = Origin::solved;                ///< as in Solution
   Bytes packed_field;           ///< pack_field of the displacements; empty if fields are not kept
   std::uint32_t field_crc = 0;  ///< CRC-32 of packed_field
 };
@@ -46,8 +47,9 @@ inline std::span<const double> numbers_of(const Field& field) {
 
 /// SHA-256 over, little-endian and without gaps: the number of states (uint32); for each column of the record
 /// and then, state after state, for each column of a state, as far as they are in the checksum and in their
-/// order (database/records/columns.h): the number of values (uint32) and the values. `fields` are those of
-/// the states, or empty if the database keeps none: they count as columns without values.
+/// order (database/records/columns.h): the number of values (uint32) and the values; optional columns of
+/// which the value is zero are left out. `fields` are those of the states, or empty if the database keeps
+/// none: they count as columns without values.
 Sha256 scene_checksum(const Record& record, std::span<const std::span<const double>> fields);
 
 }  // namespace voussoir

@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 
+#include "core/statics/solution.h"
 #include "core/structure/scene.h"
 
 namespace voussoir {
@@ -13,20 +14,25 @@ namespace voussoir {
 /// the whole database needs, as views into the database's memory. Views live as long as the Database they
 /// come from.
 struct SceneTable {
-  std::size_t rows = 0;                   ///< scenes
-  std::size_t points = 0;                 ///< control points
-  std::size_t most_missing = 0;           ///< columns of `removed`
-  std::span<const double> vertical;       ///< rows x points [m], up is positive, NaN where the block is gone
-  std::span<const std::int32_t> removed;  ///< rows x most_missing, block ids in ascending order, then -1
-  std::span<const std::uint8_t> outcome;  ///< values of Outcome
+  std::size_t rows = 0;              ///< scenes
+  std::size_t points = 0;            ///< control points
+  std::size_t most_missing = 0;      ///< columns of `removed`
+  std::span<const double> vertical;  ///< rows x points [m], up is positive, NaN where the block is gone; of
+                                     ///< scenes of which only the outcome is known all NaN
+  std::span<const std::int32_t> removed;     ///< rows x most_missing, block ids in ascending order, then -1
+  std::span<const std::uint8_t> outcome;     ///< values of Outcome
   std::span<const std::uint8_t> collapse{};  ///< values of CollapseExtent
+  std::span<const std::uint8_t> origin{};    ///< values of Origin; empty: all are solved
   std::size_t first_record = 0;              ///< the database's row of row 0: 0 for the nominal variant
 
   std::span<const double> row(std::size_t scene) const { return vertical.subspan(scene * points, points); }
   bool stands(std::size_t scene) const;
   bool has_displacements(std::size_t scene) const;  ///< at any control point
+  Origin origin_of(std::size_t scene) const {
+    return origin.empty() ? Origin::solved : static_cast<Origin>(origin[scene]);
+  }
   Scene scene(std::size_t row) const;
-  std::optional<std::size_t> find(const Scene& scene) const;  ///< its row
+  std::optional<std::size_t> find(const Scene& scene) const;  ///< its row, by bisection
 };
 
 /// A table of nothing but one row of numbers.

@@ -80,6 +80,7 @@ inline constexpr char kIterations[] = "scenes/iterations";
 inline constexpr char kCollapse[] = "scenes/collapse";
 inline constexpr char kMoving[] = "scenes/moving";
 inline constexpr char kChecksum[] = "scenes/checksum";
+inline constexpr char kOrigin[] = "scenes/origin";
 inline constexpr char kField[] = "fields/displacement";
 inline constexpr char kChunkCrc[] = "fields/chunk_crc32";
 }  // namespace dataset

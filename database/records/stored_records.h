@@ -18,12 +18,13 @@ class StoredRecords {
   Field field(std::size_t row, std::size_t state) const;
 
  private:
+  bool is_missing(const Column& column) const;
   Bytes values(const Column& column, std::size_t row, std::size_t state) const;
   Bytes packed_field(std::size_t row, std::size_t state) const;
 
   const Hdf5File& file_;
   Sizes sizes_;
-  std::vector<ByteView> columns_;  ///< as record_columns(); empty where the file has none or it is packed
+  std::vector<ByteView> columns_;  ///< as record_columns(); empty where the file has none or they are packed
   ChunkedDataset fields_;          ///< without chunks if the file has no fields
 };
 

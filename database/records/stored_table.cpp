@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ranges>
 
 #include "core/statics/solution.h"
 #include "database/records/schema.h"
@@ -54,9 +55,14 @@ Scene SceneTable::scene(std::size_t row) const {
 }
 
 std::optional<std::size_t> SceneTable::find(const Scene& wanted) const {
-  for (std::size_t row = 0; row < rows; ++row)
-    if (scene(row) == wanted) return row;
-  return std::nullopt;
+  const auto order = [&](std::size_t row) {
+    const Ids ids = without_padding(removed.subspan(row * most_missing, most_missing));
+    return row_order(kNominalVariant, ids, kNominalVariant, wanted.removed);
+  };
+  const auto every = std::views::iota(std::size_t{0}, rows);
+  const std::size_t row =
+      *std::ranges::partition_point(every, [&](std::size_t each) { return order(each) < 0; });
+  return row < rows && order(row) == 0 ? std::optional(row) : std::nullopt;
 }
 
 ByteView read_column(const Hdf5File& file, const Column& column, const Sizes& sizes) {
@@ -86,6 +92,7 @@ void StoredTable::read_views(const Hdf5File& file) {
   removed_ = read_numbers<std::int32_t>(file, dataset::kRemoved, sizes_);
   outcome_ = read_numbers<std::uint8_t>(file, dataset::kOutcome, sizes_);
   collapse_ = read_numbers<std::uint8_t>(file, dataset::kCollapse, sizes_);
+  if (file.has(dataset::kOrigin)) origin_ = read_numbers<std::uint8_t>(file, dataset::kOrigin, sizes_);
   vertical_ = read_numbers<double>(file, dataset::kVertical, sizes_);
 }
 
@@ -112,6 +119,7 @@ void StoredTable::check_values(const Hdf5File& file) const {
   };
   check(outcome_, static_cast<std::uint8_t>(Outcome::unresolved), dataset::kOutcome);
   check(collapse_, static_cast<std::uint8_t>(CollapseExtent::arch), dataset::kCollapse);
+  check(origin_, static_cast<std::uint8_t>(Origin::inherited), dataset::kOrigin);
 }
 
 SceneTable StoredTable::part(std::size_t variant, std::size_t state) const {
@@ -125,6 +133,7 @@ SceneTable StoredTable::part(std::size_t variant, std::size_t state) const {
           removed_.subspan(first * sizes_.most_missing, rows * sizes_.most_missing),
           outcome_.subspan(place, rows),
           collapse_.subspan(place, rows),
+          origin_.empty() ? origin_ : origin_.subspan(place, rows),
           first};
 }
 

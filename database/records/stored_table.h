@@ -38,6 +38,7 @@ class StoredTable {
   std::span<const std::int32_t> removed_;
   std::span<const std::uint8_t> outcome_;
   std::span<const std::uint8_t> collapse_;
+  std::span<const std::uint8_t> origin_;  ///< empty if the file has none: all are solved
   std::span<const double> vertical_;
   std::vector<std::size_t> first_;  ///< row of each variant, and one past the last row
 };

@@ -60,16 +60,16 @@ class Columns {
 
   void write() {
     for (const Column& column : record_columns())
-      if (is_kept(column) && column.form != Form::packed) output_.add_dataset(dataset(column));
+      if (is_kept(column) && column.form != Form::packed &&
+          !(column.optional && is_zero(dataset(column).bytes)))
+        output_.add_dataset(dataset(column));
   }
 
   ByteView bytes(const char* path) { return dataset(column_at(path)).bytes; }
 
  private:
   bool is_kept(const Column& column) const { return !column.of_fields() || fields_ == KeepField::yes; }
-  DatasetValue& dataset(const Column& column) {
-    return datasets_[static_cast<std::size_t>(&column - record_columns().data())];
-  }
+  DatasetValue& dataset(const Column& column) { return datasets_[number_of(column)]; }
 
   Sizes sizes_;
   KeepField fields_;

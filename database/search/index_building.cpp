@@ -65,7 +65,8 @@ class IndexBuilding {
 
   SearchIndexData run() {
     std::map<int, std::vector<std::size_t>> by_exponent;
-    for (std::size_t i = 0; i < rows_.size() / points_; ++i) by_exponent[exponent_of(row(i))].push_back(i);
+    for (std::size_t i = 0; i < rows_.size() / points_; ++i)
+      if (has_displacements(row(i))) by_exponent[exponent_of(row(i))].push_back(i);
     index_.first.push_back(0);
     for (const auto& [exponent, members] : by_exponent) add_unit(exponent, members);
     return std::move(index_);
@@ -73,6 +74,10 @@ class IndexBuilding {
 
  private:
   std::span<const double> row(std::size_t index) const { return rows_.subspan(index * points_, points_); }
+
+  static bool has_displacements(std::span<const double> row) {
+    return std::any_of(row.begin(), row.end(), [](double value) { return std::isfinite(value); });
+  }
 
   /// The finest unit in which all displacements of the row are small enough.
   static int exponent_of(std::span<const double> row) {

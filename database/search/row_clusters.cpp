@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "core/simd/lanes.h"
+#include "core/threads.h"
 
 namespace voussoir {
 namespace {
@@ -12,6 +13,7 @@ namespace {
 constexpr std::size_t kSample = 256;  // rows from which two centres are found
 constexpr int kHalvingRounds = 3;     // of moving the centres to the middle of their rows, here and below
 constexpr int kRounds = 6;
+constexpr std::size_t kTogether = 32768;  // rows at most: rounds take a time that grows with their square
 
 /// Squared distances of many rows from one.
 VOUSSOIR_FOR_EVERY_PROCESSOR
@@ -27,27 +29,18 @@ void find_squares(const float* const* rows, std::size_t count, const float* from
   }
 }
 
-class Clustering {
+/// Some rows by their places, ascending.
+using Rows = std::vector<std::size_t>;
+
+/// Rows of numbers and what halves sets of them.
+class RowTable {
  public:
-  Clustering(std::span<const float> values, std::size_t stride, std::size_t most)
-      : values_(values), stride_(stride), most_(most), cluster_(values.size() / stride, 0) {}
+  RowTable(std::span<const float> values, std::size_t stride) : values_(values), stride_(stride) {}
 
-  RowClusters run() {
-    std::vector<std::size_t> all(cluster_.size());
-    std::iota(all.begin(), all.end(), std::size_t{0});
-    if (!all.empty()) split(std::move(all));
-    for (int round = 0; round < kRounds; ++round) {
-      move_centres();
-      assign();
-    }
-    return result();
-  }
-
- private:
+  std::size_t stride() const { return stride_; }
   const float* row(std::size_t index) const { return values_.data() + index * stride_; }
-  const float* centre(std::size_t cluster) const { return centres_.data() + cluster * stride_; }
 
-  std::vector<float> squares(const std::vector<std::size_t>& rows, const float* from) const {
+  std::vector<float> squares(const Rows& rows, const float* from) const {
     std::vector<const float*> pointers;
     for (const std::size_t index : rows) pointers.push_back(row(index));
     std::vector<float> result(rows.size());
@@ -55,29 +48,33 @@ class Clustering {
     return result;
   }
 
-  const float* farthest(const std::vector<std::size_t>& sample, const float* from) const {
+  /// Sets of at most so many rows that differ, which two centres take from each other again and again.
+  std::vector<Rows> split(Rows rows, std::size_t most) const {
+    std::vector<Rows> parts, left = {std::move(rows)};
+    while (!left.empty()) {
+      Rows near = std::move(left.back());
+      left.pop_back();
+      Rows far = near.size() > most ? halve(near) : Rows();
+      if (!near.empty() && !far.empty()) {
+        left.push_back(std::move(far));
+        left.push_back(std::move(near));
+      } else {
+        parts.push_back(near.empty() ? std::move(far) : std::move(near));
+      }
+    }
+    return parts;
+  }
+
+ private:
+  const float* farthest(const Rows& sample, const float* from) const {
     const std::vector<float> found = squares(sample, from);
     return row(
         sample[static_cast<std::size_t>(std::max_element(found.begin(), found.end()) - found.begin())]);
   }
 
-  void split(std::vector<std::size_t> rows) {
-    if (rows.size() > most_) {
-      std::vector<std::size_t> other = halve(rows);
-      if (!rows.empty() && !other.empty()) {
-        split(std::move(rows));
-        split(std::move(other));
-        return;
-      }
-      rows.insert(rows.end(), other.begin(), other.end());
-    }
-    for (const std::size_t index : rows) cluster_[index] = clusters_;
-    ++clusters_;
-  }
-
   /// Takes the farther half out of `rows`.
-  std::vector<std::size_t> halve(std::vector<std::size_t>& rows) const {
-    std::vector<std::size_t> sample;
+  Rows halve(Rows& rows) const {
+    Rows sample;
     const std::size_t step = (rows.size() + kSample - 1) / kSample;
     for (std::size_t i = 0; i < rows.size(); i += step) sample.push_back(rows[i]);
     const float* const first = farthest(sample, row(rows.front()));
@@ -86,14 +83,13 @@ class Clustering {
     for (int round = 0; round < kHalvingRounds; ++round) move_to_middles(sample, one, two);
     const std::vector<float> to_one = squares(rows, one.data());
     const std::vector<float> to_two = squares(rows, two.data());
-    std::vector<std::size_t> near, far;
+    Rows near, far;
     for (std::size_t i = 0; i < rows.size(); ++i) (to_one[i] < to_two[i] ? near : far).push_back(rows[i]);
     rows = std::move(near);
     return far;
   }
 
-  void move_to_middles(const std::vector<std::size_t>& sample, std::vector<float>& one,
-                       std::vector<float>& two) const {
+  void move_to_middles(const Rows& sample, std::vector<float>& one, std::vector<float>& two) const {
     const std::vector<float> to_one = squares(sample, one.data());
     const std::vector<float> to_two = squares(sample, two.data());
     std::vector<float> sums[2] = {std::vector<float>(stride_, 0.0F), std::vector<float>(stride_, 0.0F)};
@@ -109,22 +105,36 @@ class Clustering {
     }
   }
 
-  void move_centres() {
-    centres_.assign(clusters_ * stride_, 0.0F);
-    std::vector<float> count(clusters_, 0.0F);
-    for (std::size_t index = 0; index < cluster_.size(); ++index) {
-      ++count[cluster_[index]];
-      for (std::size_t k = 0; k < stride_; ++k) centres_[cluster_[index] * stride_ + k] += row(index)[k];
+  std::span<const float> values_;
+  std::size_t stride_;
+};
+
+/// A few rounds of k-means over some rows, from sets that halving found.
+class Rounds {
+ public:
+  Rounds(const RowTable& table, std::vector<Rows> sets)
+      : table_(table), stride_(table.stride()), members_(std::move(sets)), clusters_(members_.size()) {}
+
+  std::vector<Rows> run() {
+    for (int round = 0; round < kRounds; ++round) {
+      move_centres();
+      assign();
     }
-    for (std::size_t cluster = 0; cluster < clusters_; ++cluster)
-      for (std::size_t k = 0; k < stride_; ++k)
-        centres_[cluster * stride_ + k] /= std::max(count[cluster], 1.0F);
+    return std::move(members_);
   }
 
-  std::vector<std::vector<std::size_t>> members() const {
-    std::vector<std::vector<std::size_t>> result(clusters_);
-    for (std::size_t index = 0; index < cluster_.size(); ++index) result[cluster_[index]].push_back(index);
-    return result;
+ private:
+  const float* centre(std::size_t cluster) const { return centres_.data() + cluster * stride_; }
+
+  void move_centres() {
+    centres_.assign(clusters_ * stride_, 0.0F);
+    for (std::size_t cluster = 0; cluster < clusters_; ++cluster) {
+      float* const sums = centres_.data() + cluster * stride_;
+      for (const std::size_t index : members_[cluster])
+        for (std::size_t k = 0; k < stride_; ++k) sums[k] += table_.row(index)[k];
+      const auto count = static_cast<float>(std::max(members_[cluster].size(), std::size_t{1}));
+      for (std::size_t k = 0; k < stride_; ++k) sums[k] /= count;
+    }
   }
 
   /// Another cluster's centre and its squared distance from this one's.
@@ -154,7 +164,7 @@ class Clustering {
       if (other.square >= 4.0F * square) break;
       const float* const candidate = centre(other.cluster);
       float found = 0.0F;
-      find_squares(&candidate, 1, row(index), stride_, &found);
+      find_squares(&candidate, 1, table_.row(index), stride_, &found);
       if (found < least) own = other.cluster;
       least = std::min(least, found);
     }
@@ -163,40 +173,46 @@ class Clustering {
 
   /// Puts every row to its nearest centre.
   void assign() {
-    const auto old = members();
     std::vector<const float*> centres;
     for (std::size_t cluster = 0; cluster < clusters_; ++cluster) centres.push_back(centre(cluster));
+    std::vector<Rows> moved(clusters_);
     for (std::size_t own = 0; own < clusters_; ++own) {
       const std::vector<Neighbour> others = neighbours(own, centres);
-      const std::vector<float> from_own = squares(old[own], centre(own));
-      for (std::size_t i = 0; i < old[own].size(); ++i)
-        cluster_[old[own][i]] = nearest(old[own][i], own, from_own[i], others);
+      const std::vector<float> from_own = table_.squares(members_[own], centre(own));
+      for (std::size_t i = 0; i < members_[own].size(); ++i)
+        moved[nearest(members_[own][i], own, from_own[i], others)].push_back(members_[own][i]);
     }
+    for (Rows& rows : moved) std::sort(rows.begin(), rows.end());
+    members_ = std::move(moved);
   }
 
-  RowClusters result() const {
-    RowClusters result;
-    for (const auto& rows : members()) {
-      if (rows.empty()) continue;
-      result.begin.push_back(result.order.size());
-      result.order.insert(result.order.end(), rows.begin(), rows.end());
-    }
-    result.begin.push_back(result.order.size());
-    return result;
-  }
-
-  std::span<const float> values_;
+  const RowTable& table_;
   std::size_t stride_;
-  std::size_t most_;
-  std::size_t clusters_ = 0;
-  std::vector<std::size_t> cluster_;  // of each row
+  std::vector<Rows> members_;  // of each cluster
+  std::size_t clusters_;
   std::vector<float> centres_;
 };
 
 }  // namespace
 
 RowClusters cluster_rows(std::span<const float> values, std::size_t stride, std::size_t most) {
-  return Clustering(values, stride, most).run();
+  const RowTable table(values, stride);
+  Rows all(values.size() / stride);
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  const std::vector<Rows> parts = table.split(std::move(all), kTogether);
+  std::vector<std::vector<Rows>> clusters(parts.size());
+  for_each_index_on_threads(parts.size(), hardware_threads(), [&](std::size_t i) {
+    clusters[i] = Rounds(table, table.split(parts[i], most)).run();
+  });
+  RowClusters result;
+  for (const std::vector<Rows>& of_part : clusters)
+    for (const Rows& rows : of_part) {
+      if (rows.empty()) continue;
+      result.begin.push_back(result.order.size());
+      result.order.insert(result.order.end(), rows.begin(), rows.end());
+    }
+  result.begin.push_back(result.order.size());
+  return result;
 }
 
 }  // namespace voussoir

@@ -19,9 +19,10 @@ struct RowClusters {
 };
 
 /// Splits sets of rows in two, as k-means with k = 2 would, until none has more than `most` rows that differ;
-/// then a few rounds of k-means over all rows (which may make some sets larger again). `values` are rows of
-/// `stride` finite numbers, a whole number of kFloatLanes; distances are Euclidean. The same rows always give
-/// the same clusters.
+/// then a few rounds of k-means (which may make some sets larger again) over all rows, or over the parts of
+/// some ten thousand rows that the first splits made, so that n rows take a time that grows with n log n.
+/// `values` are rows of `stride` finite numbers, a whole number of kFloatLanes; distances are Euclidean. The
+/// same rows always give the same clusters, on any number of threads.
 RowClusters cluster_rows(std::span<const float> values, std::size_t stride, std::size_t most);
 
 }  // namespace voussoir

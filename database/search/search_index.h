@@ -44,7 +44,7 @@ struct SearchIndex {
   std::span<const std::int16_t> most;
 
   // One or `places` values for each slot; a cluster's rows in descending order of their distance.
-  std::span<const std::int32_t> row;  ///< of the table, each row once
+  std::span<const std::int32_t> row;  ///< of the table, each row that has displacements once
   std::span<const SlotBounds> bounds;
   std::span<const std::int8_t> sketch;
 

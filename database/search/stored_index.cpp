@@ -29,11 +29,12 @@ bool within(std::span<const std::int32_t> values, std::int32_t least, std::int32
                      [&](std::int32_t value) { return value >= least && value <= most; });
 }
 
-bool each_once(std::span<const std::int32_t> rows) {
-  std::vector<bool> seen(rows.size(), false);
+/// Each of so many rows at most once.
+bool none_twice(std::span<const std::int32_t> rows, std::size_t count) {
+  std::vector<bool> seen(count, false);
   for (const std::int32_t row : rows) {
     const auto place = static_cast<std::size_t>(row);
-    if (row < 0 || place >= rows.size() || seen[place]) return false;
+    if (row < 0 || place >= count || seen[place]) return false;
     seen[place] = true;
   }
   return true;
@@ -109,11 +110,11 @@ SearchIndex read_search_index(const Hdf5File& file, const std::string& state, st
   index.sketch =
       file.numbers<std::int8_t>(path(index_dataset::kSketch).c_str(), ElementType::int8, index.places);
   const std::size_t in_boxes = index.clusters() * index.places;
-  file.require(index.row.size() == rows && index.bounds.size() == rows &&
-                   index.sketch.size() == rows * index.places &&
+  file.require(index.row.size() <= rows && index.bounds.size() == index.row.size() &&
+                   index.sketch.size() == index.row.size() * index.places &&
                    index.coarseness.size() == index.clusters() && index.centre.size() == in_boxes &&
                    index.least.size() == in_boxes && index.most.size() == in_boxes && in_order(index) &&
-                   each_once(index.row),
+                   none_twice(index.row, rows),
                "the datasets of " + path("") + " do not fit together");
   file.require(within(index.exponent, -kLargestExponent, kLargestExponent) &&
                    within(index.coarseness, 0, kMostCoarse) && within(index.centre) && within(index.least) &&

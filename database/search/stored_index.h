@@ -27,8 +27,8 @@ std::string index_path(const std::string& state, const char* name);
 std::vector<DatasetValue> search_datasets(const std::string& state, std::span<const double> rows,
                                           std::size_t points);
 
-/// The index of a state with so many rows and points, in place in the file. Throws InputError unless every
-/// row is in it once and all numbers are such that no sum of them overflows. Whether they are the right ones
+/// The index of a state with so many rows and points, in place in the file. Throws InputError unless no
+/// row is in it twice and all numbers are such that no sum of them overflows. Whether they are the right ones
 /// is for verify-database.
 SearchIndex read_search_index(const Hdf5File& file, const std::string& state, std::size_t rows,
                               std::size_t points);

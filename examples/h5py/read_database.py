@@ -22,8 +22,9 @@ LOCAL, ARCH = 1, 2  # scenes/collapse
 RECORD_COLUMNS = ["scenes/variant", "scenes/removed"]
 STATE_COLUMNS = [
     "scenes/outcome", "scenes/residual", "scenes/iterations", "scenes/collapse", "scenes/moving",
-    "control/vertical_displacement", "fields/displacement",
+    "control/vertical_displacement", "fields/displacement", "scenes/origin",
 ]
+OPTIONAL = ["scenes/origin"]  # left out where it is 0, and the dataset where all are
 PADDED = ["scenes/removed"]  # a list, then -1
 MARKS = ["scenes/moving"]    # a list: 1 in the place of each of its numbers
 
@@ -69,9 +70,13 @@ def content_digest(file):
 
 def values(file, path, place):
     """What a record has in a column, as bytes behind their number."""
+    if path not in file and path in OPTIONAL:
+        return b""
     if path not in file:  # a database without fields
         return struct.pack("<I", 0)
     found = numpy.atleast_1d(file[path][place])
+    if path in OPTIONAL and not found.any():
+        return b""
     if path in PADDED:
         found = found[found >= 0]
     if path in MARKS:

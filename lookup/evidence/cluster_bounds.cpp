@@ -7,10 +7,10 @@
 
 #include "core/simd/lane_math.h"
 #include "lookup/evidence/evidence.h"
+#include "lookup/evidence/index_box.h"
 #include "lookup/evidence/scene_evidence.h"
 #include "lookup/evidence/table_evidence.h"
 #include "lookup/evidence/wide_product.h"
-#include "lookup/readings/noise_scale.h"
 
 namespace voussoir {
 namespace {
@@ -24,59 +24,6 @@ struct BoxStatistics : RowStatistics {
   double sum_square_beyond;   ///< of what lies beyond the instruments' bounds, over the model's deviation
   double sum_log_instrument;  ///< of the instruments' scales
 };
-
-/// An Observation's arrays, filled up to the places of the index.
-struct View {
-  std::vector<double> reading, slope, offset, intact, origin, own_variance;
-  double share_square, common_square, inverse_unit, per_student;
-
-  View(const Observation& observation, const ErrorScales& scales, std::size_t places)
-      : reading(filled(observation.reading, places, std::nan(""))),
-        slope(filled(scales.slope, places, 0.0)),
-        offset(filled(scales.offset, places, 1.0)),
-        intact(filled(observation.intact, places, 0.0)),
-        origin(filled(observation.origin, places, 0.0)),
-        own_variance(filled(observation.own_variance, places, 0.0)),
-        share_square(observation.error_share * observation.error_share),
-        common_square(observation.error_common * observation.error_common),
-        inverse_unit(1.0 / scales.unit),
-        per_student(observation.noise.shape == NoiseShape::student
-                        ? 1.0 / (observation.noise.degrees_of_freedom - 2.0)
-                        : 0.0) {}
-
-  static std::vector<double> filled(std::vector<double> values, std::size_t places, double filling) {
-    values.resize(places, filling);
-    return values;
-  }
-};
-
-/// How far numbers between low and high are from zero.
-struct Distances {
-  DoubleLanes least, most;
-};
-VOUSSOIR_INLINE Distances distances(const DoubleLanes& low, const DoubleLanes& high) {
-  const DoubleLanes nearest = larger(low, -high);
-  return {larger(nearest, DoubleLanes{}), larger(-low, high)};
-}
-
-struct Box {
-  const std::int16_t *least, *most;
-  double unit;
-
-  VOUSSOIR_INLINE DoubleLanes low(std::size_t i) const { return load<DoubleLanes>(least + i) * unit; }
-  VOUSSOIR_INLINE DoubleLanes high(std::size_t i) const { return load<DoubleLanes>(most + i) * unit; }
-};
-
-/// The largest variance that all points of a scene can share: a mean square is at most the largest square.
-VOUSSOIR_INLINE double most_common_variance(const View& view, const Box& box) {
-  DoubleLanes most{};
-  for (std::size_t i = 0; i < view.reading.size(); i += kLanes) {
-    const auto intact = load<DoubleLanes>(view.intact.data() + i);
-    most = larger(most, distances(box.low(i) - intact, box.high(i) - intact).most);
-  }
-  const double largest = largest_of(most);
-  return view.common_square * largest * largest;
-}
 
 /// Running sums, lane by lane, with products in the place of sums of logarithms.
 struct BoxSums {
@@ -93,7 +40,7 @@ struct BoxSums {
 
 /// Adds the places from the i-th: errors against the nearest number in the box over the largest scale that
 /// the box allows; the products take the least scale.
-VOUSSOIR_INLINE void add_places(const View& view, const Box& box, std::size_t i, double common,
+VOUSSOIR_INLINE void add_places(const PlaceArrays& view, const Box& box, std::size_t i, double common,
                                 BoxSums& sums) {
   const auto at = [&](const std::vector<double>& values) __attribute__((always_inline)) {
     return load<DoubleLanes>(values.data() + i);
@@ -123,7 +70,7 @@ VOUSSOIR_INLINE void add_places(const View& view, const Box& box, std::size_t i,
   if (view.per_student > 0.0) sums.student *= 1.0 + z * z * view.per_student;
 }
 
-VOUSSOIR_INLINE BoxStatistics statistics_of(const View& view, const Box& box) {
+VOUSSOIR_INLINE BoxStatistics statistics_of(const PlaceArrays& view, const Box& box) {
   const double common = view.common_square > 0.0 ? most_common_variance(view, box) : 0.0;
   BoxSums sums;
   for (std::size_t i = 0, step = 1; i < view.reading.size(); i += kLanes, ++step) {
@@ -141,11 +88,9 @@ VOUSSOIR_INLINE BoxStatistics statistics_of(const View& view, const Box& box) {
 }
 
 VOUSSOIR_FOR_EVERY_PROCESSOR
-void collect(const View& view, const SearchIndex& index, BoxStatistics* results) {
+void collect(const PlaceArrays& view, const SearchIndex& index, BoxStatistics* results) {
   for (std::size_t cluster = 0; cluster < index.clusters(); ++cluster)
-    results[cluster] = statistics_of(
-        view, {index.least.data() + cluster * index.places, index.most.data() + cluster * index.places,
-               std::ldexp(1.0, index.exponent[cluster])});
+    results[cluster] = statistics_of(view, box_of(index, cluster));
 }
 
 double sum_for(NoiseShape shape, const BoxStatistics& box) {
@@ -175,7 +120,7 @@ std::vector<double> cluster_bounds(const Observation& observation, const SearchI
       observation.unknown_level ? 1.0 : std::max(observation.noise.relative.value_or(0.0), kSmallestLevel);
   const ErrorScales scales = scales_at(observation, level);
   std::vector<BoxStatistics> boxes(index.clusters());
-  collect(View(observation, scales, index.places), index, boxes.data());
+  collect(PlaceArrays(observation, scales, index.places), index, boxes.data());
   const double shift = static_cast<double>(observation.count) * std::log(scales.unit);
   std::vector<double> result(boxes.size(), -kInfinity);
   for (const NoiseShape shape : shapes_of(observation.noise)) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -49,27 +50,38 @@ EvidenceScreen::EvidenceScreen(const SceneTable& table, const SearchIndex& index
     : table_(table),
       index_(index),
       eligible_(eligible),
-      log_prior_(table.rows, -kInfinity),
-      cluster_log_prior_(index.clusters(), -kInfinity) {
+      priors_{std::vector<double>(table.rows, -kInfinity),
+              std::vector<double>(index.clusters(), -kInfinity)} {
   const std::vector<double> by_missing = log_prior_by_missing(table, eligible, prior);
   for (std::size_t i = 0; i < eligible.rows.size(); ++i)
-    log_prior_[eligible.rows[i]] = by_missing[eligible.missing[i]];
+    priors_.row[eligible.rows[i]] = by_missing[eligible.missing[i]];
   for (std::size_t cluster = 0; cluster < index.clusters(); ++cluster)
     for (const std::int32_t row : index.row.subspan(index.slot(cluster), index.rows(cluster)))
-      cluster_log_prior_[cluster] =
-          std::max(cluster_log_prior_[cluster], log_prior_[static_cast<std::size_t>(row)]);
+      priors_.cluster[cluster] =
+          std::max(priors_.cluster[cluster], priors_.row[static_cast<std::size_t>(row)]);
 }
 
-/// The eligible rows of some clusters, in ascending order: as they stand in memory, one after the other.
+/// Rows in ascending order: as they stand in memory, one after the other.
+std::vector<std::size_t> EvidenceScreen::in_order(std::span<const std::size_t> rows) const {
+  constexpr std::size_t kBits = 64;
+  std::vector<std::uint64_t> marks((table_.rows + kBits - 1) / kBits, 0);
+  for (const std::size_t row : rows) marks[row / kBits] |= std::uint64_t{1} << row % kBits;
+  std::vector<std::size_t> result;
+  result.reserve(rows.size());
+  for (std::size_t word = 0; word < marks.size(); ++word)
+    for (std::uint64_t left = marks[word]; left != 0; left &= left - 1)
+      result.push_back(word * kBits + static_cast<std::size_t>(std::countr_zero(left)));
+  return result;
+}
+
+/// The eligible rows of some clusters, in ascending order.
 std::vector<std::size_t> EvidenceScreen::rows_of(std::span<const std::size_t> clusters) const {
-  std::vector<std::uint8_t> is_wanted(table_.rows, 0);
+  std::vector<std::size_t> rows;
   for (const std::size_t cluster : clusters)
     for (const std::int32_t row : index_.row.subspan(index_.slot(cluster), index_.rows(cluster)))
-      is_wanted[static_cast<std::size_t>(row)] = 1;
-  std::vector<std::size_t> rows;
-  for (const std::size_t row : eligible_.rows)
-    if (is_wanted[row] != 0) rows.push_back(row);
-  return rows;
+      if (priors_.row[static_cast<std::size_t>(row)] > -kInfinity)
+        rows.push_back(static_cast<std::size_t>(row));
+  return in_order(rows);
 }
 
 /// The clusters with the centres nearest to the readings.
@@ -92,7 +104,7 @@ std::optional<double> EvidenceScreen::least_that_matters(const Observation& obse
   for (const std::size_t wanted : kClustersFirst) {
     const std::vector<std::size_t> rows = rows_of(nearest_clusters(observation, wanted));
     std::vector<double> values = log_evidence_of_each(observation, table_, rows);
-    for (std::size_t i = 0; i < values.size(); ++i) values[i] += log_prior_[rows[i]];
+    for (std::size_t i = 0; i < values.size(); ++i) values[i] += priors_.row[rows[i]];
     std::erase_if(values, [](double value) { return !std::isfinite(value); });
     if (values.size() >= count) return least_beside(std::move(values), count, eligible_.rows.size());
   }
@@ -101,12 +113,13 @@ std::optional<double> EvidenceScreen::least_that_matters(const Observation& obse
 
 std::vector<std::size_t> EvidenceScreen::rows_within_bounds(const Observation& observation,
                                                             std::size_t count) const {
-  const std::optional<double> threshold = least_that_matters(observation, count);
-  if (!threshold) return eligible_.rows;
+  const double threshold = least_that_matters(observation, count).value_or(-kInfinity);
+  if (gaussian_screen_applies(observation))
+    return in_order(rows_in_reach(observation, table_, index_, priors_, threshold));
   const std::vector<double> bounds = cluster_bounds(observation, index_);
   std::vector<std::size_t> clusters;
   for (std::size_t i = 0; i < bounds.size(); ++i)
-    if (bounds[i] + cluster_log_prior_[i] >= *threshold) clusters.push_back(i);
+    if (bounds[i] + priors_.cluster[i] >= threshold && bounds[i] > -kInfinity) clusters.push_back(i);
   return rows_of(clusters);
 }
 
@@ -128,14 +141,14 @@ std::vector<std::size_t> EvidenceScreen::rows_by_estimate(const Observation& obs
                                                           std::size_t count) const {
   const std::vector<std::size_t> likely = likely_rows(observation, std::max(count, kLikelyRows));
   std::vector<double> values = log_evidence_of_each(observation, table_, likely);
-  for (std::size_t i = 0; i < values.size(); ++i) values[i] += log_prior_[likely[i]];
+  for (std::size_t i = 0; i < values.size(); ++i) values[i] += priors_.row[likely[i]];
   const double least =
       least_beside(std::move(values), std::min(count, likely.size()), eligible_.rows.size()) - kEstimate;
   const std::vector<double> estimates = estimated_evidence(observation, table_, eligible_.rows, likely);
   std::vector<std::size_t> result;
   for (std::size_t i = 0; i < estimates.size(); ++i) {
     const std::size_t row = eligible_.rows[i];
-    if (estimates[i] > -kInfinity && estimates[i] + log_prior_[row] >= least) result.push_back(row);
+    if (estimates[i] > -kInfinity && estimates[i] + priors_.row[row] >= least) result.push_back(row);
   }
   return result;
 }

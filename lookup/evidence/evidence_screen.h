@@ -8,6 +8,7 @@
 
 #include "database/records/database.h"
 #include "database/search/search_index.h"
+#include "lookup/evidence/gaussian_screen.h"
 #include "lookup/evidence/posterior.h"
 #include "lookup/readings/observation.h"
 
@@ -31,6 +32,7 @@ class EvidenceScreen {
 
  private:
   std::vector<std::size_t> rows_of(std::span<const std::size_t> clusters) const;
+  std::vector<std::size_t> in_order(std::span<const std::size_t> rows) const;
   std::vector<std::size_t> nearest_clusters(const Observation& observation, std::size_t count) const;
   std::vector<std::size_t> likely_rows(const Observation& observation, std::size_t count) const;
   std::optional<double> least_that_matters(const Observation& observation, std::size_t count) const;
@@ -40,8 +42,7 @@ class EvidenceScreen {
   const SceneTable& table_;
   SearchIndex index_;
   const Eligible& eligible_;
-  std::vector<double> log_prior_;  // of each row of the table; -infinity for those that are not eligible
-  std::vector<double> cluster_log_prior_;  // the largest of each cluster's rows
+  RowPriors priors_;
 };
 
 }  // namespace voussoir

@@ -55,7 +55,8 @@ double intact_if_even(const std::vector<double>& afterwards, const Eligible& eli
 
 }  // namespace
 
-Prior stated_prior(Prior prior, bool known_bridge) {
+Prior stated_prior(Prior prior, const SceneTable& table, bool known_bridge) {
+  if (prior.missing.empty()) prior.missing = numbers_of_missing(table);
   if (known_bridge || !prior.weight.empty()) return prior;
   for (const int missing : prior.missing) {
     const auto number = std::min(static_cast<std::size_t>(missing), kBeliefInMissing.size() - 1);
@@ -66,8 +67,8 @@ Prior stated_prior(Prior prior, bool known_bridge) {
 
 std::vector<double> weights_of(const Prior& prior) {
   if (!prior.weight.empty() && prior.weight.size() != prior.missing.size())
-    throw InputError(fmt::format("{} prior weights, expected {}: one for each number of missing blocks",
-                                 prior.weight.size(), prior.missing.size()));
+    throw InputError(fmt::format("{} prior weights, expected {}: one for each number of missing blocks ({})",
+                                 prior.weight.size(), prior.missing.size(), fmt::join(prior.missing, ", ")));
   if (!prior.weight.empty()) return prior.weight;
   std::vector<double> usual;
   for (const int missing : prior.missing) usual.push_back(missing == 0 ? kIntactWeight : 1.0);

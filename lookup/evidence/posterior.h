@@ -12,27 +12,29 @@ namespace voussoir {
 
 /// What is believed before the measurement.
 struct Prior {
-  std::vector<int> missing = {0, 1, 2};  ///< numbers of missing blocks that are possible
-  std::vector<double> weight = {};       ///< of each of them; empty: kIntactWeight for no block, 1 for other
-                                         ///< numbers. Uniform over the scenes within each number
+  std::vector<int> missing = {};    ///< numbers of missing blocks that are possible; empty: stated_prior
+  std::vector<double> weight = {};  ///< of each of them; empty: kIntactWeight for no block, 1 for other
+                                    ///< numbers. Uniform over the scenes within each number
 };
 
-/// Of a bridge that is not exactly known, no, one and two missing blocks: one in a hundred times that a
-/// bridge is levelled a block has gone since, and of these one in ten times two. No published rate was found
-/// (inspection records count conditions, not blocks); a stock that lost blocks more often than once in a
-/// hundred inspections would be repaired, not monitored. docs/uncertainty.md says what other beliefs change.
-inline constexpr std::array<double, 3> kBeliefInMissing = {1000.0, 10.0, 1.0};
+/// Of a bridge that is not exactly known, no, one, two and three missing blocks: one in a hundred times that
+/// a bridge is levelled a block has gone since, of these one in ten times two, and of those one in ten times
+/// a third. No published rate was found (inspection records count conditions, not blocks); a stock that lost
+/// blocks more often than once in a hundred inspections would be repaired, not monitored.
+/// docs/uncertainty.md says what other beliefs change.
+inline constexpr std::array<double, 4> kBeliefInMissing = {1000.0, 10.0, 1.0, 0.1};
 
-/// The prior as it is used: weights that are not given become kBeliefInMissing, unless the bridge is known.
-Prior stated_prior(Prior prior, bool known_bridge);
+/// The prior as it is used: numbers that are not given are those that the table holds, weights that are not
+/// given become kBeliefInMissing, unless the bridge is known.
+Prior stated_prior(Prior prior, const SceneTable& table, bool known_bridge);
 
 /// Readings that say nothing leave the prior as it is: with equal weights two blocks in three questions would
 /// be said to be missing. Of 500 intact bridges levelled to 0.1 and 0.2 mm, equal weights call 15 and 33 %
 /// damaged, these 0.4 and 0.6 % (docs/results.md).
 inline constexpr double kIntactWeight = 8.0;
 
-/// The weight of each of the prior's numbers of missing blocks. Throws InputError if the prior has not as
-/// many weights as numbers.
+/// The weight of each of a stated prior's numbers of missing blocks. Throws InputError if the prior has not
+/// as many weights as numbers.
 std::vector<double> weights_of(const Prior& prior);
 
 struct Posterior {
@@ -48,8 +50,9 @@ struct Posterior {
 /// Share of the probability in Posterior::credible.
 inline constexpr double kCredibleShare = 0.95;
 
-/// log prior of one scene with 0, 1, 2... missing blocks: its number's weight over how many eligible scenes
-/// have it. Throws as weights_of, and InputError if the weights leave no eligible scene possible.
+/// log prior of one scene with 0, 1, 2... missing blocks, of a stated prior: its number's weight over how
+/// many eligible scenes have it. Throws as weights_of, and InputError if the weights leave no eligible scene
+/// possible.
 std::vector<double> log_prior_by_missing(const SceneTable& table, const Eligible& eligible,
                                          const Prior& prior);
 

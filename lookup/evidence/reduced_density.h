@@ -18,8 +18,9 @@ struct ReducedQuestion {
 };
 
 /// log p(readings | scene), kappa marginalised; any number below `least` if that is found on the way.
-/// -infinity if the scene is impossible. `prediction`: the scene's row of the table.
+/// -infinity if the scene is impossible. `prediction`: the scene's row of the table; of its known losses
+/// there is at least one, which may be that of nothing.
 double reduced_log_density(const ReducedQuestion& question, const double* prediction,
-                           const ReducedLoss& first, const ReducedLoss& second, double least);
+                           std::span<const ReducedLoss* const> losses, double least);
 
 }  // namespace voussoir

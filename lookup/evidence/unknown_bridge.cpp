@@ -128,23 +128,14 @@ void add_losses(const Comparison& comparison, const Observation& observation, Un
   const SceneTable& table = comparison.library.table;
   bridge.blocks = factors.blocks.size();
   bridge.losses.resize(bridge.blocks);
-  for (std::size_t row = 0; row < table.rows; ++row) {
-    const std::int32_t first = table.removed[row * table.most_missing];
-    const bool pair = table.most_missing > 1 && table.removed[row * table.most_missing + 1] >= 0;
-    if (first < 0) continue;
-    if (pair && factors.pairs.empty()) break;  // few missing blocks come first
-    if (!pair) {
-      const auto block = static_cast<std::size_t>(first);
-      bridge.losses[block] = loss_of(bridge, observation, factors.blocks[block], table.row(row));
-      continue;
+  for (std::size_t block = 0; block < bridge.blocks; ++block)
+    if (const auto row = table.find({{BlockId{static_cast<std::int32_t>(block)}}}))
+      bridge.losses[block] = loss_of(bridge, observation, factors.blocks[block], table.row(*row));
+  for (const auto& [scene, change] : factors.several)
+    if (const auto row = table.find(scene)) {
+      bridge.several.push_back(scene);
+      bridge.losses.push_back(loss_of(bridge, observation, change, table.row(*row)));
     }
-    const Scene scene = table.scene(row);
-    for (const auto& [own, change] : factors.pairs)
-      if (own == scene) {
-        bridge.pairs.push_back(scene);
-        bridge.losses.push_back(loss_of(bridge, observation, change, table.row(row)));
-      }
-  }
 }
 
 /// The median over the known losses; 1 if there are none.
@@ -201,11 +192,11 @@ MatrixXd in_rows(const std::vector<ReadingRow>& rows, const MatrixXd& before, co
 
 KnownLosses known_losses(const UnknownBridge& bridge, const SceneTable& table, std::size_t row) {
   KnownLosses found;
-  if (!bridge.pairs.empty()) {
+  if (!bridge.several.empty()) {
     const Scene scene = table.scene(row);
-    const auto own = std::lower_bound(bridge.pairs.begin(), bridge.pairs.end(), scene);
-    if (own != bridge.pairs.end() && *own == scene)
-      return {{bridge.blocks + static_cast<std::size_t>(own - bridge.pairs.begin())}, 1};
+    const auto own = std::lower_bound(bridge.several.begin(), bridge.several.end(), scene);
+    if (own != bridge.several.end() && *own == scene)
+      return {{bridge.blocks + static_cast<std::size_t>(own - bridge.several.begin())}, 1};
   }
   for (const std::int32_t block : table.removed.subspan(row * table.most_missing, table.most_missing))
     if (block >= 0 && bridge.losses[static_cast<std::size_t>(block)].known() && found.count < kMostLosses)

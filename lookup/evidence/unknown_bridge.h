@@ -8,8 +8,8 @@
 /// noise: instruments, levellings, the model's own error, and what the first order leaves of the intact
 /// bridge.
 ///
-/// A pair's factors are those of the intact bridge and what its two blocks change alone, unless the database
-/// has its own; the model's errors in both add up. Of what a scene's signal is
+/// The factors of two or three blocks are those of the intact bridge and what each block changes alone,
+/// unless the database has the scene's own; the model's errors in both add up. Of what a scene's signal is
 /// beyond that of its blocks with known factors, the whole counts as uncertain as signals typically are: by
 /// one factor, and once more at each point by itself. So scenes without factors (that collapse, or with a
 /// block whose loss alone makes a collapse) are told less sharply, not excluded.
@@ -68,7 +68,7 @@ struct UnknownCase {
 Eigen::MatrixXd in_rows(const std::vector<ReadingRow>& rows, const Eigen::MatrixXd& before,
                         const Eigen::MatrixXd& after);
 
-/// The loss of a block, or of a pair with factors of its own, in rows of y.
+/// The loss of a block, or of several with factors of their own, in rows of y.
 struct Loss {
   const LossFactors* factors = nullptr;
   Eigen::VectorXd signal{};      ///< [m] NaN at readings that the loss makes impossible
@@ -80,10 +80,10 @@ struct Loss {
 struct UnknownBridge {
   const ReadingFactors* factors = nullptr;
   std::vector<ReadingRow> rows;
-  Eigen::VectorXd reading;   ///< [m] less what the intact bridge shows
-  Eigen::VectorXd movement;  ///< [m] of the intact bridge, as a common factor counts it
-  std::vector<Loss> losses;  ///< by block, then of `pairs`
-  std::vector<Scene> pairs;  ///< with factors of their own, in ascending order
+  Eigen::VectorXd reading;     ///< [m] less what the intact bridge shows
+  Eigen::VectorXd movement;    ///< [m] of the intact bridge, as a common factor counts it
+  std::vector<Loss> losses;    ///< by block, then of `several`
+  std::vector<Scene> several;  ///< scenes of several blocks with factors of their own, in ascending order
   std::size_t blocks = 0;
   Eigen::Index epochs = 1;  ///< in y, each with its own columns of E
   double scale = 0.0;       ///< [-] of a factor on all movements, as far as it was asked for
@@ -110,7 +110,7 @@ UnknownBridge unknown_bridge(const Comparison& comparison, const Observation& ob
 void set_case(const Observation& observation, const UnknownCase& one, UnknownBridge& bridge);
 
 /// The losses with factors that a scene is made of: places in UnknownBridge::losses.
-inline constexpr std::size_t kMostLosses = 2;
+inline constexpr std::size_t kMostLosses = 3;
 struct KnownLosses {
   std::array<std::size_t, kMostLosses> place{};
   std::size_t count = 0;

@@ -112,7 +112,8 @@ SceneLikelihoods::SceneLikelihoods(const UnknownBridge& bridge, const Observatio
 
 /// A is c A_intact + a D in rows of y, c of what is the same in both epochs and a of what is after; so
 /// a D (a D)^T + a D (c A_intact)^T + c A_intact (a D)^T = X Y^T + Y X^T with X = a B and Y = c H + a B / 2.
-/// Of two losses' leading columns L and M, L M^T + M L^T = (L + M) (L + M)^T - L L^T - M M^T.
+/// What the leading columns of several losses have in common, L M^T + M L^T of any two, is
+/// (L + M + ..) (L + M + ..)^T - L L^T - M M^T - ..
 SceneLikelihoods::Products SceneLikelihoods::products_of(const Loss& loss) const {
   const std::size_t n = bridge_.rows.size();
   Products result;
@@ -167,10 +168,11 @@ std::vector<ScatterLogs> SceneLikelihoods::operator()(std::span<const CaseTerms>
     const KnownLosses known = known_losses(bridge_, table_, rows[i]);
     for (const std::size_t place : std::span(known.place).first(known.count))
       add_to(work.bridge, known.count == 1 ? losses_[place].alone : losses_[place].beside);
-    if (known.count == 2) {
+    if (known.count > 1) {
       work.columns = losses_[known.place[0]].lead;
-      for (std::size_t k = 0; k < work.columns.size(); ++k)
-        work.columns[k] += losses_[known.place[1]].lead[k];
+      for (std::size_t more = 1; more < known.count; ++more)
+        for (std::size_t k = 0; k < work.columns.size(); ++k)
+          work.columns[k] += losses_[known.place[more]].lead[k];
       add_outer_product(work.columns, bridge_.rows.size(), work.bridge);
     }
     std::vector<double> bounds(cases.size(), std::numeric_limits<double>::infinity());

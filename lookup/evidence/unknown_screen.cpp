@@ -92,6 +92,16 @@ void store_lower(const MatrixXd& matrix, DirectionTriangle& lower) {
       lower[lower_size(static_cast<std::size_t>(i)) + static_cast<std::size_t>(j)] = matrix(i, j);
 }
 
+/// What a loss adds alone; and beside one or two others, with whose columns in common its own are summed up.
+std::array<DirectionTriangle, kMostLosses> by_count(const MatrixXd& alone, const MatrixXd& own,
+                                                    const MatrixXd& common) {
+  std::array<DirectionTriangle, kMostLosses> result;
+  store_lower(alone, result[0]);
+  for (std::size_t others = 1; others < kMostLosses; ++others)
+    store_lower(alone - common + static_cast<double>(others) * (own - common), result[others]);
+  return result;
+}
+
 LowerTriangle lower_of(const MatrixXd& matrix) {
   LowerTriangle lower;
   for (Index i = 0; i < matrix.rows(); ++i)
@@ -192,7 +202,7 @@ void UnknownScreen::choose_epoch_columns() {
   epoch_columns_ = solver.eigenvectors().rightCols(std::min(parameters, kEpochs));
 }
 
-/// What a loss adds to A A^T; of pairs, whose common part only the first columns show, the rest once more.
+/// What a loss adds to A A^T, of which the first columns show what it has in common with others.
 void UnknownScreen::reduce_bridge(const LossFactors& factors, ReducedLoss& to) const {
   const Index width = std::min(kFirstColumns, factors.lead.cols());
   const MatrixXd first = of_loss_.transpose() * factors.lead.leftCols(width);
@@ -204,8 +214,7 @@ void UnknownScreen::reduce_bridge(const LossFactors& factors, ReducedLoss& to) c
     const MatrixXd cross = (of_bridge_.transpose() * factors.signal.intact) * own.transpose();
     bridge += cross + cross.transpose();
   }
-  store_lower(bridge, to.bridge);
-  store_lower(bridge + product - first * first.transpose(), to.bridge_of_pair);
+  to.bridge = by_count(bridge, product, first * first.transpose());
 }
 
 /// The same of all else.
@@ -217,14 +226,12 @@ void UnknownScreen::reduce_others(const LossFactors& factors, const VectorXd& si
   epochs.rightCols(change.cols()) += change;
   MatrixXd others = epochs * epochs.transpose() - intact_epochs_ * intact_epochs_.transpose();
   others += bridge_.model_error * bridge_.model_error * signal * signal.transpose();
-  store_lower(others, to.others);
-  store_lower(others + change * change.transpose() - first * first.transpose(), to.others_of_pair);
+  to.others = by_count(others, change * change.transpose(), first * first.transpose());
 }
 
 ReducedLoss UnknownScreen::reduced(const Loss& loss) const {
   ReducedLoss result;
   result.signal_of_rows = loss.signal.data();
-  result.known = true;
   const VectorXd counted = loss.signal.array().isNaN().select(0.0, loss.signal);
   const VectorXd signal = directions_.transpose() * counted;
   store(signal, result.signal);
@@ -258,9 +265,10 @@ std::vector<double> UnknownScreen::estimates(std::span<const std::size_t> rows,
   for_each_index_on_threads(blocks, threads_, [&](std::size_t block) {
     for (std::size_t i = block * kBlockRows; i < std::min(rows.size(), (block + 1) * kBlockRows); ++i) {
       const KnownLosses known = known_losses(bridge_, table_, rows[i]);
-      const ReducedLoss& first = known.count > 0 ? losses_[known.place[0]] : none_;
-      const ReducedLoss& second = known.count > 1 ? losses_[known.place[1]] : none_;
-      result[i] = reduced_log_density(question, table_.row(rows[i]).data(), first, second, least[i]);
+      std::array<const ReducedLoss*, kMostLosses> losses = {&none_};
+      for (std::size_t k = 0; k < known.count; ++k) losses[k] = &losses_[known.place[k]];
+      const auto lost = std::span(losses).first(std::max(known.count, std::size_t{1}));
+      result[i] = reduced_log_density(question, table_.row(rows[i]).data(), lost, least[i]);
     }
   });
   return result;

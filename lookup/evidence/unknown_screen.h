@@ -5,10 +5,10 @@
 /// Readings are whitened by the intact bridge's covariance. Of all directions the readings themselves come
 /// first, then those in which losses show most: the leading principal directions of what all losses change,
 /// their signals and their scatter. In kDirections of them the scene's Gaussian is worked out, with what two
-/// blocks' signals have in common as far as kFirstColumns show it; the rest of either counts twice. So a
-/// pair's covariance is never less than the true one, and never loses its positive sign: X Y^T + Y X^T lies
-/// between -(X X^T + Y Y^T) and X X^T + Y Y^T. What lies in no direction counts as it does for the intact
-/// bridge: a loss can only widen it, so an estimate is rarely too low.
+/// blocks' signals have in common as far as kFirstColumns show it; the rest of each counts once more for
+/// every other block. So a covariance is never less than the true one, and never loses its positive sign: X
+/// Y^T + Y X^T lies between -(X X^T + Y Y^T) and X X^T + Y Y^T. What lies in no direction counts as it does
+/// for the intact bridge: a loss can only widen it, so an estimate is rarely too low.
 
 #include <array>
 #include <limits>
@@ -33,11 +33,10 @@ struct ReducedLoss {
   DirectionVector signal{};
   std::array<double, kDirections* static_cast<std::size_t>(kFirstColumns)> first{};  ///< of A
   std::array<double, kDirections * kEpochColumns> epoch{};                           ///< of E
-  DirectionTriangle bridge{};                            ///< what it adds to A A^T
-  DirectionTriangle others{};                            ///< and to all else
-  DirectionTriangle bridge_of_pair{}, others_of_pair{};  ///< the same where a pair shares the columns above
-  const double* signal_of_rows = nullptr;                ///< in rows of y
-  bool known = false;
+  /// What it adds to A A^T and to all else where a scene has one, two, three losses; of several without what
+  /// the columns above add, which the losses share.
+  std::array<DirectionTriangle, kMostLosses> bridge{}, others{};
+  const double* signal_of_rows = nullptr;  ///< in rows of y
 };
 
 class UnknownScreen {
@@ -72,7 +71,7 @@ class UnknownScreen {
   Eigen::MatrixXd epoch_columns_;        // parameters of an epoch x kEpochColumns
   std::vector<ReducedLoss> losses_;      // of UnknownBridge::losses
   std::vector<double> nothing_;
-  ReducedLoss none_;  // of scenes with fewer known losses
+  ReducedLoss none_;  // of scenes without known losses
   DirectionTriangle bridge_of_intact_{}, others_of_intact_{};
   DirectionTriangle points_{};  // what a unit variance at each changed point adds
   DirectionVector reading_{};

@@ -131,7 +131,8 @@ std::shared_ptr<const ReadingFactors> reading_factors(const Sensitivities& sensi
   for (const Scene& scene : sensitivities.scenes)
     if (scene.missing() > 1)
       if (LossFactors own = loss_factors(result, scene); own.known())
-        result.pairs.emplace_back(scene, std::move(own));
+        result.several.emplace_back(scene, std::move(own));
+  std::ranges::sort(result.several, {}, &std::pair<Scene, LossFactors>::first);
   result.signal_product = signal_product(result.blocks, result.intact_product.rows());
   return std::make_shared<const ReadingFactors>(std::move(result));
 }

@@ -39,8 +39,9 @@ struct ReadingFactors {
   Eigen::MatrixXd intact_product;  ///< channels x channels: A A^T of the intact bridge
   Eigen::MatrixXd
       signal_product;  ///< the sum over losses of what they change alone, nearly: where losses show
-  std::vector<LossFactors> blocks;                   ///< not known of singles that do not stand
-  std::vector<std::pair<Scene, LossFactors>> pairs;  ///< of pairs with sensitivities of their own
+  std::vector<LossFactors> blocks;  ///< not known of singles that do not stand
+  std::vector<std::pair<Scene, LossFactors>>
+      several;  ///< of scenes of several blocks with their own, ascending
   FirstOrderResidual residual;
 
   const std::vector<UncertainParameter>& parameters() const { return sensitivities->parameters; }

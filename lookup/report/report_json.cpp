@@ -26,10 +26,11 @@ ordered_json candidate_json(const Candidate& candidate, const BlockLayout& layou
   return result;
 }
 
-ordered_json settings_json(const LookupSettings& settings) {
+ordered_json settings_json(const LookupSettings& settings, const Prior& prior) {
   ordered_json result = {{"objective", to_string(settings.objective)},
                          {"search", to_string(settings.search)},
-                         {"missing", settings.prior.missing},
+                         {"missing", prior.missing},
+                         {"prior", weights_of(prior)},
                          {"top", settings.top}};
   if (settings.search == Search::genetic)
     result["genetic"] = {{"population", settings.genetic.population},
@@ -142,7 +143,7 @@ std::string json_report(const Answer& answer, const LookupSettings& settings, co
   ordered_json result = {
       {"candidates", std::move(candidates)},
       {"first_candidate", nullptr},
-      {"settings", settings_json(settings)},
+      {"settings", settings_json(settings, answer.prior)},
       {"measurements",
        {{"file", source.measurements}, {"readings", answer.readings}, {"kind", to_string(comparison.kind)}}},
       {"database",

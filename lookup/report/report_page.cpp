@@ -131,7 +131,6 @@ void add_noise_terms(const Answer& answer, const LookupSettings& settings, Terms
   if (settings.nuisance.any()) terms.emplace_back("Also unknown", unknowns_in_words(settings.nuisance));
 }
 
-/// `prior` has its weights stated (stated_prior); without weights they are those of a known bridge.
 std::string weights_in_words(const Prior& prior) {
   const std::vector<double> weight = weights_of(prior);
   std::string text;
@@ -166,8 +165,7 @@ std::string assumptions_html(const Answer& answer, const LookupSettings& setting
                         ? "the misfit log(sum |measured - scene|) alone, which gives no probabilities"
                         : "posterior probability of each scene"},
       {"Search", search_in_words(settings)},
-      {"Numbers of missing blocks considered",
-       weights_in_words(stated_prior(settings.prior, !answer.bridge))},
+      {"Numbers of missing blocks considered", weights_in_words(answer.prior)},
       {"The model's own error",
        fmt::format("{:.2g} % of the change that a scene makes at a point, and {:.2g} % of "
                    "that change's root mean square",

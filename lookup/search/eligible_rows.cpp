@@ -1,6 +1,7 @@
 #include "lookup/search/eligible_rows.h"
 
 #include <algorithm>
+#include <ranges>
 
 namespace voussoir {
 
@@ -8,6 +9,18 @@ int missing_blocks(const SceneTable& table, std::size_t row) {
   const auto removed = table.removed.subspan(row * table.most_missing, table.most_missing);
   return static_cast<int>(
       std::count_if(removed.begin(), removed.end(), [](std::int32_t id) { return id >= 0; }));
+}
+
+/// Scenes with few missing blocks come first.
+std::vector<int> numbers_of_missing(const SceneTable& table) {
+  std::vector<int> numbers;
+  for (std::size_t row = 0; row < table.rows;) {
+    numbers.push_back(missing_blocks(table, row));
+    const auto behind = std::views::iota(row, table.rows);
+    row = *std::ranges::partition_point(
+        behind, [&](std::size_t later) { return missing_blocks(table, later) == numbers.back(); });
+  }
+  return numbers;
 }
 
 Eligible eligible_rows(const SceneTable& table, const std::vector<int>& missing) {

@@ -18,4 +18,7 @@ Eligible eligible_rows(const SceneTable& table, const std::vector<int>& missing)
 
 int missing_blocks(const SceneTable& table, std::size_t row);
 
+/// The numbers of missing blocks that scenes of the table have, ascending.
+std::vector<int> numbers_of_missing(const SceneTable& table);
+
 }  // namespace voussoir

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <ranges>
 
 #include "lookup/search/eligible_rows.h"
 #include "lookup/search/misfit.h"
@@ -10,7 +11,7 @@
 namespace voussoir {
 namespace {
 
-constexpr std::size_t kMostGenes = 4;
+constexpr std::size_t kMostBlocks = 3;
 constexpr std::uint32_t kLargestStep = 2;  // of a local mutation, in courses or positions
 constexpr double kLocalMutation = 0.5;     // share of mutations that stay near; the others go anywhere
 constexpr std::uint32_t kNoRow = std::numeric_limits<std::uint32_t>::max();
@@ -29,7 +30,7 @@ void move_anywhere(std::span<int, 2> block, const GeneSpace& space, Random& rand
 }
 
 struct Member {
-  std::array<int, kMostGenes> genes{};  // (x1, x2), (x3, x4): of each missing block
+  std::array<int, 2 * kMostBlocks> genes{};  // (x1, x2), (x3, x4)..: of each missing block
 
   std::span<int, 2> block(std::size_t i) { return std::span(genes).subspan(2 * i).first<2>(); }
   ScoredRow score{GeneSpace::none, std::numeric_limits<double>::infinity()};
@@ -105,7 +106,7 @@ class Evolution {
       return child;
     }
     for (std::size_t block = 0; block < missing_; ++block) {
-      const std::size_t from = random_.below(2);
+      const std::size_t from = random_.below(static_cast<std::uint32_t>(missing_));
       if (random_.below(2) == 1) std::copy_n(&b.genes[2 * from], 2, &child.genes[2 * block]);
     }
     return child;
@@ -147,7 +148,10 @@ class Evolution {
 }  // namespace
 
 GeneSpace::GeneSpace(const BlockLayout& layout, const SceneTable& table)
-    : blocks_(layout.size()), row_of_pair_((blocks_ + 1) * (blocks_ + 1), kNoRow) {
+    : table_(table),
+      blocks_(layout.size()),
+      row_of_pair_((blocks_ + 1) * (blocks_ + 1), kNoRow),
+      first_triple_(row_of_pair_) {
   for (std::size_t id = 0; id < blocks_; ++id) {
     // Blocks that are not laid in courses are one row.
     const auto course = static_cast<std::size_t>(std::max(layout.blocks[id].index.course, 0));
@@ -155,27 +159,52 @@ GeneSpace::GeneSpace(const BlockLayout& layout, const SceneTable& table)
     courses_[course].push_back(BlockId{static_cast<std::int32_t>(id)});
   }
   for (std::size_t row = 0; row < table.rows; ++row) {
-    if (table.outcome[row] == static_cast<std::uint8_t>(Outcome::unresolved)) continue;
-    std::array<std::size_t, 2> pair = {blocks_, blocks_};
     const auto missing = static_cast<std::size_t>(missing_blocks(table, row));
-    if (missing > pair.size()) continue;
-    std::copy_n(table.removed.begin() + static_cast<std::ptrdiff_t>(row * table.most_missing), missing,
-                pair.begin());
-    row_of_pair_[pair[0] * (blocks_ + 1) + pair[1]] = static_cast<std::uint32_t>(row);
+    if (missing > kMostBlocks) break;  // few missing blocks come first
+    std::array<std::size_t, 2> pair = {blocks_, blocks_};
+    std::copy_n(table.removed.begin() + static_cast<std::ptrdiff_t>(row * table.most_missing),
+                std::min(missing, pair.size()), pair.begin());
+    auto& rows = missing > pair.size() ? first_triple_ : row_of_pair_;
+    std::uint32_t& first = rows[pair[0] * (blocks_ + 1) + pair[1]];
+    if (first == kNoRow) first = static_cast<std::uint32_t>(row);
   }
 }
 
+/// Of ascending blocks.
+std::size_t GeneSpace::row_of(std::span<const std::int32_t> blocks) const {
+  const auto place = [&](std::size_t i) {
+    return i < blocks.size() ? static_cast<std::size_t>(blocks[i]) : blocks_;
+  };
+  const std::size_t pair = place(0) * (blocks_ + 1) + place(1);
+  if (blocks.size() < kMostBlocks) return row_of_pair_[pair];
+  // Behind the first there are no more triples of the pair than blocks; those of other pairs follow.
+  const std::size_t first = first_triple_[pair];
+  if (first == kNoRow) return none;
+  const auto rows = std::views::iota(first, std::min(table_.rows, first + blocks_));
+  const auto found = std::ranges::partition_point(rows, [&](std::size_t row) {
+    return std::ranges::lexicographical_compare(
+        table_.removed.subspan(row * table_.most_missing, kMostBlocks), blocks);
+  });
+  const bool is_there =
+      found != rows.end() &&
+      std::ranges::equal(table_.removed.subspan(*found * table_.most_missing, kMostBlocks), blocks);
+  return is_there ? *found : none;
+}
+
 std::size_t GeneSpace::row(std::span<const int> genes) const {
-  std::array<std::size_t, 2> pair = {blocks_, blocks_};
-  for (std::size_t block = 0; 2 * block < genes.size(); ++block) {
-    const auto course = static_cast<std::size_t>(genes[2 * block]);
-    const auto position = static_cast<std::size_t>(genes[2 * block + 1]);
+  std::array<std::int32_t, kMostBlocks> all{};
+  const auto blocks = std::span(all).first(genes.size() / 2);
+  for (std::size_t i = 0; i < blocks.size(); ++i) {
+    const auto course = static_cast<std::size_t>(genes[2 * i]);
+    const auto position = static_cast<std::size_t>(genes[2 * i + 1]);
     if (position > courses_[course].size()) return none;
-    pair.at(block) = static_cast<std::size_t>(courses_[course][position - 1]);
+    blocks[i] = value(courses_[course][position - 1]);
   }
-  if (pair[0] > pair[1]) std::swap(pair[0], pair[1]);
-  const std::uint32_t row = row_of_pair_[pair[0] * (blocks_ + 1) + pair[1]];
-  return row == kNoRow ? none : row;
+  std::ranges::sort(blocks);
+  const std::size_t row = row_of(blocks);
+  const bool is_solved =
+      row < table_.rows && table_.outcome[row] != static_cast<std::uint8_t>(Outcome::unresolved);
+  return is_solved ? row : none;
 }
 
 void mutate_block(std::span<int, 2> block, const GeneSpace& space, Random& random) {

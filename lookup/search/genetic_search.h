@@ -32,14 +32,19 @@ class GeneSpace {
   }
 
   /// The table's row of the scene that lacks the blocks (x1, x2), (x3, x4)..., or `none`: blocks named twice,
-  /// scenes that are not in the database, unresolved scenes. At most two blocks.
+  /// scenes that are not in the database, unresolved scenes. One to three blocks.
   std::size_t row(std::span<const int> genes) const;
   static constexpr std::size_t none = static_cast<std::size_t>(-1);
 
  private:
+  std::size_t row_of(std::span<const std::int32_t> blocks) const;
+
+  SceneTable table_;
   std::vector<std::vector<BlockId>> courses_;
   std::size_t blocks_ = 0;
-  std::vector<std::uint32_t> row_of_pair_;  // (blocks + 1)^2; the last index means "no block"
+  // (blocks + 1)^2; the last index means "no block". Of scenes that lack the two, and the first of those that
+  // lack a third behind them.
+  std::vector<std::uint32_t> row_of_pair_, first_triple_;
 };
 
 /// Changes the genes (course, position) of a block: half of the time one of them by one or two, the other
@@ -53,9 +58,9 @@ struct GeneticResult {
   std::size_t evaluations = 0;  ///< misfits computed (each scene once)
 };
 
-/// Minimises the paper's Eq. 1 over integer genes (x1, x2[, x3, x4]). Each generation keeps its best member,
-/// chooses parents by tournaments of two, exchanges whole blocks between them, and moves a block to a
-/// neighbouring or to any position. Reproducible for a seed. Precondition: 1 or 2 missing blocks.
+/// Minimises the paper's Eq. 1 over integer genes (x1, x2[, x3, x4[, x5, x6]]). Each generation keeps its
+/// best member, chooses parents by tournaments of two, exchanges whole blocks between them, and moves a block
+/// to a neighbouring or to any position. Reproducible for a seed. Precondition: 1 to 3 missing blocks.
 GeneticResult genetic_search(std::span<const double> readings, const SceneTable& table,
                              const GeneSpace& space, int missing, const GeneticSettings& settings,
                              std::size_t count);

@@ -81,7 +81,7 @@ TEST_CASE("A bridge without symmetry has every scene solved") {
 TEST_CASE("What a pair starts from is solved before it although nobody asked for it") {
   const Scene pair{{BlockId{0}, BlockId{3}}};
   const auto plan = plan_of({pair}, small_bridge(), PlanRules{.mirror_images = false}, nothing);
-  REQUIRE(plan.stages.size() == 3);
+  REQUIRE(plan.stages.size() == 4);
   REQUIRE(plan.stages[0].size() == 1);
   CHECK(plan.stages[0][0].solved == Scene{});
   REQUIRE(plan.stages[1].size() == 2);

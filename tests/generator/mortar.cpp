@@ -43,7 +43,8 @@ TEST_CASE("A bridge with mortar has a database like any other, but for what is u
   }
   CHECK(Database::open(folder / "mortar.h5").sensitivities() == nullptr);
   CHECK(Database::open(folder / "dry.h5").sensitivities() != nullptr);
-  const VerifyReport report = verify_database({.database = folder / "mortar.h5", .recompute = 40, .threads = 1});
+  const VerifyReport report =
+      verify_database({.database = folder / "mortar.h5", .recompute = 40, .threads = 1});
   CHECK(report.problems.empty());
   CHECK(report.recomputed >= 39);
 }

@@ -74,7 +74,7 @@ std::vector<Stretch> scene_stretches(const Database& database, const std::string
     return "scene " + to_string(database.key(row), database.layout());
   };
   for (const Column& column : record_columns()) {
-    if (column.form == Form::packed) continue;
+    if (column.form == Form::packed || column.optional) continue;  // here all scenes are solved
     const std::string path = column.path;
     const bool is_key = path == dataset::kRemoved || path == dataset::kVariant;  // it becomes another scene
     const ByteView whole = database.dataset_bytes(column.path);

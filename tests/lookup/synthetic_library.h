@@ -14,7 +14,7 @@
 namespace voussoir::test {
 
 struct SyntheticLibrary {
-  std::size_t blocks = 0;
+  std::size_t blocks = 0, most_missing = 2;
   std::vector<double> vertical;
   std::vector<std::int32_t> removed;
   std::vector<std::uint8_t> outcome;
@@ -27,16 +27,17 @@ struct SyntheticLibrary {
   SyntheticLibrary& operator=(const SyntheticLibrary&) = delete;
 
   /// `courses` courses of `length` unit blocks, two points on each block of the highest course; intact, all
-  /// singles and all pairs. Removing a whole column's foot is said to make a scene collapse (large
+  /// singles, all pairs and so on. Removing a whole column's foot is said to make a scene collapse (large
   /// displacements).
-  SyntheticLibrary(int courses, int length) : blocks(static_cast<std::size_t>(courses * length)) {
+  SyntheticLibrary(int courses, int length, int most = 2)
+      : blocks(static_cast<std::size_t>(courses * length)), most_missing(static_cast<std::size_t>(most)) {
     for (int course = 1; course <= courses; ++course)
       for (int position = 1; position <= length; ++position) add_block(course, position);
     for (int i = 0; i < 2 * length; ++i)
       points.push_back({"T" + std::to_string(i + 1), Point((i + 1) / 2, courses),
                         BlockId{static_cast<std::int32_t>((courses - 1) * length + i / 2)}});
-    for (const Scene& scene : all_scenes(blocks, 2)) add_scene(scene);
-    table = {outcome.size(), points.size(), 2, vertical, removed, outcome};
+    for (const Scene& scene : all_scenes(blocks, most)) add_scene(scene);
+    table = {outcome.size(), points.size(), most_missing, vertical, removed, outcome};
     make_index();
   }
 
@@ -88,9 +89,8 @@ struct SyntheticLibrary {
     for (const StoredPoint& point : points)
       vertical.push_back(scene.lacks(point.block) ? std::numeric_limits<double>::quiet_NaN()
                                                   : -settlement(scene, point.position));
-    std::array<std::int32_t, 2> ids = {-1, -1};
-    for (std::size_t i = 0; i < scene.removed.size(); ++i) ids.at(i) = value(scene.removed[i]);
-    removed.insert(removed.end(), ids.begin(), ids.end());
+    for (const BlockId id : scene.removed) removed.push_back(value(id));
+    removed.insert(removed.end(), most_missing - scene.removed.size(), -1);
     outcome.push_back(
         static_cast<std::uint8_t>(scene.lacks(BlockId{1}) ? Outcome::collapsed : Outcome::standing));
   }

@@ -17,7 +17,7 @@ using namespace voussoir;
 
 namespace {
 
-constexpr double kSize = 0.5;  ///< [m] height of a block
+constexpr double kSize = 0.5;                       ///< [m] height of a block
 constexpr double kHanging = 2400.0 * 9.81 * kSize;  ///< [Pa] what hangs on the joint above it
 
 /// A block of 1 m x 0.5 m that hangs below one which a support holds.
@@ -30,9 +30,9 @@ Model hanging_block(double tensile_strength) {
                                .cohesion = 2.0 * tensile_strength,
                                .slip_energy = 1e-3 * tensile_strength,
                                .friction_angle = std::atan(0.75)};
-  Model model = validation::assemble_blocks(
-      description,
-      {validation::rectangle({50.0, 10.0}, 1.0, kSize), validation::rectangle({50.0, 10.0 + kSize}, 1.0, kSize)});
+  Model model =
+      validation::assemble_blocks(description, {validation::rectangle({50.0, 10.0}, 1.0, kSize),
+                                                validation::rectangle({50.0, 10.0 + kSize}, 1.0, kSize)});
   Support ceiling{.name = "ceiling", .nodes = {}, .holds_x = true, .holds_y = true};
   for (int node = model.mesh.block_nodes[1].begin; node < model.mesh.block_nodes[1].end; ++node)
     ceiling.nodes.push_back(NodeId{node});
@@ -137,8 +137,9 @@ TEST_CASE("Scenes with mortar have the same bits alone and side by side (the sca
   }
 }
 
-TEST_CASE("Blocks let go slowly out of mortar change the bridge as the history lost does (independent solver)",
-          "[mortar]") {
+TEST_CASE(
+    "Blocks let go slowly out of mortar change the bridge as the history lost does (independent solver)",
+    "[mortar]") {
   const Model bridge = bridge_with_mortar();
   const LoadedBridge loaded(bridge);
   REQUIRE(loaded.intact().solution.outcome == Outcome::standing);

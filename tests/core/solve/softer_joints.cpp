@@ -12,7 +12,8 @@
 
 using namespace voussoir;
 
-TEST_CASE("Joints a thousand times as stiff as the reference's: softer ones lead to equilibria", "[combined]") {
+TEST_CASE("Joints a thousand times as stiff as the reference's: softer ones lead to equilibria",
+          "[combined]") {
   BridgeDescription description = reference_bridge_file().description;
   description.joints.normal_stiffness = 1e12;
   description.joints.tangential_stiffness = 1e11;
@@ -33,9 +34,9 @@ TEST_CASE("Joints a thousand times as stiff as the reference's: softer ones lead
     CHECK(unbalanced_force(bridge, tasks[i].stage.scene, found[i].solution.displacement) < 1e-7);
   }
   REQUIRE(direct[0].outcome == Outcome::standing);
-  CHECK(validation::relative_difference(vertical_displacements(found[0].solution.displacement, bridge.control_points),
-                                        vertical_displacements(direct[0].displacement, bridge.control_points)) <
-        1e-7);
+  CHECK(validation::relative_difference(
+            vertical_displacements(found[0].solution.displacement, bridge.control_points),
+            vertical_displacements(direct[0].displacement, bridge.control_points)) < 1e-7);
   CHECK(found.back().solution.outcome == Outcome::unresolved);  // falls
   CHECK(found.back().reached == 0.0);
 

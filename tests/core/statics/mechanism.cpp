@@ -60,7 +60,7 @@ TEST_CASE("A mechanism proves the falls of scenes that lack more, as long as wha
   const Model model = overhanging(0.8);
   const auto topples = mechanism_of(model, {}, {kUpper});
   REQUIRE(topples);
-  const std::vector<Mechanism> mechanisms = {*topples};
+  const std::vector<const Mechanism*> mechanisms = {&*topples};
   CHECK(proves_fall(*topples, {{BlockId{0}}}));
   CHECK_FALSE(proves_fall(*topples, {{kUpper}}));
   CHECK_FALSE(proved_fall(mechanisms, {{kUpper}}, model));

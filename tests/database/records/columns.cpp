@@ -205,6 +205,7 @@ TEST_CASE("The h5py example and database/README.md name the columns in the check
   const auto of_state = columns_that([](const Column& c) { return c.in_checksum && c.of_state(); });
   CHECK(python_list("RECORD_COLUMNS") == of_record);
   CHECK(python_list("STATE_COLUMNS") == of_state);
+  CHECK(python_list("OPTIONAL") == columns_that([](const Column& c) { return c.optional; }));
   CHECK(python_list("PADDED") == columns_that([](const Column& c) { return c.form == Form::padded; }));
   CHECK(python_list("MARKS") == columns_that([](const Column& c) { return c.form == Form::marks; }));
   std::string section = source_text("database/README.md");

@@ -43,7 +43,7 @@ void check_same(const SyntheticLibrary& library, const EvidenceScreen& screen, c
 TEST_CASE("The screened posterior is the exact one, for stated and unknown noise of every shape and size") {
   const SyntheticLibrary library(4, 9);
   const Eligible eligible = eligible_rows(library.table, {0, 1, 2});
-  const Prior prior;
+  const Prior prior = stated_prior({}, library.table, true);
   const EvidenceScreen screen(library.table, library.index.view(), eligible, prior);
   Random random(1);
   std::size_t kept = 0, trials = 0;
@@ -74,12 +74,13 @@ TEST_CASE("The screened posterior is the exact one, for stated and unknown noise
 TEST_CASE("The screened posterior has no row when every scene is impossible") {
   const SyntheticLibrary library(2, 5);
   const Eligible eligible = eligible_rows(library.table, {0, 1, 2});
-  const EvidenceScreen screen(library.table, library.index.view(), eligible, {});
+  const Prior prior = stated_prior({}, library.table, true);
+  const EvidenceScreen screen(library.table, library.index.view(), eligible, prior);
   Random random(2);
   Measurements measured = library.measure(0, 0.0, NoiseShape::uniform, random);
   measured.displacement[3] *= 50.0;
   const std::vector<double> evidence = screen(library.observe(measured, {NoiseShape::uniform, 0.05}));
-  CHECK(posterior(library.table, eligible, evidence, {}, library.blocks).credible.empty());
+  CHECK(posterior(library.table, eligible, evidence, prior, library.blocks).credible.empty());
 }
 
 TEST_CASE("Sensors' own sigmas are screened as well, and a library without an index") {
@@ -88,13 +89,14 @@ TEST_CASE("Sensors' own sigmas are screened as well, and a library without an in
   Random random(3);
   Measurements measured = library.measure(3, 0.02, NoiseShape::uniform, random);
   for (const SearchIndex& index : {library.index.view(), SearchIndex{}}) {
-    const EvidenceScreen screen(library.table, index, eligible, {});
+    const Prior prior = stated_prior({}, library.table, true);
+    const EvidenceScreen screen(library.table, index, eligible, prior);
     measured.sigma.assign(measured.sigma.size(), std::nan(""));
     measured.sigma[1] = 1e-4;
-    check_same(library, screen, eligible, {}, measured, {{NoiseShape::gaussian, 0.02}});
-    check_same(library, screen, eligible, {}, measured, {{}});
+    check_same(library, screen, eligible, prior, measured, {{NoiseShape::gaussian, 0.02}});
+    check_same(library, screen, eligible, prior, measured, {{}});
     measured.sigma.assign(measured.sigma.size(), 3e-5);
-    check_same(library, screen, eligible, {}, measured, {{}, {}, {0.1, 0.05, {}}});
+    check_same(library, screen, eligible, prior, measured, {{}, {}, {0.1, 0.05, {}}});
   }
 }
 

@@ -12,26 +12,33 @@
 using namespace voussoir;
 using namespace voussoir::test;
 
-TEST_CASE("The posterior is prior times likelihood, normalised by brute force in extended precision") {
-  const SyntheticLibrary library(3, 5);
-  const Eligible eligible = eligible_rows(library.table, {0, 1, 2});
+namespace {
+
+/// Number by number: prior, scenes of the library that have it.
+struct Numbers {
+  std::vector<double> weight;
+  std::vector<long double> scenes;
+};
+
+void check_against_brute_force(const SyntheticLibrary& library, const Numbers& numbers) {
+  Prior prior = stated_prior({}, library.table, true);
+  prior.weight = numbers.weight;
+  const Eligible eligible = eligible_rows(library.table, prior.missing);
   REQUIRE(eligible.rows.size() == library.table.rows);
   for (const NoiseShape shape : kShapes) {
     const NoiseModel noise{shape, 0.06};
     const Measurements measured = readings_of(library, 7, 0.05, 7);
-    const Prior prior{{0, 1, 2}, {1.0, 2.0, 1.0}};
     const auto logs = log_evidence_of_rows(library.observe(measured, noise), library.table, eligible.rows);
     const Posterior result = posterior(library.table, eligible, logs, prior, library.blocks);
-    const std::vector<long double> in_class = {1.0L, 15.0L, 105.0L};
     std::vector<long double> weight(library.table.rows);
     long double total = 0.0L;
     for (std::size_t row = 0; row < library.table.rows; ++row) {
       const auto missing = static_cast<std::size_t>(missing_blocks(library.table, row));
-      weight[row] = (missing == 1 ? 2.0L : 1.0L) / in_class[missing] *
+      weight[row] = numbers.weight[missing] / numbers.scenes[missing] *
                     likelihood(measured, library.table.row(row), library.intact(), noise, shape, 0.06L);
       total += weight[row];
     }
-    std::vector<long double> block(library.blocks, 0.0L), missing(3, 0.0L);
+    std::vector<long double> block(library.blocks, 0.0L), missing(numbers.scenes.size(), 0.0L);
     for (std::size_t row = 0; row < library.table.rows; ++row) {
       const long double p = weight[row] / total;
       REQUIRE(result.probability[row] == Approx(static_cast<double>(p)).margin(1e-12));
@@ -40,9 +47,31 @@ TEST_CASE("The posterior is prior times likelihood, normalised by brute force in
     }
     for (std::size_t id = 0; id < library.blocks; ++id)
       REQUIRE(result.block_probability[id] == Approx(static_cast<double>(block[id])).margin(1e-12));
-    for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t i = 0; i < missing.size(); ++i)
       REQUIRE(result.missing_probability[i] == Approx(static_cast<double>(missing[i])).margin(1e-12));
   }
+}
+
+}  // namespace
+
+TEST_CASE("The posterior is prior times likelihood, normalised by brute force in extended precision") {
+  check_against_brute_force(SyntheticLibrary(3, 5), {{1.0, 2.0, 1.0}, {1.0L, 15.0L, 105.0L}});
+}
+
+TEST_CASE("So it is of up to three missing blocks") {
+  check_against_brute_force(SyntheticLibrary(3, 5, 3), {{1.0, 2.0, 1.0, 3.0}, {1.0L, 15.0L, 105.0L, 455.0L}});
+}
+
+TEST_CASE("A prior that is not given is of the numbers that the table holds, each as what is believed says") {
+  const SyntheticLibrary pairs(3, 5), triples(3, 5, 3);
+  CHECK(stated_prior({}, pairs.table, true).missing == std::vector<int>{0, 1, 2});
+  CHECK(weights_of(stated_prior({}, triples.table, true)) == std::vector<double>{8.0, 1.0, 1.0, 1.0});
+  CHECK(stated_prior({}, triples.table, false).weight == std::vector<double>{1000.0, 10.0, 1.0, 0.1});
+  CHECK(stated_prior({{3, 1}, {}}, triples.table, false).weight == std::vector<double>{0.1, 10.0});
+  SceneTable some = triples.table;  // the last singles and the first pairs
+  some.removed = some.removed.subspan(10 * some.most_missing);
+  some.rows = 20;
+  CHECK(stated_prior({}, some, true).missing == std::vector<int>{1, 2});
 }
 
 TEST_CASE("The credible set is the shortest list of likeliest rows that holds 95 % of the probability") {
@@ -85,7 +114,8 @@ TEST_CASE("If every scene is impossible there is no probability at all") {
   measured.displacement[3] *= 50.0;
   const auto logs = log_evidence_of_rows(library.observe(measured, {NoiseShape::uniform, 0.05}),
                                          library.table, eligible.rows);
-  const Posterior result = posterior(library.table, eligible, logs, {}, library.blocks);
+  const Posterior result =
+      posterior(library.table, eligible, logs, stated_prior({}, library.table, true), library.blocks);
   CHECK(result.credible.empty());
   CHECK(*std::max_element(result.probability.begin(), result.probability.end()) == 0.0);
 }

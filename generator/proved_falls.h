@@ -1,0 +1,36 @@
+#pragma once
+/// @file Scenes that are known to fall as built without a search, because singles or pairs within them do.
+///
+/// That a scene falls in motion does not mean that it falls with more blocks missing: where friction hardly
+/// holds, the motion passes an equilibrium that another one finds. Where limit analysis proves the fall
+/// (core/statics/mechanism.h), it does: fewer joints carry no more.
+
+#include <map>
+
+#include "core/statics/mechanism.h"
+#include "generator/build_plan.h"
+#include "generator/start_field.h"
+
+namespace voussoir {
+
+class ProvedFalls {
+ public:
+  ProvedFalls() = default;
+  /// From what falls among the starts. Of singles if the rules want no fields of collapses; of singles and
+  /// pairs if collapses are inherited and scenes start from pairs.
+  ProvedFalls(const StartingFields& starts, const Model& bridge, const Coefficients& coefficients,
+              const PlanRules& rules);
+
+  /// What is known of a scene that falls: see proved_fall. Nothing if nothing proves it, or if its field is
+  /// wanted. Of three and more missing blocks, `inherited` (Origin) if the rules have it so.
+  std::optional<Solution> of(const Scene& scene, const Structure& structure) const;
+
+ private:
+  std::optional<Solution> proved(const Scene& scene, const Structure& structure) const;
+
+  bool inherited_ = false;  ///< by scenes of three and more missing blocks
+  bool others_ = false;     ///< those of fewer are not searched for either
+  std::map<Scene, Mechanism> mechanisms_;
+};
+
+}  // namespace voussoir

@@ -1,0 +1,75 @@
+#pragma once
+/// @file The boxes of the search index's clusters beside an observation, as loops over places take them,
+/// several side by side.
+
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "core/simd/lanes.h"
+#include "database/search/search_index.h"
+#include "lookup/readings/noise_scale.h"
+#include "lookup/readings/observation.h"
+
+namespace voussoir {
+
+/// An Observation's arrays, filled up to the places of the index.
+struct PlaceArrays {
+  std::vector<double> reading, slope, offset, intact, origin, own_variance;
+  double share_square, common_square, inverse_unit, per_student;
+
+  PlaceArrays(const Observation& observation, const ErrorScales& scales, std::size_t places)
+      : reading(filled(observation.reading, places, std::nan(""))),
+        slope(filled(scales.slope, places, 0.0)),
+        offset(filled(scales.offset, places, 1.0)),
+        intact(filled(observation.intact, places, 0.0)),
+        origin(filled(observation.origin, places, 0.0)),
+        own_variance(filled(observation.own_variance, places, 0.0)),
+        share_square(observation.error_share * observation.error_share),
+        common_square(observation.error_common * observation.error_common),
+        inverse_unit(1.0 / scales.unit),
+        per_student(observation.noise.shape == NoiseShape::student
+                        ? 1.0 / (observation.noise.degrees_of_freedom - 2.0)
+                        : 0.0) {}
+
+  static std::vector<double> filled(std::vector<double> values, std::size_t places, double filling) {
+    values.resize(places, filling);
+    return values;
+  }
+};
+
+/// How far numbers between low and high are from zero.
+struct Distances {
+  DoubleLanes least, most;
+};
+VOUSSOIR_INLINE Distances distances(const DoubleLanes& low, const DoubleLanes& high) {
+  const DoubleLanes nearest = larger(low, -high);
+  return {larger(nearest, DoubleLanes{}), larger(-low, high)};
+}
+
+/// The least and largest displacements of a cluster's rows.
+struct Box {
+  const std::int16_t *least, *most;
+  double unit;
+
+  VOUSSOIR_INLINE DoubleLanes low(std::size_t i) const { return load<DoubleLanes>(least + i) * unit; }
+  VOUSSOIR_INLINE DoubleLanes high(std::size_t i) const { return load<DoubleLanes>(most + i) * unit; }
+};
+
+inline Box box_of(const SearchIndex& index, std::size_t cluster) {
+  return {index.least.data() + cluster * index.places, index.most.data() + cluster * index.places,
+          std::ldexp(1.0, index.exponent[cluster])};
+}
+
+/// The largest variance that all points of a scene can share: a mean square is at most the largest square.
+VOUSSOIR_INLINE double most_common_variance(const PlaceArrays& view, const Box& box) {
+  DoubleLanes most{};
+  for (std::size_t i = 0; i < view.reading.size(); i += kLanes) {
+    const auto intact = load<DoubleLanes>(view.intact.data() + i);
+    most = larger(most, distances(box.low(i) - intact, box.high(i) - intact).most);
+  }
+  const double largest = largest_of(most);
+  return view.common_square * largest * largest;
+}
+
+}  // namespace voussoir
