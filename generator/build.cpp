@@ -60,21 +60,24 @@ std::vector<RecordKey> wanted_keys(const BuildRequest& request, std::size_t vari
   return wanted;
 }
 
-bool asks_for_sensitivities(const BuildRequest& request) {
-  return !request.known_bridge && !request.shard && is_uncertain(request.bridge.description.uncertainty);
+bool wants_sensitivities(const BuildRequest& request) {
+  return !request.known_bridge && is_uncertain(request.bridge.description.uncertainty);
 }
 
-/// Derivatives of the joints' law are those of dry joints.
-bool wants_sensitivities(const BuildRequest& request, const Model& bridge) {
-  return asks_for_sensitivities(request) && !has_mortar(bridge.parameters);
+/// Derivatives of the joints' law are those of dry joints. A database without them would be asked as if the
+/// bridge were exactly known, which nobody shall do unknowingly.
+void expect_dry_joints_or_known(const BuildRequest& request, const Model& bridge) {
+  if (wants_sensitivities(request) && has_mortar(bridge.parameters))
+    throw InputError(
+        fmt::format("{}: has [[mortar]], and how displacements change with what is uncertain of a bridge is "
+                    "known of dry joints only: expected --known-bridge, with which locate-damage takes the "
+                    "bridge for exactly known",
+                    request.bridge.name));
 }
 
 Build prepare(const BuildRequest& request, const SolverChoice& solver, Progress& progress) {
   std::vector<Model> bridges = {make_model(request.bridge.description)};
-  if (asks_for_sensitivities(request) && !wants_sensitivities(request, bridges.front()))
-    progress.say(
-        "joints with mortar: the database does not hold how displacements change with what is uncertain of "
-        "the bridge, and locate-damage takes the bridge as exactly known");
+  expect_dry_joints_or_known(request, bridges.front());
   std::vector<VariantParameters> variants = {parameters_of(bridges.front())};
   for (const VariantParameters& parameters : request.other_variants) {
     bridges.push_back(variant_of(bridges.front(), parameters));
@@ -157,7 +160,7 @@ std::size_t reuse(const Build& build, Database old, KnownRecords& known) {
 
 /// Of the nominal variant, unless the bridge is said to be known.
 std::optional<Sensitivities> sensitivities_of(const Build& build, const KnownRecords& known) {
-  if (!wants_sensitivities(build.request, build.bridge())) return std::nullopt;
+  if (!wants_sensitivities(build.request) || build.request.shard) return std::nullopt;
   std::vector<Scene> scenes;
   for (const RecordKey& key : build.wanted)
     if (key.variant == kNominalVariant) scenes.push_back(key.scene);
@@ -254,7 +257,7 @@ ExistingDatabase examine(const Build& build) {
   return examine_existing(
       request.output,
       {build.provenance, build.variants, build.wanted, kept_names(build.states), build.fields,
-       wants_sensitivities(request, build.bridge()), shard_statement(request)},
+       wants_sensitivities(request) && !request.shard, shard_statement(request)},
       request.force);
 }
 

@@ -18,19 +18,21 @@ constexpr const char* kMortar =
     "\n[[mortar]]\ntensile_strength_Pa = 3e3\nopening_energy_J_m2 = 0.3\ncohesion_Pa = 6e3\n"
     "slip_energy_J_m2 = 1\n";
 
-BuildSummary build_singles(const std::string& text, const std::filesystem::path& output) {
+BuildSummary build_singles(const std::string& text, const std::filesystem::path& output,
+                           bool known_bridge = true) {
   Progress quiet(Progress::Mode::quiet);
   BuildRequest request;
   request.bridge = parse_bridge_file(text, "small.toml");
   request.output = output;
   request.scenes = "singles";
   request.histories = "built,lost";
+  request.known_bridge = known_bridge;
   return build_database(request, quasi_static(), quiet);
 }
 
 }  // namespace
 
-TEST_CASE("A bridge with mortar has a database like any other, but for what is uncertain of it", "[mortar]") {
+TEST_CASE("A bridge with mortar has a database like any other, if it may be taken for known", "[mortar]") {
   const test::TemporaryFolder folder;
   const std::string dry = test::text_of(test::example_bridge("small"));
   const BuildSummary summary = build_singles(dry + kMortar, folder / "mortar.h5");
@@ -42,7 +44,8 @@ TEST_CASE("A bridge with mortar has a database like any other, but for what is u
     CHECK(held.states[state].unresolved.empty());
   }
   CHECK(Database::open(folder / "mortar.h5").sensitivities() == nullptr);
-  CHECK(Database::open(folder / "dry.h5").sensitivities() != nullptr);
+  CHECK_THROWS_WITH(build_singles(dry + kMortar, folder / "uncertain.h5", false),
+                    Catch::Contains("small.toml: has [[mortar]]") && Catch::Contains("--known-bridge"));
   const VerifyReport report =
       verify_database({.database = folder / "mortar.h5", .recompute = 40, .threads = 1});
   CHECK(report.problems.empty());
