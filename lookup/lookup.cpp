@@ -216,14 +216,19 @@ Preparation::Preparation(const Library& library, const LookupSettings& settings,
       points_(library.points),
       prior_(stated_prior(settings.prior, table_, known)),
       eligible_(eligible_or_failure(table_, prior_)),
-      screen_(table_, library.index, eligible_, prior_) {
-  if (library.index.clusters() > 0) indexed_.emplace(table_, library.index, points_, eligible_);
+      index_(library.index) {}
+
+const EvidenceScreen& Preparation::screen() const {
+  std::call_once(screen_made_, [&] { screen_.emplace(table_, index_, eligible_, prior_); });
+  return *screen_;
 }
 
 std::vector<ScoredRow> Preparation::smallest_misfits(const Observation& observation,
                                                      std::size_t count) const {
-  return indexed_ ? indexed_->search(observation.displacement, count).best
-                  : exhaustive_search(observation.displacement, table_, eligible_.rows, count);
+  if (index_.clusters() == 0)
+    return exhaustive_search(observation.displacement, table_, eligible_.rows, count);
+  std::call_once(indexed_made_, [&] { indexed_.emplace(table_, index_, points_, eligible_); });
+  return indexed_->search(observation.displacement, count).best;
 }
 
 Answer locate_damage(const Comparison& comparison, const LookupSettings& settings) {

@@ -1,6 +1,7 @@
 #pragma once
 /// @file From measurements to an answer: the flow of locate-damage.
 
+#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
@@ -82,7 +83,7 @@ class Preparation {
 
   const Prior& prior() const { return prior_; }
   const Eligible& eligible() const { return eligible_; }
-  const EvidenceScreen& screen() const { return screen_; }
+  const EvidenceScreen& screen() const;
   std::vector<ScoredRow> smallest_misfits(const Observation& observation, std::size_t count) const;
 
  private:
@@ -90,8 +91,11 @@ class Preparation {
   std::vector<StoredPoint> points_;
   Prior prior_;
   Eligible eligible_;
-  EvidenceScreen screen_;
-  std::optional<IndexedSearch> indexed_;  // if the library has a search index
+  SearchIndex index_;  // without clusters if there is none
+  // Made when they are first needed.
+  mutable std::once_flag screen_made_, indexed_made_;
+  mutable std::optional<EvidenceScreen> screen_;
+  mutable std::optional<IndexedSearch> indexed_;
 };
 
 /// Scores the scenes of the library and ranks the best. The preparation is of the comparison's library (or of
