@@ -6,6 +6,7 @@
 #include "lookup/command_line.h"
 #include "lookup/locate_damage_options.h"
 #include "lookup/lookup.h"
+#include "lookup/preparations.h"
 #include "lookup/readings/comparison.h"
 #include "lookup/readings/sensors_file.h"
 #include "lookup/readings/stated_sigmas.h"
@@ -27,6 +28,7 @@ struct Desk {
   voussoir::LookupSettings settings;
   voussoir::Database database;
   voussoir::SensorList sensors;
+  voussoir::Preparations preparations{};
 };
 
 /// A question with its answer.
@@ -36,17 +38,17 @@ struct Answered {
   voussoir::Answer answer;
 };
 
-Answered ask(const Desk& desk, const std::string& file) {
+Answered ask(Desk& desk, const std::string& file) {
   Answered asked{voussoir::compare(voussoir::read_readings(file, desk.sensors), desk.sensors, desk.database,
                                    comparison_settings(desk.options)),
                  desk.settings,
                  {}};
   asked.settings.noise = voussoir::noise_of(asked.comparison.measured, asked.settings.noise);
-  asked.answer = voussoir::locate_damage(asked.comparison, asked.settings);
+  asked.answer = desk.preparations.ask(asked.comparison, asked.settings);
   return asked;
 }
 
-std::string report_one(const Desk& desk) {
+std::string report_one(Desk& desk) {
   const std::string& file = desk.options.measurements.front();
   const auto [comparison, settings, answer] = ask(desk, file);
   const voussoir::Source source{file, desk.database.path().string(), desk.database.bridge_name(),
@@ -59,7 +61,7 @@ std::string report_one(const Desk& desk) {
 }
 
 /// A file that cannot be answered has a row, too, and does not stop the others.
-voussoir::SurveyRow row_of(const Desk& desk, const std::string& file) {
+voussoir::SurveyRow row_of(Desk& desk, const std::string& file) {
   try {
     const auto [comparison, settings, answer] = ask(desk, file);
     return voussoir::survey_row(file, answer, settings, comparison);
@@ -68,7 +70,7 @@ voussoir::SurveyRow row_of(const Desk& desk, const std::string& file) {
   }
 }
 
-voussoir::ProgramOutput report_all(const Desk& desk) {
+voussoir::ProgramOutput report_all(Desk& desk) {
   const std::vector<std::string>& files = desk.options.measurements;
   std::vector<voussoir::SurveyRow> rows(files.size());
   voussoir::for_each_index_on_threads(files.size(), voussoir::hardware_threads(),

@@ -4,9 +4,7 @@
 #include <cmath>
 
 #include "core/error.h"
-#include "lookup/evidence/evidence_screen.h"
 #include "lookup/search/exhaustive_search.h"
-#include "lookup/search/indexed_search.h"
 #include "lookup/search/misfit.h"
 #include "lookup/search/nearest_search.h"
 
@@ -20,6 +18,14 @@ constexpr double kSolverPrecision = 1e-9;      // [m] predictions are not compar
 constexpr std::size_t kMostChecked = 20;       // scenes whose fit is checked
 constexpr std::size_t kMostMixed = 3;          // scenes that say together what the bridge is like
 constexpr std::size_t kMostComparisons = 500;  // rows looked at for scenes that cannot be told apart
+
+Eligible eligible_or_failure(const SceneTable& table, const Prior& prior) {
+  Eligible eligible = eligible_rows(table, prior.missing);
+  if (eligible.rows.empty())
+    throw Failure(fmt::format("the database has no solved scene with {} missing blocks",
+                              fmt::join(prior.missing, ", ")));
+  return eligible;
+}
 
 std::vector<ScoredRow> run_genetic(const Library& library, const Observation& observation,
                                    const LookupSettings& settings, Answer& answer) {
@@ -37,35 +43,26 @@ std::vector<ScoredRow> run_genetic(const Library& library, const Observation& ob
   return best_rows(std::move(found), settings.top);
 }
 
-std::vector<ScoredRow> smallest_misfits(const Library& library, const Observation& observation,
-                                        const Eligible& eligible, std::size_t count) {
-  if (library.index.clusters() == 0)
-    return exhaustive_search(observation.displacement, library.table, eligible.rows, count);
-  return IndexedSearch(library.table, library.index, library.points, eligible)
-      .search(observation.displacement, count)
-      .best;
-}
-
 std::vector<ScoredRow> scored_by_misfit(const Library& library, const Observation& observation,
-                                        const Eligible& eligible, const LookupSettings& settings,
+                                        const Preparation& preparation, const LookupSettings& settings,
                                         Answer& answer) {
   switch (settings.search) {
     case Search::genetic:
       return run_genetic(library, observation, settings, answer);
     case Search::nearest:
-      return LinearIndex(library.table, eligible.rows, observation.displacement)
+      return LinearIndex(library.table, preparation.eligible().rows, observation.displacement)
           .search(observation.displacement, settings.top);
     default:
-      return smallest_misfits(library, observation, eligible, settings.top);
+      return preparation.smallest_misfits(observation, settings.top);
   }
 }
 
 /// The likeliest rows; behind them, if fewer than `count` are possible, those with the smallest misfit.
 std::vector<ScoredRow> scored_by_posterior(const Library& library, const Observation& observation,
-                                           const Eligible& eligible, const Posterior& posterior,
+                                           const Preparation& preparation, const Posterior& posterior,
                                            std::size_t count) {
   std::vector<std::size_t> likely;
-  for (const std::size_t row : eligible.rows)
+  for (const std::size_t row : preparation.eligible().rows)
     if (posterior.probability[row] > 0.0) likely.push_back(row);
   const std::size_t kept = std::min(count, likely.size());
   std::partial_sort(likely.begin(), likely.begin() + static_cast<std::ptrdiff_t>(kept), likely.end(),
@@ -78,7 +75,7 @@ std::vector<ScoredRow> scored_by_posterior(const Library& library, const Observa
   for (const std::size_t row : likely)
     result.push_back({row, sum_of_differences(observation.displacement, library.table.row(row))});
   if (kept == count) return result;
-  for (const ScoredRow& row : smallest_misfits(library, observation, eligible, count))
+  for (const ScoredRow& row : preparation.smallest_misfits(observation, count))
     if (result.size() < count && std::find(likely.begin(), likely.end(), row.row) == likely.end())
       result.push_back(row);
   return result;
@@ -187,10 +184,11 @@ void judge_unknown_bridge(const UnknownBridgeQuestion& question, const Observati
 
 /// The candidates' rows, best first.
 std::vector<ScoredRow> found_rows(const Library& library, const Observation& observation,
-                                  const Eligible& eligible, const LookupSettings& settings, Answer& answer) {
+                                  const Preparation& preparation, const LookupSettings& settings,
+                                  Answer& answer) {
   if (answer.posterior && settings.search == Search::exhaustive)
-    return scored_by_posterior(library, observation, eligible, *answer.posterior, settings.top);
-  std::vector<ScoredRow> found = scored_by_misfit(library, observation, eligible, settings, answer);
+    return scored_by_posterior(library, observation, preparation, *answer.posterior, settings.top);
+  std::vector<ScoredRow> found = scored_by_misfit(library, observation, preparation, settings, answer);
   if (answer.posterior) order_by_posterior(found, *answer.posterior);
   return found;
 }
@@ -213,15 +211,38 @@ bool counts_as_known(const Comparison& comparison, const LookupSettings& setting
   return settings.known_bridge || comparison.factors == nullptr || settings.objective == Objective::paper;
 }
 
+Preparation::Preparation(const Library& library, const LookupSettings& settings, bool known)
+    : table_(library.table),
+      points_(library.points),
+      prior_(stated_prior(settings.prior, table_, known)),
+      eligible_(eligible_or_failure(table_, prior_)),
+      index_(library.index) {}
+
+const EvidenceScreen& Preparation::screen() const {
+  std::call_once(screen_made_, [&] { screen_.emplace(table_, index_, eligible_, prior_); });
+  return *screen_;
+}
+
+std::vector<ScoredRow> Preparation::smallest_misfits(const Observation& observation,
+                                                     std::size_t count) const {
+  if (index_.clusters() == 0)
+    return exhaustive_search(observation.displacement, table_, eligible_.rows, count);
+  std::call_once(indexed_made_, [&] { indexed_.emplace(table_, index_, points_, eligible_); });
+  return indexed_->search(observation.displacement, count).best;
+}
+
 Answer locate_damage(const Comparison& comparison, const LookupSettings& settings) {
+  return locate_damage(comparison, settings,
+                       Preparation(comparison.library, settings, counts_as_known(comparison, settings)));
+}
+
+Answer locate_damage(const Comparison& comparison, const LookupSettings& settings,
+                     const Preparation& preparation) {
   const Library& library = comparison.library;
   const bool known = counts_as_known(comparison, settings);
   Answer answer;
-  answer.prior = stated_prior(settings.prior, library.table, known);
-  const Eligible eligible = eligible_rows(library.table, answer.prior.missing);
-  if (eligible.rows.empty())
-    throw Failure(fmt::format("the database has no solved scene with {} missing blocks",
-                              fmt::join(answer.prior.missing, ", ")));
+  answer.prior = preparation.prior();
+  const Eligible& eligible = preparation.eligible();
   const Observation observation =
       observe(comparison, known ? settings.noise : gaussian_noise(settings.noise), settings.nuisance);
   answer.readings = comparison.measured.count();
@@ -234,13 +255,12 @@ Answer locate_damage(const Comparison& comparison, const LookupSettings& setting
     question.emplace(comparison, observation,
                      UnknownSettings{settings.epochs, settings.conditions, settings.nuisance.scale});
   if (settings.objective == Objective::posterior) {
-    const std::vector<double> evidence =
-        question
-            ? question->log_evidence(eligible, answer.prior, settings.top)
-            : EvidenceScreen(library.table, library.index, eligible, answer.prior)(observation, settings.top);
+    const std::vector<double> evidence = question
+                                             ? question->log_evidence(eligible, answer.prior, settings.top)
+                                             : preparation.screen()(observation, settings.top);
     answer.posterior = posterior(library.table, eligible, evidence, answer.prior, library.layout.size());
   }
-  const std::vector<ScoredRow> found = found_rows(library, observation, eligible, settings, answer);
+  const std::vector<ScoredRow> found = found_rows(library, observation, preparation, settings, answer);
   for (const ScoredRow& row : found)
     answer.candidates.push_back(candidate_of(library, row, answer.posterior));
   if (!answer.posterior || found.empty()) return answer;

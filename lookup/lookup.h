@@ -1,11 +1,13 @@
 #pragma once
 /// @file From measurements to an answer: the flow of locate-damage.
 
+#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "lookup/evidence/evidence.h"
+#include "lookup/evidence/evidence_screen.h"
 #include "lookup/evidence/fit.h"
 #include "lookup/evidence/posterior.h"
 #include "lookup/evidence/unknown_question.h"
@@ -13,6 +15,7 @@
 #include "lookup/readings/noise_model.h"
 #include "lookup/readings/nuisance.h"
 #include "lookup/search/genetic_search.h"
+#include "lookup/search/indexed_search.h"
 
 namespace voussoir {
 
@@ -69,9 +72,38 @@ struct Answer {
 /// known of the uncertainty of these readings, or only misfits are asked for.
 bool counts_as_known(const Comparison& comparison, const LookupSettings& settings);
 
-/// Scores the scenes of the library and ranks the best.
-/// Throws Failure if the library has no scene with the wanted numbers of missing blocks, InputError if no
-/// reading can tell scenes apart.
+/// What does not depend on the readings: made once for all questions to one library.
+class Preparation {
+ public:
+  /// `known`: counts_as_known. What the library looks into outlives this. Throws Failure if it has no scene
+  /// with the wanted numbers of missing blocks, InputError for a prior that leaves none possible.
+  Preparation(const Library& library, const LookupSettings& settings, bool known);
+  Preparation(const Preparation&) = delete;  // its parts look into each other
+  Preparation& operator=(const Preparation&) = delete;
+
+  const Prior& prior() const { return prior_; }
+  const Eligible& eligible() const { return eligible_; }
+  const EvidenceScreen& screen() const;
+  std::vector<ScoredRow> smallest_misfits(const Observation& observation, std::size_t count) const;
+
+ private:
+  SceneTable table_;
+  std::vector<StoredPoint> points_;
+  Prior prior_;
+  Eligible eligible_;
+  SearchIndex index_;  // without clusters if there is none
+  // Made when they are first needed.
+  mutable std::once_flag screen_made_, indexed_made_;
+  mutable std::optional<EvidenceScreen> screen_;
+  mutable std::optional<IndexedSearch> indexed_;
+};
+
+/// Scores the scenes of the library and ranks the best. The preparation is of the comparison's library (or of
+/// an equal one) and these settings. Throws InputError if no reading can tell scenes apart.
+Answer locate_damage(const Comparison& comparison, const LookupSettings& settings,
+                     const Preparation& preparation);
+
+/// The same of a single question. Throws as Preparation, too.
 Answer locate_damage(const Comparison& comparison, const LookupSettings& settings);
 
 }  // namespace voussoir

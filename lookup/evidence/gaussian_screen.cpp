@@ -73,15 +73,16 @@ VOUSSOIR_INLINE double bound_of(const Question& q, const Box& box, double least,
   return bound - 0.5 * sum_of(sums.square) < least ? -std::numeric_limits<double>::infinity() : bound;
 }
 
-/// NaN if a reading has no prediction.
+/// NaN if a reading has no prediction; beyond `most` it may be too small.
 VOUSSOIR_INLINE double sum_of_squares(const PlaceArrays& arrays, const double* weights,
-                                      std::span<const double> row) {
+                                      std::span<const double> row, double most) {
   DoubleLanes sum{};
   for (std::size_t i = 0; i < row.size(); i += kLanes) {
     const auto reading = load<DoubleLanes>(arrays.reading.data() + i);
     const std::size_t some = row.size() - i < kLanes ? row.size() - i : kLanes;
     const DoubleLanes error = reading - load_some<DoubleLanes>(row.data() + i, some, 0.0);
     sum += reading == reading ? error * error * load<DoubleLanes>(weights + i) : DoubleLanes{};
+    if ((i / kLanes) % 4 == 3 && sum_of(sum) > most) break;
   }
   return sum_of(sum);
 }
@@ -94,7 +95,7 @@ void find_rows(const Question& q, double* weights, std::vector<std::size_t>& fou
     for (const std::int32_t slot : q.index.row.subspan(q.index.slot(cluster), q.index.rows(cluster))) {
       const auto row = static_cast<std::size_t>(slot);
       const double left = bound + q.priors.row[row] - q.least;
-      if (left >= 0.0 && sum_of_squares(q.arrays, weights, q.table.row(row)) <= 2.0 * left)
+      if (left >= 0.0 && sum_of_squares(q.arrays, weights, q.table.row(row), 2.0 * left) <= 2.0 * left)
         found.push_back(row);
     }
   }
