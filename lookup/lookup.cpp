@@ -219,7 +219,8 @@ Preparation::Preparation(const Library& library, const LookupSettings& settings,
       index_(library.index) {}
 
 const EvidenceScreen& Preparation::screen() const {
-  std::call_once(screen_made_, [&] { screen_.emplace(table_, index_, eligible_, prior_); });
+  const std::scoped_lock lock(making_);
+  if (!screen_) screen_.emplace(table_, index_, eligible_, prior_);
   return *screen_;
 }
 
@@ -227,7 +228,10 @@ std::vector<ScoredRow> Preparation::smallest_misfits(const Observation& observat
                                                      std::size_t count) const {
   if (index_.clusters() == 0)
     return exhaustive_search(observation.displacement, table_, eligible_.rows, count);
-  std::call_once(indexed_made_, [&] { indexed_.emplace(table_, index_, points_, eligible_); });
+  {
+    const std::scoped_lock lock(making_);
+    if (!indexed_) indexed_.emplace(table_, index_, points_, eligible_);
+  }
   return indexed_->search(observation.displacement, count).best;
 }
 

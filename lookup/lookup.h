@@ -93,7 +93,7 @@ class Preparation {
   Eligible eligible_;
   SearchIndex index_;  // without clusters if there is none
   // Made when they are first needed.
-  mutable std::once_flag screen_made_, indexed_made_;
+  mutable std::mutex making_;
   mutable std::optional<EvidenceScreen> screen_;
   mutable std::optional<IndexedSearch> indexed_;
 };
