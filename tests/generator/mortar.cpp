@@ -13,10 +13,10 @@
 namespace voussoir {
 namespace {
 
-/// So weak that what is lost wears it.
+/// So weak that some scenes fall in spite of it, and others stand that would fall dry.
 constexpr const char* kMortar =
-    "\n[[mortar]]\ntensile_strength_Pa = 3e3\nopening_energy_J_m2 = 0.3\ncohesion_Pa = 6e3\n"
-    "slip_energy_J_m2 = 1\n";
+    "\n[[mortar]]\ntensile_strength_Pa = 6e3\nopening_energy_J_m2 = 0.6\ncohesion_Pa = 12e3\n"
+    "slip_energy_J_m2 = 3\n";
 
 BuildSummary build_singles(const std::string& text, const std::filesystem::path& output,
                            bool known_bridge = true) {
