@@ -1,6 +1,7 @@
 #include "generator/composition.h"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <limits>
 
@@ -16,21 +17,27 @@ bool solve_transposed(const Eigen::SparseMatrix<double>& tangent, Eigen::MatrixX
   const Eigen::SparseMatrix<double> transposed = tangent.transpose();  // of the same, symmetric pattern
   LaneFactorisation linear(transposed);
   LaneVector values(static_cast<std::size_t>(transposed.nonZeros()));
-  for (std::size_t i = 0; i < values.size(); ++i)
-    values[i].value = DoubleLanes{} + transposed.valuePtr()[i];
+  for (std::size_t i = 0; i < values.size(); ++i) values[i].value = DoubleLanes{} + transposed.valuePtr()[i];
   if (!std::ranges::all_of(linear.factorise(values), std::identity{})) return false;
   LaneVector right(static_cast<std::size_t>(columns.rows()));
   for (Eigen::Index first = 0; first < columns.cols(); first += kLanes) {
     const Eigen::Index count = std::min<Eigen::Index>(kLanes, columns.cols() - first);
     for (Eigen::Index row = 0; row < columns.rows(); ++row)
       for (Eigen::Index lane = 0; lane < count; ++lane)
-        right[static_cast<std::size_t>(row)].value[static_cast<std::size_t>(lane)] = columns(row, first + lane);
+        right[static_cast<std::size_t>(row)].value[static_cast<std::size_t>(lane)] =
+            columns(row, first + lane);
     linear.solve(right);
     for (Eigen::Index row = 0; row < columns.rows(); ++row)
       for (Eigen::Index lane = 0; lane < count; ++lane)
-        columns(row, first + lane) = right[static_cast<std::size_t>(row)].value[static_cast<std::size_t>(lane)];
+        columns(row, first + lane) =
+            right[static_cast<std::size_t>(row)].value[static_cast<std::size_t>(lane)];
   }
   return true;
+}
+
+/// Of a signal whose sum over so many points is this.
+double allowed_error(double signal, double points) {
+  return std::max(kComposedShare * signal, kComposedError * points);
 }
 
 bool all_stand(const std::vector<Scene>& scenes, const StartingFields& starts) {
@@ -39,6 +46,18 @@ bool all_stand(const std::vector<Scene>& scenes, const StartingFields& starts) {
 }
 
 }  // namespace
+
+double composed_error(std::span<const double> composed, std::span<const double> solved,
+                      std::span<const double> intact) {
+  double error = 0.0, signal = 0.0, points = 0.0;
+  for (std::size_t i = 0; i < solved.size(); ++i) {
+    if (std::isnan(solved[i])) continue;
+    error += std::abs(composed[i] - solved[i]);
+    signal += std::abs(solved[i] - intact[i]);
+    points += 1.0;
+  }
+  return error / allowed_error(signal, points);
+}
 
 Composition::Composition(const StageEquations& intact, const Field& displacement) {
   const EquilibriumSystem& system = *intact.system;
@@ -69,8 +88,7 @@ std::optional<Solution> Composition::of(const Scene& scene, const StartingFields
     signal_sum += std::abs(signal(1, value(point.node)));
     points += 1.0;
   }
-  const double allowed = std::max(kComposedShare * signal_sum, kComposedError * points);
-  if (!(kComposedMargin * error_sum <= allowed)) return std::nullopt;
+  if (!(kComposedMargin * error_sum <= allowed_error(signal_sum, points))) return std::nullopt;
   Solution solution;
   solution.outcome = Outcome::standing;
   solution.origin = Origin::composed;

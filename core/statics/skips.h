@@ -17,8 +17,8 @@ struct Skips {
                               ///< comes to rest Newton's method polishes. Changes fields of standing scenes
                               ///< by less than the solver's tolerance
   bool kept_factors = true;   ///< in all stages but the first, and from near starts there, too, a
-                             ///< factorisation serves several steps as long as they make progress. Changes
-                             ///< fields by less than the solver's tolerance
+                              ///< factorisation serves several steps as long as they make progress. Changes
+                              ///< fields by less than the solver's tolerance
 };
 
 }  // namespace voussoir
