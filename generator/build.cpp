@@ -88,16 +88,12 @@ Build prepare(const BuildRequest& request, const SolverChoice& solver, Progress&
   StatePlan states = plan_states(state_names(request.histories, request.loads, description.loads),
                                  bridges.front(), description);
   Provenance provenance = provenance_of(request, solver, bridges.front());
+  // Parts keep the fields that the whole's sensitivities come from, unless there are as many as of triples.
+  const KeepField fields =
+      request.shard && most_missing_of_starts(wanted) == 1 ? KeepField::yes : request.fields;
   if (request.shard) wanted = keys_of_shard(wanted, {bridges, request.rules, states}, *request.shard);
-  return {request,
-          solver,
-          progress,
-          std::move(bridges),
-          std::move(variants),
-          std::move(wanted),
-          request.shard ? KeepField::yes : request.fields,
-          std::move(states),
-          std::move(provenance)};
+  return {request,           solver, progress,          std::move(bridges),   std::move(variants),
+          std::move(wanted), fields, std::move(states), std::move(provenance)};
 }
 
 /// Names of the states that the database keeps.

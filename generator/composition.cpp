@@ -1,6 +1,7 @@
 #include "generator/composition.h"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <limits>
 
@@ -34,12 +35,29 @@ bool solve_transposed(const Eigen::SparseMatrix<double>& tangent, Eigen::MatrixX
   return true;
 }
 
+/// Of a signal whose sum over so many points is this.
+double allowed_error(double signal, double points) {
+  return std::max(kComposedShare * signal, kComposedError * points);
+}
+
 bool all_stand(const std::vector<Scene>& scenes, const StartingFields& starts) {
   return std::ranges::all_of(scenes,
                              [&](const Scene& scene) { return starts.find(scene, kBuilt) != nullptr; });
 }
 
 }  // namespace
+
+double composed_error(std::span<const double> composed, std::span<const double> solved,
+                      std::span<const double> intact) {
+  double error = 0.0, signal = 0.0, points = 0.0;
+  for (std::size_t i = 0; i < solved.size(); ++i) {
+    if (std::isnan(solved[i])) continue;
+    error += std::abs(composed[i] - solved[i]);
+    signal += std::abs(solved[i] - intact[i]);
+    points += 1.0;
+  }
+  return error / allowed_error(signal, points);
+}
 
 Composition::Composition(const StageEquations& intact, const Field& displacement) {
   const EquilibriumSystem& system = *intact.system;
@@ -70,8 +88,7 @@ std::optional<Solution> Composition::of(const Scene& scene, const StartingFields
     signal_sum += std::abs(signal(1, value(point.node)));
     points += 1.0;
   }
-  const double allowed = std::max(kComposedShare * signal_sum, kComposedError * points);
-  if (!(kComposedMargin * error_sum <= allowed)) return std::nullopt;
+  if (!(kComposedMargin * error_sum <= allowed_error(signal_sum, points))) return std::nullopt;
   Solution solution;
   solution.outcome = Outcome::standing;
   solution.origin = Origin::composed;

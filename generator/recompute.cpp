@@ -19,6 +19,31 @@ std::vector<std::size_t> choose_rows(std::size_t rows, std::size_t count, std::u
   return chosen;
 }
 
+namespace {
+
+/// What other scenes start from, too, is solved once.
+std::vector<Solution> recompute_start(const RecordKey& key, const RecomputedVariant& variant,
+                                      const SceneSolver& solver) {
+  const bool is_kept = key.scene.missing() <= 1;
+  if (auto found = is_kept ? variant.starts->find(key) : std::nullopt) return std::move(*found);
+  std::vector<Solution> states = recompute(key, variant, solver);
+  if (is_kept) variant.starts->add(key, states);
+  return states;
+}
+
+}  // namespace
+
+std::optional<std::vector<Solution>> SolvedStarts::find(const RecordKey& key) const {
+  const std::scoped_lock lock(mutex_);
+  const auto found = solved_.find(key);
+  return found == solved_.end() ? std::nullopt : std::optional(found->second);
+}
+
+void SolvedStarts::add(const RecordKey& key, const std::vector<Solution>& states) {
+  const std::scoped_lock lock(mutex_);
+  solved_.emplace(key, states);
+}
+
 SearchBasis basis_of(const std::set<Scene>& starting, std::int32_t number, const RecomputedVariant& variant,
                      const SceneSolver& solver) {
   const bool is_stored =
@@ -27,7 +52,7 @@ SearchBasis basis_of(const std::set<Scene>& starting, std::int32_t number, const
   for (const Scene& start : starting) {
     const RecordKey key{number, start};
     const auto row = is_stored ? variant.database.find(number, start) : std::nullopt;
-    const std::vector<Solution> anew = row ? std::vector<Solution>{} : recompute(key, variant, solver);
+    const std::vector<Solution> anew = row ? std::vector<Solution>{} : recompute_start(key, variant, solver);
     for (std::size_t state = 0; state < variant.plan.size(); ++state)
       starts.add(start, state, row ? variant.database.solution(*row, state) : anew[state]);
   }

@@ -1,6 +1,9 @@
 #pragma once
 /// @file Solving scenes of a database anew.
 
+#include <map>
+#include <memory>
+#include <mutex>
 #include <set>
 
 #include "database/records/database.h"
@@ -12,6 +15,17 @@ namespace voussoir {
 /// `count` different rows of a table of `rows`, in ascending order; the same for the same seed everywhere.
 std::vector<std::size_t> choose_rows(std::size_t rows, std::size_t count, std::uint64_t seed);
 
+/// Solutions of the intact bridge and singles, from which many scenes start. Thread-safe.
+class SolvedStarts {
+ public:
+  std::optional<std::vector<Solution>> find(const RecordKey& key) const;
+  void add(const RecordKey& key, const std::vector<Solution>& states);
+
+ private:
+  mutable std::mutex mutex_;
+  std::map<RecordKey, std::vector<Solution>> solved_;
+};
+
 /// A database's variant, and what its scenes are solved by.
 struct RecomputedVariant {
   const Database& database;
@@ -19,6 +33,7 @@ struct RecomputedVariant {
   const StatePlan& plan;          ///< of the database's states
   const StateSolving& equations;  ///< of this bridge and this plan
   PlanRules rules;
+  std::shared_ptr<SolvedStarts> starts = std::make_shared<SolvedStarts>();  ///< with these rules
 };
 
 /// What searches of a variant begin with whose scenes start from these: the stored fields of the intact

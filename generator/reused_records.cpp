@@ -10,9 +10,11 @@
 namespace voussoir {
 namespace {
 
-/// The fields of all states; nothing if one is damaged.
-std::optional<std::vector<Field>> fields_of(const Record& record, const Mesh& mesh) {
+/// The fields of all states, if the database has any; nothing if one is damaged.
+std::optional<std::vector<Field>> fields_of(const Database& database, const Record& record,
+                                            const Mesh& mesh) {
   std::vector<Field> fields;
+  if (!database.has_fields()) return fields;
   for (const RecordedState& state : record.states) {
     auto field = unpack_field(state.packed_field, mesh.node_count());
     if (!field || crc32_of(state.packed_field) != state.field_crc) return std::nullopt;
@@ -75,6 +77,20 @@ void ReusedRecords::match_states(const BridgeDescription& description) {
     has_all_ = has_all_ && old_state_.back();
     has_kept_ = has_kept_ && (old_state_.back() || !state.kept);
   }
+  if (old_.has_fields()) return;
+  has_all_ = false;
+  has_kept_ = has_kept_ && keeps_as_it_is();
+}
+
+/// A record without fields can be taken, but nothing in it can be found anew.
+bool ReusedRecords::keeps_as_it_is() const {
+  std::vector<std::optional<std::size_t>> kept;
+  for (const std::size_t state : kept_states(plan_)) kept.push_back(old_state_[state]);
+  for (std::size_t i = 0; i < kept.size(); ++i)
+    if (kept[i] != i) return false;
+  return fields_ == KeepField::no && kept.size() == old_.states().size() &&
+         std::ranges::equal(bridges_.front().control_points, old_.control_points(), {},
+                            &ControlPoint::position, &StoredPoint::position);
 }
 
 std::vector<std::string> ReusedRecords::state_names() const {
@@ -89,7 +105,7 @@ std::optional<Record> ReusedRecords::old_record(const RecordKey& key, std::vecto
   try {
     const std::int32_t variant = *old_variant_[static_cast<std::size_t>(key.variant)];
     Record record = old_.record(old_.find(variant, key.scene).value());
-    auto found = fields_of(record, bridges_.front().mesh);
+    auto found = fields_of(old_, record, bridges_.front().mesh);
     if (!found || !has_right_checksum(record, *found)) return std::nullopt;
     fields = std::move(*found);
     return record;
@@ -117,6 +133,11 @@ Record ReusedRecords::kept_record(const RecordKey& key) const {
   auto record = old_record(key, fields);
   if (!record) throw Failure(fmt::format("{}: changed while it was being read", old_.path().string()));
   if (fits(*record, key, fields)) return std::move(*record);
+  if (!old_.has_fields()) {  // the variant may have another number here
+    record->key = key;
+    record->checksum = scene_checksum(*record, {});
+    return std::move(*record);
+  }
   std::vector<Solution> solutions;
   for (const std::size_t state : kept_states(plan_))
     solutions.push_back(solution_of(record->states[*old_state_[state]], fields[*old_state_[state]]));

@@ -23,10 +23,11 @@ struct NewRecords {
 
 class ReusedRecords {
  public:
-  /// Takes over, from an older database with the same results key and with fields, the states with the same
+  /// Takes over, from an older database with the same results key, the states with the same
   /// history and the same load case of variants with the same parameters, of scenes that are wanted or can
   /// start others. Records whose checksums are not right stay behind, and so do those that `known` has
-  /// already.
+  /// already. Without fields, records can only be taken as they are, into a database without fields that has
+  /// the same states and control points.
   ReusedRecords(Database old, const NewRecords& records, const RecordSource& known);
 
   /// The scenes of which all that the new database keeps is there.
@@ -35,7 +36,7 @@ class ReusedRecords {
   std::vector<std::string> state_names() const;
 
   bool has_record(const RecordKey& key) const { return has_kept_ && keys_.contains(key); }
-  bool has_states(const RecordKey& key) const { return keys_.contains(key); }
+  bool has_states(const RecordKey& key) const { return old_.has_fields() && keys_.contains(key); }
   bool can_start(const RecordKey& key) const { return has_all_ && keys_.contains(key); }
   /// The record as the new database keeps it. Precondition: has_record(key). Throws Failure if the old file
   /// changed meanwhile.
@@ -45,6 +46,7 @@ class ReusedRecords {
 
  private:
   void match_states(const BridgeDescription& description);
+  bool keeps_as_it_is() const;
   std::optional<Record> old_record(const RecordKey& key, std::vector<Field>& fields) const;
   bool fits(const Record& record, const RecordKey& key, std::span<const Field> fields) const;
 

@@ -103,29 +103,65 @@ void check_search(const Database& database, VerifyReport& report) {
 
 struct Recomputed {
   double difference = 0.0;
+  std::size_t composed = 0;
+  double composed_error = 0.0;
+  std::size_t inherited = 0;
   std::vector<std::string> problems{};
 };
 
-Recomputed recompute_row(const RecomputedVariant& variant, std::size_t row, const SceneSolver& solver) {
+/// Control displacements of the intact bridge as built: stored, or as they were solved to start the others.
+std::vector<double> intact_displacements(const RecomputedVariant& variant, std::int32_t number) {
+  const RecordKey intact{number, Scene{}};
+  if (const auto row = variant.database.find(number, intact.scene))
+    return variant.database.record(*row).states.front().vertical;
+  const auto states = variant.starts->find(intact).value();
+  const Eigen::VectorXd vertical =
+      vertical_displacements(states[kBuilt].displacement, variant.bridge.control_points);
+  return {vertical.begin(), vertical.end()};
+}
+
+/// Of a composed state against its solution: composed_error.
+double error_of_composed(const RecomputedVariant& variant, const RecordKey& key, const RecordedState& stored,
+                         const Solution& anew) {
+  const Eigen::VectorXd solved = vertical_displacements(anew.displacement, variant.bridge.control_points);
+  return composed_error(stored.vertical, {solved.data(), static_cast<std::size_t>(solved.size())},
+                        intact_displacements(variant, key.variant));
+}
+
+/// Compares a stored state with its solution; what is wrong.
+std::optional<std::string> compare(const RecomputedVariant& variant, std::size_t row, std::size_t state,
+                                   const Solution& anew, Recomputed& result) {
   const Database& database = variant.database;
-  const RecordKey key = database.key(row);
+  const RecordedState stored = database.record(row).states[state];
+  if (stored.origin == Origin::inherited) ++result.inherited;
+  if (anew.outcome != stored.outcome)
+    return fmt::format("it is {}, not {}", to_string(anew.outcome), to_string(stored.outcome));
+  if (stored.origin == Origin::inherited) return std::nullopt;
+  if (stored.origin == Origin::composed) {
+    ++result.composed;
+    const double error = error_of_composed(variant, database.key(row), stored, anew);
+    result.composed_error = std::max(result.composed_error, error);
+    return error <= 1.0
+               ? std::nullopt
+               : std::optional(fmt::format("the composed signal is off by {:.2f} of what is allowed", error));
+  }
+  const double difference = largest_difference(anew, database, row, state, variant.bridge.control_points);
+  result.difference = std::max(result.difference, difference);
+  return stored.outcome == Outcome::standing && !(difference <= kSameDisplacement)
+             ? std::optional(fmt::format("it differs by {:.1e} m", difference))
+             : std::nullopt;
+}
+
+Recomputed recompute_row(const RecomputedVariant& variant, std::size_t row, const SceneSolver& solver) {
+  const RecordKey key = variant.database.key(row);
   const std::vector<Solution> solutions = recompute(key, variant, solver);
   const std::vector<std::size_t> kept = kept_states(variant.plan);
-  const Record record = database.record(row);
   Recomputed result;
-  for (std::size_t state = 0; state < kept.size(); ++state) {
-    const Solution& anew = solutions[kept[state]];
-    const Outcome stored = record.states[state].outcome;
-    const std::string name = fmt::format("scene {}: solved anew {} ", to_string(key, variant.bridge.layout),
-                                         database.states()[state]);
-    const double difference = largest_difference(anew, database, row, state, variant.bridge.control_points);
-    if (anew.outcome != stored)
-      result.problems.push_back(
-          fmt::format("{}it is {}, not {}", name, to_string(anew.outcome), to_string(stored)));
-    else if (stored == Outcome::standing && !(difference <= kSameDisplacement))
-      result.problems.push_back(fmt::format("{}it differs by {:.1e} m", name, difference));
-    if (anew.outcome == stored) result.difference = std::max(result.difference, difference);
-  }
+  for (std::size_t state = 0; state < kept.size(); ++state)
+    if (const auto problem = compare(variant, row, state, solutions[kept[state]], result))
+      result.problems.push_back(fmt::format("scene {}: solved anew {} {}",
+                                            to_string(key, variant.bridge.layout),
+                                            variant.database.states()[state], *problem));
   return result;
 }
 
@@ -140,6 +176,9 @@ void check_recomputed(const VerifyRequest& request, const RecomputedVariant& var
   report.recomputed += rows.size();
   for (const Recomputed& result : results) {
     report.largest_recomputed_difference = std::max(report.largest_recomputed_difference, result.difference);
+    report.recomputed_composed += result.composed;
+    report.largest_composed_error = std::max(report.largest_composed_error, result.composed_error);
+    report.recomputed_inherited += result.inherited;
     report.problems.insert(report.problems.end(), result.problems.begin(), result.problems.end());
   }
 }
@@ -180,7 +219,9 @@ void check_variant(const VerifyRequest& request, const Database& database, const
   check_scenes(checked, table, request.threads, report);
   const auto recomputed = choose_rows(database.rows(), request.recompute, request.seed);
   const auto rows = rows_in(table, recomputed);
-  if (!rows.empty()) check_recomputed(request, variant, rows, report);
+  RecomputedVariant in_full{database, bridge, plan, equations, variant.rules};
+  in_full.rules.composed = in_full.rules.inherited = false;
+  if (!rows.empty()) check_recomputed(request, in_full, rows, report);
 }
 
 /// What the database's states are. Throws InputError naming the dataset if they are none that there can be.

@@ -33,6 +33,11 @@ std::string to_text(const VerifyReport& report, const std::filesystem::path& dat
   if (report.recomputed > 0)
     text += fmt::format("  recomputed  {} scenes, largest difference {:.1e} m\n", report.recomputed,
                         report.largest_recomputed_difference);
+  if (report.recomputed_composed > 0)
+    text += fmt::format("  composed    {} of these, off by at most {:.2f} of what is allowed\n",
+                        report.recomputed_composed, report.largest_composed_error);
+  if (report.recomputed_inherited > 0)
+    text += fmt::format("  inherited   {} of these\n", report.recomputed_inherited);
   return text + problem_text(report.problems);
 }
 
@@ -46,6 +51,9 @@ std::string to_json(const VerifyReport& report) {
                {"mirror_pairs", report.mirror_pairs},
                {"recomputed", report.recomputed},
                {"largest_recomputed_difference_m", report.largest_recomputed_difference},
+               {"recomputed_composed", report.recomputed_composed},
+               {"largest_composed_error", report.largest_composed_error},
+               {"recomputed_inherited", report.recomputed_inherited},
                {"problems", report.problems}});
   return json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
