@@ -51,8 +51,9 @@ std::size_t count(const Database& database, std::size_t state, Origin origin) {
 
 }  // namespace
 
-TEST_CASE("Triples that inherit fall in motion, too, and composed ones are as their equilibrium is "
-          "(every scene solved in full)") {
+TEST_CASE(
+    "Triples that inherit fall in motion, too, and composed ones are as their equilibrium is "
+    "(every scene solved in full)") {
   const Bridge bridge;
   const Database quick = bridge.build(bridge.request("quick.h5"));
   const Database full = bridge.build(bridge.request("full.h5", {.inherited = false, .composed = false}));
