@@ -97,7 +97,8 @@ ReadingsFile simulate_file(const ReadingsFile& blank, const Comparison& comparis
   if (!table.has_displacements(row))
     throw Failure(
         "of this scene the database says only that it falls, without displacements to read: expected one "
-        "that stands, or a database built with --collapses field");
+        "that stands, or a database built with --collapses field, and of three missing blocks "
+        "--without inherited");
   const std::span<const double> prediction = table.row(row);
   std::vector<double> truth(prediction.size());
   for (std::size_t i = 0; i < truth.size(); ++i) truth[i] = prediction[i] - origin[i];

@@ -105,10 +105,11 @@ std::size_t find_row(const Database& database, std::string_view text) {
 void expect_displacements(const Database& database, std::size_t row, std::size_t state) {
   const SceneTable table = database.table(kNominalVariant, state);
   if (table.has_displacements(row)) return;
-  throw Failure(fmt::format(
-      "{}: scene {} falls as {}, and the database keeps only that: expected one built with --collapses field",
-      database.path().string(), to_string(database.key(row).scene, database.layout()),
-      database.states()[state]));
+  throw Failure(
+      fmt::format("{}: scene {} falls as {}, and the database keeps only that: expected one built with "
+                  "--collapses field, and of three missing blocks --without inherited",
+                  database.path().string(), to_string(database.key(row).scene, database.layout()),
+                  database.states()[state]));
 }
 
 std::vector<PlaceDisplacement> displacements_at(const Database& database, std::size_t row, std::size_t state,

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/geometry/box.h"
 
@@ -26,8 +27,10 @@ std::string percent(double share) {
 std::string place_in_words(BlockId id, const BlockLayout& layout) {
   const Block& block = layout[id];
   const Box around = box_of(block.polygon);
-  const std::string box = fmt::format("x {:.4g}..{:.4g} m, y {:.4g}..{:.4g} m", around.min().x(),
-                                      around.max().x(), around.min().y(), around.max().y());
+  const auto metres = [](double value) { return 1e-4 * std::round(1e4 * value) + 0.0; };  // no -0, no 1e-17
+  const std::string box =
+      fmt::format("x {:.4g}..{:.4g} m, y {:.4g}..{:.4g} m", metres(around.min().x()),
+                  metres(around.max().x()), metres(around.min().y()), metres(around.max().y()));
   if (block.index.course > 0)
     return fmt::format("course {}, {} from the left, {}", block.index.course, ordinal(block.index.position),
                        box);
