@@ -30,8 +30,8 @@ struct BridgeRow {
   int standing = 0, collapsed = 0, unresolved = 0;
   double seconds = 0.0;  ///< of all scenes, without making the solver
   double worst = 0.0;    ///< [s] of one scene, solved alone
-  std::string worst_scene;
-  std::vector<std::string> unresolved_scenes;
+  std::string worst_scene{};
+  std::vector<std::string> unresolved_scenes{};
 
   double per_scene_and_block() const { return seconds / (scenes * static_cast<double>(blocks)); }
 };
