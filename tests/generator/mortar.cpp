@@ -32,7 +32,8 @@ BuildSummary build_singles(const std::string& text, const std::filesystem::path&
 
 }  // namespace
 
-TEST_CASE("A bridge with mortar has a database like any other, if it may be taken for known", "[mortar]") {
+TEST_CASE("A bridge with mortar has a database like any other, if it may be taken for known",
+          "[mortar][many-solutions]") {
   const test::TemporaryFolder folder;
   const std::string dry = test::text_of(test::example_bridge("small"));
   const BuildSummary summary = build_singles(dry + kMortar, folder / "mortar.h5");
