@@ -40,37 +40,26 @@ struct BoxSums {
 
 /// Adds the places from the i-th: errors against the nearest number in the box over the largest scale that
 /// the box allows; the products take the least scale.
-VOUSSOIR_INLINE void add_places(const PlaceArrays& view, const Box& box, std::size_t i, double common,
+VOUSSOIR_INLINE void add_places(const PlaceArrays& view, const ClusterBox& box, std::size_t i, double common,
                                 BoxSums& sums) {
-  const auto at = [&](const std::vector<double>& values) __attribute__((always_inline)) {
-    return load<DoubleLanes>(values.data() + i);
-  };
   const DoubleLanes zero{}, one = DoubleLanes{} + 1.0;
-  const DoubleLanes reading = at(view.reading), low = box.low(i), high = box.high(i);
-  const DoubleMask has_reading = reading == reading;
-  const DoubleLanes error = distances(reading - high, reading - low).least;
-  const Distances movement = distances(low - at(view.origin), high - at(view.origin));
-  const Distances signal = distances(low - at(view.intact), high - at(view.intact));
-  const DoubleLanes slope = at(view.slope), offset = at(view.offset), own = at(view.own_variance);
-  const DoubleLanes least_instrument = noise_scale(slope, offset, movement.least);
-  const DoubleLanes most_instrument = noise_scale(slope, offset, movement.most);
-  const DoubleLanes least_variance = model_variance(own, view.share_square, signal.least);
-  const DoubleLanes most_variance = model_variance<DoubleLanes>(own + common, view.share_square, signal.most);
+  const PlaceBounds at = place_bounds(view, box, i, common);
   const DoubleLanes z =
-      has_reading ? error / square_root(most_instrument * most_instrument + most_variance) : zero;
-  const DoubleLanes beyond = larger(error - most_instrument, zero);
+      at.has_reading ? at.error / square_root(at.most_instrument * at.most_instrument + at.most_variance)
+                     : zero;
+  const DoubleLanes beyond = larger(at.error - at.most_instrument, zero);
   sums.absolute += z;
   sums.square += z * z;
-  sums.largest = larger(sums.largest, has_reading ? error / most_instrument : zero);
+  sums.largest = larger(sums.largest, at.has_reading ? at.error / at.most_instrument : zero);
   // A bound without model error is felt at once.
-  sums.square_beyond += has_reading && beyond > 0.0 ? beyond * beyond / most_variance : zero;
-  const DoubleLanes least_scale = square_root(least_instrument * least_instrument + least_variance);
-  sums.scale *= has_reading ? least_scale * view.inverse_unit : one;
-  sums.instrument *= has_reading ? least_instrument * view.inverse_unit : one;
+  sums.square_beyond += at.has_reading && beyond > 0.0 ? beyond * beyond / at.most_variance : zero;
+  const DoubleLanes least_scale = square_root(at.least_instrument * at.least_instrument + at.least_variance);
+  sums.scale *= at.has_reading ? least_scale * view.inverse_unit : one;
+  sums.instrument *= at.has_reading ? at.least_instrument * view.inverse_unit : one;
   if (view.per_student > 0.0) sums.student *= 1.0 + z * z * view.per_student;
 }
 
-VOUSSOIR_INLINE BoxStatistics statistics_of(const PlaceArrays& view, const Box& box) {
+VOUSSOIR_INLINE BoxStatistics statistics_of(const PlaceArrays& view, const ClusterBox& box) {
   const double common = view.common_square > 0.0 ? most_common_variance(view, box) : 0.0;
   BoxSums sums;
   for (std::size_t i = 0, step = 1; i < view.reading.size(); i += kLanes, ++step) {

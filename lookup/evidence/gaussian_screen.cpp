@@ -31,33 +31,22 @@ struct BoxSums {
 };
 
 /// Adds the places from the i-th and keeps the inverse of the largest variances there.
-VOUSSOIR_INLINE void add_places(const PlaceArrays& arrays, const Box& box, std::size_t i, double common,
-                                double* weights, BoxSums& sums) {
-  const auto at = [&](const std::vector<double>& values) __attribute__((always_inline)) {
-    return load<DoubleLanes>(values.data() + i);
-  };
+VOUSSOIR_INLINE void add_places(const PlaceArrays& arrays, const ClusterBox& box, std::size_t i,
+                                double common, double* weights, BoxSums& sums) {
   const DoubleLanes zero{}, one = DoubleLanes{} + 1.0;
-  const DoubleLanes reading = at(arrays.reading), low = box.low(i), high = box.high(i);
-  const DoubleMask has_reading = reading == reading;
-  const DoubleLanes error = distances(reading - high, reading - low).least;
-  const Distances movement = distances(low - at(arrays.origin), high - at(arrays.origin));
-  const Distances signal = distances(low - at(arrays.intact), high - at(arrays.intact));
-  const DoubleLanes slope = at(arrays.slope), offset = at(arrays.offset), own = at(arrays.own_variance);
-  const DoubleLanes least = noise_scale(slope, offset, movement.least);
-  const DoubleLanes most = noise_scale(slope, offset, movement.most);
-  const DoubleLanes most_variance =
-      most * most + model_variance<DoubleLanes>(own + common, arrays.share_square, signal.most);
-  const DoubleLanes weight = has_reading ? 1.0 / most_variance : zero;
+  const PlaceBounds at = place_bounds(arrays, box, i, common);
+  const DoubleLanes most_variance = at.most_instrument * at.most_instrument + at.most_variance;
+  const DoubleLanes weight = at.has_reading ? 1.0 / most_variance : zero;
   store_some(weight, kLanes, weights + i);
-  sums.square += has_reading ? error * error * weight : zero;
-  const DoubleLanes least_variance = least * least + model_variance(own, arrays.share_square, signal.least);
+  sums.square += at.has_reading ? at.error * at.error * weight : zero;
+  const DoubleLanes least_variance = at.least_instrument * at.least_instrument + at.least_variance;
   const double unit = arrays.inverse_unit;
-  sums.variances *= has_reading ? least_variance * (unit * unit) : one;
+  sums.variances *= at.has_reading ? least_variance * (unit * unit) : one;
 }
 
 /// The most that the logarithm of a density can be in a box but for the squares; -infinity if no row in it
 /// reaches `least`.
-VOUSSOIR_INLINE double bound_of(const Question& q, const Box& box, double least, double* weights) {
+VOUSSOIR_INLINE double bound_of(const Question& q, const ClusterBox& box, double least, double* weights) {
   const double common = q.arrays.common_square > 0.0 ? most_common_variance(q.arrays, box) : 0.0;
   BoxSums sums;
   WideProduct variances;

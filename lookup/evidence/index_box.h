@@ -48,7 +48,7 @@ VOUSSOIR_INLINE Distances distances(const DoubleLanes& low, const DoubleLanes& h
 }
 
 /// The least and largest displacements of a cluster's rows.
-struct Box {
+struct ClusterBox {
   const std::int16_t *least, *most;
   double unit;
 
@@ -56,13 +56,13 @@ struct Box {
   VOUSSOIR_INLINE DoubleLanes high(std::size_t i) const { return load<DoubleLanes>(most + i) * unit; }
 };
 
-inline Box box_of(const SearchIndex& index, std::size_t cluster) {
+inline ClusterBox box_of(const SearchIndex& index, std::size_t cluster) {
   return {index.least.data() + cluster * index.places, index.most.data() + cluster * index.places,
           std::ldexp(1.0, index.exponent[cluster])};
 }
 
 /// The largest variance that all points of a scene can share: a mean square is at most the largest square.
-VOUSSOIR_INLINE double most_common_variance(const PlaceArrays& view, const Box& box) {
+VOUSSOIR_INLINE double most_common_variance(const PlaceArrays& view, const ClusterBox& box) {
   DoubleLanes most{};
   for (std::size_t i = 0; i < view.reading.size(); i += kLanes) {
     const auto intact = load<DoubleLanes>(view.intact.data() + i);
@@ -70,6 +70,32 @@ VOUSSOIR_INLINE double most_common_variance(const PlaceArrays& view, const Box& 
   }
   const double largest = largest_of(most);
   return view.common_square * largest * largest;
+}
+
+/// What the rows of a box can have at the places from the i-th.
+struct PlaceBounds {
+  DoubleMask has_reading;
+  DoubleLanes error;                              ///< the least
+  DoubleLanes least_instrument, most_instrument;  ///< scales of the instruments' errors
+  DoubleLanes least_variance, most_variance;      ///< of the model's own error
+};
+
+/// @param common the variance of the model's error that all points of a scene may share
+VOUSSOIR_INLINE PlaceBounds place_bounds(const PlaceArrays& view, const ClusterBox& box, std::size_t i,
+                                         double common) {
+  const auto at = [&](const std::vector<double>& values) __attribute__((always_inline)) {
+    return load<DoubleLanes>(values.data() + i);
+  };
+  const DoubleLanes reading = at(view.reading), low = box.low(i), high = box.high(i);
+  const Distances movement = distances(low - at(view.origin), high - at(view.origin));
+  const Distances signal = distances(low - at(view.intact), high - at(view.intact));
+  const DoubleLanes slope = at(view.slope), offset = at(view.offset), own = at(view.own_variance);
+  return {reading == reading,
+          distances(reading - high, reading - low).least,
+          noise_scale(slope, offset, movement.least),
+          noise_scale(slope, offset, movement.most),
+          model_variance(own, view.share_square, signal.least),
+          model_variance<DoubleLanes>(own + common, view.share_square, signal.most)};
 }
 
 }  // namespace voussoir
