@@ -35,9 +35,11 @@ class Composition {
   /// With the intact bridge's field and equations as built. Composes nothing if its tangent is singular.
   Composition(const StageEquations& intact, const Field& displacement);
 
-  /// The scene's start (StartingFields::start_for) taken for its equilibrium as built; `equations` are the
-  /// scene's. Nothing unless it lacks three blocks, all singles and pairs within it stand, and the check
-  /// allows it.
+  /// Does the scene lack three blocks, and do all singles and pairs within it stand?
+  bool has_parts(const Scene& scene, const StartingFields& starts) const;
+
+  /// The start (StartingFields::start_for) of a scene that has its parts, taken for its equilibrium as built;
+  /// `equations` are the scene's. Nothing unless the check allows it.
   std::optional<Solution> of(const Scene& scene, const StartingFields& starts,
                              const StageEquations& equations) const;
 

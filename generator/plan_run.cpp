@@ -110,13 +110,12 @@ std::vector<Tasks> split_into_batches(Tasks tasks, std::size_t size) {
 }
 
 /// Those last that will be set in motion, so that they fill the lanes of a motion together.
-void put_motions_last(const PlanRun& run, const std::map<std::int32_t, SearchBasis>& bases, Tasks tasks) {
+void put_motions_last(const std::map<std::int32_t, SearchBasis>& bases, Tasks tasks) {
   while (!tasks.empty()) {
     const Tasks variant = first_variant(tasks);
     const SearchBasis& basis = bases.at(variant.front().variant);
     std::stable_partition(variant.begin(), variant.end(), [&](const SolvingTask& task) {
-      return !basis.starts.falls_likely(task.solved, kBuilt) ||
-             basis.falls.of(task.solved, run.bridges.front());
+      return !basis.starts.falls_likely(task.solved, kBuilt) || basis.falls.apply_to(task.solved);
     });
     tasks = tasks.subspan(variant.size());
   }
@@ -136,7 +135,7 @@ void run_plan(BuildPlan plan, const PlanRun& run, KnownRecords& known) {
         solver.prepare(variant, run);
         bases[variant] = solver.states->basis(solver.solver, std::move(starts), run.rules);
       }
-      put_motions_last(run, bases, tasks);
+      put_motions_last(bases, tasks);
       const auto batches = split_into_batches(tasks, batch_size(tasks.size(), crew.size()));
       crew.for_each_index(batches.size(), [&](std::size_t i) {
         const std::int32_t variant = batches[i].front().variant;

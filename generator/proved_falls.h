@@ -25,8 +25,13 @@ class ProvedFalls {
   /// wanted. Of three and more missing blocks, `inherited` (Origin) if the rules have it so.
   std::optional<Solution> of(const Scene& scene, const Structure& structure) const;
 
+  /// Is anything known of the scene?
+  bool apply_to(const Scene& scene) const;
+
  private:
-  std::optional<Solution> proved(const Scene& scene, const Structure& structure) const;
+  bool inherits(const Scene& scene) const { return inherited_ && scene.missing() > 2; }
+  bool proved(const Scene& scene) const;
+  std::vector<const Mechanism*> mechanisms_within(const Scene& scene) const;
 
   bool inherited_ = false;  ///< by scenes of three and more missing blocks
   bool others_ = false;     ///< those of fewer are not searched for either

@@ -1,9 +1,11 @@
 #include "generator/recompute.h"
 
 #include <algorithm>
+#include <limits>
 #include <numeric>
 #include <random>
 
+#include "database/format/field_codec.h"
 #include "generator/field_difference.h"
 
 namespace voussoir {
@@ -74,14 +76,15 @@ std::vector<Solution> recompute(const RecordKey& key, const RecomputedVariant& v
   return solutions;
 }
 
-double largest_difference(const Solution& recomputed, const Database& database, std::size_t row,
-                          std::size_t state, const std::vector<ControlPoint>& points) {
-  if (database.has_fields())
-    return largest_difference(recomputed.displacement.reshaped(), database.field(row, state).reshaped());
-  const std::vector<double> stored = database.record(row).states[state].vertical;
-  return largest_difference(
-      vertical_displacements(recomputed.displacement, points),
-      Eigen::Map<const Eigen::VectorXd>(stored.data(), static_cast<Eigen::Index>(stored.size())));
+double largest_difference(const Solution& recomputed, const RecordedState& stored, const Structure& bridge) {
+  if (!stored.packed_field.empty()) {
+    const auto field = unpack_field(stored.packed_field, bridge.mesh.node_count());
+    return field ? largest_difference(recomputed.displacement.reshaped(), field->reshaped())
+                 : std::numeric_limits<double>::infinity();
+  }
+  return largest_difference(vertical_displacements(recomputed.displacement, bridge.control_points),
+                            Eigen::Map<const Eigen::VectorXd>(
+                                stored.vertical.data(), static_cast<Eigen::Index>(stored.vertical.size())));
 }
 
 }  // namespace voussoir

@@ -47,9 +47,8 @@ SearchBasis basis_of(const std::set<Scene>& starting, std::int32_t number, const
 std::vector<Solution> recompute(const RecordKey& key, const RecomputedVariant& variant,
                                 const SceneSolver& solver);
 
-/// Largest difference [m] between stored and recomputed displacements in a state: of all nodes, or of the
-/// control points if the database has no fields. Infinite if a displacement is there in only one of them.
-double largest_difference(const Solution& recomputed, const Database& database, std::size_t row,
-                          std::size_t state, const std::vector<ControlPoint>& points);
+/// Largest difference [m] between stored and recomputed displacements: of all nodes, or of the control points
+/// if no field is stored. Infinite if a displacement is there in only one of them, or the field unreadable.
+double largest_difference(const Solution& recomputed, const RecordedState& stored, const Structure& bridge);
 
 }  // namespace voussoir

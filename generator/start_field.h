@@ -50,9 +50,6 @@ class StartingFields {
   /// Is a pair among the scenes, so that scenes with more missing blocks start here?
   bool has_pairs() const;
 
-  /// The blocks that move in a single or pair that falls in a state; null for others.
-  const std::vector<BlockId>* find_falling(const Scene& scene, std::size_t state) const;
-
   /// The field of the intact bridge in a state, if it stands.
   const Field* intact(std::size_t state) const { return find(Scene{}, state); }
 
@@ -63,6 +60,8 @@ class StartingFields {
   std::vector<Scene> standing_singles(std::size_t state) const;
 
  private:
+  /// The blocks that move in a single or pair that falls in a state; null for others.
+  const std::vector<BlockId>* find_falling(const Scene& scene, std::size_t state) const;
   std::optional<Field> change(const Scene& scene, std::size_t before, std::size_t after) const;
 
   using Place = std::pair<Scene, std::size_t>;     ///< scene and state

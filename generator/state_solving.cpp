@@ -84,8 +84,10 @@ std::optional<Solution> StateSolving::without_search(const Scene& scene, std::si
                                                      const SearchBasis& basis) const {
   const PlannedState& planned = plan_[state];
   if (!planned.before) {
-    auto falls = basis.falls.of(scene, bridge_);
-    return falls ? falls : basis.composition.of(scene, basis.starts, equations(scene, state, {}));
+    if (auto falls = basis.falls.of(scene, bridge_)) return falls;
+    return basis.composition.has_parts(scene, basis.starts)
+               ? basis.composition.of(scene, basis.starts, equations(scene, state, {}))
+               : std::nullopt;
   }
   if (planned.is_load)
     return stands(*states[*planned.before]) ? std::nullopt

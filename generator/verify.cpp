@@ -112,8 +112,11 @@ struct Recomputed {
 /// Control displacements of the intact bridge as built: stored, or as they were solved to start the others.
 std::vector<double> intact_displacements(const RecomputedVariant& variant, std::int32_t number) {
   const RecordKey intact{number, Scene{}};
-  if (const auto row = variant.database.find(number, intact.scene))
-    return variant.database.record(*row).states.front().vertical;
+  const SceneTable table = variant.database.table(number, kBuilt);
+  if (const auto row = table.find(intact.scene)) {
+    const auto stored = table.row(*row);
+    return {stored.begin(), stored.end()};
+  }
   const auto states = variant.starts->find(intact).value();
   const Eigen::VectorXd vertical =
       vertical_displacements(states[kBuilt].displacement, variant.bridge.control_points);
@@ -129,23 +132,21 @@ double error_of_composed(const RecomputedVariant& variant, const RecordKey& key,
 }
 
 /// Compares a stored state with its solution; what is wrong.
-std::optional<std::string> compare(const RecomputedVariant& variant, std::size_t row, std::size_t state,
-                                   const Solution& anew, Recomputed& result) {
-  const Database& database = variant.database;
-  const RecordedState stored = database.record(row).states[state];
+std::optional<std::string> compare(const RecomputedVariant& variant, const RecordKey& key,
+                                   const RecordedState& stored, const Solution& anew, Recomputed& result) {
   if (stored.origin == Origin::inherited) ++result.inherited;
   if (anew.outcome != stored.outcome)
     return fmt::format("it is {}, not {}", to_string(anew.outcome), to_string(stored.outcome));
   if (stored.origin == Origin::inherited) return std::nullopt;
   if (stored.origin == Origin::composed) {
     ++result.composed;
-    const double error = error_of_composed(variant, database.key(row), stored, anew);
+    const double error = error_of_composed(variant, key, stored, anew);
     result.composed_error = std::max(result.composed_error, error);
     return error <= 1.0
                ? std::nullopt
                : std::optional(fmt::format("the composed signal is off by {:.2f} of what is allowed", error));
   }
-  const double difference = largest_difference(anew, database, row, state, variant.bridge.control_points);
+  const double difference = largest_difference(anew, stored, variant.bridge);
   result.difference = std::max(result.difference, difference);
   return stored.outcome == Outcome::standing && !(difference <= kSameDisplacement)
              ? std::optional(fmt::format("it differs by {:.1e} m", difference))
@@ -154,11 +155,12 @@ std::optional<std::string> compare(const RecomputedVariant& variant, std::size_t
 
 Recomputed recompute_row(const RecomputedVariant& variant, std::size_t row, const SceneSolver& solver) {
   const RecordKey key = variant.database.key(row);
+  const Record stored = variant.database.record(row);
   const std::vector<Solution> solutions = recompute(key, variant, solver);
   const std::vector<std::size_t> kept = kept_states(variant.plan);
   Recomputed result;
   for (std::size_t state = 0; state < kept.size(); ++state)
-    if (const auto problem = compare(variant, row, state, solutions[kept[state]], result))
+    if (const auto problem = compare(variant, key, stored.states[state], solutions[kept[state]], result))
       result.problems.push_back(fmt::format("scene {}: solved anew {} {}",
                                             to_string(key, variant.bridge.layout),
                                             variant.database.states()[state], *problem));

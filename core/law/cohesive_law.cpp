@@ -180,6 +180,13 @@ void for_bond_points(const CohesiveStiffness& joint, const JointMemory& memory, 
   }
 }
 
+/// Adds what a point's stresses do to the two ends of the stretch.
+void add_force(const BondPoint& point, const BondResponse& at_point, Eigen::Vector4d& force) {
+  const Eigen::Vector2d stress = point.weight * Eigen::Vector2d(at_point.normal, at_point.shear);
+  force.head<2>() += (1.0 - point.at) * stress;
+  force.tail<2>() += point.at * stress;
+}
+
 }  // namespace
 
 CohesiveStiffness cohesive_stiffness(const JointMaterial& material, double area) {
@@ -214,17 +221,26 @@ double bond_left(const CohesiveStiffness& joint, const BondMemory& memory) {
 JointResponse integrate_bond(const CohesiveStiffness& joint, const JointMemory& memory,
                              const JointState& state) {
   JointResponse response{Eigen::Vector4d::Zero(), Eigen::Matrix4d::Zero()};
-  for_bond_points(
-      joint, memory, state, [&](const BondPoint& point, std::size_t, const BondResponse& at_point) {
-        const StretchMass mass = mass_of_point(point.at, point.weight);
-        for (int row = 0; row < 2; ++row)
-          for (int column = 0; column < 2; ++column)
-            add_mass(response.tangent, mass, row, column, at_point.tangent(row, column));
-        const Eigen::Vector2d stress = point.weight * Eigen::Vector2d(at_point.normal, at_point.shear);
-        response.force.head<2>() += (1.0 - point.at) * stress;
-        response.force.tail<2>() += point.at * stress;
-      });
+  for_bond_points(joint, memory, state,
+                  [&](const BondPoint& point, std::size_t, const BondResponse& at_point) {
+                    const StretchMass mass = mass_of_point(point.at, point.weight);
+                    for (int row = 0; row < 2; ++row)
+                      for (int column = 0; column < 2; ++column)
+                        add_mass(response.tangent, mass, row, column, at_point.tangent(row, column));
+                    add_force(point, at_point, response.force);
+                  });
   return response;
+}
+
+BondStep bond_step(const CohesiveStiffness& joint, const JointMemory& memory, const JointState& state) {
+  BondStep step{Eigen::Vector4d::Zero(), memory};
+  step.memory.bond.resize(kBondPoints);
+  for_bond_points(joint, memory, state,
+                  [&](const BondPoint& point, std::size_t i, const BondResponse& at_point) {
+                    add_force(point, at_point, step.force);
+                    step.memory.bond[i] = at_point.memory;
+                  });
+  return step;
 }
 
 JointContact bond_contact(const CohesiveStiffness& joint, const JointMemory& memory,
@@ -245,12 +261,7 @@ double bond_pressure(const CohesiveStiffness& joint, const JointMemory& memory, 
 }
 
 JointMemory updated_bond(const CohesiveStiffness& joint, const JointMemory& memory, const JointState& state) {
-  JointMemory updated = memory;
-  updated.bond.resize(kBondPoints);
-  for_bond_points(joint, memory, state, [&](const BondPoint&, std::size_t i, const BondResponse& at_point) {
-    updated.bond[i] = at_point.memory;
-  });
-  return updated;
+  return bond_step(joint, memory, state).memory;
 }
 
 double dissipated_energy(const CohesiveStiffness& joint, const JointMemory& memory, const JointState& state) {

@@ -92,6 +92,13 @@ JointContact bond_contact(const CohesiveStiffness& joint, const JointMemory& mem
 double bond_pressure(const CohesiveStiffness& joint, const JointMemory& memory, const JointState& state,
                      int end);
 
+/// What a step that ends in this state does: the law's forces, and what the joint remembers then.
+struct BondStep {
+  Eigen::Vector4d force;  ///< as in JointResponse
+  JointMemory memory;
+};
+BondStep bond_step(const CohesiveStiffness& joint, const JointMemory& memory, const JointState& state);
+
 /// What the joint remembers when a step ends in this state.
 JointMemory updated_bond(const CohesiveStiffness& joint, const JointMemory& memory, const JointState& state);
 

@@ -36,10 +36,10 @@ std::vector<BondedJoint> bonded_joints(const Model& model, const ContactSearch& 
 
 Vector8d follow_bond(const BondedJoint& joint, const Vector8d& displacement, MortarBond& bond) {
   const JointKinematics kinematics = joint_kinematics(joint.frame, displacement);
-  const JointResponse response = integrate_bond(joint.law, bond.memory, kinematics.state);
-  bond.memory = updated_bond(joint.law, bond.memory, kinematics.state);
+  BondStep step = bond_step(joint.law, bond.memory, kinematics.state);
+  bond.memory = std::move(step.memory);
   bond.holds = !is_gone(joint.law, bond.memory);
-  return -(kinematics.gradient.transpose() * response.force);
+  return -(kinematics.gradient.transpose() * step.force);
 }
 
 }  // namespace voussoir

@@ -176,7 +176,7 @@ template <class T>
 void search_contacts(const MotionModel& model, double margin, int i, Motion<T>& motion) {
   std::vector<EdgePair> found =
       model.search.candidates(places_in_lane(motion, i), absent_in_lane(motion, i), margin);
-  leave_out(bonded_pairs(model, motion.bonds[static_cast<std::size_t>(i)]), found);
+  if (!model.bonds.empty()) leave_out(bonded_pairs(model, motion.bonds[static_cast<std::size_t>(i)]), found);
   for (Cell<T>& cell : motion.found) set_lane(cell.value, i, 0.0);
   if (!std::includes(motion.pairs.begin(), motion.pairs.end(), found.begin(), found.end()))
     add_contacts(model, found, motion);
@@ -191,7 +191,7 @@ void search_contacts(const MotionModel& model, double margin, int i, Motion<T>& 
 template <class T>
 void follow_bonds(const MotionModel& model, Motion<T>& motion) {
   if (model.bonds.empty()) return;
-  motion.held.assign(motion.places.size(), {T{}, T{}});
+  motion.bond_forces.assign(motion.places.size(), {T{}, T{}});
   const double ahead = model.contact_damping / model.pace.step;
   for (int i = 0; i < kLaneCount<T>; ++i)
     for (std::size_t k = 0; k < model.bonds.size(); ++k) {
@@ -209,7 +209,7 @@ void follow_bonds(const MotionModel& model, Motion<T>& motion) {
       }
       const Vector8d force = follow_bond(joint, displacement, bond);
       for (std::size_t corner = 0; corner < 4; ++corner) {
-        Pair<T>& sum = motion.held[static_cast<std::size_t>(joint.nodes[corner])];
+        Pair<T>& sum = motion.bond_forces[static_cast<std::size_t>(joint.nodes[corner])];
         const auto c = 2 * static_cast<Eigen::Index>(corner);
         set_pair(sum, i, lane(sum.x, i) + force[c], lane(sum.y, i) + force[c + 1]);
       }

@@ -60,9 +60,9 @@ struct Motion {
   std::vector<Pair<T>> deformed;  ///< u of the nodes in their block's frame [m]
   std::vector<Pair<T>> rates;     ///< du/dt [m/s]; with explicit steps the nodes' velocities
   std::vector<BlockFrame<T>> frames;
-  std::vector<Cell<T>> present;  ///< per block: 1, or 0 where it is removed
-  std::vector<Pair<T>> pushes;   ///< forces on the nodes beside weight and joints [N]; empty: none
-  std::vector<Pair<T>> held;     ///< what bonds do to the nodes [N]; empty: there are none
+  std::vector<Cell<T>> present;      ///< per block: 1, or 0 where it is removed
+  std::vector<Pair<T>> pushes;       ///< forces on the nodes beside weight and joints [N]; empty: none
+  std::vector<Pair<T>> bond_forces;  ///< on the nodes [N]; empty: there are no bonds
   std::array<std::vector<MortarBond>, kLaneCount<T>> bonds;  ///< of each lane's scene
   std::vector<EdgePair> pairs;                               ///< that some lane's search has found, ascending
   std::vector<EdgeContact> contacts;                         ///< of `pairs`
@@ -94,8 +94,8 @@ double grown_share(double time, double ramp);
 template <class T>
 void search_contacts(const MotionModel& model, double margin, int lane_index, Motion<T>& motion);
 
-/// Evaluates the bonds that hold, at the places in a step of length `step` [s] from now on; those that are
-/// worn away turn into contacts at the next search.
+/// Evaluates the bonds that hold, a time `contact_damping` ahead (core/motion/bonds.h); those that are worn
+/// away turn into contacts at the next search.
 template <class T>
 void follow_bonds(const MotionModel& model, Motion<T>& motion);
 

@@ -16,8 +16,8 @@ struct MotionView {
   Pair<T>* rates;
   BlockFrame<T>* frames;
   const Cell<T>* present;
-  const Pair<T>* pushes;  ///< null: none
-  const Pair<T>* held;    ///< null: none
+  const Pair<T>* pushes;       ///< null: none
+  const Pair<T>* bond_forces;  ///< null: there are no bonds
   const EdgeContact* contacts;
   const Cell<T>* found;
   ContactShear<T>* shear;
@@ -38,7 +38,7 @@ MotionView<T> view_of(Motion<T>& motion) {
           .frames = motion.frames.data(),
           .present = motion.present.data(),
           .pushes = motion.pushes.empty() ? nullptr : motion.pushes.data(),
-          .held = motion.held.empty() ? nullptr : motion.held.data(),
+          .bond_forces = motion.bond_forces.empty() ? nullptr : motion.bond_forces.data(),
           .contacts = motion.contacts.data(),
           .found = motion.found.data(),
           .shear = motion.shear.data(),
@@ -211,8 +211,8 @@ template <class T>
 VOUSSOIR_INLINE void clear_forces(const IndexRange& nodes, const MotionView<T>& view) {
   for (int i = nodes.begin; i < nodes.end; ++i)
     view.forces[i] = view.pushes != nullptr ? view.pushes[i] : Pair<T>{T{}, T{}};
-  if (view.held == nullptr) return;
-  for (int i = nodes.begin; i < nodes.end; ++i) view.forces[i] = view.forces[i] + view.held[i];
+  if (view.bond_forces == nullptr) return;
+  for (int i = nodes.begin; i < nodes.end; ++i) view.forces[i] = view.forces[i] + view.bond_forces[i];
 }
 
 /// forces += contact, but for quick blocks.

@@ -1,6 +1,6 @@
 #include "core/solve/softer_joints.h"
 
-#include <algorithm>
+#include <numeric>
 
 namespace voussoir {
 namespace {
@@ -26,33 +26,33 @@ QuasiStaticSettings approaching(QuasiStaticSettings settings) {
 
 std::vector<Approach> approach_from_softer_joints(QuasiStaticSolver& solver, const Parameters& parameters,
                                                   double softest, std::span<const StageTask> tasks) {
-  std::vector<StageTask> left(tasks.begin(), tasks.end());
-  for (StageTask& task : left) task.start = nullptr;
-  std::vector<std::size_t> places(tasks.size());
-  for (std::size_t i = 0; i < places.size(); ++i) places[i] = i;
   std::vector<Approach> approaches(tasks.size());
+  std::vector<std::size_t> open(tasks.size());  // that stood so far
+  std::iota(open.begin(), open.end(), std::size_t{0});
   for (const double share : shares_from(softest)) {
+    if (open.empty()) break;
     Parameters softer = parameters;
     for (JointMaterial& joint : softer.joints) joint = softened(joint, share);
-    for (StageTask& task : left) task.parameters = &softer;
-    std::vector<Solution> found = solver.solve(left);
-    std::vector<StageTask> going_on;
-    std::vector<std::size_t> their_places;
-    for (std::size_t k = 0; k < left.size(); ++k) {
-      Solution& solution = approaches[places[k]].solution;
-      found[k].iterations += solution.iterations;
-      solution = std::move(found[k]);
-      if (solution.outcome != Outcome::standing) {
-        solution.outcome = Outcome::unresolved;
-        continue;
-      }
-      approaches[places[k]].reached = share;
-      going_on.push_back(left[k]);
-      going_on.back().start = &solution.displacement;
-      their_places.push_back(places[k]);
+    std::vector<StageTask> next;
+    for (const std::size_t i : open) {
+      next.push_back(tasks[i]);
+      next.back().parameters = &softer;
+      next.back().start = approaches[i].reached > 0.0 ? &approaches[i].solution.displacement : nullptr;
     }
-    left = std::move(going_on);
-    places = std::move(their_places);
+    std::vector<Solution> found = solver.solve(next);
+    std::vector<std::size_t> standing;
+    for (std::size_t k = 0; k < open.size(); ++k) {
+      Approach& approach = approaches[open[k]];
+      found[k].iterations += approach.solution.iterations;
+      approach.solution = std::move(found[k]);
+      if (approach.solution.outcome == Outcome::standing) {
+        approach.reached = share;
+        standing.push_back(open[k]);
+      } else {
+        approach.solution.outcome = Outcome::unresolved;
+      }
+    }
+    open = std::move(standing);
   }
   return approaches;
 }

@@ -1,7 +1,5 @@
 #include "core/statics/sensitivity.h"
 
-#include <algorithm>
-
 #include "core/statics/parameter_derivatives.h"
 
 namespace voussoir {
@@ -9,18 +7,6 @@ namespace {
 
 Field without_nan(const Field& field) {
   return field.array().isNaN().select(0.0, field);
-}
-
-std::vector<int> transposed_slots(const Eigen::SparseMatrix<double>& pattern) {
-  const int* begin = pattern.outerIndexPtr();
-  const int* row = pattern.innerIndexPtr();
-  std::vector<int> slots(static_cast<std::size_t>(pattern.nonZeros()));
-  for (int column = 0; column < pattern.outerSize(); ++column)
-    for (int slot = begin[column]; slot < begin[column + 1]; ++slot) {
-      const int* mirror = std::lower_bound(row + begin[row[slot]], row + begin[row[slot] + 1], column);
-      slots[static_cast<std::size_t>(slot)] = static_cast<int>(mirror - row);
-    }
-  return slots;
 }
 
 /// Per standard deviation: components x parameters of an epoch.
@@ -75,35 +61,7 @@ SensitivitySolver::SensitivitySolver(const EquilibriumSystem& system, const Unce
     : system_(system),
       uncertain_(uncertain),
       movements_(movements_of(system, uncertain)),
-      transposed_slot_(transposed_slots(system.pattern)),
-      linear_(system.pattern),
-      tangent_(static_cast<std::size_t>(system.pattern.nonZeros())),
-      lanes_(tangent_.size()),
-      right_(static_cast<std::size_t>(system.unknown_count())) {}
-
-/// Replaces right-hand sides, at all components, by solutions of the transposed tangent; zero at held ones.
-bool SensitivitySolver::solve_transposed(const SolvedStep& step, Eigen::MatrixXd& right_hand_sides) {
-  assemble(step.equations, step.displacement, 0.0, {tangent_.data()});
-  for (std::size_t i = 0; i < tangent_.size(); ++i)
-    for (std::size_t lane = 0; lane < kLanes; ++lane)
-      lanes_[i].value[lane] = tangent_[static_cast<std::size_t>(transposed_slot_[i])];
-  if (!linear_.factorise(lanes_).front()) return false;
-  const Eigen::MatrixXd given = right_hand_sides;
-  right_hand_sides.setZero();
-  for (Eigen::Index first = 0; first < given.cols(); first += kLanes) {
-    const std::size_t count = std::min<std::size_t>(kLanes, static_cast<std::size_t>(given.cols() - first));
-    for (std::size_t i = 0; i < right_.size(); ++i)
-      for (std::size_t lane = 0; lane < kLanes; ++lane)
-        right_[i].value[lane] =
-            lane < count ? given(system_.component[i], first + static_cast<Eigen::Index>(lane)) : 0.0;
-    linear_.solve(right_);
-    for (std::size_t i = 0; i < right_.size(); ++i)
-      for (std::size_t lane = 0; lane < count; ++lane)
-        right_hand_sides(system_.component[i], first + static_cast<Eigen::Index>(lane)) =
-            right_[i].value[lane];
-  }
-  return right_hand_sides.allFinite();
-}
+      transposed_(system) {}
 
 /// From the derivatives by what a step ends with to those by what it begins with; adds what it does to the
 /// parameters' own.
@@ -123,7 +81,7 @@ bool SensitivitySolver::step_back(const SolvedStep& step, Adjoint& adjoint) {
   if (adjoint.by_displacement.isZero(0.0)) return true;
   Eigen::MatrixXd lambda = std::move(adjoint.by_displacement);
   adjoint.by_displacement = Eigen::MatrixXd::Zero(lambda.rows(), lambda.cols());
-  if (!solve_transposed(step, lambda)) return false;
+  if (!transposed_.solve(step.equations, step.displacement, lambda)) return false;
   ColumnMatrix by_parameters =
       forces_by_parameters(step.equations, step.displacement, uncertain_, movements_);
   ColumnMatrix by_memory = forces_by_memory(step.equations, step.displacement);
@@ -131,9 +89,8 @@ bool SensitivitySolver::step_back(const SolvedStep& step, Adjoint& adjoint) {
     by_parameters -=
         step.held_share * forces_by_parameters(step.equations, step.place, uncertain_, movements_);
     by_memory -= step.held_share * forces_by_memory(step.equations, step.place);
-    assemble(step.equations, step.place, 0.0, {tangent_.data()});
     Eigen::SparseMatrix<double> tangent = system_.pattern;
-    std::ranges::copy(tangent_, tangent.valuePtr());
+    assemble(step.equations, step.place, 0.0, {tangent.valuePtr()});
     Eigen::MatrixXd free(system_.unknown_count(), lambda.cols());
     for (Eigen::Index i = 0; i < free.rows(); ++i)
       free.row(i) = lambda.row(system_.component[static_cast<std::size_t>(i)]);

@@ -16,8 +16,8 @@
 #include <vector>
 
 #include "core/statics/equilibrium.h"
-#include "core/statics/lane_factorisation.h"
 #include "core/statics/solution.h"
+#include "core/statics/transposed_solver.h"
 #include "core/structure/uncertain_parameters.h"
 
 namespace voussoir {
@@ -56,15 +56,11 @@ class SensitivitySolver {
  private:
   struct Adjoint;
   bool step_back(const SolvedStep& step, Adjoint& adjoint);
-  bool solve_transposed(const SolvedStep& step, Eigen::MatrixXd& right_hand_sides);
 
   const EquilibriumSystem& system_;
   const UncertainParameters& uncertain_;
-  Eigen::MatrixXd movements_;         ///< components x parameters of an epoch, per standard deviation
-  std::vector<int> transposed_slot_;  ///< of each entry of the pattern: the place of its mirror entry
-  LaneFactorisation linear_;
-  std::vector<double> tangent_;
-  LaneVector lanes_, right_;
+  Eigen::MatrixXd movements_;  ///< components x parameters of an epoch, per standard deviation
+  TransposedSolver transposed_;
 };
 
 }  // namespace voussoir

@@ -1,0 +1,29 @@
+#pragma once
+/// @file Adjoints: the transposed tangent of an equilibrium, solved for many right-hand sides.
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "core/statics/equilibrium.h"
+#include "core/statics/lane_factorisation.h"
+
+namespace voussoir {
+
+class TransposedSolver {
+ public:
+  /// The system outlives the solver.
+  explicit TransposedSolver(const EquilibriumSystem& system);
+
+  /// Replaces right-hand sides, at all displacement components (a column each), by solutions of K^T z = b
+  /// with the tangent K at this displacement; zero at held components. False if K is singular.
+  bool solve(const StageEquations& equations, const Field& displacement, Eigen::MatrixXd& right_hand_sides);
+
+ private:
+  const EquilibriumSystem& system_;
+  std::vector<int> transposed_slot_;  ///< of each entry of the pattern: the place of its mirror entry
+  LaneFactorisation linear_;
+  std::vector<double> tangent_;
+  LaneVector lanes_, right_;
+};
+
+}  // namespace voussoir
