@@ -7,6 +7,8 @@
 #include <numeric>
 
 #include "core/error.h"
+#include "core/structure/bridge_file.h"
+#include "lookup/readings/standardised_parameters.h"
 
 namespace voussoir {
 namespace {
@@ -40,7 +42,8 @@ std::optional<Sample> sample_of(const StateTables& tables, const Scene& scene) {
   const auto nominal = standing_row(tables.nominal, scene);
   if (!nominal) return std::nullopt;
   const auto points = static_cast<Index>(nominal->size());
-  Sample sample{MatrixXd::Zero(points, static_cast<Index>(tables.sampled.size())), VectorXd::Zero(points), {}};
+  Sample sample{
+      MatrixXd::Zero(points, static_cast<Index>(tables.sampled.size())), VectorXd::Zero(points), {}};
   for (Index i = 0; i < points; ++i)
     sample.points_left[i] = std::isnan((*nominal)[static_cast<std::size_t>(i)]) ? 0.0 : 1.0;
   for (const SceneTable& table : tables.sampled) {
@@ -56,50 +59,60 @@ std::optional<Sample> sample_of(const StateTables& tables, const Scene& scene) {
   return sample;
 }
 
-/// Columns of the first order and of samples, each with its weight: of a mean of covariances its root.
-MatrixXd weighted(const MatrixXd& first_order, const MatrixXd& sample, double bridges, bool is_known) {
-  const double first = is_known ? kFirstOrderBridges : 0.0;
-  MatrixXd columns(sample.rows(), first_order.cols() + sample.cols());
-  columns.leftCols(first_order.cols()) = std::sqrt(first / (first + bridges)) * first_order;
-  columns.rightCols(sample.cols()) = std::sqrt(1.0 / (first + bridges)) * sample;
+/// The first order's columns, and the samples' with the weight that makes their sum of squares a mean.
+MatrixXd columns_of(const MatrixXd& first_order, const MatrixXd& left, Index standing) {
+  MatrixXd columns(left.rows(), first_order.cols() + left.cols());
+  columns.leftCols(first_order.cols()) = first_order;
+  columns.rightCols(left.cols()) = left / std::sqrt(static_cast<double>(std::max<Index>(standing, 1)));
   return columns;
 }
+
+/// The first order, and where along its columns the sampled bridges are.
+struct FirstOrder {
+  const Sensitivities& sensitivities;
+  MatrixXd positions;  ///< columns of the basis x bridges: V^T theta
+};
 
 /// Makes the factors of one state.
 class StateFactors {
  public:
   /// The first order may be null.
-  StateFactors(const StateTables& tables, const Sensitivities* first_order, std::size_t state)
+  StateFactors(const StateTables& tables, const FirstOrder* first_order, std::size_t state)
       : tables_(tables),
         first_order_(first_order),
         state_(state),
         intact_sample_(sample_of(tables, {}).value()),
-        nominal_(first_order ? *first_order->find(state, {})
-                             : SceneFactors{MatrixXd(points(), 0), MatrixXd(points(), 0)}),
-        intact_(weighted(nominal_.bridge, intact_sample_.difference,
-                         static_cast<double>(intact_sample_.standing), first_order != nullptr)) {}
+        intact_first_(first_order ? *first_order->sensitivities.find(state, {})
+                                  : SceneFactors{MatrixXd(points(), 0), MatrixXd(points(), 0)}) {
+    MatrixXd left = intact_sample_.difference;
+    if (first_order) left -= intact_first_.bridge * first_order->positions;
+    intact_ = columns_of(intact_first_.bridge, left, intact_sample_.standing);
+  }
 
   /// Not known if neither the first order nor enough bridges know it.
   SceneFactors operator()(const Scene& scene) const {
-    if (scene.removed.empty()) return {intact_, nominal_.epoch};
+    if (scene.removed.empty()) return {intact_, intact_first_.epoch};
     const auto sample = sample_of(tables_, scene);
     if (!sample) return {};
-    const SceneFactors* const own = first_order_ ? first_order_->find(state_, scene) : nullptr;
-    if (own == nullptr && sample->standing < static_cast<Index>(kFewestBridges)) return {};
+    const SceneFactors* const first =
+        first_order_ ? first_order_->sensitivities.find(state_, scene) : nullptr;
+    const bool enough = sample->standing >= static_cast<Index>(kFewestBridges);
+    if (first == nullptr && !enough) return {};
     const auto left = sample->points_left.asDiagonal();
-    MatrixXd first = MatrixXd::Zero(points(), nominal_.bridge.cols());
-    if (own != nullptr) first = widening() * (own->bridge - left * nominal_.bridge);
-    const MatrixXd change =
-        weighted(first, change_of(*sample), static_cast<double>(sample->standing), own != nullptr);
-    return {left * intact_ + change, own != nullptr ? own->epoch : MatrixXd(left * nominal_.epoch)};
+    MatrixXd change = MatrixXd::Zero(points(), intact_first_.bridge.cols());
+    if (first != nullptr) change = first->bridge - left * intact_first_.bridge;
+    const MatrixXd columns =
+        enough ? columns_of(change, left_of(*sample, first ? &change : nullptr), sample->standing)
+               : columns_of(widening() * change, MatrixXd::Zero(points(), sample->difference.cols()), 0);
+    return {left * intact_ + columns, first != nullptr ? first->epoch : MatrixXd(left * intact_first_.epoch)};
   }
 
-  /// Samples leave nothing, and of the first order only its weight counts.
+  /// What is left of epochs, which are not sampled.
   FirstOrderResidual residual() const {
-    if (first_order_ == nullptr) return {MatrixXd(points(), 0), MatrixXd(points(), 0)};
-    FirstOrderResidual result = first_order_->states[state_].residual;
-    result.bridge *= std::sqrt(kFirstOrderBridges /
-                               (kFirstOrderBridges + static_cast<double>(intact_sample_.standing)));
+    FirstOrderResidual result;
+    if (first_order_) result = first_order_->sensitivities.states[state_].residual;
+    if (!first_order_) result.epoch = MatrixXd(points(), 0);
+    result.bridge = MatrixXd(points(), 0);
     result.share = result.common = 0.0;
     return result;
   }
@@ -107,25 +120,29 @@ class StateFactors {
  private:
   Index points() const { return intact_sample_.difference.rows(); }
 
-  /// What the first order leaves of signals, as ReadingFactors widens it elsewhere.
+  /// What the first order leaves of signals where no samples show it, as ReadingFactors widens it.
   double widening() const {
-    const FirstOrderResidual& residual = first_order_->states[state_].residual;
+    const FirstOrderResidual& residual = first_order_->sensitivities.states[state_].residual;
     return std::sqrt(1.0 + std::pow(residual.share, 2) + std::pow(residual.common, 2));
   }
 
-  MatrixXd change_of(const Sample& sample) const {
-    MatrixXd change = sample.difference;
-    for (Index v = 0; v < change.cols(); ++v)
-      if (sample.stands[static_cast<std::size_t>(v)])
-        change.col(v) -= sample.points_left.cwiseProduct(intact_sample_.difference.col(v));
-    return change;
+  /// Of a scene's signal in each bridge, less what the first order makes of it.
+  MatrixXd left_of(const Sample& sample, const MatrixXd* first_order) const {
+    MatrixXd left = MatrixXd::Zero(points(), sample.difference.cols());
+    for (Index v = 0; v < left.cols(); ++v) {
+      if (!sample.stands[static_cast<std::size_t>(v)]) continue;
+      left.col(v) =
+          sample.difference.col(v) - sample.points_left.cwiseProduct(intact_sample_.difference.col(v));
+      if (first_order != nullptr) left.col(v) -= *first_order * first_order_->positions.col(v);
+    }
+    return left;
   }
 
   const StateTables& tables_;
-  const Sensitivities* first_order_;
+  const FirstOrder* first_order_;
   std::size_t state_;
   Sample intact_sample_;
-  SceneFactors nominal_;  // the intact bridge's, to first order
+  SceneFactors intact_first_;
   MatrixXd intact_;
 };
 
@@ -140,8 +157,8 @@ std::vector<std::int32_t> usable_variants(const Database& database) {
     const auto variant = static_cast<std::int32_t>(v);
     bool stands = true;
     for (std::size_t state = 0; state < database.states().size(); ++state)
-      stands = stands && (intact_stands(database, variant, state) ||
-                          !intact_stands(database, kNominalVariant, state));
+      stands = stands &&
+               (intact_stands(database, variant, state) || !intact_stands(database, kNominalVariant, state));
     if (stands) usable.push_back(variant);
   }
   return usable;
@@ -152,10 +169,32 @@ void require_enough(const Database& database, std::size_t usable, bool alone) {
   if (usable >= least) return;
   const std::string held =
       usable == 0 ? "no sampled bridge" : fmt::format("{} sampled bridge{}", usable, usable == 1 ? "" : "s");
-  throw Failure(fmt::format("{}: holds {} that stand when intact, evidence from variants takes at least {}{}: "
-                            "see build-database --variants",
-                            database.path().string(), held, least,
-                            alone ? fmt::format(" ({} beside sensitivities)", kFewestBridges) : ""));
+  throw Failure(
+      fmt::format("{}: holds {} that stand when intact, evidence from variants takes at least {}{}: "
+                  "see build-database --variants",
+                  database.path().string(), held, least,
+                  alone ? fmt::format(" ({} beside sensitivities)", kFewestBridges) : ""));
+}
+
+/// Where each of the variants is, from the parameters that it was solved with.
+FirstOrder first_order_of(const Database& database, const std::vector<std::int32_t>& variants) {
+  const Sensitivities& sensitivities = *database.sensitivities();
+  const BridgeDescription bridge =
+      parse_bridge_file(database.bridge_text(), database.bridge_name()).description;
+  const UncertainParameters uncertain = uncertain_parameters(make_model(bridge), bridge.uncertainty);
+  if (uncertain.all() != sensitivities.parameters)
+    throw Failure(
+        fmt::format("{}: its sensitivities are of other parameters than its bridge file has: build "
+                    "it anew (build-database --force)",
+                    database.path().string()));
+  const std::vector<VariantParameters>& parameters = database.variants();
+  FirstOrder result{sensitivities, MatrixXd(sensitivities.basis.cols(), static_cast<Index>(variants.size()))};
+  for (std::size_t i = 0; i < variants.size(); ++i)
+    result.positions.col(static_cast<Index>(i)) =
+        sensitivities.basis.transpose() *
+        standardised_parameters(uncertain, parameters.front(),
+                                parameters[static_cast<std::size_t>(variants[i])]);
+  return result;
 }
 
 /// Those of the first order and of the variants, ascending.
@@ -178,11 +217,12 @@ MatrixXd change_of(const SceneFactors& scene, const SceneFactors& intact) {
 }
 
 /// Nothing is known of states in which the intact bridge does not stand.
-StateSensitivities state_sensitivities(const Database& database, const Sensitivities* first_order,
+StateSensitivities state_sensitivities(const Database& database, const FirstOrder* first_order,
                                        const std::vector<std::int32_t>& variants,
                                        const std::vector<Scene>& scenes, std::size_t state) {
   StateSensitivities result{std::vector<SceneFactors>(scenes.size()), {}};
-  if (!intact_stands(database, kNominalVariant, state) || (first_order && !first_order->find(state, {})))
+  if (!intact_stands(database, kNominalVariant, state) ||
+      (first_order && !first_order->sensitivities.find(state, {})))
     return result;
   StateTables tables{database.table(kNominalVariant, state), {}};
   for (const std::int32_t variant : variants) tables.sampled.push_back(database.table(variant, state));
@@ -221,29 +261,36 @@ void order_columns(Index samples, Sensitivities& sensitivities) {
       scene.bridge.rightCols(samples) = (scene.bridge.rightCols(samples) * principal.eigenvectors()).eval();
       scene.bridge = scene.bridge(Eigen::all, order).eval();
     }
+  sensitivities.basis = sensitivities.basis(Eigen::all, order).eval();
 }
 
 }  // namespace
 
 SampledBridges sampled_bridges(const Database& database) {
-  const Sensitivities* const first_order = database.sensitivities();
+  const Sensitivities* const sensitivities = database.sensitivities();
   const std::vector<std::int32_t> variants = usable_variants(database);
-  require_enough(database, variants.size(), first_order == nullptr);
-  SampledBridges result{variants.size(), first_order != nullptr, {}};
+  require_enough(database, variants.size(), sensitivities == nullptr);
+  const auto samples = static_cast<Index>(variants.size());
+  SampledBridges result{variants.size(), sensitivities != nullptr, {}};
   Sensitivities& made = result.sensitivities;
-  made.scenes = scenes_of(first_order, database.table(variants.front(), 0));
+  made.scenes = scenes_of(sensitivities, database.table(variants.front(), 0));
   if (made.scenes.size() < 2)
-    throw Failure(fmt::format("{}: its sampled bridges are intact ones only, expected their singles: "
-                              "build-database --variants {} --scenes singles",
-                              database.path().string(), variants.size()));
-  if (first_order)
-    std::ranges::copy_if(first_order->parameters, std::back_inserter(made.parameters),
-                         &UncertainParameter::of_epoch);
+    throw Failure(
+        fmt::format("{}: its sampled bridges are intact ones only, expected their singles: "
+                    "build-database --variants {} --scenes singles",
+                    database.path().string(), variants.size()));
+  std::optional<FirstOrder> first_order;
+  made.basis = MatrixXd(0, samples);
+  if (sensitivities != nullptr) {
+    first_order.emplace(first_order_of(database, variants));
+    made.parameters = sensitivities->parameters;
+    made.basis = MatrixXd::Zero(sensitivities->basis.rows(), sensitivities->basis.cols() + samples);
+    made.basis.leftCols(sensitivities->basis.cols()) = sensitivities->basis;
+  }
   for (std::size_t state = 0; state < database.states().size(); ++state)
-    made.states.push_back(state_sensitivities(database, first_order, variants, made.scenes, state));
-  made.basis =
-      MatrixXd(0, (first_order ? first_order->basis.cols() : 0) + static_cast<Index>(variants.size()));
-  order_columns(static_cast<Index>(variants.size()), made);
+    made.states.push_back(
+        state_sensitivities(database, first_order ? &*first_order : nullptr, variants, made.scenes, state));
+  order_columns(samples, made);
   return result;
 }
 

@@ -2,16 +2,18 @@
 /// @file What bridges drawn at random and solved nonlinearly (build-database --variants) show of how a
 /// database's settlements scatter, in the form of sensitivities.
 ///
-/// N bridges give a scene's covariance about the nominal bridge, S = sum_v x_v x_v^T / N, x_v being how variant
-/// v differs from it; what the nominal bridge is off from their mean is in it. So few bridges leave most
-/// directions out that a bridge has, as if it were exactly known there. So the first order, J J^T, counts as
-/// kFirstOrderBridges more of them,
+/// Bridge v, whose parameters theta_v are known, differs from the nominal one in a scene by x_v. The first
+/// order explains J theta_v of it, and the covariance of N bridges is taken as
 ///
-///   (kFirstOrderBridges J J^T + N S) / (kFirstOrderBridges + N),
+///   J J^T + (1 / N) sum_v r_v r_v^T,   r_v = x_v - J theta_v,
 ///
-/// which is the mean of a covariance after N samples if it has an inverse Wishart distribution around J J^T
-/// beforehand. Columns are those of J and the samples x_v, each with the root of its weight. Of two states or
-/// scenes of one bridge the same columns are the same bridges, so that what they have in common is kept.
+/// J J^T being what the first order says of all bridges, not of these N, and r_v what it leaves (second
+/// order, uncorrelated with theta). So what few samples leave out is only of what the first order leaves. The
+/// factors' columns are those of J, and r_v / sqrt(N). Moments are about the nominal bridge: by what it is
+/// off from the mean they are larger. The same column is the same bridge in all scenes and states, so that
+/// what they have in common is kept.
+///
+/// Without a first order r_v is x_v: every direction that no bridge took counts as exactly known.
 
 #include <memory>
 
@@ -25,18 +27,16 @@ enum class ScatterEvidence {
   variants      ///< its sampled bridges, solved nonlinearly (SampledBridges)
 };
 
-/// So many sampled bridges say as much of a covariance as the first order (docs/uncertainty.md).
-inline constexpr double kFirstOrderBridges = 20.0;
-
-/// Fewer are refused: with the first order, and of changes without it.
+/// Fewer are refused: beside the first order, and alone (docs/uncertainty.md).
 inline constexpr std::size_t kFewestBridges = 10;
 inline constexpr std::size_t kFewestAlone = 20;
 
 struct SampledBridges {
   std::size_t count = 0;         ///< bridges whose intact state stands
-  bool has_first_order = false;  ///< otherwise nothing is known of epochs, nor of directions that no bridge took
-  /// A and E as the rest of the program takes them. The columns of A are no parameters of the bridge, of which
-  /// samples say next to nothing: the basis has no rows.
+  bool has_first_order = false;  ///< otherwise nothing is known of epochs and of the bridge's parameters
+  /// A and E as the rest of the program takes them. The columns of A that are samples are no directions of
+  /// parameters: there the basis is zero. A scene of which fewer than kFewestBridges stand has the first
+  /// order's factors alone, widened by what that leaves of others.
   Sensitivities sensitivities;
 };
 

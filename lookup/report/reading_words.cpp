@@ -91,17 +91,15 @@ ShownReadings shown_readings(const Comparison& comparison, std::size_t row) {
 std::string evidence_in_words(const Comparison& comparison) {
   if (!comparison.sampled) return "derivatives of the stored bridge (first order)";
   const SampledBridges& sampled = *comparison.sampled;
-  const std::string bridges = fmt::format("{} sampled bridges, solved in full", sampled.count);
   return sampled.has_first_order
              ? fmt::format(
-                   "{}; in the directions that they leave out the first order, which counts as {:g} "
-                   "more; temperature and supports to first order; what the bridge itself is like is "
-                   "not said",
-                   bridges, kFirstOrderBridges)
+                   "derivatives of the stored bridge, and what they leave of {} sampled bridges that "
+                   "were solved in full; temperature and supports by derivatives alone",
+                   sampled.count)
              : fmt::format(
-                   "{}, alone: no bridge may differ otherwise than a mixture of them, and what it is "
-                   "like is not said",
-                   bridges);
+                   "{} sampled bridges that were solved in full, alone: what none of them shows counts "
+                   "as exactly known",
+                   sampled.count);
 }
 
 }  // namespace voussoir

@@ -117,9 +117,8 @@ ordered_json parameter_json(const KnownParameter& parameter) {
 ordered_json evidence_json(const Comparison& comparison) {
   const SampledBridges* const sampled = comparison.sampled.get();
   if (!sampled) return {{"from", "first-order"}};
-  return {{"from", "variants"},
-          {"bridges", sampled->count},
-          {"first_order_counts_as", sampled->has_first_order ? kFirstOrderBridges : 0.0}};
+  return {
+      {"from", "variants"}, {"bridges", sampled->count}, {"beside_first_order", sampled->has_first_order}};
 }
 
 /// What moved the sensors, and what the readings say of the bridge and of temperature and supports.

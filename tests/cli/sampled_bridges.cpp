@@ -77,7 +77,7 @@ TEST_CASE("Many sampled bridges that scatter little answer as the first order do
              variants = workshop().answer("alone.h5", {"--evidence", "variants"});
   CHECK(order.at("bridge").at("evidence") == json({{"from", "first-order"}}));
   CHECK(variants.at("bridge").at("evidence") ==
-        json({{"from", "variants"}, {"bridges", kVariants}, {"first_order_counts_as", 0.0}}));
+        json({{"from", "variants"}, {"bridges", kVariants}, {"beside_first_order", false}}));
   // A variance of 60 samples has a standard error of 18 %, and with it the odds' logarithm, nearly.
   const double expected = log_odds(order);
   CHECK(log_odds(variants) == Approx(expected).epsilon(0.36));
@@ -88,11 +88,14 @@ TEST_CASE("The answer says which evidence spoke, from how many bridges, and what
           "[whole-build]") {
   const test::ProgramResult both = workshop().locate("both.h5", {"--evidence", "variants"});
   CHECK(both.exit_code == 0);
-  CHECK_THAT(both.out, Contains("Evidence:     10 sampled bridges") && Contains("first order, which counts"));
+  CHECK_THAT(both.out, Contains("Evidence:     derivatives") && Contains("leave of 10 sampled bridges"));
   const json answer = workshop().answer("both.h5", {"--evidence", "variants"});
-  CHECK(answer.at("bridge").at("evidence").at("first_order_counts_as") > 0.0);
-  CHECK(answer.at("bridge").at("parameters").empty());
-  CHECK_FALSE(workshop().answer("both.h5", {}).at("bridge").at("parameters").empty());
+  CHECK(answer.at("bridge").at("evidence").at("beside_first_order") == true);
+  CHECK(answer.at("bridge").at("parameters").size() ==
+        workshop().answer("both.h5", {}).at("bridge").at("parameters").size());
+  const test::ProgramResult alone =
+      workshop().locate("alone.h5", {"--evidence", "variants", "--conditions", "known"});
+  CHECK_THAT(alone.out, Contains("60 sampled bridges") && Contains("alone") && Contains("exactly known"));
 }
 
 TEST_CASE("Evidence from variants that is not there is refused with what to do", "[whole-build]") {
