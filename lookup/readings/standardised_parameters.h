@@ -7,9 +7,9 @@
 
 namespace voussoir {
 
-/// One number for each uncertain parameter of the bridge. The common factor of all stiffnesses and the joints'
-/// own can stand for each other: the common one takes their mean, as far as it is uncertain. What is not
-/// uncertain is not looked at. Precondition: both have the blocks and joints of the structure that the
+/// One number for each uncertain parameter of the bridge. The common factor of all stiffnesses and the
+/// joints' own can stand for each other: the common one takes their mean, as far as it is uncertain. What is
+/// not uncertain is not looked at. Precondition: both have the blocks and joints of the structure that the
 /// parameters are of.
 Eigen::VectorXd standardised_parameters(const UncertainParameters& uncertain,
                                         const VariantParameters& nominal, const VariantParameters& variant);

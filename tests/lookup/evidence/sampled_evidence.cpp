@@ -121,18 +121,21 @@ TEST_CASE("Bridges that are as the first order says give its answer") {
     state.residual.bridge.setZero();
   }
   const auto exact = [&](const RecordKey& key, std::size_t state, Index point) -> double {
-    return first.find(state, key.scene)->bridge.row(point) * theta_of(key.variant).segment(kFirstVaried, kVaried);
+    return first.find(state, key.scene)->bridge.row(point) *
+           theta_of(key.variant).segment(kFirstVaried, kVaried);
   };
   const Site site({.difference = exact, .first_order = first});
   const Database& database = site.database();
   int compared = 0;
-  for (const auto& [kind, epochs] : {std::pair(ReadingKind::change, Epochs::change), std::pair(ReadingKind::change, Epochs::both),
-                                     std::pair(ReadingKind::absolute, Epochs::change)})
+  for (const auto& [kind, epochs] :
+       {std::pair(ReadingKind::change, Epochs::change), std::pair(ReadingKind::change, Epochs::both),
+        std::pair(ReadingKind::absolute, Epochs::change)})
     for (const Conditions conditions : {Conditions::known, Conditions::uncertain}) {
       const ReadingsFile file = readings_of(database, kind, is_change(kind), 12);
       const Asked order = ask(database, file, epochs, ScatterEvidence::first_order, conditions),
                   variants = ask(database, file, epochs, ScatterEvidence::variants, conditions);
-      const auto &expected = order.answer.posterior->probability, &found = variants.answer.posterior->probability;
+      const auto &expected = order.answer.posterior->probability,
+                 &found = variants.answer.posterior->probability;
       for (std::size_t row = 0; row < expected.size(); ++row)
         // Fields are stored in single precision: 1e-10 m of a spread of 1e-4 m.
         CHECK(found[row] == Approx(expected[row]).margin(1e-3));

@@ -49,7 +49,8 @@ inline Eigen::VectorXd theta_of(std::int32_t variant) {
   Eigen::VectorXd theta =
       Eigen::VectorXd::Zero(static_cast<Eigen::Index>(uncertain_of_stored_bridge().of_bridge.size()));
   for (Eigen::Index i = 0; i < kVaried && variant != kNominalVariant; ++i)
-    theta[kFirstVaried + i] = 1.5 * number_of(static_cast<std::size_t>(variant), 3, 3, static_cast<std::size_t>(i));
+    theta[kFirstVaried + i] =
+        1.5 * number_of(static_cast<std::size_t>(variant), 3, 3, static_cast<std::size_t>(i));
   return theta;
 }
 
@@ -103,8 +104,8 @@ class Site {
  private:
   Database make(const Making& making) const {
     const std::vector<Scene> scenes = all_scenes(stored_bridge().layout.size(), making.most_missing);
-    DatabaseContent content = made_up_content(small_bridge_file(), stored_bridge(), scenes,
-                                                    KeepField::no, 1 + making.variants, kStates);
+    DatabaseContent content = made_up_content(small_bridge_file(), stored_bridge(), scenes, KeepField::no,
+                                              1 + making.variants, kStates);
     content.states = {kBuiltState, kLostState};
     content.sensitivities = making.first_order;
     for (std::size_t v = 1; v < content.variants.size(); ++v)
@@ -157,16 +158,18 @@ inline Sensitivities first_order_of_stored_bridge() {
       factors.epoch = Eigen::MatrixXd::NullaryExpr(
           p, epoch, [&](Eigen::Index i, Eigen::Index j) { return number(2000, i, j); });
     }
-    one.residual = {Eigen::MatrixXd::Constant(p, 1, 1e-5), Eigen::MatrixXd::Constant(p, 1, 1e-5), 0.3, 0.4, 0.1,
-                    0.2};
+    one.residual = {
+        Eigen::MatrixXd::Constant(p, 1, 1e-5), Eigen::MatrixXd::Constant(p, 1, 1e-5), 0.3, 0.4, 0.1, 0.2};
   }
   return made;
 }
 
-inline Eigen::VectorXd shown(const Database& database, std::int32_t variant, std::size_t state, const Scene& scene) {
+inline Eigen::VectorXd shown(const Database& database, std::int32_t variant, std::size_t state,
+                             const Scene& scene) {
   const SceneTable table = database.table(variant, state);
   const auto row = table.row(table.find(scene).value());
-  const Eigen::VectorXd values = Eigen::Map<const Eigen::VectorXd>(row.data(), static_cast<Eigen::Index>(row.size()));
+  const Eigen::VectorXd values =
+      Eigen::Map<const Eigen::VectorXd>(row.data(), static_cast<Eigen::Index>(row.size()));
   return values.array().isNaN().select(0.0, values);
 }
 
@@ -176,7 +179,8 @@ inline Eigen::VectorXd difference_of(const Database& database, std::int32_t vari
                                      const Scene& scene) {
   const Eigen::VectorXd gone = shown(database, kNominalVariant, state, scene);
   const auto signal = [&](std::int32_t of) -> Eigen::VectorXd {
-    return (gone.array() == 0.0).select(0.0, shown(database, of, state, scene) - shown(database, of, state, kIntact));
+    return (gone.array() == 0.0)
+        .select(0.0, shown(database, of, state, scene) - shown(database, of, state, kIntact));
   };
   Eigen::VectorXd difference(2 * gone.size());
   difference << shown(database, variant, state, kIntact) - shown(database, kNominalVariant, state, kIntact),
