@@ -77,8 +77,8 @@ void add_bridge_options(CLI::App& app, LocateDamageOptions& options) {
       app, "--evidence", options.evidence,
       {{"first-order", ScatterEvidence::first_order}, {"variants", ScatterEvidence::variants}},
       "how much readings scatter from bridge to bridge: first-order (default): derivatives of the stored "
-      "bridge; variants: bridges drawn at random and solved in full, which the database holds if it was "
-      "built with --variants");
+      "bridge; variants: also what these leave of bridges drawn at random and solved in full, which the "
+      "database holds if it was built with --variants");
   add_choice<Epochs>(
       app, "--epochs", options.settings.epochs, {{"change", Epochs::change}, {"both", Epochs::both}},
       "what before_mm and after_mm are: change (default): only their difference counts, since levellings "
