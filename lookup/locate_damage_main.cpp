@@ -28,6 +28,7 @@ struct Desk {
   voussoir::LookupSettings settings;
   voussoir::Database database;
   voussoir::SensorList sensors;
+  std::shared_ptr<const voussoir::SampledBridges> sampled{};  // null: the first order speaks
   voussoir::Preparations preparations{};
 };
 
@@ -39,10 +40,12 @@ struct Answered {
 };
 
 Answered ask(Desk& desk, const std::string& file) {
-  Answered asked{voussoir::compare(voussoir::read_readings(file, desk.sensors), desk.sensors, desk.database,
-                                   comparison_settings(desk.options)),
-                 desk.settings,
-                 {}};
+  voussoir::ComparisonSettings settings = comparison_settings(desk.options);
+  settings.sampled = desk.sampled;
+  Answered asked{
+      voussoir::compare(voussoir::read_readings(file, desk.sensors), desk.sensors, desk.database, settings),
+      desk.settings,
+      {}};
   asked.settings.noise = voussoir::noise_of(asked.comparison.measured, asked.settings.noise);
   asked.answer = desk.preparations.ask(asked.comparison, asked.settings);
   return asked;
@@ -88,6 +91,7 @@ voussoir::ProgramOutput locate(const voussoir::LocateDamageOptions& options) {
         fmt::format("{}: is part {} of a database, expected the whole: see merge-databases",
                     desk.database.path().string(), to_string(part->shard)));
   desk.sensors = sensors_of(desk.database, options);
+  desk.sampled = sampled_bridges(desk.database, options.evidence);
   if (options.measurements.size() == 1) return report_one(desk);
   return report_all(desk);
 }
@@ -99,7 +103,9 @@ int main(int argc, char** argv) {
                "locate-damage");
   app.footer(
       "Example: locate-damage readings.csv -d bridge.h5 --noise 5%\n"
-      "         locate-damage survey/*.csv -d bridge.h5 --format csv > survey.csv");
+      "         locate-damage survey/*.csv -d bridge.h5 --format csv > survey.csv\n"
+      "         build-database my-bridge.toml -o sampled.h5 --variants 50 --history built,lost\n"
+      "         locate-damage readings.csv -d sampled.h5 --sigma 0.02mm --evidence variants");
   app.set_version_flag("--version", voussoir::version_text("locate-damage"));
   voussoir::LocateDamageOptions options;
   voussoir::add_options(app, options);

@@ -73,6 +73,12 @@ void add_bridge_options(CLI::App& app, LocateDamageOptions& options) {
   app.add_flag("--known-bridge", options.settings.known_bridge,
                "take the bridge as exactly what the model says; default: its joints, stone, temperature and "
                "supports are uncertain as the bridge file's [uncertainty] states");
+  add_choice<ScatterEvidence>(
+      app, "--evidence", options.evidence,
+      {{"first-order", ScatterEvidence::first_order}, {"variants", ScatterEvidence::variants}},
+      "how much readings scatter from bridge to bridge: first-order (default): derivatives of the stored "
+      "bridge; variants: also what these leave of bridges drawn at random and solved in full, which the "
+      "database holds if it was built with --variants");
   add_choice<Epochs>(
       app, "--epochs", options.settings.epochs, {{"change", Epochs::change}, {"both", Epochs::both}},
       "what before_mm and after_mm are: change (default): only their difference counts, since levellings "
@@ -180,6 +186,12 @@ LookupSettings finish(const LocateDamageOptions& options) {
     throw InputError("--missing names a number twice, expected each once");
   if (settings.known_bridge && settings.epochs == Epochs::both)
     throw InputError("--epochs both tells what the bridge is like, expected no --known-bridge beside it");
+  if (options.evidence == ScatterEvidence::variants &&
+      (settings.known_bridge || settings.objective == Objective::paper))
+    throw InputError(
+        fmt::format("--evidence variants is of a bridge that is not exactly known, expected no {} "
+                    "beside it",
+                    settings.known_bridge ? "--known-bridge" : "--objective paper"));
   settings.noise.shape = parse_noise_shape(options.noise_model);
   if (!options.noise_level.empty()) settings.noise.relative = parse_noise_level(options.noise_level);
   settings.noise.floor = kMetresPerMillimetre * options.floor_mm;

@@ -17,6 +17,7 @@ struct LocateDamageOptions {
   std::optional<std::string> database;
   std::optional<std::filesystem::path> sensors;  ///< file of sensors beside the control points
   LookupSettings settings;
+  ScatterEvidence evidence = ScatterEvidence::first_order;
   ReportFormat format = ReportFormat::text;
   std::optional<std::filesystem::path> page;  ///< file to write the report page or picture to
   // Texts and units of the command line, which finish() turns into settings.

@@ -205,6 +205,23 @@ Candidate candidate_of(const Library& library, const ScoredRow& found,
   return candidate;
 }
 
+/// Sampled bridges show the directions that they took, and nothing of temperature and supports: only what
+/// changes is small against its errors in all others.
+void require_known_scatter(const Comparison& comparison, const LookupSettings& settings) {
+  if (!comparison.sampled || comparison.sampled->has_first_order) return;
+  constexpr const char* kRemedy = "or a database with sensitivities (build-database without --known-bridge)";
+  if (settings.conditions == Conditions::uncertain)
+    throw InputError(
+        fmt::format("evidence from variants: this database says nothing of temperature and "
+                    "supports, expected --conditions known, {}",
+                    kRemedy));
+  if (!is_change(comparison.kind) || settings.epochs == Epochs::both)
+    throw InputError(
+        fmt::format("evidence from variants: {} sampled bridges leave out most of what an "
+                    "intact bridge can be, expected changes (--epochs change), {}",
+                    comparison.sampled->count, kRemedy));
+}
+
 }  // namespace
 
 bool counts_as_known(const Comparison& comparison, const LookupSettings& settings) {
@@ -254,6 +271,7 @@ Answer locate_damage(const Comparison& comparison, const LookupSettings& setting
   answer.unresolved = eligible.unresolved;
   if (settings.epochs == Epochs::both && comparison.before.empty())
     throw InputError("both epochs are to count, expected readings with before_mm and after_mm");
+  if (!known) require_known_scatter(comparison, settings);
   std::optional<UnknownBridgeQuestion> question;
   if (!known)
     question.emplace(comparison, observation,

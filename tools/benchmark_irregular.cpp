@@ -83,8 +83,9 @@ void try_intact(Run& run) {
 
 }  // namespace
 
-std::string benchmark_irregular(const std::filesystem::path& path, const IrregularOptions& options) {
+std::string benchmark_irregular(const std::filesystem::path& path, IrregularOptions options) {
   const Database database = Database::open(path);
+  options.settings.sampled = sampled_bridges(database, options.evidence);
   Run run{database,
           options,
           parse_bridge_file(database.bridge_text(), database.bridge_name()),

@@ -16,12 +16,13 @@ struct IrregularOptions {
   int bridges = 20;                                     ///< of each kind, with blocks missing
   int intact_bridges = 200;                             ///< of each kind, intact
   bool intact_only = false;
+  ScatterEvidence evidence = ScatterEvidence::first_order;  ///< of the database, where the bridge is unknown
   StudySettings settings;
   std::string json;  ///< file; empty: none
   std::string page;  ///< file; empty: none
 };
 
 /// Runs all trials, printing each row when it is done, and writes the files. Gives the reliability tables.
-std::string benchmark_irregular(const std::filesystem::path& database, const IrregularOptions& options);
+std::string benchmark_irregular(const std::filesystem::path& database, IrregularOptions options);
 
 }  // namespace voussoir

@@ -6,6 +6,16 @@ namespace {
 constexpr double kMetres = 1e-3;  // in a millimetre
 constexpr int kMost = 1000000;
 
+/// What the lookup is told.
+void add_asking_options(CLI::App& app, IrregularOptions& options) {
+  add_choice(app, "--conditions", options.settings.conditions,
+             {{"known", Conditions::known}, {"uncertain", Conditions::uncertain}},
+             "of --irregular: what the lookup is told of temperature and supports");
+  add_choice(app, "--evidence", options.evidence,
+             {{"first-order", ScatterEvidence::first_order}, {"variants", ScatterEvidence::variants}},
+             "of --irregular: what the lookup takes for evidence of how bridges scatter");
+}
+
 }  // namespace
 
 void add_irregular_options(CLI::App& app, IrregularOptions& options) {
@@ -33,9 +43,7 @@ void add_irregular_options(CLI::App& app, IrregularOptions& options) {
          "of --irregular: errors of readings [mm], default .01,.03,.1")
       ->delimiter(',')
       ->check(CLI::PositiveNumber);
-  add_choice(app, "--conditions", options.settings.conditions,
-             {{"known", Conditions::known}, {"uncertain", Conditions::uncertain}},
-             "of --irregular: what the lookup is told of temperature and supports");
+  add_asking_options(app, options);
   app.add_flag("--intact-only", options.intact_only, "of --irregular: intact bridges only");
   app.add_option("--every", options.settings.every, "of --irregular: take one of so many singles")
       ->check(CLI::Range(1, kMost))

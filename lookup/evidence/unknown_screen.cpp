@@ -192,6 +192,8 @@ void UnknownScreen::choose_directions(const MatrixXd& reference) {
 /// The combinations of an epoch's parameters in which losses change most.
 void UnknownScreen::choose_epoch_columns() {
   const Index parameters = bridge_.factors->of_epoch();
+  epoch_columns_ = MatrixXd(parameters, 0);
+  if (parameters == 0) return;
   MatrixXd product = MatrixXd::Zero(parameters, parameters);
   for (const Loss& loss : bridge_.losses) {
     if (!loss.known()) continue;

@@ -136,7 +136,10 @@ Comparison compare(const ReadingsFile& file, const SensorList& list, const Datab
   enter(file, settings.sigma, result);
   result.model_error = settings.model_error ? ModelError{*settings.model_error, 0.0, {}}
                                             : model_error_of(database, states.base, channels, result.library);
-  const Sensitivities* const sensitivities = settings.known_bridge ? nullptr : database.sensitivities();
+  if (!settings.known_bridge) result.sampled = settings.sampled;
+  const Sensitivities* const sensitivities = settings.known_bridge ? nullptr
+                                             : result.sampled      ? &result.sampled->sensitivities
+                                                                   : database.sensitivities();
   if (sensitivities != nullptr) {
     require_control_points(file, list);
     result.factors = reading_factors(*sensitivities, states.base, channels, result.library.layout.size());

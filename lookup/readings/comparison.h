@@ -11,6 +11,7 @@
 #include "lookup/readings/reading_factors.h"
 #include "lookup/readings/reading_kind.h"
 #include "lookup/readings/readings_file.h"
+#include "lookup/readings/sampled_bridges.h"
 
 namespace voussoir {
 
@@ -28,6 +29,7 @@ struct Comparison {
   std::vector<Quantity> quantity{};                 ///< by channel; empty: all displacements upwards
   std::vector<std::string> load{};                  ///< by channel; empty: none
   std::shared_ptr<const ReadingFactors> factors{};  ///< of the channels; null: the bridge counts as known
+  std::shared_ptr<const SampledBridges> sampled{};  ///< that the factors come from; null: the first order
 };
 
 /// Readings of displacements at a database's control points in its first state.
@@ -38,6 +40,7 @@ struct ComparisonSettings {
   std::optional<double> sigma{};         ///< [m] of readings that do not state their own
   std::optional<double> model_error{};   ///< share of a signal, in the place of what the database states
   bool known_bridge = false;             ///< what is uncertain of the bridge is left out
+  std::shared_ptr<const SampledBridges> sampled{};  ///< of the database, in the place of its first order
 };
 
 /// Readings beside the predictions of the database's states. Without a wish absolute readings are compared

@@ -88,4 +88,18 @@ ShownReadings shown_readings(const Comparison& comparison, std::size_t row) {
   return shown;
 }
 
+std::string evidence_in_words(const Comparison& comparison) {
+  if (!comparison.sampled) return "derivatives of the stored bridge (first order)";
+  const SampledBridges& sampled = *comparison.sampled;
+  return sampled.has_first_order
+             ? fmt::format(
+                   "derivatives of the stored bridge, and what they leave of {} sampled bridges that "
+                   "were solved in full; temperature and supports by derivatives alone",
+                   sampled.count)
+             : fmt::format(
+                   "{} sampled bridges that were solved in full, alone: what none of them shows counts "
+                   "as exactly known",
+                   sampled.count);
+}
+
 }  // namespace voussoir

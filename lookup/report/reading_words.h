@@ -26,6 +26,10 @@ std::string readings_in_words(const Comparison& comparison, std::size_t readings
 /// "built: the blocks were never there", "lost: the blocks went while the bridge carried its weight"
 std::string history_in_words(const std::string& history);
 
+/// What says how much a bridge scatters that is not exactly known: "derivatives of the stored bridge (first
+/// order)", or how many sampled bridges, and what those cannot know. Precondition: there are factors.
+std::string evidence_in_words(const Comparison& comparison);
+
 /// The quantity of a channel.
 Quantity quantity_of(const Comparison& comparison, std::size_t channel);
 

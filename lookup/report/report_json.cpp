@@ -113,8 +113,17 @@ ordered_json parameter_json(const KnownParameter& parameter) {
           {"after", {{"mean", parameter.mean}, {"deviation", parameter.deviation}}}};
 }
 
+/// What says how much bridges scatter.
+ordered_json evidence_json(const Comparison& comparison) {
+  const SampledBridges* const sampled = comparison.sampled.get();
+  if (!sampled) return {{"from", "first-order"}};
+  return {
+      {"from", "variants"}, {"bridges", sampled->count}, {"beside_first_order", sampled->has_first_order}};
+}
+
 /// What moved the sensors, and what the readings say of the bridge and of temperature and supports.
-ordered_json bridge_json(const BridgeAnswer& bridge, const ReadingFactors& factors) {
+ordered_json bridge_json(const BridgeAnswer& bridge, const Comparison& comparison) {
+  const ReadingFactors& factors = *comparison.factors;
   ordered_json causes = ordered_json::array(), scatter = ordered_json::array(),
                parameters = ordered_json::array(), epochs = ordered_json::array();
   for (const Cause& cause : causes_of(bridge, factors))
@@ -126,7 +135,8 @@ ordered_json bridge_json(const BridgeAnswer& bridge, const ReadingFactors& facto
     parameters.push_back(parameter_json(parameter));
   for (const KnownParameter& parameter : known_of_epochs(bridge, factors))
     epochs.push_back(parameter_json(parameter));
-  return {{"causes", std::move(causes)},
+  return {{"evidence", evidence_json(comparison)},
+          {"causes", std::move(causes)},
           {"scatter", std::move(scatter)},
           {"parameters", std::move(parameters)},
           {"epochs", std::move(epochs)}};
@@ -162,7 +172,7 @@ std::string json_report(const Answer& answer, const LookupSettings& settings, co
   if (answer.fit)
     result["fit"] = {
         {"explained", answer.fit->explained}, {"chance", answer.fit->chance}, {"reason", answer.fit->reason}};
-  if (answer.bridge) result["bridge"] = bridge_json(*answer.bridge, *comparison.factors);
+  if (answer.bridge) result["bridge"] = bridge_json(*answer.bridge, comparison);
   if (!answer.residuals.empty()) result["sensors"] = sensors_json(answer, comparison);
   for (const GeneticResult& run : answer.genetic)
     result["genetic"].push_back({{"generations", run.generations},

@@ -303,3 +303,26 @@ TEST_CASE("Damaged truths are solved once, and taken from their file then") {
     for (std::size_t point = 0; point < read.bridges[b].intact.size(); ++point)
       CHECK(read.bridges[b].intact[point] == Approx(intact.bridges[b].before[point]).epsilon(1e-6));
 }
+
+TEST_CASE("A trial's lookup takes sampled bridges for evidence if it is given them") {
+  const Site site;
+  std::vector<double> factors = {1.0};
+  for (int i = 0; i < 20; ++i) factors.push_back(0.81 + 0.02 * i);
+  const Database database = site.write(factors, "sampled.h5"), truth = site.write({1.0, 1.1}, "truth.h5");
+  const SensorList sensors = control_point_sensors(database.control_points());
+  const TrueBridge bridge = read_true_bridges(truth).front();
+  const std::size_t row = database.find(bridge.damaged[3].scene).value();
+  const auto tried = [&](std::shared_ptr<const SampledBridges> sampled) {
+    Random random(1);
+    Asking asking{database, sensors, {}, false, std::move(sampled)};
+    asking.lookup.conditions = Conditions::known;
+    return ask(asking,
+               take_readings({bridge.intact, bridge.damaged[3].lost}, ReadingsTaken::change, 1e-6, random),
+               row);
+  };
+  // All signals are a tenth larger than the nominal bridge's, as sampled bridges let expect.
+  CHECK(tried(nullptr).verdict == Verdict::unexplained);
+  const Trial unknown = tried(sampled_bridges(database, ScatterEvidence::variants));
+  CHECK(unknown.verdict == Verdict::located);
+  CHECK(unknown.first);
+}

@@ -23,7 +23,7 @@ constexpr std::array kLookFor = {LookFor{"singles among singles", 1, false},
 
 Asking asking_for(const Database& database, const SensorList& sensors, const LookFor& search,
                   const StudySettings& settings, bool known_bridge) {
-  Asking asking{database, sensors, {}, known_bridge};
+  Asking asking{database, sensors, {}, known_bridge, settings.sampled};
   if (!known_bridge) asking.lookup.conditions = settings.conditions;
   if (!search.among_all) asking.lookup.prior.missing = {search.missing};
   return asking;

@@ -27,6 +27,7 @@ struct StudySettings {
   std::size_t every = 1;                            ///< one of so many singles is looked for among singles
   Conditions conditions = Conditions::uncertain;    ///< as the lookup is told where the bridge is unknown
   std::size_t every_all = 10;                       ///< and among all scenes
+  std::shared_ptr<const SampledBridges> sampled{};  ///< what the lookup takes for evidence of the scatter
 };
 
 /// One row of the tables.

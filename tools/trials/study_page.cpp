@@ -120,6 +120,10 @@ std::string source_html(const StudySource& source) {
                                   {"Digest", source.digest},
                                   {"Bridge", source.bridge},
                                   {"True bridges", fmt::format("{}", fmt::join(source.truths, "; "))},
+                                  {"How bridges scatter",
+                                   source.settings.sampled ? fmt::format("{} sampled bridges of the database",
+                                                                         source.settings.sampled->count)
+                                                           : "first order"},
                                   {"Seed of the errors", fmt::format("{}", source.settings.seed)},
                                   {"Standard errors", "between bridges, whose scenes are not independent"}}));
 }

@@ -103,15 +103,17 @@ std::string reliability_text(const std::vector<StudyRow>& rows) {
 }
 
 std::string to_json(const StudySource& source, const std::vector<StudyRow>& rows) {
-  nlohmann::ordered_json json = {{"source",
-                                  {{"database", source.database},
-                                   {"digest", source.digest},
-                                   {"bridge", source.bridge},
-                                   {"truths", source.truths},
-                                   {"seed", source.settings.seed},
-                                   {"every", source.settings.every},
-                                   {"every_all", source.settings.every_all}}},
-                                 {"rows", nlohmann::ordered_json::array()}};
+  nlohmann::ordered_json json = {
+      {"source",
+       {{"database", source.database},
+        {"digest", source.digest},
+        {"bridge", source.bridge},
+        {"truths", source.truths},
+        {"sampled_bridges", source.settings.sampled ? source.settings.sampled->count : 0},
+        {"seed", source.settings.seed},
+        {"every", source.settings.every},
+        {"every_all", source.settings.every_all}}},
+      {"rows", nlohmann::ordered_json::array()}};
   for (const StudyRow& row : rows) json["rows"].push_back(row_json(row));
   return json.dump(1) + "\n";
 }

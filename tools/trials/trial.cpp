@@ -62,8 +62,8 @@ std::array<Verdict, kVerdicts> all_verdicts() {
 }
 
 Trial ask(const Asking& asking, const ReadingsFile& readings, std::size_t truth) {
-  const Comparison comparison =
-      compare(readings, asking.sensors, asking.database, {.known_bridge = asking.known_bridge});
+  const Comparison comparison = compare(readings, asking.sensors, asking.database,
+                                        {.known_bridge = asking.known_bridge, .sampled = asking.sampled});
   LookupSettings settings = asking.lookup;
   settings.known_bridge = asking.known_bridge;
   settings.epochs = readings.two_epochs && !asking.known_bridge ? Epochs::both : Epochs::change;

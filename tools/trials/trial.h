@@ -16,6 +16,7 @@ struct Asking {
   const SensorList& sensors;
   LookupSettings lookup;
   bool known_bridge = false;
+  std::shared_ptr<const SampledBridges> sampled{};  ///< ComparisonSettings::sampled
 };
 
 /// How an answer stands to the truth.

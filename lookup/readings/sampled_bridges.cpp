@@ -1,0 +1,302 @@
+#include "lookup/readings/sampled_bridges.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numeric>
+
+#include "core/error.h"
+#include "core/structure/bridge_file.h"
+#include "lookup/readings/standardised_parameters.h"
+
+namespace voussoir {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+/// One state of the nominal bridge and of the sampled ones.
+struct StateTables {
+  SceneTable nominal;
+  std::vector<SceneTable> sampled;
+};
+
+std::optional<std::span<const double>> standing_row(const SceneTable& table, const Scene& scene) {
+  const auto row = table.find(scene);
+  return row && table.stands(*row) ? std::optional(table.row(*row)) : std::nullopt;
+}
+
+/// How bridges differ from the nominal one in a scene [m]: points x bridges. Zero at points whose block is
+/// gone, and for bridges in which the scene does not stand.
+struct Sample {
+  MatrixXd difference;
+  VectorXd points_left;  ///< 1, or 0 where the block is gone
+  std::vector<bool> stands;
+  Index standing = 0;  ///< bridges
+};
+
+/// Nothing if the scene does not stand in the nominal bridge.
+std::optional<Sample> sample_of(const StateTables& tables, const Scene& scene) {
+  const auto nominal = standing_row(tables.nominal, scene);
+  if (!nominal) return std::nullopt;
+  const auto points = static_cast<Index>(nominal->size());
+  Sample sample{
+      MatrixXd::Zero(points, static_cast<Index>(tables.sampled.size())), VectorXd::Zero(points), {}};
+  for (Index i = 0; i < points; ++i)
+    sample.points_left[i] = std::isnan((*nominal)[static_cast<std::size_t>(i)]) ? 0.0 : 1.0;
+  for (const SceneTable& table : tables.sampled) {
+    const auto shown = standing_row(table, scene);
+    const auto bridge = static_cast<Index>(sample.stands.size());
+    sample.stands.push_back(shown.has_value());
+    if (!shown) continue;
+    ++sample.standing;
+    for (std::size_t i = 0; i < shown->size(); ++i)
+      if (!std::isnan((*nominal)[i]))
+        sample.difference(static_cast<Index>(i), bridge) = (*shown)[i] - (*nominal)[i];
+  }
+  return sample;
+}
+
+/// The first order's columns, and the samples' with the weight that makes their sum of squares a mean.
+MatrixXd columns_of(const MatrixXd& first_order, const MatrixXd& left, Index standing) {
+  MatrixXd columns(left.rows(), first_order.cols() + left.cols());
+  columns.leftCols(first_order.cols()) = first_order;
+  columns.rightCols(left.cols()) = left / std::sqrt(static_cast<double>(std::max<Index>(standing, 1)));
+  return columns;
+}
+
+/// The first order, and where along its columns the sampled bridges are.
+struct FirstOrder {
+  const Sensitivities& sensitivities;
+  MatrixXd positions;  ///< columns of the basis x bridges: V^T theta
+};
+
+/// Makes the factors of one state.
+class StateFactors {
+ public:
+  /// The first order may be null.
+  StateFactors(const StateTables& tables, const FirstOrder* first_order, std::size_t state)
+      : tables_(tables),
+        first_order_(first_order),
+        state_(state),
+        intact_sample_(sample_of(tables, {}).value()),
+        intact_first_(first_order ? *first_order->sensitivities.find(state, {})
+                                  : SceneFactors{MatrixXd(points(), 0), MatrixXd(points(), 0)}) {
+    MatrixXd left = intact_sample_.difference;
+    if (first_order) left -= intact_first_.bridge * first_order->positions;
+    intact_ = columns_of(intact_first_.bridge, left, intact_sample_.standing);
+  }
+
+  /// Not known if neither the first order nor enough bridges know it.
+  SceneFactors operator()(const Scene& scene) const {
+    if (scene.removed.empty()) return {intact_, intact_first_.epoch};
+    const auto sample = sample_of(tables_, scene);
+    if (!sample) return {};
+    const SceneFactors* const first =
+        first_order_ ? first_order_->sensitivities.find(state_, scene) : nullptr;
+    const bool enough = sample->standing >= static_cast<Index>(kFewestBridges);
+    if (first == nullptr && !enough) return {};
+    const auto left = sample->points_left.asDiagonal();
+    MatrixXd change = MatrixXd::Zero(points(), intact_first_.bridge.cols());
+    if (first != nullptr) change = first->bridge - left * intact_first_.bridge;
+    const MatrixXd columns =
+        enough ? columns_of(change, left_of(*sample, first ? &change : nullptr), sample->standing)
+               : columns_of(widening() * change, MatrixXd::Zero(points(), sample->difference.cols()), 0);
+    return {left * intact_ + columns, first != nullptr ? first->epoch : MatrixXd(left * intact_first_.epoch)};
+  }
+
+  /// What is left of epochs, which are not sampled.
+  FirstOrderResidual residual() const {
+    FirstOrderResidual result;
+    if (first_order_) result = first_order_->sensitivities.states[state_].residual;
+    if (!first_order_) result.epoch = MatrixXd(points(), 0);
+    result.bridge = MatrixXd(points(), 0);
+    result.share = result.common = 0.0;
+    return result;
+  }
+
+ private:
+  Index points() const { return intact_sample_.difference.rows(); }
+
+  /// What the first order leaves of signals where no samples show it, as ReadingFactors widens it.
+  double widening() const {
+    const FirstOrderResidual& residual = first_order_->sensitivities.states[state_].residual;
+    return std::sqrt(1.0 + std::pow(residual.share, 2) + std::pow(residual.common, 2));
+  }
+
+  /// Of a scene's signal in each bridge, less what the first order makes of it.
+  MatrixXd left_of(const Sample& sample, const MatrixXd* first_order) const {
+    MatrixXd left = MatrixXd::Zero(points(), sample.difference.cols());
+    for (Index v = 0; v < left.cols(); ++v) {
+      if (!sample.stands[static_cast<std::size_t>(v)]) continue;
+      left.col(v) =
+          sample.difference.col(v) - sample.points_left.cwiseProduct(intact_sample_.difference.col(v));
+      if (first_order != nullptr) left.col(v) -= *first_order * first_order_->positions.col(v);
+    }
+    return left;
+  }
+
+  const StateTables& tables_;
+  const FirstOrder* first_order_;
+  std::size_t state_;
+  Sample intact_sample_;
+  SceneFactors intact_first_;
+  MatrixXd intact_;
+};
+
+bool intact_stands(const Database& database, std::int32_t variant, std::size_t state) {
+  return standing_row(database.table(variant, state), {}).has_value();
+}
+
+/// Variants of which the intact bridge stands wherever the nominal one does.
+std::vector<std::int32_t> usable_variants(const Database& database) {
+  std::vector<std::int32_t> usable;
+  for (std::size_t v = 1; v < database.variant_count(); ++v) {
+    const auto variant = static_cast<std::int32_t>(v);
+    bool stands = true;
+    for (std::size_t state = 0; state < database.states().size(); ++state)
+      stands = stands &&
+               (intact_stands(database, variant, state) || !intact_stands(database, kNominalVariant, state));
+    if (stands) usable.push_back(variant);
+  }
+  return usable;
+}
+
+void require_enough(const Database& database, std::size_t usable, bool alone) {
+  const std::size_t least = alone ? kFewestAlone : kFewestBridges;
+  if (usable >= least) return;
+  const std::string held =
+      usable == 0 ? "no sampled bridge" : fmt::format("{} sampled bridge{}", usable, usable == 1 ? "" : "s");
+  throw Failure(
+      fmt::format("{}: holds {} that stand when intact, evidence from variants takes at least {}{}: "
+                  "see build-database --variants",
+                  database.path().string(), held, least,
+                  alone ? fmt::format(" ({} beside sensitivities)", kFewestBridges) : ""));
+}
+
+/// Where each of the variants is, from the parameters that it was solved with.
+FirstOrder first_order_of(const Database& database, const std::vector<std::int32_t>& variants) {
+  const Sensitivities& sensitivities = *database.sensitivities();
+  const BridgeDescription bridge =
+      parse_bridge_file(database.bridge_text(), database.bridge_name()).description;
+  const UncertainParameters uncertain = uncertain_parameters(make_model(bridge), bridge.uncertainty);
+  if (uncertain.all() != sensitivities.parameters)
+    throw Failure(
+        fmt::format("{}: its sensitivities are of other parameters than its bridge file has: build "
+                    "it anew (build-database --force)",
+                    database.path().string()));
+  const std::vector<VariantParameters>& parameters = database.variants();
+  FirstOrder result{sensitivities, MatrixXd(sensitivities.basis.cols(), static_cast<Index>(variants.size()))};
+  for (std::size_t i = 0; i < variants.size(); ++i)
+    result.positions.col(static_cast<Index>(i)) =
+        sensitivities.basis.transpose() *
+        standardised_parameters(uncertain, parameters.front(),
+                                parameters[static_cast<std::size_t>(variants[i])]);
+  return result;
+}
+
+/// Those of the first order and of the variants, ascending.
+std::vector<Scene> scenes_of(const Sensitivities* first_order, const SceneTable& variant) {
+  std::vector<Scene> scenes = first_order ? first_order->scenes : std::vector<Scene>();
+  for (std::size_t row = 0; row < variant.rows; ++row) scenes.push_back(variant.scene(row));
+  std::ranges::sort(scenes, [](const Scene& a, const Scene& b) {
+    return row_order(kNominalVariant, a.removed, kNominalVariant, b.removed) < 0;
+  });
+  scenes.erase(std::unique(scenes.begin(), scenes.end()), scenes.end());
+  return scenes;
+}
+
+/// What a loss changes in A.
+MatrixXd change_of(const SceneFactors& scene, const SceneFactors& intact) {
+  MatrixXd change = scene.bridge - intact.bridge;
+  for (Index i = 0; i < change.rows(); ++i)
+    if (scene.bridge.row(i).isZero(0.0)) change.row(i).setZero();
+  return change;
+}
+
+/// Nothing is known of states in which the intact bridge does not stand.
+StateSensitivities state_sensitivities(const Database& database, const FirstOrder* first_order,
+                                       const std::vector<std::int32_t>& variants,
+                                       const std::vector<Scene>& scenes, std::size_t state) {
+  StateSensitivities result{std::vector<SceneFactors>(scenes.size()), {}};
+  if (!intact_stands(database, kNominalVariant, state) ||
+      (first_order && !first_order->sensitivities.find(state, {})))
+    return result;
+  StateTables tables{database.table(kNominalVariant, state), {}};
+  for (const std::int32_t variant : variants) tables.sampled.push_back(database.table(variant, state));
+  const StateFactors factors(tables, first_order, state);
+  std::ranges::transform(scenes, result.scenes.begin(), std::cref(factors));
+  result.residual = factors.residual();
+  return result;
+}
+
+/// Calls for what every loss changes in every state.
+template <class Function>
+void for_each_change(const Sensitivities& sensitivities, Function function) {
+  for (const StateSensitivities& state : sensitivities.states)
+    for (std::size_t i = 1; i < state.scenes.size(); ++i)
+      if (state.scenes[i].known()) function(change_of(state.scenes[i], state.scenes.front()));
+}
+
+/// Turns the samples' columns to their principal directions and puts all columns in the order of what losses
+/// change in them: readers take the first ones for what losses have in common.
+void order_columns(Index samples, Sensitivities& sensitivities) {
+  const Index all = sensitivities.basis.cols(), first = all - samples;
+  MatrixXd product = MatrixXd::Zero(samples, samples);
+  VectorXd sizes = VectorXd::Zero(all);
+  for_each_change(sensitivities, [&](const MatrixXd& change) {
+    product.noalias() += change.rightCols(samples).transpose() * change.rightCols(samples);
+    sizes.head(first) += change.leftCols(first).colwise().squaredNorm();
+  });
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> principal(product);
+  sizes.tail(samples) = principal.eigenvalues();
+  std::vector<Index> order(static_cast<std::size_t>(all));
+  std::iota(order.begin(), order.end(), Index{0});
+  std::stable_sort(order.begin(), order.end(), [&](Index a, Index b) { return sizes[a] > sizes[b]; });
+  for (StateSensitivities& state : sensitivities.states)
+    for (SceneFactors& scene : state.scenes) {
+      if (!scene.known()) continue;
+      scene.bridge.rightCols(samples) = (scene.bridge.rightCols(samples) * principal.eigenvectors()).eval();
+      scene.bridge = scene.bridge(Eigen::all, order).eval();
+    }
+  sensitivities.basis = sensitivities.basis(Eigen::all, order).eval();
+}
+
+}  // namespace
+
+SampledBridges sampled_bridges(const Database& database) {
+  const Sensitivities* const sensitivities = database.sensitivities();
+  const std::vector<std::int32_t> variants = usable_variants(database);
+  require_enough(database, variants.size(), sensitivities == nullptr);
+  const auto samples = static_cast<Index>(variants.size());
+  SampledBridges result{variants.size(), sensitivities != nullptr, {}};
+  Sensitivities& made = result.sensitivities;
+  made.scenes = scenes_of(sensitivities, database.table(variants.front(), 0));
+  if (made.scenes.size() < 2)
+    throw Failure(
+        fmt::format("{}: its sampled bridges are intact ones only, expected their singles: "
+                    "build-database --variants {} --scenes singles",
+                    database.path().string(), variants.size()));
+  std::optional<FirstOrder> first_order;
+  made.basis = MatrixXd(0, samples);
+  if (sensitivities != nullptr) {
+    first_order.emplace(first_order_of(database, variants));
+    made.parameters = sensitivities->parameters;
+    made.basis = MatrixXd::Zero(sensitivities->basis.rows(), sensitivities->basis.cols() + samples);
+    made.basis.leftCols(sensitivities->basis.cols()) = sensitivities->basis;
+  }
+  for (std::size_t state = 0; state < database.states().size(); ++state)
+    made.states.push_back(
+        state_sensitivities(database, first_order ? &*first_order : nullptr, variants, made.scenes, state));
+  order_columns(samples, made);
+  return result;
+}
+
+std::shared_ptr<const SampledBridges> sampled_bridges(const Database& database, ScatterEvidence evidence) {
+  if (evidence == ScatterEvidence::first_order) return nullptr;
+  return std::make_shared<const SampledBridges>(sampled_bridges(database));
+}
+
+}  // namespace voussoir
