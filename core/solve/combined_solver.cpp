@@ -16,6 +16,7 @@ std::vector<Solution> CombinedSolver::solve(std::span<const StageTask> tasks) {
   std::vector<Solution> solutions = search(tasks);
   const std::vector<bool> stand_softer = approach(tasks, solutions);
   follow(settings_.motion.decision, tasks, stand_softer, false, solutions);
+  insist(tasks, solutions);
   follow(settings_.patient, tasks, stand_softer, true, solutions);
   return solutions;
 }
@@ -34,6 +35,24 @@ std::vector<Solution> CombinedSolver::search(std::span<const StageTask> tasks) {
   std::vector<Solution> solutions(tasks.size());
   for (std::size_t k = 0; k < found.size(); ++k) solutions[places[k]] = std::move(found[k]);
   return solutions;
+}
+
+/// Takes the equilibria that Newton's method finds with all patience, from the start or from rest.
+void CombinedSolver::insist(std::span<const StageTask> tasks, std::vector<Solution>& solutions) {
+  for (const bool from_start : {true, false}) {
+    std::vector<StageTask> open;
+    std::vector<std::size_t> places;
+    for (std::size_t i = 0; i < tasks.size(); ++i)
+      if (solutions[i].outcome == Outcome::unresolved && (tasks[i].start != nullptr) >= from_start) {
+        open.push_back(tasks[i]);
+        open.back().patiently = true;
+        if (!from_start) open.back().start = nullptr;
+        places.push_back(i);
+      }
+    std::vector<Solution> found = newton_.solve(open);
+    for (std::size_t k = 0; k < found.size(); ++k)
+      if (stands(found[k])) solutions[places[k]] = std::move(found[k]);
+  }
 }
 
 /// Takes the equilibria that softer joints lead to, where Newton's method was asked and found none. True

@@ -33,6 +33,7 @@ class CombinedSolver {
 
  private:
   std::vector<Solution> search(std::span<const StageTask> tasks);
+  void insist(std::span<const StageTask> tasks, std::vector<Solution>& solutions);
   std::vector<bool> approach(std::span<const StageTask> tasks, std::vector<Solution>& solutions);
   void follow(const DecisionRules& rules, std::span<const StageTask> tasks, const std::vector<bool>& left_out,
               bool patiently, std::vector<Solution>& solutions);

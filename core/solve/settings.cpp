@@ -75,12 +75,14 @@ bool read_value(std::string_view text,
 template <class Settings, class Visit>
 void visit_newton(Settings& settings, const Visit& visit) {
   auto& [tolerance, round_off, loose_tolerance, most_warm_iterations, most_iterations,
-         most_falling_iterations, follow_falls, collapse_displacement, joint_rule, skips] = settings;
+         most_falling_iterations, most_patient_iterations, follow_falls, collapse_displacement, joint_rule,
+         skips] = settings;
   visit("newton.tolerance", tolerance);
   visit("newton.round_off", round_off);
   visit("newton.loose_tolerance", loose_tolerance);
   visit("newton.most_warm_iterations", most_warm_iterations);
   visit("newton.most_iterations", most_iterations);
+  visit("newton.most_patient_iterations", most_patient_iterations);
   visit("newton.follow_falls", follow_falls);
   if (follow_falls) visit("newton.most_falling_iterations", most_falling_iterations);
   visit("newton.collapse_displacement_m", collapse_displacement);
