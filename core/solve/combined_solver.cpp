@@ -29,6 +29,7 @@ std::vector<Solution> CombinedSolver::search(std::span<const StageTask> tasks) {
   for (std::size_t i = 0; i < tasks.size(); ++i) {
     if (falls_first && tasks[i].falls_likely) continue;
     searched.push_back(tasks[i]);
+    searched.back().patiently = !settings_.newton.skips.early_outcome;
     places.push_back(i);
   }
   std::vector<Solution> found = newton_.solve(searched);
@@ -37,22 +38,20 @@ std::vector<Solution> CombinedSolver::search(std::span<const StageTask> tasks) {
   return solutions;
 }
 
-/// Takes the equilibria that Newton's method finds with all patience, from the start or from rest.
+/// Takes the equilibria that Newton's method finds with all patience, from rest.
 void CombinedSolver::insist(std::span<const StageTask> tasks, std::vector<Solution>& solutions) {
-  for (const bool from_start : {true, false}) {
-    std::vector<StageTask> open;
-    std::vector<std::size_t> places;
-    for (std::size_t i = 0; i < tasks.size(); ++i)
-      if (solutions[i].outcome == Outcome::unresolved && (tasks[i].start != nullptr) >= from_start) {
-        open.push_back(tasks[i]);
-        open.back().patiently = true;
-        if (!from_start) open.back().start = nullptr;
-        places.push_back(i);
-      }
-    std::vector<Solution> found = newton_.solve(open);
-    for (std::size_t k = 0; k < found.size(); ++k)
-      if (stands(found[k])) solutions[places[k]] = std::move(found[k]);
-  }
+  std::vector<StageTask> open;
+  std::vector<std::size_t> places;
+  for (std::size_t i = 0; i < tasks.size(); ++i)
+    if (solutions[i].outcome == Outcome::unresolved) {
+      open.push_back(tasks[i]);
+      open.back().start = nullptr;
+      open.back().patiently = true;
+      places.push_back(i);
+    }
+  std::vector<Solution> found = newton_.solve(open);
+  for (std::size_t k = 0; k < found.size(); ++k)
+    if (stands(found[k])) solutions[places[k]] = std::move(found[k]);
 }
 
 /// Takes the equilibria that softer joints lead to, where Newton's method was asked and found none. True
@@ -102,9 +101,8 @@ void CombinedSolver::follow(const DecisionRules& rules, std::span<const StageTas
       solutions[open[k]] = std::move(motions[k].solution);
     } else {
       const bool rests = patiently && motions[k].solution.outcome == Outcome::standing;
-      resting.push_back({.stage = tasks[open[k]].stage,
-                         .start = &motions[k].solution.displacement,
-                         .stands_likely = rests});
+      resting.push_back(
+          {.stage = tasks[open[k]].stage, .start = &motions[k].solution.displacement, .patiently = rests});
       resting_at.push_back(open[k]);
     }
   }

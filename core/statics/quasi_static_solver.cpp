@@ -67,7 +67,6 @@ struct LaneSearch {
     number = stage_number;
     step = 0;
     settings = w.settings;
-    if (task->stands_likely) settings.skips.early_outcome = false;
     if (task->before == nullptr && !task->starts_near) settings.skips.kept_factors = false;
     own.reset();
     if (task->parameters != nullptr) own.emplace(w.system, *task->parameters);

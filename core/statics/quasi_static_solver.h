@@ -41,12 +41,11 @@ struct StageTask {
   /// Implicit steps. Forces that would hold the stage where the one before ended (what lost blocks carried, a
   /// new load turned round) are let go in so many equal parts, and the joints' memory is updated after each.
   int steps = 1;
-  bool stands_likely = false;  ///< the search is not given up early
-  bool patiently = false;      ///< the search begins with its patient phase, from the start
-  bool falls_likely = false;   ///< so that who can follow a motion asks it first (CombinedSolver)
-  bool starts_near = false;    ///< the start is so near the answer that a factorisation serves several steps
-                               ///< even of a stage with nothing before it
-  bool keeps_steps = false;    ///< true: the solution has the states at the ends of all steps
+  bool patiently = false;     ///< the search begins with its patient phase, from the start
+  bool falls_likely = false;  ///< so that who can follow a motion asks it first (CombinedSolver)
+  bool starts_near = false;   ///< the start is so near the answer that a factorisation serves several steps
+                              ///< even of a stage with nothing before it
+  bool keeps_steps = false;   ///< true: the solution has the states at the ends of all steps
 };
 
 /// Solves stages of the variants of one structure, several side by side in SIMD lanes. Not thread-safe: one
