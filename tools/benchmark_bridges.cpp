@@ -42,9 +42,10 @@ std::vector<Scene> drawn_scenes(const Model& model, int count, std::uint64_t see
   return scenes;
 }
 
-std::vector<Solution> solve(CombinedSolver& solver, std::span<const Scene> scenes) {
+/// From the intact bridge's field, as build-database does; null: from rest.
+std::vector<Solution> solve(CombinedSolver& solver, std::span<const Scene> scenes, const Field* start) {
   std::vector<StageTask> tasks;
-  for (const Scene& scene : scenes) tasks.push_back({.stage = {.scene = scene}});
+  for (const Scene& scene : scenes) tasks.push_back({.stage = {.scene = scene}, .start = start});
   return solver.solve(tasks);
 }
 
@@ -60,12 +61,12 @@ void count(const std::vector<Solution>& solutions, std::span<const Scene> scenes
 }
 
 /// The scene of a group that takes longest is looked for in the slowest group alone.
-void find_worst(CombinedSolver& solver, std::span<const Scene> scenes, const BlockLayout& layout,
-                BridgeRow& row) {
+void find_worst(CombinedSolver& solver, std::span<const Scene> scenes, const Field* start,
+                const BlockLayout& layout, BridgeRow& row) {
   for (const Scene& scene : scenes) {
-    const double start = processor_seconds();
-    solve(solver, std::span(&scene, 1));
-    const double seconds = processor_seconds() - start;
+    const double begin = processor_seconds();
+    solve(solver, std::span(&scene, 1), start);
+    const double seconds = processor_seconds() - begin;
     if (seconds <= row.worst) continue;
     row.worst = seconds;
     row.worst_scene = to_string(scene, layout);
@@ -80,19 +81,24 @@ BridgeRow measure(const BridgeDescription& description, const BridgeOptions& opt
       .name = description.name, .blocks = model.block_count(), .scenes = static_cast<int>(scenes.size())};
   std::span<const Scene> slowest;
   double longest = -1.0;
-  for (std::size_t first = 0; first < scenes.size(); first += kTogether) {
-    const auto group = std::span(scenes).subspan(first, std::min(kTogether, scenes.size() - first));
-    const double start = processor_seconds();
-    const std::vector<Solution> solutions = solve(solver, group);
-    const double seconds = processor_seconds() - start;
+  Solution intact;
+  for (std::size_t first = 0; first < scenes.size();) {
+    const std::size_t size = first == 0 ? 1 : std::min(kTogether, scenes.size() - first);
+    const auto group = std::span(scenes).subspan(first, size);
+    const Field* start = stands(intact) ? &intact.displacement : nullptr;
+    const double begin = processor_seconds();
+    std::vector<Solution> solutions = solve(solver, group, start);
+    const double seconds = processor_seconds() - begin;
     row.seconds += seconds;
     count(solutions, group, model.layout, row);
+    if (first == 0) intact = std::move(solutions.front());
+    first += size;
     if (seconds > longest) {
       longest = seconds;
       slowest = group;
     }
   }
-  find_worst(solver, slowest, model.layout, row);
+  find_worst(solver, slowest, stands(intact) ? &intact.displacement : nullptr, model.layout, row);
   return row;
 }
 

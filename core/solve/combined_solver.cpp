@@ -16,6 +16,7 @@ std::vector<Solution> CombinedSolver::solve(std::span<const StageTask> tasks) {
   std::vector<Solution> solutions = search(tasks);
   const std::vector<bool> stand_softer = approach(tasks, solutions);
   follow(settings_.motion.decision, tasks, stand_softer, false, solutions);
+  insist(tasks, solutions);
   follow(settings_.patient, tasks, stand_softer, true, solutions);
   return solutions;
 }
@@ -28,12 +29,29 @@ std::vector<Solution> CombinedSolver::search(std::span<const StageTask> tasks) {
   for (std::size_t i = 0; i < tasks.size(); ++i) {
     if (falls_first && tasks[i].falls_likely) continue;
     searched.push_back(tasks[i]);
+    searched.back().patiently = !settings_.newton.skips.early_outcome;
     places.push_back(i);
   }
   std::vector<Solution> found = newton_.solve(searched);
   std::vector<Solution> solutions(tasks.size());
   for (std::size_t k = 0; k < found.size(); ++k) solutions[places[k]] = std::move(found[k]);
   return solutions;
+}
+
+/// Takes the equilibria that Newton's method finds with all patience, from rest.
+void CombinedSolver::insist(std::span<const StageTask> tasks, std::vector<Solution>& solutions) {
+  std::vector<StageTask> open;
+  std::vector<std::size_t> places;
+  for (std::size_t i = 0; i < tasks.size(); ++i)
+    if (solutions[i].outcome == Outcome::unresolved) {
+      open.push_back(tasks[i]);
+      open.back().start = nullptr;
+      open.back().patiently = true;
+      places.push_back(i);
+    }
+  std::vector<Solution> found = newton_.solve(open);
+  for (std::size_t k = 0; k < found.size(); ++k)
+    if (stands(found[k])) solutions[places[k]] = std::move(found[k]);
 }
 
 /// Takes the equilibria that softer joints lead to, where Newton's method was asked and found none. True
@@ -83,9 +101,8 @@ void CombinedSolver::follow(const DecisionRules& rules, std::span<const StageTas
       solutions[open[k]] = std::move(motions[k].solution);
     } else {
       const bool rests = patiently && motions[k].solution.outcome == Outcome::standing;
-      resting.push_back({.stage = tasks[open[k]].stage,
-                         .start = &motions[k].solution.displacement,
-                         .stands_likely = rests});
+      resting.push_back(
+          {.stage = tasks[open[k]].stage, .start = &motions[k].solution.displacement, .patiently = rests});
       resting_at.push_back(open[k]);
     }
   }

@@ -75,12 +75,14 @@ bool read_value(std::string_view text,
 template <class Settings, class Visit>
 void visit_newton(Settings& settings, const Visit& visit) {
   auto& [tolerance, round_off, loose_tolerance, most_warm_iterations, most_iterations,
-         most_falling_iterations, follow_falls, collapse_displacement, joint_rule, skips] = settings;
+         most_falling_iterations, most_patient_iterations, follow_falls, collapse_displacement, joint_rule,
+         skips] = settings;
   visit("newton.tolerance", tolerance);
   visit("newton.round_off", round_off);
   visit("newton.loose_tolerance", loose_tolerance);
   visit("newton.most_warm_iterations", most_warm_iterations);
   visit("newton.most_iterations", most_iterations);
+  visit("newton.most_patient_iterations", most_patient_iterations);
   visit("newton.follow_falls", follow_falls);
   if (follow_falls) visit("newton.most_falling_iterations", most_falling_iterations);
   visit("newton.collapse_displacement_m", collapse_displacement);
@@ -154,6 +156,25 @@ std::map<std::string, std::string_view, std::less<>> lines_by_key(std::string_vi
   return lines;
 }
 
+/// p_n b / E of the stiffest joint and the softest block, with a mean block's size b.
+double joints_against_blocks(const Model& model) {
+  double stiffest = model.parameters.contact.normal_stiffness;
+  for (const JointMaterial& joint : model.parameters.joints)
+    stiffest = std::max(stiffest, joint.normal_stiffness);
+  double softest = model.parameters.blocks.front().young_modulus;
+  for (const Material& material : model.parameters.blocks)
+    softest = std::min(softest, material.young_modulus);
+  return stiffest * mean_block_size(model) / softest;
+}
+
+/// The largest p_t / p_n of the joints.
+double along_against_across(const Model& model) {
+  double largest = 0.0;
+  for (const JointMaterial& joint : model.parameters.joints)
+    largest = std::max(largest, joint.tangential_stiffness / joint.normal_stiffness);
+  return largest;
+}
+
 }  // namespace
 
 SolverSettings SolverSettings::of(SolverKind kind, const DynamicSettings& motion) {
@@ -165,22 +186,18 @@ SolverSettings SolverSettings::of(SolverKind kind, const DynamicSettings& motion
 }
 
 SolverSettings acting_settings(SolverSettings settings, const Model& model) {
-  // That three steps show whether there is a way was measured on joints much softer than blocks (0.03 in p_n
-  // b / E with a mean block's size b). From 0.1 on bridges that stand take up to fifty, and a motion that is
-  // not needed takes a hundred times as long as those.
+  // That three steps show whether there is a way was measured on joints much softer than blocks, and ten
+  // times as soft along as across. Where they are stiffer, bridges that stand take up to fifty, and motion
+  // might pass an equilibrium (docs/numerics.md).
   constexpr double kSoftJoints = 0.03;
   constexpr double kStiffJoints = 0.1;
+  constexpr double kStiffAlong = 0.2;
   constexpr int kMostOfStiffJoints = 60;
   settings.motion = acting_settings(settings.motion, model);
-  double stiffest = model.parameters.contact.normal_stiffness;
-  for (const JointMaterial& joint : model.parameters.joints)
-    stiffest = std::max(stiffest, joint.normal_stiffness);
-  double softest = model.parameters.blocks.front().young_modulus;
-  for (const Material& material : model.parameters.blocks)
-    softest = std::min(softest, material.young_modulus);
-  const double ratio = stiffest * mean_block_size(model) / softest;
-  if (ratio > kStiffJoints) {
-    if (!has_mortar(model.parameters)) settings.softest_joints = kSoftJoints / ratio;
+  const double stiffness = joints_against_blocks(model);
+  const bool is_stiff = stiffness > kStiffJoints;
+  if (is_stiff && !has_mortar(model.parameters)) settings.softest_joints = kSoftJoints / stiffness;
+  if (is_stiff || along_against_across(model) > kStiffAlong) {
     settings.newton.skips.early_outcome = false;
     settings.newton.most_iterations = std::max(settings.newton.most_iterations, kMostOfStiffJoints);
   }

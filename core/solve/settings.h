@@ -27,8 +27,9 @@ struct SolverSettings {
   static SolverSettings of(SolverKind kind, const DynamicSettings& motion = {});
 };
 
-/// The settings that act on this model: where joints are stiffer than blocks, Newton's search is not given up
-/// early, and what it does not find is approached from softer joints; of motion see its own.
+/// The settings that act on this model: where joints are stiff against blocks, or along against across,
+/// Newton's search is patient from the start; where they are stiff against blocks, what it does not find is
+/// approached from softer joints; of motion see its own.
 SolverSettings acting_settings(SolverSettings settings, const Model& model);
 
 /// "key = value" lines, a key for every setting that acts, named for its phase: "newton.tolerance",

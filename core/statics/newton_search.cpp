@@ -14,6 +14,9 @@ constexpr double kLeastBonding =
     1e-3;  ///< first help for loose blocks: a thousandth of the joints' stiffness
 constexpr double kBondingFactor = 10.0;  ///< more help for a step out of bounds, less after a step
 constexpr int kMostHalvings = 4;
+/// Of a step along which the unbalance does not fall however short it is: what joints do at their kinks stops
+/// a descent at places that are no equilibria, and from beside them it goes on.
+constexpr double kEscape = 0.25;
 constexpr double kFallingSags =
     10.0;  ///< a scene that moves further than this many times the sag of the bonded one falls
 /// Of the unbalance at most so much may be left after a step if its matrix is to serve the next one, too; a
@@ -24,17 +27,20 @@ constexpr double kMovingShare = 0.1;  ///< of the way of the block that has fall
 
 /// How a phase behaves.
 struct PhaseRules {
-  double largest_step;  ///< in units of the largest displacement so far; loose blocks would jump further
-  double rise;          ///< that a step may make of the worst of the last residuals
-  int patience;         ///< steps after which the phase is given up ..
-  double promising;     ///< .. unless the residual is below this share of the first step's
+  double largest_step;    ///< in units of the largest displacement so far; loose blocks would jump further
+  double rise;            ///< that a step may make of the worst of the last residuals
+  int patience;           ///< steps after which the phase is given up ..
+  double promising;       ///< .. unless the residual is below this share of the first step's
+  bool descends = false;  ///< every step but the first must leave less unbalance than there was
 };
 
 constexpr int kForever = std::numeric_limits<int>::max();
 /// Nine of ten standing scenes have a hundredth of the residual after three steps, falling ones more than a
 /// half.
 constexpr PhaseRules kQuick{.largest_step = 0.5, .rise = 1.0, .patience = 3, .promising = 0.3};
-constexpr PhaseRules kPatient{.largest_step = 0.5, .rise = 1.0, .patience = kForever, .promising = 0.0};
+/// A residual that may rise lets joints open and close in turn for ever (docs/numerics.md).
+constexpr PhaseRules kPatient{
+    .largest_step = 0.5, .rise = 1.0, .patience = kForever, .promising = 0.0, .descends = true};
 constexpr PhaseRules kFalling{.largest_step = 2.0, .rise = 3.0, .patience = kForever, .promising = 0.0};
 
 const PhaseRules& rules_of(SearchPhase phase) {
@@ -43,20 +49,32 @@ const PhaseRules& rules_of(SearchPhase phase) {
 }
 
 int most_iterations(SearchPhase phase, const QuasiStaticSettings& settings) {
-  if (phase == SearchPhase::warm) return settings.most_warm_iterations;
-  return phase == SearchPhase::falling ? settings.most_falling_iterations : settings.most_iterations;
+  switch (phase) {
+    case SearchPhase::warm:
+      return settings.most_warm_iterations;
+    case SearchPhase::falling:
+      return settings.most_falling_iterations;
+    case SearchPhase::patient:
+      return settings.most_patient_iterations;
+    case SearchPhase::quick:
+    case SearchPhase::done:
+      break;
+  }
+  return settings.most_iterations;
 }
 
 }  // namespace
 
 NewtonSearch::NewtonSearch(StageEquations equations, const QuasiStaticSettings& settings, const Field* start,
-                           TangentTarget tangent, bool has_matrix)
+                           TangentTarget tangent, bool patiently, bool has_matrix)
     : equations_(std::move(equations)),
       settings_(&settings),
       tangent_(tangent),
       displacement_(Field::Zero(2, system().structure->mesh.node_count())) {
   matrix_is_new_ = !has_matrix;
-  if (start != nullptr)
+  if (patiently)
+    begin(SearchPhase::patient, start != nullptr ? *start : at_rest(), start != nullptr ? 0.0 : 1.0);
+  else if (start != nullptr)
     begin(SearchPhase::warm, *start, 0.0);
   else
     begin(SearchPhase::quick, at_rest(), 1.0);
@@ -155,10 +173,15 @@ void NewtonSearch::note_step(double length) {
   recent_.back() = norm();
 }
 
-/// Halves the step while the unbalance rises too far.
+/// Halves the step while the unbalance rises too far. Where it rises however short the step is, a descent
+/// tries again with joints bonded a little.
 void NewtonSearch::take_step(const Eigen::VectorXd& step) {
-  const double bound = rules_of(phase_).rise * *std::max_element(recent_.begin(), recent_.end());
+  const PhaseRules& rules = rules_of(phase_);
   const double norm_before = norm();
+  const bool descends = rules.descends && steps_ > 0;
+  const double bound =
+      descends ? norm_before : rules.rise * *std::max_element(recent_.begin(), recent_.end());
+  const double bonding_before = bonding_;
   const Field before = displacement_;
   const bool may_keep = may_keep_matrix();
   const bool bonded_from_rest = steps_ == 0 && bonding_ >= 1.0;
@@ -168,6 +191,13 @@ void NewtonSearch::take_step(const Eigen::VectorXd& step) {
     move(before, factor, step);
     may_keep ? evaluate_forces() : evaluate();
     if (norm() < bound) break;
+  }
+  if (descends && !(norm() < bound)) {
+    factor = bonding_before > 0.0 ? kEscape : 0.0;
+    if (factor == 0.0) bonding_ = kLeastBonding;
+    move(before, factor, step);
+    evaluate();
+    if (factor == 0.0) return;
   }
   note_step(factor * step.cwiseAbs().maxCoeff());
   if (bonded_from_rest) bonded_sag_ = last_step_;

@@ -16,7 +16,7 @@ enum class SearchPhase {
   warm,     ///< from a given start
   quick,    ///< from rest, given up when it has no hope
   falling,  ///< goes on with bolder steps: does something fall?
-  patient,  ///< from rest once more, with all patience: the last word
+  patient,  ///< from rest once more, with all patience, the unbalance falling: the last word
   done
 };
 
@@ -26,11 +26,12 @@ enum class SearchPhase {
 /// steps, until one makes too little progress.
 class NewtonSearch {
  public:
-  /// `start` may be null: the search then begins at rest. `has_matrix`: the target holds a matrix of a search
+  /// `start` may be null: the search then begins at rest. `patiently`: with the last phase. `has_matrix`: the
+  /// target holds a matrix of a search
   /// that has just ended at `start`, which may serve this one, too. System, coefficients and settings outlive
   /// the search.
   NewtonSearch(StageEquations equations, const QuasiStaticSettings& settings, const Field* start,
-               TangentTarget tangent, bool has_matrix = false);
+               TangentTarget tangent, bool patiently = false, bool has_matrix = false);
 
   bool finished() const { return phase_ == SearchPhase::done; }
   /// Is the matrix in the target another one than that of the last linear system?

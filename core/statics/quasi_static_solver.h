@@ -23,8 +23,9 @@ struct QuasiStaticSettings {
   int most_warm_iterations =
       12;                    ///< factorisations from a given start before the search starts again from zero
   int most_iterations = 30;  ///< factorisations of a search from zero
-  int most_falling_iterations = 40;  ///< factorisations of a fall
-  bool follow_falls = true;          ///< false: a search without progress ends there, `unresolved`
+  int most_falling_iterations = 40;   ///< factorisations of a fall
+  int most_patient_iterations = 100;  ///< factorisations of a patient search
+  bool follow_falls = true;           ///< false: a search without progress ends there, `unresolved`
   double collapse_displacement =
       0.1;  ///< [m] beyond it, and beyond ten sags of the bonded scene, blocks are falling
   JointRule joint_rule = JointRule::exact;
@@ -40,11 +41,11 @@ struct StageTask {
   /// Implicit steps. Forces that would hold the stage where the one before ended (what lost blocks carried, a
   /// new load turned round) are let go in so many equal parts, and the joints' memory is updated after each.
   int steps = 1;
-  bool stands_likely = false;  ///< the search is not given up early
-  bool falls_likely = false;   ///< so that who can follow a motion asks it first (CombinedSolver)
-  bool starts_near = false;    ///< the start is so near the answer that a factorisation serves several steps
-                               ///< even of a stage with nothing before it
-  bool keeps_steps = false;    ///< true: the solution has the states at the ends of all steps
+  bool patiently = false;     ///< the search begins with its patient phase, from the start
+  bool falls_likely = false;  ///< so that who can follow a motion asks it first (CombinedSolver)
+  bool starts_near = false;   ///< the start is so near the answer that a factorisation serves several steps
+                              ///< even of a stage with nothing before it
+  bool keeps_steps = false;   ///< true: the solution has the states at the ends of all steps
 };
 
 /// Solves stages of the variants of one structure, several side by side in SIMD lanes. Not thread-safe: one

@@ -1,6 +1,8 @@
 #include "core/solve/combined_solver.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
+#include <cmath>
 
 #include "core/statics/equilibrium.h"
 #include "tests/support/bridges.h"
@@ -32,6 +34,44 @@ TEST_CASE("Every scene of the small bridge with up to one block missing has an o
   }
   CHECK(standing >= 20);
   CHECK(standing < static_cast<int>(scenes.size()));
+}
+
+TEST_CASE("Joints as stiff along as across, or stiffer: no scene is left open (equilibrium from the field)",
+          "[combined]") {
+  BridgeDescription description = test::small_description();
+  for (const double ratio : {1.0, 3.0}) {
+    description.joints.tangential_stiffness = ratio * description.joints.normal_stiffness;
+    const Model bridge = make_model(description);
+    const std::vector<Scene> scenes = all_scenes(bridge.layout.size(), 1);
+    const std::vector<Solution> solutions = CombinedSolver(bridge).solve(from_rest(scenes));
+    for (std::size_t i = 0; i < scenes.size(); ++i) {
+      INFO(to_string(scenes[i], bridge.layout) << " with p_t / p_n = " << ratio);
+      CHECK(solutions[i].outcome != Outcome::unresolved);
+      if (stands(solutions[i])) CHECK(unbalanced_force(bridge, scenes[i], solutions[i].displacement) < 1e-7);
+    }
+    CHECK(std::ranges::count_if(solutions, stands) > 20);
+  }
+}
+
+TEST_CASE("A patient search finds the equilibrium that rising p_t leads to step by step (continuation)",
+          "[combined]") {
+  BridgeDescription description = reference_bridge_file().description;
+  description.joints.normal_stiffness = description.joints.tangential_stiffness = 1e8;
+  const Model bridge = make_model(description);
+  QuasiStaticSolver newton(bridge);
+  const Solution patient = newton.solve(StageTask{.stage = {}, .patiently = true});
+  REQUIRE(stands(patient));
+
+  Solution followed;
+  for (int step = 0; step <= 60; ++step) {
+    Parameters parameters = bridge.parameters;
+    for (JointMaterial& joint : parameters.joints)
+      joint.tangential_stiffness *= std::pow(0.1, 1.0 - step / 60.0);
+    followed = newton.solve(
+        {.stage = {}, .start = step > 0 ? &followed.displacement : nullptr, .parameters = &parameters});
+    REQUIRE(stands(followed));
+  }
+  CHECK((followed.displacement - patient.displacement).cwiseAbs().maxCoeff() < 1e-9);
 }
 
 TEST_CASE("Scenes that Newton alone leaves open stand or creep away in motion", "[combined]") {
