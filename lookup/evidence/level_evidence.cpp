@@ -5,6 +5,8 @@
 #include <boost/math/quadrature/gauss.hpp>
 #include <cmath>
 #include <limits>
+#include <numbers>
+#include <numeric>
 
 #include "lookup/evidence/bounded_errors.h"
 #include "lookup/evidence/level_curve.h"
@@ -14,15 +16,15 @@ namespace voussoir {
 namespace {
 
 constexpr double kImpossible = -std::numeric_limits<double>::infinity();
-constexpr double kNegligible = 25.0;  // parts of an integrand below exp(-this) of its peak are left out
-constexpr int kLevelsPerOctave = 4;   // of the search for the likeliest level
-constexpr double kStep = 1.1;  // of the grid, in deviations of a peak of 1 / sqrt(2 count): the trapezoidal
-                               // rule then integrates a bell to 1e-7
+constexpr double kNegligible = 25.0;      // parts of an integrand below exp(-this) of its peak are left out
+constexpr double kCommonLevel = 0.05;     // from which the likeliest rows are looked for
+constexpr std::size_t kLikely = 8;        // rows with which all levels are tried
+constexpr std::size_t kBlockRows = 1024;  // worked out together: intermediate results stay in the cache
+constexpr int kLevelsPerOctave = 4;       // of the search for the likeliest level
 constexpr double kPanel =
     3.0;  // widest panel of Gauss's rule, in the same deviations, and narrowest, in 1 / count
-constexpr double kFarFromBest = 30.0;  // rows less likely than the best by exp(this) need not be exact
-constexpr double kWidening = 1.4;      // of the steps below the peaks, where likelihoods level out
-constexpr double kFarInside = 4.0;     // deviations of the model inside of which a bound is hardly felt: 3e-5
+constexpr double kWidening = 1.4;   // of the steps below the peaks, where likelihoods level out
+constexpr double kFarInside = 4.0;  // deviations of the model inside of which a bound is hardly felt: 3e-5
 constexpr double kMostScaleDeviations = 4.0;  // of an unknown common factor, that count
 constexpr double kFarBeyond = 7.0;            // .. and beyond which a reading is all but excluded
 
@@ -30,6 +32,15 @@ constexpr std::array<NoiseShape, 1> kUniform = {NoiseShape::uniform};
 
 const double kFirst = std::log(kSmallestLevel);
 const double kLast = std::log(kLargestLevel);
+
+/// A grid of levels about a peak of deviation 1 / sqrt(2 count).
+struct GridRule {
+  double step;  // in these deviations: the trapezoidal rule integrates a bell to 2 exp(-2 (pi / step)^2)
+  double negligible;  // parts of an integrand below exp(-this) of its peak are left out
+  double far;         // rows less likely than the best by exp(this) need not be exact
+};
+constexpr GridRule kFine = {1.1, kNegligible, 30.0};
+constexpr GridRule kCoarse = {1.3, 12.0, 20.0};
 
 /// Logarithms of levels, ascending, with the weights of a rule of integration.
 struct LevelGrid {
@@ -76,12 +87,12 @@ LevelGrid graded_panels(double first, double last, double count) {
 
 /// Fine about the level where the best rows peak, as far as rows that are not hopeless may peak and reach;
 /// coarser below, where absolute errors and the model's make the level lose its meaning.
-LevelGrid grid_about(double level, double count) {
+LevelGrid grid_about(double level, double count, const GridRule& rule) {
   const double peak = std::log(level);
-  const double step = kStep / std::sqrt(2.0 * count);
-  const double reach = kFarFromBest / count + std::sqrt(2.0 * kNegligible / count);
+  const double step = rule.step / std::sqrt(2.0 * count);
+  const double reach = rule.far / count + std::sqrt(2.0 * rule.negligible / count);
   const double begin = peak - reach;
-  const double end = peak + reach + (kNegligible + 1.0) / count;
+  const double end = peak + reach + (rule.negligible + 1.0) / count;
   if (begin <= kFirst || end >= kLast) return graded_panels(kFirst, kLast, count);
   std::vector<double> places;
   for (double below = begin, width = step; below > kFirst; width *= kWidening) {
@@ -96,8 +107,9 @@ LevelGrid grid_about(double level, double count) {
 
 /// Sum over the grid, from its end towards small levels until nothing more is added.
 std::vector<std::vector<double>> over_grid(const Observation& observation, Shapes shapes, double level,
-                                           const SceneTable& table, std::span<const std::size_t> rows) {
-  const LevelGrid grid = grid_about(level, static_cast<double>(observation.count));
+                                           const SceneTable& table, std::span<const std::size_t> rows,
+                                           const GridRule& rule) {
+  const LevelGrid grid = grid_about(level, static_cast<double>(observation.count), rule);
   std::vector<std::vector<double>> results(shapes.size(), std::vector<double>(rows.size(), kImpossible));
   for (std::size_t i = grid.weight.size(); i-- > 0;) {
     const auto logs = log_likelihoods_at(observation, shapes, std::exp(grid.log_level[i]), table, rows);
@@ -107,7 +119,7 @@ std::vector<std::vector<double>> over_grid(const Observation& observation, Shape
       for (std::size_t row = 0; row < rows.size(); ++row) {
         double& sum = results[shape][row];
         const double term = logs[shape][row] + log_weight;
-        adds |= term > sum - kNegligible;
+        adds |= term > sum - rule.negligible;
         sum = log_sum(sum, term);
       }
     if (!adds) break;
@@ -128,8 +140,9 @@ class BoundedRow {
   /// The integral over all levels.
   double log_integral() const {
     if (!is_possible_) return kImpossible;
-    const double edge_begin = std::clamp(std::log(begin_), kFirst, kLast);
     const double edge_end = std::clamp(std::log(end_), kFirst, kLast);
+    // Where no level takes in all readings, those below the largest count as well.
+    const double edge_begin = begin_ < kLargestLevel ? std::clamp(std::log(begin_), kFirst, kLast) : kFirst;
     const double width = kPanelWidth / static_cast<double>(observation_.count);
     double sum = kImpossible;
     double top = kImpossible;
@@ -207,6 +220,27 @@ class BoundedRow {
   double end_ = kSmallestLevel;
 };
 
+std::vector<std::span<const std::size_t>> blocks_of(std::span<const std::size_t> rows) {
+  std::vector<std::span<const std::size_t>> blocks;
+  for (std::size_t first = 0; first < rows.size(); first += kBlockRows)
+    blocks.push_back(rows.subspan(first, std::min(kBlockRows, rows.size() - first)));
+  return blocks;
+}
+
+/// The rows with the largest values.
+std::vector<std::size_t> rows_with_largest(const std::vector<double>& values,
+                                           std::span<const std::size_t> rows, std::size_t count) {
+  std::vector<std::size_t> order(rows.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  count = std::min(count, order.size());
+  std::partial_sort(
+      order.begin(), order.begin() + static_cast<std::ptrdiff_t>(count), order.end(),
+      [&](std::size_t a, std::size_t b) { return values[a] != values[b] ? values[a] > values[b] : a < b; });
+  order.resize(count);
+  for (std::size_t& place : order) place = rows[place];
+  return order;
+}
+
 }  // namespace
 
 double likeliest_level(const Observation& observation, Shapes shapes, const SceneTable& table,
@@ -231,14 +265,49 @@ double likeliest_level(const Observation& observation, Shapes shapes, const Scen
   return std::exp(best);
 }
 
+std::vector<double> estimated_peaks(const Observation& observation, Shapes shapes, double level,
+                                    const SceneTable& table, std::span<const std::size_t> rows) {
+  std::vector<double> result;
+  result.reserve(rows.size());
+  for (const auto block : blocks_of(rows)) {
+    const auto logs = log_likelihoods_at_peak(observation, shapes, level, table, block);
+    for (std::size_t i = 0; i < block.size(); ++i) {
+      result.push_back(kImpossible);
+      for (const std::vector<double>& of_shape : logs) result.back() = std::max(result.back(), of_shape[i]);
+    }
+  }
+  return result;
+}
+
+double likeliest_level_of_all(const Observation& observation, Shapes shapes, const SceneTable& table,
+                              std::span<const std::size_t> rows) {
+  const auto values = estimated_peaks(observation, shapes, kCommonLevel, table, rows);
+  return likeliest_level(observation, shapes, table, rows_with_largest(values, rows, kLikely));
+}
+
+double log_width(NoiseShape shape, std::size_t count) {
+  const auto n = static_cast<double>(count);
+  if (shape == NoiseShape::uniform) return -std::log(n * log_range());
+  const double power = shape == NoiseShape::gaussian ? 2.0 : 1.0;
+  return 0.5 * std::log(2.0 * std::numbers::pi / (n * power)) - std::log(log_range());
+}
+
 std::vector<std::vector<double>> evidence_over_levels(const Observation& observation, Shapes shapes,
                                                       double level, const SceneTable& table,
-                                                      std::span<const std::size_t> rows) {
-  if (shapes.front() != NoiseShape::uniform) return over_grid(observation, shapes, level, table, rows);
-  std::vector<double> result;
-  for (const std::size_t row : rows)
-    result.push_back(BoundedRow(observation, table, row).log_integral() - std::log(log_range()));
-  return {std::move(result)};
+                                                      std::span<const std::size_t> rows, LevelRule rule) {
+  std::vector<std::vector<double>> results(shapes.size());
+  if (shapes.front() == NoiseShape::uniform) {
+    for (const std::size_t row : rows)
+      results.front().push_back(BoundedRow(observation, table, row).log_integral() - std::log(log_range()));
+    return results;
+  }
+  for (const auto block : blocks_of(rows)) {
+    const auto part =
+        over_grid(observation, shapes, level, table, block, rule == LevelRule::fine ? kFine : kCoarse);
+    for (std::size_t shape = 0; shape < shapes.size(); ++shape)
+      results[shape].insert(results[shape].end(), part[shape].begin(), part[shape].end());
+  }
+  return results;
 }
 
 }  // namespace voussoir

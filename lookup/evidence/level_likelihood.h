@@ -18,7 +18,8 @@ std::vector<std::vector<double>> log_likelihoods_at(const Observation& observati
                                                     std::span<const std::size_t> rows);
 
 /// Estimates of the largest of these over all levels, from statistics at this level: right if all errors grow
-/// with the level alone; of Student's t the likelihood at this level.
+/// with the level alone; of Student's t the likelihood at this level, of bounded errors too high where some
+/// come near the bound.
 std::vector<std::vector<double>> log_likelihoods_at_peak(const Observation& observation, Shapes shapes,
                                                          double level, const SceneTable& table,
                                                          std::span<const std::size_t> rows);
