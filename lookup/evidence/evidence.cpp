@@ -86,9 +86,7 @@ Logs over_levels(const Observation& observation, Shapes shapes, const SceneTable
 
 std::vector<double> log_evidence(const Observation& observation, const SceneTable& table, Rows rows) {
   if (rows.empty()) return {};
-  if (!observation.unknown_level)
-    return at_level(observation, std::max(observation.noise.relative.value_or(0.0), kSmallestLevel), table,
-                    rows);
+  if (!observation.unknown_level) return at_level(observation, stated_level(observation), table, rows);
   if (has_closed_form(observation)) return over_levels_in_closed_form(observation, table, rows);
   Logs logs;
   double known = kImpossible;
@@ -110,6 +108,10 @@ std::vector<NoiseShape> shapes_of(const NoiseModel& noise) {
 std::vector<std::vector<NoiseShape>> groups_of(const NoiseModel& noise) {
   if (noise.shape != NoiseShape::automatic) return {{noise.shape}};
   return {{NoiseShape::gaussian, NoiseShape::laplace}, {NoiseShape::uniform}};
+}
+
+double stated_level(const Observation& observation) {
+  return std::max(observation.noise.relative.value_or(0.0), kSmallestLevel);
 }
 
 bool has_closed_form(const Observation& observation) {

@@ -28,6 +28,9 @@ std::vector<NoiseShape> shapes_of(const NoiseModel& noise);
 /// The same in groups that share their sums, bounded errors last: they take longest.
 std::vector<std::vector<NoiseShape>> groups_of(const NoiseModel& noise);
 
+/// [-] where the noise's level is not unknown.
+double stated_level(const Observation& observation);
+
 /// True if the evidence over an unknown level has a closed form.
 bool has_closed_form(const Observation& observation);
 

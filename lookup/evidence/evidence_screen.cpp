@@ -153,7 +153,8 @@ std::vector<std::size_t> EvidenceScreen::likely_rows(const Observation& observat
 }
 
 /// Of the possible ones: no reading is at a block that they lack.
-std::vector<double> EvidenceScreen::over_levels(const Observation& observation, std::size_t count) const {
+std::vector<double> EvidenceScreen::in_order_of_estimates(const Observation& observation,
+                                                          std::size_t count) const {
   const std::vector<std::size_t> rows = possible_rows(observation, table_, eligible_.rows);
   std::vector<double> result(table_.rows, -kInfinity);
   if (rows.empty()) return result;
@@ -170,11 +171,13 @@ std::vector<double> EvidenceScreen::over_levels(const Observation& observation, 
 std::vector<double> EvidenceScreen::operator()(const Observation& observation, std::size_t count) const {
   if (observation.count == 0 || eligible_.rows.empty())
     return log_evidence_of_rows(observation, table_, eligible_.rows);
-  if (observation.unknown_level && !has_closed_form(observation)) return over_levels(observation, count);
-  const bool bounded = cluster_bounds_apply(observation) && index_.clusters() > 0;
-  return log_evidence_of_rows(
-      observation, table_,
-      bounded ? rows_within_bounds(observation, count) : possible_rows(observation, table_, eligible_.rows));
+  if (cluster_bounds_apply(observation) && index_.clusters() > 0)
+    return log_evidence_of_rows(observation, table_, rows_within_bounds(observation, count));
+  const bool over_levels = observation.unknown_level && !has_closed_form(observation);
+  const bool takes_long = observation.softens_bounds() && !observation.unknown_level &&
+                          shapes_of(observation.noise).front() == NoiseShape::uniform;
+  if (over_levels || takes_long) return in_order_of_estimates(observation, count);
+  return log_evidence_of_rows(observation, table_, possible_rows(observation, table_, eligible_.rows));
 }
 
 }  // namespace voussoir

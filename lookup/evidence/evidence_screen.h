@@ -35,7 +35,7 @@ class EvidenceScreen {
   std::vector<std::size_t> rows_within_bounds(const Observation& observation, std::size_t count) const;
   std::vector<std::size_t> likely_rows(const Observation& observation,
                                        std::span<const std::size_t> possible) const;
-  std::vector<double> over_levels(const Observation& observation, std::size_t count) const;
+  std::vector<double> in_order_of_estimates(const Observation& observation, std::size_t count) const;
 
   const SceneTable& table_;
   SearchIndex index_;

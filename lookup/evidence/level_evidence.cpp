@@ -23,7 +23,9 @@ constexpr std::size_t kBlockRows = 1024;  // worked out together: intermediate r
 constexpr int kLevelsPerOctave = 4;       // of the search for the likeliest level
 constexpr double kPanel =
     3.0;  // widest panel of Gauss's rule, in the same deviations, and narrowest, in 1 / count
-constexpr double kWidening = 1.4;   // of the steps below the peaks, where likelihoods level out
+constexpr double kWidening = 1.4;  // of the steps below the peaks, where likelihoods level out
+constexpr double kBeyondEdges =
+    16.0;  // a bounded row's likelihood below exp(-this) of its peak ends the integral
 constexpr double kFarInside = 4.0;  // deviations of the model inside of which a bound is hardly felt: 3e-5
 constexpr double kMostScaleDeviations = 4.0;  // of an unknown common factor, that count
 constexpr double kFarBeyond = 7.0;            // .. and beyond which a reading is all but excluded
@@ -146,50 +148,66 @@ class BoundedRow {
     const double width = kPanelWidth / static_cast<double>(observation_.count);
     double sum = kImpossible;
     double top = kImpossible;
-    const auto add = [&](double from, double to) {
-      const double part = panel(from, to);
-      sum = log_sum(sum, part);
-      top = std::max(top, part);
-      return part > top - kNegligible;
+    // False once what lies beyond the far end adds nothing.
+    const auto add = [&](const Panel& panel, double at_far_end) {
+      sum = log_sum(sum, panel.log_integral);
+      top = std::max(top, panel.most);
+      return at_far_end > top - kBeyondEdges;
     };
     double step = width;
     for (double from = edge_end; from < kLast; step *= 2.0) {
       const double to = std::min(kLast, from + step);
-      if (!add(from, to)) break;
+      const Panel panel = panel_of(from, to);
+      if (!add(panel, panel.last)) break;
       from = to;
     }
     step = std::min(width, edge_end - edge_begin);
-    for (double to = edge_end; to > edge_begin && step > 0.0; step = std::min(2.0 * step, width)) {
+    for (double to = edge_end; to > edge_begin && step > 0.0;) {
       const double from = std::max(edge_begin, to - step);
-      if (!add(from, to)) break;
+      const Panel panel = panel_of(from, to);
+      if (!add(panel, panel.first)) break;
       to = from;
+      step = panel.is_level() ? 2.0 * step : std::min(2.0 * step, width);
     }
     return sum;
   }
 
  private:
   static constexpr double kPanelWidth = 6.0;
+  static constexpr std::size_t kPanelPlaces = 7;  // of Gauss's rule: exp(6 t) to 3e-8 of its largest value
 
   double log_likelihood(double log_level) const {
     return log_likelihoods_at(observation_, kUniform, std::exp(log_level), table_, row_).front().front();
   }
 
-  double panel(double from, double to) const {
-    using Rule = boost::math::quadrature::gauss<double, 10>;
-    std::array<double, 10> logs{};
-    std::size_t used = 0;
-    double top = kImpossible;
-    // Gauss's places are asked for in the rule's own order, twice.
-    Rule::integrate(
-        [&](double u) {
-          logs.at(used) = log_likelihood(u);
-          top = std::max(top, logs.at(used++));
-          return 0.0;
-        },
-        from, to);
-    if (top == kImpossible) return kImpossible;
-    std::size_t next = 0;
-    return top + std::log(Rule::integrate([&](double) { return std::exp(logs.at(next++) - top); }, from, to));
+  /// A part of the range of levels, the likelihood's logarithm at its first and last place and where it is
+  /// largest.
+  struct Panel {
+    double log_integral = kImpossible, first = kImpossible, last = kImpossible, most = kImpossible;
+
+    /// The likelihood hardly changes: the next panel may be wider.
+    bool is_level() const { return most - std::min(first, last) < 1.0; }
+  };
+
+  Panel panel_of(double from, double to) const {
+    using Rule = boost::math::quadrature::gauss<double, kPanelPlaces>;
+    constexpr std::size_t kMiddle = kPanelPlaces / 2;
+    const double half = 0.5 * (to - from), middle = 0.5 * (to + from);
+    std::array<double, kPanelPlaces> logs{};
+    Panel panel;
+    for (std::size_t i = 0; i < kPanelPlaces; ++i) {
+      const double place = i < kMiddle ? -Rule::abscissa()[kMiddle - i] : Rule::abscissa()[i - kMiddle];
+      logs.at(i) = log_likelihood(middle + half * place);
+      panel.most = std::max(panel.most, logs.at(i));
+    }
+    panel.first = logs.front();
+    panel.last = logs.back();
+    if (panel.most == kImpossible) return panel;
+    double sum = 0.0;
+    for (std::size_t i = 0; i < kPanelPlaces; ++i)
+      sum += Rule::weights()[i < kMiddle ? kMiddle - i : i - kMiddle] * std::exp(logs.at(i) - panel.most);
+    panel.log_integral = panel.most + std::log(half * sum);
+    return panel;
   }
 
   /// The levels between which the bound takes in the reading that needs the most.

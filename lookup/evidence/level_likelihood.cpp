@@ -1,5 +1,6 @@
 #include "lookup/evidence/level_likelihood.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -74,6 +75,21 @@ std::vector<std::vector<double>> log_likelihoods_at(const Observation& observati
       return student_log_likelihood(row, observation.count, observation.noise.degrees_of_freedom);
     return log_likelihood(shape, row, observation.count);
   });
+}
+
+std::vector<double> highest_likelihoods_at(const Observation& observation, Shapes shapes, double level,
+                                           const SceneTable& table, std::span<const std::size_t> rows) {
+  if (shapes.front() == NoiseShape::uniform && observation.softens_bounds()) {
+    std::vector<double> logs =
+        highest_bounded_likelihoods(observation, scales_at(observation, level), table, rows);
+    for (double& log : logs) log = std::isnan(log) ? kImpossible : log;
+    return logs;
+  }
+  const auto logs = log_likelihoods_at(observation, shapes, level, table, rows);
+  std::vector<double> highest = logs.front();
+  for (const std::vector<double>& of_shape : logs)
+    for (std::size_t i = 0; i < rows.size(); ++i) highest[i] = std::max(highest[i], of_shape[i]);
+  return highest;
 }
 
 std::vector<std::vector<double>> log_likelihoods_at_peak(const Observation& observation, Shapes shapes,

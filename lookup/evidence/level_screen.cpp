@@ -14,10 +14,11 @@ namespace voussoir {
 namespace {
 
 constexpr double kImpossible = -std::numeric_limits<double>::infinity();
-constexpr std::size_t kFirst = 32;  // rows that are worked out first, under the first shapes
-constexpr double kTooLow = 2.0;       // what an estimate's logarithm may be too low by at least
+constexpr double kRoundOff = 1e-6;         // of a bound of a logarithm
+constexpr std::size_t kFirst = 32;         // rows that are worked out first, under the first shapes
+constexpr double kTooLow = 2.0;            // what an estimate's logarithm may be too low by at least
 constexpr double kCountsForTooLow = 25.0;  // rows so far behind the best say nothing of that
-constexpr double kBin = 0.25;            // of logarithms, for sums over rows in the order of estimates
+constexpr double kBin = 0.25;              // of logarithms, for sums over rows in the order of estimates
 constexpr std::size_t kBins = 400;
 constexpr double kCoarseShare = 3e-4;  // of the probability, of rows that are worked out less precisely
 
@@ -26,9 +27,9 @@ struct Group {
   std::vector<NoiseShape> shapes;
   double level = 0.0;            ///< where the readings are likeliest
   std::vector<double> estimate;  ///< with what was known beforehand
-  std::vector<double> exact;   ///< the same; -infinity until worked out
+  std::vector<double> exact;     ///< the same; -infinity until worked out
   std::vector<bool> is_worked_out;
-  double too_low;                ///< by how much estimates of likely rows were found to be too low at most
+  double too_low;  ///< by how much estimates of likely rows were found to be too low at most
 };
 
 class LevelScreen {
@@ -38,14 +39,11 @@ class LevelScreen {
       : observation_(observation), table_(table), rows_(rows), beforehand_(beforehand) {
     const auto shapes = static_cast<double>(shapes_of(observation.noise).size());
     for (const auto& group : groups_of(observation.noise)) {
-      const double level = likeliest_level(observation, group, table, likely);
       Group& added = groups_.emplace_back();
       added.shapes = group;
-      added.level = level;
-      added.estimate = estimated_peaks(observation, group, level, table, rows);
-      const double shift =
-          log_width(group.back(), observation.count) - std::log(shapes / static_cast<double>(group.size()));
-      for (std::size_t i = 0; i < rows.size(); ++i) added.estimate[i] += shift + beforehand[i];
+      estimate(added, likely);
+      const double share = std::log(static_cast<double>(group.size()) / shapes);
+      for (std::size_t i = 0; i < rows.size(); ++i) added.estimate[i] += share + beforehand[i];
       added.exact.assign(rows.size(), kImpossible);
       added.is_worked_out.assign(rows.size(), false);
     }
@@ -54,8 +52,8 @@ class LevelScreen {
 
   std::vector<double> evidence(std::size_t count, double left_out) {
     work_out(groups_.front(), first_of(groups_.front(), std::max(count, kFirst)), LevelRule::fine);
-    for (const auto& [share, rule] : {std::pair{kCoarseShare, LevelRule::fine},
-                                      std::pair{left_out, LevelRule::coarse}})
+    for (const auto& [share, rule] :
+         {std::pair{kCoarseShare, LevelRule::fine}, std::pair{left_out, LevelRule::coarse}})
       while (work_out_above(count, share, rule)) {
       }
     std::vector<double> result = totals();
@@ -64,6 +62,26 @@ class LevelScreen {
   }
 
  private:
+  void estimate(Group& group, std::span<const std::size_t> likely) const {
+    if (observation_.unknown_level) {
+      group.level = likeliest_level(observation_, group.shapes, table_, likely);
+      group.estimate = estimated_peaks(observation_, group.shapes, group.level, table_, rows_);
+      const double width = log_width(group.shapes.back(), observation_.count);
+      for (double& log : group.estimate) log += width;
+    } else {
+      group.level = stated_level(observation_);
+      group.estimate = highest_likelihoods_at(observation_, group.shapes, group.level, table_, rows_);
+      group.too_low = kRoundOff;
+    }
+  }
+
+  std::vector<std::vector<double>> logs_of(const Group& group, std::span<const std::size_t> rows,
+                                           LevelRule rule) const {
+    if (observation_.unknown_level)
+      return evidence_over_levels(observation_, group.shapes, group.level, table_, rows, rule);
+    return log_likelihoods_at(observation_, group.shapes, group.level, table_, rows);
+  }
+
   std::vector<std::size_t> first_of(const Group& group, std::size_t count) const {
     std::vector<std::size_t> places(rows_.size());
     std::iota(places.begin(), places.end(), std::size_t{0});
@@ -83,7 +101,7 @@ class LevelScreen {
     if (places.empty()) return;
     std::vector<std::size_t> rows;
     for (const std::size_t place : places) rows.push_back(rows_[place]);
-    const auto logs = evidence_over_levels(observation_, group.shapes, group.level, table_, rows, rule);
+    const auto logs = logs_of(group, rows, rule);
     for (std::size_t i = 0; i < places.size(); ++i) {
       double& sum = group.exact[places[i]];
       for (const std::vector<double>& of_shape : logs) sum = log_sum(sum, of_shape[i]);
@@ -105,8 +123,8 @@ class LevelScreen {
     return result;
   }
 
-  /// The estimate below which all rows and shapes together may be left out: they hold less than the share, and
-  /// none is one of the `count` likeliest.
+  /// The estimate below which all rows and shapes together may be left out: they hold less than the share,
+  /// and none is one of the `count` likeliest.
   double least_that_matters(std::size_t count, double share) const {
     std::vector<double> values = totals();
     std::erase(values, kImpossible);
