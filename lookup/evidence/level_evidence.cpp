@@ -35,7 +35,7 @@ constexpr std::array<NoiseShape, 1> kUniform = {NoiseShape::uniform};
 const double kFirst = std::log(kSmallestLevel);
 const double kLast = std::log(kLargestLevel);
 
-/// A grid of levels about a peak of deviation 1 / sqrt(2 count).
+/// A grid of levels about a peak of deviation 1 / sqrt(power count).
 struct GridRule {
   double step;  // in these deviations: the trapezoidal rule integrates a bell to 2 exp(-2 (pi / step)^2)
   double negligible;  // parts of an integrand below exp(-this) of its peak are left out
@@ -89,9 +89,9 @@ LevelGrid graded_panels(double first, double last, double count) {
 
 /// Fine about the level where the best rows peak, as far as rows that are not hopeless may peak and reach;
 /// coarser below, where absolute errors and the model's make the level lose its meaning.
-LevelGrid grid_about(double level, double count, const GridRule& rule) {
+LevelGrid grid_about(double level, double count, double power, const GridRule& rule) {
   const double peak = std::log(level);
-  const double step = rule.step / std::sqrt(2.0 * count);
+  const double step = rule.step / std::sqrt(power * count);
   const double reach = rule.far / count + std::sqrt(2.0 * rule.negligible / count);
   const double begin = peak - reach;
   const double end = peak + reach + (rule.negligible + 1.0) / count;
@@ -111,7 +111,12 @@ LevelGrid grid_about(double level, double count, const GridRule& rule) {
 std::vector<std::vector<double>> over_grid(const Observation& observation, Shapes shapes, double level,
                                            const SceneTable& table, std::span<const std::size_t> rows,
                                            const GridRule& rule) {
-  const LevelGrid grid = grid_about(level, static_cast<double>(observation.count), rule);
+  // Laplace's peaks are wider than Gaussian ones (LevelCurve::power), and Student's as long as nu is small.
+  const double nu = observation.noise.degrees_of_freedom;
+  const double power = shapes.front() == NoiseShape::laplace   ? 1.0
+                       : shapes.front() == NoiseShape::student ? 2.0 * nu / (nu + 3.0)
+                                                               : 2.0;
+  const LevelGrid grid = grid_about(level, static_cast<double>(observation.count), power, rule);
   std::vector<std::vector<double>> results(shapes.size(), std::vector<double>(rows.size(), kImpossible));
   for (std::size_t i = grid.weight.size(); i-- > 0;) {
     const auto logs = log_likelihoods_at(observation, shapes, std::exp(grid.log_level[i]), table, rows);
