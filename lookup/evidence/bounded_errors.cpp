@@ -53,7 +53,7 @@ VOUSSOIR_INLINE Tail<DoubleLanes> narrow_density(const DoubleLanes& size, const 
   return {q - 0.5 * z * z, kPeak * sinh_per_q * (1.0 - share * share * (1.0 / 6.0)) / deviation};
 }
 
-constexpr double kGone = -40.0;  // exp of it is lost beside 1
+constexpr double kGone = -20.0;  // exp of it, 2e-9, is lost beside the tails' own error
 
 /// The density times 2 b as exp(exponent) factor.
 VOUSSOIR_INLINE Tail<DoubleLanes> bounded_density(const DoubleLanes& size, const DoubleLanes& half_width,
@@ -75,8 +75,27 @@ VOUSSOIR_INLINE Tail<DoubleLanes> bounded_density(const DoubleLanes& size, const
           is_narrow ? 2.0 * half_width * narrow.factor : density.factor};
 }
 
+/// At least the density times 2 b, as which Q(x) <= exp(-x^2 / 2) serves: no tail is worked out.
+VOUSSOIR_INLINE Tail<DoubleLanes> highest_density(const DoubleLanes& size, const DoubleLanes& half_width,
+                                                  const DoubleLanes& variance) {
+  const DoubleLanes beyond = size - half_width;
+  const DoubleLanes outside = beyond < 0.0 ? DoubleLanes{} : beyond;  // NaN stays
+  return {-0.5 * outside * outside / variance, DoubleLanes{} + 1.0};
+}
+
+/// The density times 2 b where the bound is felt, one elsewhere.
+VOUSSOIR_INLINE Tail<DoubleLanes> felt_density(const DoubleLanes& size, const DoubleLanes& half_width,
+                                               const DoubleLanes& variance, const DoubleMask& has_reading) {
+  const DoubleLanes one = DoubleLanes{} + 1.0, deviation = square_root(variance);
+  const DoubleMask is_felt = has_reading & ~(size + kFarInside * deviation < half_width);
+  if (!any(is_felt)) return {DoubleLanes{}, one};
+  const Tail<DoubleLanes> density = bounded_density(size, half_width, deviation);
+  return {is_felt ? density.exponent : DoubleLanes{}, is_felt ? density.factor : one};
+}
+
 /// Sum of the densities' exponents; the product of their factors, times the unit each, goes to `factors`. NaN
 /// if a reading has no prediction.
+template <bool kHighest>
 VOUSSOIR_INLINE double log_likelihood_of_row(const PointArrays& arrays, double inverse_unit,
                                              const RowTerms& row, const double* prediction,
                                              WideProduct& factors) {
@@ -88,15 +107,14 @@ VOUSSOIR_INLINE double log_likelihood_of_row(const PointArrays& arrays, double i
     const DoubleMask has_reading = at.reading == at.reading;
     if (!any(has_reading)) continue;
     const DoubleLanes movement = at.predicted - at.origin, half_width = at.instrument;
-    const DoubleLanes deviation = larger(square_root(at.variance + row.variance * movement * movement),
-                                         DoubleLanes{} + kSmallestDeviation);
+    const DoubleLanes variance = larger(at.variance + row.variance * movement * movement,
+                                        DoubleLanes{} + kSmallestDeviation * kSmallestDeviation);
     const DoubleLanes size = magnitude(at.reading - at.origin - row.factor * movement);
-    Tail<DoubleLanes> density{DoubleLanes{}, one};
-    const DoubleMask is_felt = has_reading & ~(size + kFarInside * deviation < half_width);
-    if (any(is_felt)) {
-      density = bounded_density(size, half_width, deviation);
-      density = {is_felt ? density.exponent : DoubleLanes{}, is_felt ? density.factor : one};
-    }
+    Tail<DoubleLanes> density;
+    if constexpr (kHighest)
+      density = highest_density(size, half_width, variance);
+    else
+      density = felt_density(size, half_width, variance, has_reading);
     exponents += has_reading ? (size == size ? density.exponent : size) : DoubleLanes{};
     product *= has_reading ? density.factor / (2.0 * half_width * inverse_unit) : one;
     if (step % kFewProducts == 0) flush(product, factors);
@@ -109,14 +127,40 @@ VOUSSOIR_FOR_EVERY_PROCESSOR
 void collect(const PointArrays& arrays, double inverse_unit, const double* table, const std::size_t* rows,
              const RowTerms* terms, std::size_t count, double* results, WideProduct* factors) {
   for (std::size_t i = 0; i < count; ++i)
-    results[i] =
-        log_likelihood_of_row(arrays, inverse_unit, terms[i], table + rows[i] * arrays.points, factors[i]);
+    results[i] = log_likelihood_of_row<false>(arrays, inverse_unit, terms[i], table + rows[i] * arrays.points,
+                                              factors[i]);
+}
+VOUSSOIR_FOR_EVERY_PROCESSOR
+void collect_highest(const PointArrays& arrays, double inverse_unit, const double* table,
+                     const std::size_t* rows, const RowTerms* terms, std::size_t count, double* results,
+                     WideProduct* factors) {
+  for (std::size_t i = 0; i < count; ++i)
+    results[i] = log_likelihood_of_row<true>(arrays, inverse_unit, terms[i], table + rows[i] * arrays.points,
+                                             factors[i]);
 }
 
 /// The integral of Q from x to infinity.
 double integral_of_tail(double x) {
   const double q = 0.5 * std::erfc(x / std::numbers::sqrt2);
   return std::exp(-0.5 * x * x) * std::numbers::inv_sqrtpi / std::numbers::sqrt2 - x * q;
+}
+
+std::vector<double> log_likelihoods(const Observation& observation, const ErrorScales& scales,
+                                    const SceneTable& table, std::span<const std::size_t> rows,
+                                    decltype(&collect) function) {
+  const std::vector<double> common =
+      common_variances(observation.intact, observation.error_common, table, rows);
+  const ScaleFits fits = scale_fits(observation, scales, table, rows, common, kBoundedVariance);
+  const std::vector<RowTerms> terms = row_terms(common, fits);
+  std::vector<double> results(rows.size());
+  std::vector<WideProduct> factors(rows.size());
+  function(point_arrays(observation, scales), 1.0 / scales.unit, table.vertical.data(), rows.data(),
+           terms.data(), rows.size(), results.data(), factors.data());
+  const double shift = static_cast<double>(observation.count) * std::log(scales.unit);
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    results[i] += std::log(factors[i].mantissa) + factors[i].exponent * std::numbers::ln2 - shift;
+  for (std::size_t i = 0; i < fits.factor.size(); ++i) results[i] -= 0.5 * fits.square[i] + fits.log_width[i];
+  return results;
 }
 
 }  // namespace
@@ -138,19 +182,12 @@ double chance_of_bounded_error(double error, double half_width, double deviation
 
 std::vector<double> log_bounded_likelihoods(const Observation& observation, const ErrorScales& scales,
                                             const SceneTable& table, std::span<const std::size_t> rows) {
-  const std::vector<double> common =
-      common_variances(observation.intact, observation.error_common, table, rows);
-  const ScaleFits fits = scale_fits(observation, scales, table, rows, common, kBoundedVariance);
-  const std::vector<RowTerms> terms = row_terms(common, fits);
-  std::vector<double> results(rows.size());
-  std::vector<WideProduct> factors(rows.size());
-  collect(point_arrays(observation, scales), 1.0 / scales.unit, table.vertical.data(), rows.data(),
-          terms.data(), rows.size(), results.data(), factors.data());
-  const double shift = static_cast<double>(observation.count) * std::log(scales.unit);
-  for (std::size_t i = 0; i < rows.size(); ++i)
-    results[i] += std::log(factors[i].mantissa) + factors[i].exponent * std::numbers::ln2 - shift;
-  for (std::size_t i = 0; i < fits.factor.size(); ++i) results[i] -= 0.5 * fits.square[i] + fits.log_width[i];
-  return results;
+  return log_likelihoods(observation, scales, table, rows, collect);
+}
+
+std::vector<double> highest_bounded_likelihoods(const Observation& observation, const ErrorScales& scales,
+                                                const SceneTable& table, std::span<const std::size_t> rows) {
+  return log_likelihoods(observation, scales, table, rows, collect_highest);
 }
 
 }  // namespace voussoir

@@ -18,8 +18,6 @@ namespace {
 
 constexpr double kImpossible = -std::numeric_limits<double>::infinity();
 constexpr std::size_t kBlockRows = 1024;  // worked out together: intermediate results stay in the cache
-constexpr double kCommonLevel = 0.05;     // from which the likeliest rows are looked for
-constexpr std::size_t kLikely = 8;        // rows with which all levels are tried
 constexpr double kOtherShape = 36.0;  // logarithm of how far behind another shape's best row one is left out
 
 using Rows = std::span<const std::size_t>;
@@ -34,12 +32,6 @@ std::vector<double> block_by_block(Rows rows, Function function) {
     result.insert(result.end(), part.begin(), part.end());
   }
   return result;
-}
-
-/// The possible shapes in groups that share their sums, bounded errors last: they take longest.
-std::vector<std::vector<NoiseShape>> groups_of(const NoiseModel& noise) {
-  if (noise.shape != NoiseShape::automatic) return {{noise.shape}};
-  return {{NoiseShape::gaussian, NoiseShape::laplace}, {NoiseShape::uniform}};
 }
 
 using Logs = std::vector<std::vector<double>>;  // for each shape, of each row
@@ -71,49 +63,12 @@ std::vector<double> over_levels_in_closed_form(const Observation& observation, c
   });
 }
 
-/// The rows with the largest values.
-std::vector<std::size_t> rows_with_largest(const std::vector<double>& values, Rows rows, std::size_t count) {
-  std::vector<std::size_t> order(rows.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  count = std::min(count, order.size());
-  std::partial_sort(
-      order.begin(), order.begin() + static_cast<std::ptrdiff_t>(count), order.end(),
-      [&](std::size_t a, std::size_t b) { return values[a] != values[b] ? values[a] > values[b] : a < b; });
-  order.resize(count);
-  for (std::size_t& place : order) place = rows[place];
-  return order;
-}
-
-/// Share of the levels' range that a row's likelihood fills: log of what its peak has to be multiplied by.
-double log_width(NoiseShape shape, std::size_t count) {
-  const auto n = static_cast<double>(count);
-  if (shape == NoiseShape::uniform) return -std::log(n * log_range());
-  const double power = shape == NoiseShape::gaussian ? 2.0 : 1.0;
-  return 0.5 * std::log(2.0 * std::numbers::pi / (n * power)) - std::log(log_range());
-}
-
-/// The largest estimate of any of the shapes for each row.
-std::vector<double> largest(const Logs& logs) {
-  std::vector<double> result = logs.front();
-  for (const std::vector<double>& values : logs)
-    for (std::size_t row = 0; row < result.size(); ++row) result[row] = std::max(result[row], values[row]);
-  return result;
-}
-
-std::vector<double> peaks(const Observation& observation, Shapes shapes, double level,
-                          const SceneTable& table, Rows rows) {
-  return block_by_block(rows, [&](Rows block) {
-    return largest(log_likelihoods_at_peak(observation, shapes, level, table, block));
-  });
-}
-
 /// The evidence of shapes over all levels; rows that are hopeless beside the best get -infinity, and those
 /// that are beside what is known to be likely under another shape.
 Logs over_levels(const Observation& observation, Shapes shapes, const SceneTable& table, Rows rows,
                  double known) {
-  const auto likely = rows_with_largest(peaks(observation, shapes, kCommonLevel, table, rows), rows, kLikely);
-  const double level = likeliest_level(observation, shapes, table, likely);
-  const std::vector<double> estimates = peaks(observation, shapes, level, table, rows);
+  const double level = likeliest_level_of_all(observation, shapes, table, rows);
+  const std::vector<double> estimates = estimated_peaks(observation, shapes, level, table, rows);
   const double least = std::max(*std::max_element(estimates.begin(), estimates.end()) - kHopeless,
                                 known - log_width(shapes.front(), observation.count) - kOtherShape);
   std::vector<std::size_t> places, kept;
@@ -131,9 +86,7 @@ Logs over_levels(const Observation& observation, Shapes shapes, const SceneTable
 
 std::vector<double> log_evidence(const Observation& observation, const SceneTable& table, Rows rows) {
   if (rows.empty()) return {};
-  if (!observation.unknown_level)
-    return at_level(observation, std::max(observation.noise.relative.value_or(0.0), kSmallestLevel), table,
-                    rows);
+  if (!observation.unknown_level) return at_level(observation, stated_level(observation), table, rows);
   if (has_closed_form(observation)) return over_levels_in_closed_form(observation, table, rows);
   Logs logs;
   double known = kImpossible;
@@ -150,6 +103,15 @@ std::vector<double> log_evidence(const Observation& observation, const SceneTabl
 std::vector<NoiseShape> shapes_of(const NoiseModel& noise) {
   if (noise.shape != NoiseShape::automatic) return {noise.shape};
   return {NoiseShape::uniform, NoiseShape::gaussian, NoiseShape::laplace};
+}
+
+std::vector<std::vector<NoiseShape>> groups_of(const NoiseModel& noise) {
+  if (noise.shape != NoiseShape::automatic) return {{noise.shape}};
+  return {{NoiseShape::gaussian, NoiseShape::laplace}, {NoiseShape::uniform}};
+}
+
+double stated_level(const Observation& observation) {
+  return std::max(observation.noise.relative.value_or(0.0), kSmallestLevel);
 }
 
 bool has_closed_form(const Observation& observation) {
@@ -181,21 +143,6 @@ std::vector<double> log_evidence_of_rows(const Observation& observation, const S
   const std::vector<double> logs = log_evidence_of_each(observation, table, rows);
   std::vector<double> result(table.rows, kImpossible);
   for (std::size_t i = 0; i < rows.size(); ++i) result[rows[i]] = logs[i];
-  return result;
-}
-
-std::vector<double> estimated_evidence(const Observation& observation, const SceneTable& table,
-                                       std::span<const std::size_t> rows,
-                                       std::span<const std::size_t> likely) {
-  Logs logs;
-  for (const auto& shapes : groups_of(observation.noise)) {
-    const double level = likeliest_level(observation, shapes, table, likely);
-    logs.push_back(peaks(observation, shapes, level, table, rows));
-    for (double& log : logs.back()) log += log_width(shapes.back(), observation.count);
-  }
-  std::vector<double> result = log_mean(std::move(logs));
-  const std::vector<double> log_silence = log_chance_of_silence(observation, table, rows);
-  for (std::size_t i = 0; i < rows.size(); ++i) result[i] += log_silence[i];
   return result;
 }
 

@@ -22,14 +22,14 @@ std::vector<double> log_evidence_of_each(const Observation& observation, const S
 std::vector<double> log_evidence_of_rows(const Observation& observation, const SceneTable& table,
                                          std::span<const std::size_t> rows);
 
-/// Estimates of these evidences where the level is unknown, within a few nats, for each of the rows. `likely`
-/// are a few rows of which some explain the readings about as well as any.
-std::vector<double> estimated_evidence(const Observation& observation, const SceneTable& table,
-                                       std::span<const std::size_t> rows,
-                                       std::span<const std::size_t> likely);
-
 /// The noise's shapes that are possible, equally likely beforehand.
 std::vector<NoiseShape> shapes_of(const NoiseModel& noise);
+
+/// The same in groups that share their sums, bounded errors last: they take longest.
+std::vector<std::vector<NoiseShape>> groups_of(const NoiseModel& noise);
+
+/// [-] where the noise's level is not unknown.
+double stated_level(const Observation& observation);
 
 /// True if the evidence over an unknown level has a closed form.
 bool has_closed_form(const Observation& observation);

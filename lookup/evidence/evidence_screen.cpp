@@ -10,6 +10,7 @@
 
 #include "lookup/evidence/cluster_bounds.h"
 #include "lookup/evidence/evidence.h"
+#include "lookup/evidence/level_screen.h"
 #include "lookup/search/exhaustive_search.h"
 #include "lookup/search/index_bounds.h"
 
@@ -20,7 +21,6 @@ namespace {
 constexpr std::array<std::size_t, 2> kClustersFirst = {8, 32};
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr std::size_t kLikelyRows = 16;  // that say where an unknown level lies
-constexpr double kEstimate = 12.0;       // an estimate of a logarithm may be off by this much
 
 /// The sum of |reading - centre| for each cluster [m].
 std::vector<double> distances_from(std::span<const double> readings, const SearchIndex& index) {
@@ -41,6 +41,22 @@ double least_beside(std::vector<double> values, std::size_t count, std::size_t r
   std::partial_sort(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(count), values.end(),
                     std::greater<>());
   return std::min(values[count - 1], values.front() + std::log(kScreenedAway / static_cast<double>(rows)));
+}
+
+/// Those that have a prediction for every reading.
+std::vector<std::size_t> possible_rows(const Observation& observation, const SceneTable& table,
+                                       std::span<const std::size_t> rows) {
+  std::vector<std::size_t> points;
+  for (std::size_t i = 0; i < observation.reading.size(); ++i)
+    if (!std::isnan(observation.reading[i])) points.push_back(i);
+  std::vector<std::size_t> result;
+  result.reserve(rows.size());
+  for (const std::size_t row : rows) {
+    const double* const predicted = table.row(row).data();
+    if (std::none_of(points.begin(), points.end(), [&](std::size_t i) { return std::isnan(predicted[i]); }))
+      result.push_back(row);
+  }
+  return result;
 }
 
 }  // namespace
@@ -123,46 +139,45 @@ std::vector<std::size_t> EvidenceScreen::rows_within_bounds(const Observation& o
   return rows_of(clusters);
 }
 
-/// A few rows near the readings, in ascending order.
+/// A few possible rows near the readings, in ascending order.
 std::vector<std::size_t> EvidenceScreen::likely_rows(const Observation& observation,
-                                                     std::size_t count) const {
-  std::vector<std::size_t> near;
-  if (index_.clusters() > 0) near = rows_of(nearest_clusters(observation, kClustersFirst.front()));
-  if (near.size() < count) near = eligible_.rows;
+                                                     std::span<const std::size_t> possible) const {
+  std::vector<std::size_t> near = rows_of(nearest_clusters(observation, kClustersFirst.front()));
+  near = possible_rows(observation, table_, near);
+  if (near.size() < kLikelyRows) near.assign(possible.begin(), possible.end());
   std::vector<std::size_t> rows;
-  for (const ScoredRow& found : exhaustive_search(observation.displacement, table_, near, count))
+  for (const ScoredRow& found : exhaustive_search(observation.displacement, table_, near, kLikelyRows))
     rows.push_back(found.row);
   std::sort(rows.begin(), rows.end());
   return rows;
 }
 
-/// Rows whose estimates come near what a few likely rows really have.
-std::vector<std::size_t> EvidenceScreen::rows_by_estimate(const Observation& observation,
+/// Of the possible ones: no reading is at a block that they lack.
+std::vector<double> EvidenceScreen::in_order_of_estimates(const Observation& observation,
                                                           std::size_t count) const {
-  const std::vector<std::size_t> likely = likely_rows(observation, std::max(count, kLikelyRows));
-  std::vector<double> values = log_evidence_of_each(observation, table_, likely);
-  for (std::size_t i = 0; i < values.size(); ++i) values[i] += priors_.row[likely[i]];
-  const double least =
-      least_beside(std::move(values), std::min(count, likely.size()), eligible_.rows.size()) - kEstimate;
-  const std::vector<double> estimates = estimated_evidence(observation, table_, eligible_.rows, likely);
-  std::vector<std::size_t> result;
-  for (std::size_t i = 0; i < estimates.size(); ++i) {
-    const std::size_t row = eligible_.rows[i];
-    if (estimates[i] > -kInfinity && estimates[i] + priors_.row[row] >= least) result.push_back(row);
-  }
+  const std::vector<std::size_t> rows = possible_rows(observation, table_, eligible_.rows);
+  std::vector<double> result(table_.rows, -kInfinity);
+  if (rows.empty()) return result;
+  const std::vector<double> log_silence = log_chance_of_silence(observation, table_, rows);
+  std::vector<double> beforehand = log_silence;
+  for (std::size_t i = 0; i < rows.size(); ++i) beforehand[i] += priors_.row[rows[i]];
+  const std::vector<std::size_t> likely = likely_rows(observation, rows);
+  const std::vector<double> logs =
+      evidence_that_matters(observation, table_, rows, beforehand, likely, count, kScreenedAway);
+  for (std::size_t i = 0; i < rows.size(); ++i) result[rows[i]] = logs[i] + log_silence[i];
   return result;
 }
 
-std::vector<std::size_t> EvidenceScreen::rows_that_matter(const Observation& observation,
-                                                          std::size_t count) const {
-  if (observation.count == 0 || eligible_.rows.empty()) return eligible_.rows;
-  if (cluster_bounds_apply(observation))
-    return index_.clusters() > 0 ? rows_within_bounds(observation, count) : eligible_.rows;
-  return observation.unknown_level ? rows_by_estimate(observation, count) : eligible_.rows;
-}
-
 std::vector<double> EvidenceScreen::operator()(const Observation& observation, std::size_t count) const {
-  return log_evidence_of_rows(observation, table_, rows_that_matter(observation, count));
+  if (observation.count == 0 || eligible_.rows.empty())
+    return log_evidence_of_rows(observation, table_, eligible_.rows);
+  if (cluster_bounds_apply(observation) && index_.clusters() > 0)
+    return log_evidence_of_rows(observation, table_, rows_within_bounds(observation, count));
+  const bool over_levels = observation.unknown_level && !has_closed_form(observation);
+  const bool takes_long = observation.softens_bounds() && !observation.unknown_level &&
+                          shapes_of(observation.noise).front() == NoiseShape::uniform;
+  if (over_levels || takes_long) return in_order_of_estimates(observation, count);
+  return log_evidence_of_rows(observation, table_, possible_rows(observation, table_, eligible_.rows));
 }
 
 }  // namespace voussoir

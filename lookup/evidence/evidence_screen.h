@@ -27,17 +27,15 @@ class EvidenceScreen {
   /// kScreenedAway of the posterior together; the `count` likeliest scenes are never left out.
   std::vector<double> operator()(const Observation& observation, std::size_t count = 1) const;
 
-  /// The rows that can matter, in ascending order; what operator() works out.
-  std::vector<std::size_t> rows_that_matter(const Observation& observation, std::size_t count = 1) const;
-
  private:
   std::vector<std::size_t> rows_of(std::span<const std::size_t> clusters) const;
   std::vector<std::size_t> in_order(std::span<const std::size_t> rows) const;
   std::vector<std::size_t> nearest_clusters(const Observation& observation, std::size_t count) const;
-  std::vector<std::size_t> likely_rows(const Observation& observation, std::size_t count) const;
   std::optional<double> least_that_matters(const Observation& observation, std::size_t count) const;
   std::vector<std::size_t> rows_within_bounds(const Observation& observation, std::size_t count) const;
-  std::vector<std::size_t> rows_by_estimate(const Observation& observation, std::size_t count) const;
+  std::vector<std::size_t> likely_rows(const Observation& observation,
+                                       std::span<const std::size_t> possible) const;
+  std::vector<double> in_order_of_estimates(const Observation& observation, std::size_t count) const;
 
   const SceneTable& table_;
   SearchIndex index_;

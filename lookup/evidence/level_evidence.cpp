@@ -5,6 +5,8 @@
 #include <boost/math/quadrature/gauss.hpp>
 #include <cmath>
 #include <limits>
+#include <numbers>
+#include <numeric>
 
 #include "lookup/evidence/bounded_errors.h"
 #include "lookup/evidence/level_curve.h"
@@ -14,15 +16,17 @@ namespace voussoir {
 namespace {
 
 constexpr double kImpossible = -std::numeric_limits<double>::infinity();
-constexpr double kNegligible = 25.0;  // parts of an integrand below exp(-this) of its peak are left out
-constexpr int kLevelsPerOctave = 4;   // of the search for the likeliest level
-constexpr double kStep = 1.1;  // of the grid, in deviations of a peak of 1 / sqrt(2 count): the trapezoidal
-                               // rule then integrates a bell to 1e-7
+constexpr double kNegligible = 25.0;      // parts of an integrand below exp(-this) of its peak are left out
+constexpr double kCommonLevel = 0.05;     // from which the likeliest rows are looked for
+constexpr std::size_t kLikely = 8;        // rows with which all levels are tried
+constexpr std::size_t kBlockRows = 1024;  // worked out together: intermediate results stay in the cache
+constexpr int kLevelsPerOctave = 4;       // of the search for the likeliest level
 constexpr double kPanel =
     3.0;  // widest panel of Gauss's rule, in the same deviations, and narrowest, in 1 / count
-constexpr double kFarFromBest = 30.0;  // rows less likely than the best by exp(this) need not be exact
-constexpr double kWidening = 1.4;      // of the steps below the peaks, where likelihoods level out
-constexpr double kFarInside = 4.0;     // deviations of the model inside of which a bound is hardly felt: 3e-5
+constexpr double kWidening = 1.4;  // of the steps below the peaks, where likelihoods level out
+constexpr double kBeyondEdges =
+    16.0;  // a bounded row's likelihood below exp(-this) of its peak ends the integral
+constexpr double kFarInside = 4.0;  // deviations of the model inside of which a bound is hardly felt: 3e-5
 constexpr double kMostScaleDeviations = 4.0;  // of an unknown common factor, that count
 constexpr double kFarBeyond = 7.0;            // .. and beyond which a reading is all but excluded
 
@@ -30,6 +34,15 @@ constexpr std::array<NoiseShape, 1> kUniform = {NoiseShape::uniform};
 
 const double kFirst = std::log(kSmallestLevel);
 const double kLast = std::log(kLargestLevel);
+
+/// A grid of levels about a peak of deviation 1 / sqrt(power count).
+struct GridRule {
+  double step;  // in these deviations: the trapezoidal rule integrates a bell to 2 exp(-2 (pi / step)^2)
+  double negligible;  // parts of an integrand below exp(-this) of its peak are left out
+  double far;         // rows less likely than the best by exp(this) need not be exact
+};
+constexpr GridRule kFine = {1.1, kNegligible, 30.0};
+constexpr GridRule kCoarse = {1.3, 12.0, 20.0};
 
 /// Logarithms of levels, ascending, with the weights of a rule of integration.
 struct LevelGrid {
@@ -76,12 +89,12 @@ LevelGrid graded_panels(double first, double last, double count) {
 
 /// Fine about the level where the best rows peak, as far as rows that are not hopeless may peak and reach;
 /// coarser below, where absolute errors and the model's make the level lose its meaning.
-LevelGrid grid_about(double level, double count) {
+LevelGrid grid_about(double level, double count, double power, const GridRule& rule) {
   const double peak = std::log(level);
-  const double step = kStep / std::sqrt(2.0 * count);
-  const double reach = kFarFromBest / count + std::sqrt(2.0 * kNegligible / count);
+  const double step = rule.step / std::sqrt(power * count);
+  const double reach = rule.far / count + std::sqrt(2.0 * rule.negligible / count);
   const double begin = peak - reach;
-  const double end = peak + reach + (kNegligible + 1.0) / count;
+  const double end = peak + reach + (rule.negligible + 1.0) / count;
   if (begin <= kFirst || end >= kLast) return graded_panels(kFirst, kLast, count);
   std::vector<double> places;
   for (double below = begin, width = step; below > kFirst; width *= kWidening) {
@@ -96,8 +109,14 @@ LevelGrid grid_about(double level, double count) {
 
 /// Sum over the grid, from its end towards small levels until nothing more is added.
 std::vector<std::vector<double>> over_grid(const Observation& observation, Shapes shapes, double level,
-                                           const SceneTable& table, std::span<const std::size_t> rows) {
-  const LevelGrid grid = grid_about(level, static_cast<double>(observation.count));
+                                           const SceneTable& table, std::span<const std::size_t> rows,
+                                           const GridRule& rule) {
+  // Laplace's peaks are wider than Gaussian ones (LevelCurve::power), and Student's as long as nu is small.
+  const double nu = observation.noise.degrees_of_freedom;
+  const double power = shapes.front() == NoiseShape::laplace   ? 1.0
+                       : shapes.front() == NoiseShape::student ? 2.0 * nu / (nu + 3.0)
+                                                               : 2.0;
+  const LevelGrid grid = grid_about(level, static_cast<double>(observation.count), power, rule);
   std::vector<std::vector<double>> results(shapes.size(), std::vector<double>(rows.size(), kImpossible));
   for (std::size_t i = grid.weight.size(); i-- > 0;) {
     const auto logs = log_likelihoods_at(observation, shapes, std::exp(grid.log_level[i]), table, rows);
@@ -107,7 +126,7 @@ std::vector<std::vector<double>> over_grid(const Observation& observation, Shape
       for (std::size_t row = 0; row < rows.size(); ++row) {
         double& sum = results[shape][row];
         const double term = logs[shape][row] + log_weight;
-        adds |= term > sum - kNegligible;
+        adds |= term > sum - rule.negligible;
         sum = log_sum(sum, term);
       }
     if (!adds) break;
@@ -128,55 +147,72 @@ class BoundedRow {
   /// The integral over all levels.
   double log_integral() const {
     if (!is_possible_) return kImpossible;
-    const double edge_begin = std::clamp(std::log(begin_), kFirst, kLast);
     const double edge_end = std::clamp(std::log(end_), kFirst, kLast);
+    // Where no level takes in all readings, those below the largest count as well.
+    const double edge_begin = begin_ < kLargestLevel ? std::clamp(std::log(begin_), kFirst, kLast) : kFirst;
     const double width = kPanelWidth / static_cast<double>(observation_.count);
     double sum = kImpossible;
     double top = kImpossible;
-    const auto add = [&](double from, double to) {
-      const double part = panel(from, to);
-      sum = log_sum(sum, part);
-      top = std::max(top, part);
-      return part > top - kNegligible;
+    // False once what lies beyond the far end adds nothing.
+    const auto add = [&](const Panel& panel, double at_far_end) {
+      sum = log_sum(sum, panel.log_integral);
+      top = std::max(top, panel.most);
+      return at_far_end > top - kBeyondEdges;
     };
     double step = width;
     for (double from = edge_end; from < kLast; step *= 2.0) {
       const double to = std::min(kLast, from + step);
-      if (!add(from, to)) break;
+      const Panel panel = panel_of(from, to);
+      if (!add(panel, panel.last)) break;
       from = to;
     }
     step = std::min(width, edge_end - edge_begin);
-    for (double to = edge_end; to > edge_begin && step > 0.0; step = std::min(2.0 * step, width)) {
+    for (double to = edge_end; to > edge_begin && step > 0.0;) {
       const double from = std::max(edge_begin, to - step);
-      if (!add(from, to)) break;
+      const Panel panel = panel_of(from, to);
+      if (!add(panel, panel.first)) break;
       to = from;
+      step = panel.is_level() ? 2.0 * step : std::min(2.0 * step, width);
     }
     return sum;
   }
 
  private:
   static constexpr double kPanelWidth = 6.0;
+  static constexpr std::size_t kPanelPlaces = 7;  // of Gauss's rule: exp(6 t) to 3e-8 of its largest value
 
   double log_likelihood(double log_level) const {
     return log_likelihoods_at(observation_, kUniform, std::exp(log_level), table_, row_).front().front();
   }
 
-  double panel(double from, double to) const {
-    using Rule = boost::math::quadrature::gauss<double, 10>;
-    std::array<double, 10> logs{};
-    std::size_t used = 0;
-    double top = kImpossible;
-    // Gauss's places are asked for in the rule's own order, twice.
-    Rule::integrate(
-        [&](double u) {
-          logs.at(used) = log_likelihood(u);
-          top = std::max(top, logs.at(used++));
-          return 0.0;
-        },
-        from, to);
-    if (top == kImpossible) return kImpossible;
-    std::size_t next = 0;
-    return top + std::log(Rule::integrate([&](double) { return std::exp(logs.at(next++) - top); }, from, to));
+  /// A part of the range of levels, the likelihood's logarithm at its first and last place and where it is
+  /// largest.
+  struct Panel {
+    double log_integral = kImpossible, first = kImpossible, last = kImpossible, most = kImpossible;
+
+    /// The likelihood hardly changes: the next panel may be wider.
+    bool is_level() const { return most - std::min(first, last) < 1.0; }
+  };
+
+  Panel panel_of(double from, double to) const {
+    using Rule = boost::math::quadrature::gauss<double, kPanelPlaces>;
+    constexpr std::size_t kMiddle = kPanelPlaces / 2;
+    const double half = 0.5 * (to - from), middle = 0.5 * (to + from);
+    std::array<double, kPanelPlaces> logs{};
+    Panel panel;
+    for (std::size_t i = 0; i < kPanelPlaces; ++i) {
+      const double place = i < kMiddle ? -Rule::abscissa()[kMiddle - i] : Rule::abscissa()[i - kMiddle];
+      logs.at(i) = log_likelihood(middle + half * place);
+      panel.most = std::max(panel.most, logs.at(i));
+    }
+    panel.first = logs.front();
+    panel.last = logs.back();
+    if (panel.most == kImpossible) return panel;
+    double sum = 0.0;
+    for (std::size_t i = 0; i < kPanelPlaces; ++i)
+      sum += Rule::weights()[i < kMiddle ? kMiddle - i : i - kMiddle] * std::exp(logs.at(i) - panel.most);
+    panel.log_integral = panel.most + std::log(half * sum);
+    return panel;
   }
 
   /// The levels between which the bound takes in the reading that needs the most.
@@ -207,6 +243,27 @@ class BoundedRow {
   double end_ = kSmallestLevel;
 };
 
+std::vector<std::span<const std::size_t>> blocks_of(std::span<const std::size_t> rows) {
+  std::vector<std::span<const std::size_t>> blocks;
+  for (std::size_t first = 0; first < rows.size(); first += kBlockRows)
+    blocks.push_back(rows.subspan(first, std::min(kBlockRows, rows.size() - first)));
+  return blocks;
+}
+
+/// The rows with the largest values.
+std::vector<std::size_t> rows_with_largest(const std::vector<double>& values,
+                                           std::span<const std::size_t> rows, std::size_t count) {
+  std::vector<std::size_t> order(rows.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  count = std::min(count, order.size());
+  std::partial_sort(
+      order.begin(), order.begin() + static_cast<std::ptrdiff_t>(count), order.end(),
+      [&](std::size_t a, std::size_t b) { return values[a] != values[b] ? values[a] > values[b] : a < b; });
+  order.resize(count);
+  for (std::size_t& place : order) place = rows[place];
+  return order;
+}
+
 }  // namespace
 
 double likeliest_level(const Observation& observation, Shapes shapes, const SceneTable& table,
@@ -231,14 +288,49 @@ double likeliest_level(const Observation& observation, Shapes shapes, const Scen
   return std::exp(best);
 }
 
+std::vector<double> estimated_peaks(const Observation& observation, Shapes shapes, double level,
+                                    const SceneTable& table, std::span<const std::size_t> rows) {
+  std::vector<double> result;
+  result.reserve(rows.size());
+  for (const auto block : blocks_of(rows)) {
+    const auto logs = log_likelihoods_at_peak(observation, shapes, level, table, block);
+    for (std::size_t i = 0; i < block.size(); ++i) {
+      result.push_back(kImpossible);
+      for (const std::vector<double>& of_shape : logs) result.back() = std::max(result.back(), of_shape[i]);
+    }
+  }
+  return result;
+}
+
+double likeliest_level_of_all(const Observation& observation, Shapes shapes, const SceneTable& table,
+                              std::span<const std::size_t> rows) {
+  const auto values = estimated_peaks(observation, shapes, kCommonLevel, table, rows);
+  return likeliest_level(observation, shapes, table, rows_with_largest(values, rows, kLikely));
+}
+
+double log_width(NoiseShape shape, std::size_t count) {
+  const auto n = static_cast<double>(count);
+  if (shape == NoiseShape::uniform) return -std::log(n * log_range());
+  const double power = shape == NoiseShape::gaussian ? 2.0 : 1.0;
+  return 0.5 * std::log(2.0 * std::numbers::pi / (n * power)) - std::log(log_range());
+}
+
 std::vector<std::vector<double>> evidence_over_levels(const Observation& observation, Shapes shapes,
                                                       double level, const SceneTable& table,
-                                                      std::span<const std::size_t> rows) {
-  if (shapes.front() != NoiseShape::uniform) return over_grid(observation, shapes, level, table, rows);
-  std::vector<double> result;
-  for (const std::size_t row : rows)
-    result.push_back(BoundedRow(observation, table, row).log_integral() - std::log(log_range()));
-  return {std::move(result)};
+                                                      std::span<const std::size_t> rows, LevelRule rule) {
+  std::vector<std::vector<double>> results(shapes.size());
+  if (shapes.front() == NoiseShape::uniform) {
+    for (const std::size_t row : rows)
+      results.front().push_back(BoundedRow(observation, table, row).log_integral() - std::log(log_range()));
+    return results;
+  }
+  for (const auto block : blocks_of(rows)) {
+    const auto part =
+        over_grid(observation, shapes, level, table, block, rule == LevelRule::fine ? kFine : kCoarse);
+    for (std::size_t shape = 0; shape < shapes.size(); ++shape)
+      results[shape].insert(results[shape].end(), part[shape].begin(), part[shape].end());
+  }
+  return results;
 }
 
 }  // namespace voussoir

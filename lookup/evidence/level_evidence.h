@@ -13,12 +13,31 @@ namespace voussoir {
 double likeliest_level(const Observation& observation, Shapes shapes, const SceneTable& table,
                        std::span<const std::size_t> rows);
 
+/// Estimates of log of the largest p(readings | scene, level) over levels, under any of the shapes, for each
+/// of the rows; from this level, where the readings are likeliest for the best of them.
+std::vector<double> estimated_peaks(const Observation& observation, Shapes shapes, double level,
+                                    const SceneTable& table, std::span<const std::size_t> rows);
+
+/// The same of many rows: with those that are likeliest by their estimates.
+double likeliest_level_of_all(const Observation& observation, Shapes shapes, const SceneTable& table,
+                              std::span<const std::size_t> rows);
+
+/// Share of the levels' range that a row's likelihood fills: log of what its peak has to be multiplied by.
+double log_width(NoiseShape shape, std::size_t count);
+
+/// How precisely levels are gone through.
+enum class LevelRule {
+  fine,   ///< to 1e-7 of a likelihood that is a bell over the levels
+  coarse  ///< to 1e-3: for scenes that hold less than a thousandth of the probability together
+};
+
 /// For each shape log of the mean of p(readings | scene, level) over levels with a density uniform in log
 /// level between kSmallestLevel and kLargestLevel, for each of these rows. `level` is where the readings are
 /// likeliest for the best of them; rows that are less likely than that by exp(30) may be off.
 std::vector<std::vector<double>> evidence_over_levels(const Observation& observation, Shapes shapes,
                                                       double level, const SceneTable& table,
-                                                      std::span<const std::size_t> rows);
+                                                      std::span<const std::size_t> rows,
+                                                      LevelRule rule = LevelRule::fine);
 
 /// log of the factor beyond which a scene's probability is taken for zero.
 inline constexpr double kHopeless = 50.0;

@@ -1,5 +1,6 @@
 #include "lookup/evidence/level_likelihood.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -34,6 +35,28 @@ std::vector<std::vector<double>> of_possible_rows(Shapes shapes, const TableStat
   return results;
 }
 
+/// Of uniform noise at the level whose bounds take in all readings; where none does, at the largest.
+std::vector<double> within_bounds(const Observation& observation, double level,
+                                  const TableStatistics& statistics, const SceneTable& table,
+                                  std::span<const std::size_t> rows) {
+  const double most = kLargestLevel / level;
+  std::vector<double> results(rows.size(), kImpossible);
+  std::vector<std::size_t> places, beyond;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const RowStatistics row = statistics.row(i);
+    if (std::isnan(row.sum_absolute)) continue;
+    results[i] = log_within_bound(row, observation.count,
+                                  likeliest_level(NoiseShape::uniform, row, observation.count, level));
+    if (row.largest < most || !observation.softens_bounds()) continue;
+    places.push_back(i);
+    beyond.push_back(rows[i]);
+  }
+  const std::vector<double> logs =
+      log_bounded_likelihoods(observation, scales_at(observation, kLargestLevel), table, beyond);
+  for (std::size_t k = 0; k < places.size(); ++k) results[places[k]] = logs[k];
+  return results;
+}
+
 }  // namespace
 
 std::vector<std::vector<double>> log_likelihoods_at(const Observation& observation, Shapes shapes,
@@ -54,16 +77,32 @@ std::vector<std::vector<double>> log_likelihoods_at(const Observation& observati
   });
 }
 
+std::vector<double> highest_likelihoods_at(const Observation& observation, Shapes shapes, double level,
+                                           const SceneTable& table, std::span<const std::size_t> rows) {
+  if (shapes.front() == NoiseShape::uniform && observation.softens_bounds()) {
+    std::vector<double> logs =
+        highest_bounded_likelihoods(observation, scales_at(observation, level), table, rows);
+    for (double& log : logs) log = std::isnan(log) ? kImpossible : log;
+    return logs;
+  }
+  const auto logs = log_likelihoods_at(observation, shapes, level, table, rows);
+  std::vector<double> highest = logs.front();
+  for (const std::vector<double>& of_shape : logs)
+    for (std::size_t i = 0; i < rows.size(); ++i) highest[i] = std::max(highest[i], of_shape[i]);
+  return highest;
+}
+
 std::vector<std::vector<double>> log_likelihoods_at_peak(const Observation& observation, Shapes shapes,
                                                          double level, const SceneTable& table,
                                                          std::span<const std::size_t> rows) {
   const TableStatistics statistics = statistics_at(observation, shapes, level, table, rows);
+  if (shapes.front() == NoiseShape::uniform)
+    return {within_bounds(observation, level, statistics, table, rows)};
   return of_possible_rows(shapes, statistics, [&](NoiseShape shape, const RowStatistics& row) {
     if (shape == NoiseShape::student)
       return student_log_likelihood(row, observation.count, observation.noise.degrees_of_freedom);
-    const double peak = likeliest_level(shape, row, observation.count, level);
-    if (shape == NoiseShape::uniform) return log_within_bound(row, observation.count, peak);
-    return log_likelihood(shape, row, observation.count, peak);
+    return log_likelihood(shape, row, observation.count,
+                          likeliest_level(shape, row, observation.count, level));
   });
 }
 

@@ -17,8 +17,14 @@ std::vector<std::vector<double>> log_likelihoods_at(const Observation& observati
                                                     double level, const SceneTable& table,
                                                     std::span<const std::size_t> rows);
 
+/// For each of the rows a number that none of these exceeds by more than a millionth: where bounded errors
+/// take long, one that takes less.
+std::vector<double> highest_likelihoods_at(const Observation& observation, Shapes shapes, double level,
+                                           const SceneTable& table, std::span<const std::size_t> rows);
+
 /// Estimates of the largest of these over all levels, from statistics at this level: right if all errors grow
-/// with the level alone; of Student's t the likelihood at this level.
+/// with the level alone; of Student's t the likelihood at this level, of bounded errors too high where some
+/// come near the bound.
 std::vector<std::vector<double>> log_likelihoods_at_peak(const Observation& observation, Shapes shapes,
                                                          double level, const SceneTable& table,
                                                          std::span<const std::size_t> rows);

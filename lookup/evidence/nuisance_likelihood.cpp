@@ -52,8 +52,17 @@ class RowSolver {
       : readings_(observation, scales),
         share_square_(observation.error_share * observation.error_share),
         unknown_scale_(observation.unknown_scale),
-        columns_(readings_.reading.size(), readings_.levelling.cols() + (unknown_scale_ > 0.0 ? 1 : 0)),
-        prediction_(readings_.reading.size()) {}
+        products_(readings_.reading.size(),
+                  readings_.levelling.cols() * (readings_.levelling.cols() + 1) / 2),
+        prediction_(readings_.reading.size()) {
+    const Eigen::Index levellings = readings_.levelling.cols();
+    const Eigen::Index columns = levellings + (unknown_scale_ > 0.0 ? 1 : 0);
+    normal_.setZero(columns, columns);
+    right_.resize(columns);
+    for (Eigen::Index j = 0, k = 0; j < levellings; ++j)
+      for (Eigen::Index i = j; i < levellings; ++i)
+        products_.col(k++) = readings_.levelling.col(i).cwiseProduct(readings_.levelling.col(j));
+  }
 
   RowStatistics operator()(std::span<const double> row, double common) {
     for (std::size_t k = 0; k < readings_.point.size(); ++k)
@@ -71,17 +80,26 @@ class RowSolver {
   }
 
  private:
+  /// With the columns Phi, those of levellings first, and D the diagonal of the variances: 1 + Phi' D^-1 Phi
+  /// and Phi' D^-1 y.
   RowStatistics with_columns(RowStatistics result) {
-    inverse_root_ = variance_.rsqrt();
-    columns_.leftCols(readings_.levelling.cols()) = inverse_root_.matrix().asDiagonal() * readings_.levelling;
-    if (unknown_scale_ > 0.0) columns_.rightCols(1) = (unknown_scale_ * movement_ * inverse_root_).matrix();
-    difference_ *= inverse_root_;
-    normal_.noalias() = columns_.transpose() * columns_;
+    const Eigen::Index levellings = readings_.levelling.cols();
+    weight_ = variance_.inverse();
+    weighted_ = (weight_ * difference_).matrix();
+    squares_.noalias() = products_.transpose() * weight_.matrix();
+    for (Eigen::Index j = 0, k = 0; j < levellings; ++j)
+      for (Eigen::Index i = j; i < levellings; ++i) normal_(i, j) = squares_[k++];
+    right_.head(levellings).noalias() = readings_.levelling.transpose() * weighted_;
+    if (unknown_scale_ > 0.0) {
+      column_ = (unknown_scale_ * movement_ * weight_).matrix();
+      normal_.row(levellings).head(levellings).noalias() = column_.transpose() * readings_.levelling;
+      normal_(levellings, levellings) = unknown_scale_ * column_.dot(movement_.matrix());
+      right_[levellings] = column_.dot(difference_.matrix());
+    }
     normal_.diagonal().array() += 1.0;
-    right_.noalias() = columns_.transpose() * difference_.matrix();
-    factorised_.compute(normal_);
+    factorised_.compute(normal_);  // looks at the lower half
     factorised_.matrixL().solveInPlace(right_);
-    result.sum_square = difference_.square().sum() - right_.squaredNorm();
+    result.sum_square = weighted_.dot(difference_.matrix()) - right_.squaredNorm();
     result.sum_log_scale =
         0.5 * sum_of_logarithms(variance_) + factorised_.matrixLLT().diagonal().array().log().sum();
     return result;
@@ -90,9 +108,10 @@ class RowSolver {
   Readings readings_;
   double share_square_;
   double unknown_scale_;
-  Eigen::MatrixXd columns_, normal_;
-  Eigen::VectorXd right_;
-  Eigen::ArrayXd prediction_, movement_, difference_, instrument_, variance_, inverse_root_;
+  Eigen::MatrixXd products_;  // of two levellings' columns each: readings x pairs
+  Eigen::MatrixXd normal_;
+  Eigen::VectorXd right_, squares_, weighted_, column_;
+  Eigen::ArrayXd prediction_, movement_, difference_, instrument_, variance_, weight_;
   Eigen::LLT<Eigen::MatrixXd> factorised_;
 };
 

@@ -8,6 +8,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "tests/lookup/synthetic_library.h"
+
 using namespace voussoir;
 
 namespace {
@@ -60,4 +62,32 @@ TEST_CASE("The chance of an error is what its density leaves beyond it") {
         CHECK(chance_of_bounded_error(i * step, half_width, deviation) == Approx(beyond).margin(1e-5));
     }
   }
+}
+
+TEST_CASE(
+    "The highest likelihoods of bounded errors are nowhere below the likelihoods, nor far above the "
+    "truth's") {
+  const test::SyntheticLibrary library(2, 4);
+  const auto rows = test::all_rows(library.table);
+  Random random(11);
+  constexpr std::size_t kTruth = 3;
+  constexpr double kNoise = 0.05;
+  int possible = 0;
+  for (const double level : {1e-4, 0.01, 2.0 * kNoise})
+    for (const double scale : {0.0, 0.02}) {
+      const Measurements measured = library.measure(kTruth, kNoise, NoiseShape::uniform, random);
+      const Observation observation =
+          library.observe(measured, {NoiseShape::uniform, level}, {scale}, {0.05, 0.02, {}});
+      const ErrorScales scales = scales_at(observation, level);
+      const auto exact = log_bounded_likelihoods(observation, scales, library.table, rows);
+      const auto highest = highest_bounded_likelihoods(observation, scales, library.table, rows);
+      for (std::size_t i = 0; i < rows.size(); ++i) {
+        REQUIRE(std::isnan(highest[i]) == std::isnan(exact[i]));
+        if (std::isnan(exact[i])) continue;
+        ++possible;
+        CHECK(highest[i] >= exact[i] - 1e-6);
+        CHECK(std::isfinite(highest[i]));
+      }
+    }
+  CHECK(possible > 50);
 }
