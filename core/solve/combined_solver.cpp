@@ -29,7 +29,6 @@ std::vector<Solution> CombinedSolver::search(std::span<const StageTask> tasks) {
   for (std::size_t i = 0; i < tasks.size(); ++i) {
     if (falls_first && tasks[i].falls_likely) continue;
     searched.push_back(tasks[i]);
-    searched.back().patiently = !settings_.newton.skips.early_outcome;
     places.push_back(i);
   }
   std::vector<Solution> found = newton_.solve(searched);

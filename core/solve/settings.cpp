@@ -75,14 +75,15 @@ bool read_value(std::string_view text,
 template <class Settings, class Visit>
 void visit_newton(Settings& settings, const Visit& visit) {
   auto& [tolerance, round_off, loose_tolerance, most_warm_iterations, most_iterations,
-         most_falling_iterations, most_patient_iterations, follow_falls, collapse_displacement, joint_rule,
-         skips] = settings;
+         most_falling_iterations, most_patient_iterations, patient_first, follow_falls, collapse_displacement,
+         joint_rule, skips] = settings;
   visit("newton.tolerance", tolerance);
   visit("newton.round_off", round_off);
   visit("newton.loose_tolerance", loose_tolerance);
   visit("newton.most_warm_iterations", most_warm_iterations);
   visit("newton.most_iterations", most_iterations);
   visit("newton.most_patient_iterations", most_patient_iterations);
+  visit("newton.patient_first", patient_first);
   visit("newton.follow_falls", follow_falls);
   if (follow_falls) visit("newton.most_falling_iterations", most_falling_iterations);
   visit("newton.collapse_displacement_m", collapse_displacement);
@@ -192,14 +193,13 @@ SolverSettings acting_settings(SolverSettings settings, const Model& model) {
   constexpr double kSoftJoints = 0.03;
   constexpr double kStiffJoints = 0.1;
   constexpr double kStiffAlong = 0.2;
-  constexpr int kMostOfStiffJoints = 60;
   settings.motion = acting_settings(settings.motion, model);
   const double stiffness = joints_against_blocks(model);
   const bool is_stiff = stiffness > kStiffJoints;
   if (is_stiff && !has_mortar(model.parameters)) settings.softest_joints = kSoftJoints / stiffness;
   if (is_stiff || along_against_across(model) > kStiffAlong) {
+    settings.newton.patient_first = true;
     settings.newton.skips.early_outcome = false;
-    settings.newton.most_iterations = std::max(settings.newton.most_iterations, kMostOfStiffJoints);
   }
   return settings;
 }

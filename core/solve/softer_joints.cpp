@@ -19,7 +19,7 @@ std::vector<double> shares_from(double softest) {
 }  // namespace
 
 QuasiStaticSettings approaching(QuasiStaticSettings settings) {
-  settings.follow_falls = false;
+  settings.follow_falls = settings.patient_first = false;
   settings.most_warm_iterations = settings.most_iterations = kMostIterations;
   return settings;
 }

@@ -25,6 +25,7 @@ struct QuasiStaticSettings {
   int most_iterations = 30;  ///< factorisations of a search from zero
   int most_falling_iterations = 40;   ///< factorisations of a fall
   int most_patient_iterations = 100;  ///< factorisations of a patient search
+  bool patient_first = false;         ///< true: searches begin with their patient phase
   bool follow_falls = true;           ///< false: a search without progress ends there, `unresolved`
   double collapse_displacement =
       0.1;  ///< [m] beyond it, and beyond ten sags of the bonded scene, blocks are falling
@@ -41,7 +42,7 @@ struct StageTask {
   /// Implicit steps. Forces that would hold the stage where the one before ended (what lost blocks carried, a
   /// new load turned round) are let go in so many equal parts, and the joints' memory is updated after each.
   int steps = 1;
-  bool patiently = false;     ///< the search begins with its patient phase, from the start
+  bool patiently = false;     ///< the search begins with its patient phase, whatever the settings say
   bool falls_likely = false;  ///< so that who can follow a motion asks it first (CombinedSolver)
   bool starts_near = false;   ///< the start is so near the answer that a factorisation serves several steps
                               ///< even of a stage with nothing before it
