@@ -10,8 +10,9 @@
 namespace voussoir {
 
 /// Solves scenes of one variant, several side by side. Most scenes stand and Newton finds their equilibrium
-/// in milliseconds; where joints are far stiffer than blocks, at times only from softer ones
-/// (softer_joints.h). Where Newton makes no progress, the scene is set in motion under growing gravity. What
+/// in milliseconds; where joints are stiff against blocks, or along against across, with a patient search at
+/// once, and where they are stiff, what it does not find is approached from softer ones (softer_joints.h).
+/// Where Newton makes no progress, the scene is set in motion under growing gravity. What
 /// falls is `collapsed`, with the field at the dynamic settings' moment. What seems to come to rest is handed
 /// back to Newton, which polishes the resting field to equilibrium; if there is none near, Newton searches
 /// from rest with all patience; and if that finds none, a block creeps, held by nearly enough friction, and
