@@ -29,7 +29,7 @@ struct Group {
   std::vector<double> estimate;  ///< with what was known beforehand
   std::vector<double> exact;     ///< the same; -infinity until worked out
   std::vector<bool> is_worked_out;
-  double too_low;  ///< by how much estimates of likely rows were found to be too low at most
+  double too_low = kTooLow;  ///< estimates of likely rows were found to be too low by no more
 };
 
 class LevelScreen {
