@@ -124,7 +124,8 @@ TEST_CASE(
 
 TEST_CASE(
     "Scenes of many steps come out the same from a build that goes on with another's singles, and "
-    "solved anew, bit by bit") {
+    "solved anew, bit by bit",
+    "[many-solutions]") {
   const test::TemporaryFolder folder, other;
   const std::string scenes = "intact;10,12;10,14;4,10;4,10+10,12;10,12..14;10,12+10,14";
   const std::string expected = build(request_of(folder, scenes)).digest;

@@ -76,7 +76,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("What triples inherit and compose is verified by solving them in full") {
+TEST_CASE("What triples inherit and compose is verified by solving them in full", "[many-solutions]") {
   const Bridge bridge;
   const Database quick = bridge.build(bridge.request("quick.h5"));
   const VerifyReport report = verify_database({.database = quick.path(), .recompute = 60});
