@@ -78,7 +78,7 @@ void expect_dry_joints_or_known(const BuildRequest& request, const Model& bridge
 Build prepare(const BuildRequest& request, const SolverChoice& solver, Progress& progress) {
   std::vector<Model> bridges = {make_model(request.bridge.description)};
   expect_dry_joints_or_known(request, bridges.front());
-  std::vector<VariantParameters> variants = {parameters_of(bridges.front())};
+  std::vector<VariantParameters> variants = {variant_parameters(bridges.front().parameters)};
   for (const VariantParameters& parameters : request.other_variants) {
     bridges.push_back(variant_of(bridges.front(), parameters));
     variants.push_back(parameters);

@@ -19,20 +19,25 @@ int run(BuildOptions& options) {
     for (const std::string& note : options.request.bridge.notes)
       std::cerr << "build-database: " << options.request.bridge.name << ": " << note << '\n';
   const BridgeDescription& description = options.request.bridge.description;
+  const Model bridge = make_model(description);
   if (options.drawing) {
-    write_file(*options.drawing, bridge_drawing(make_model(description), description));
+    write_file(*options.drawing, bridge_drawing(bridge, description));
     return 0;
   }
+  const SolverChoice solver = settle_collapses(bridge, options);
   if (options.variants > 0)
-    options.request.other_variants = sampled_variants(make_model(description), description.uncertainty,
-                                                      options.variants, options.variant_seed);
+    options.request.other_variants =
+        sampled_variants(bridge, description.uncertainty, options.variants, options.variant_seed);
   if (options.version) {
-    std::cout << version_text("build-database") << '\n'
-              << describe(provenance_of(options.request, options.solver));
+    std::cout << version_text("build-database") << '\n' << describe(provenance_of(options.request, solver));
     return std::cout.flush() ? 0 : 1;
   }
   Progress progress(options.quiet ? Progress::Mode::quiet : Progress::Mode::automatic);
-  const BuildSummary summary = build_database(options.request, options.solver, progress);
+  if (!options.collapse_fields && !options.request.rules.collapse_fields)
+    progress.say(
+        "of scenes that fall only that and what falls is kept: motion follows softer joints than these, of "
+        "which fields would be (--collapses field keeps them)");
+  const BuildSummary summary = build_database(options.request, solver, progress);
   std::cout << (options.json ? to_json(summary) : to_text(summary)) << std::flush;
   return std::cout ? 0 : 1;
 }

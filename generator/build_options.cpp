@@ -114,7 +114,7 @@ void add_drawing_option(CLI::App& app, BuildOptions& options) {
 struct Words {
   std::string solver = "quasi-static";
   std::string fields = "all";
-  std::string collapses = "field";
+  std::string collapses = "auto";
   std::vector<std::string> without;
 };
 
@@ -126,8 +126,10 @@ void add_kept_options(CLI::App& app, Words& words) {
   app.add_option(
          "--collapses", words.collapses,
          "field: scenes that fall are followed in motion and have the field at a stated moment; outcome: "
-         "only whether and what falls is found, without motion where it can be proved (faster)")
-      ->check(CLI::IsMember({"field", "outcome"}))
+         "only whether and what falls is found, without motion where it can be proved, in shorter motions "
+         "elsewhere (faster); auto: field where motion can follow the joints as they are, outcome where "
+         "they are so stiff that it follows softer ones, of which fields would be")
+      ->check(CLI::IsMember({"auto", "field", "outcome"}))
       ->capture_default_str();
 }
 
@@ -178,7 +180,7 @@ void parse_build_options(int argc, char** argv, BuildOptions& options) {
   if (options.exit_code) return;
   if (options.variants > 0 && app.count("--scenes") == 0) options.request.scenes_of_variants = "singles";
   options.request.fields = words.fields == "all" ? KeepField::yes : KeepField::no;
-  options.request.rules.collapse_fields = words.collapses == "field";
+  if (words.collapses != "auto") options.collapse_fields = words.collapses == "field";
   for (const std::string& name : words.without)
     build_switch(name).switch_off(options.request.rules, options.motion.skips);
   if (words.solver == "dynamic" &&
@@ -186,7 +188,14 @@ void parse_build_options(int argc, char** argv, BuildOptions& options) {
     throw InputError(
         "--solver dynamic solves the history built without loads only: expected --history built and --loads "
         "none");
-  options.solver = words.solver == "dynamic" ? dynamic(options.motion) : quasi_static(options.motion);
+  if (words.solver == "dynamic") options.solver = SolverKind::dynamic;
+}
+
+SolverChoice settle_collapses(const Model& bridge, BuildOptions& options) {
+  const bool fields = options.collapse_fields.value_or(!softens_joints(options.motion, bridge));
+  options.request.rules.collapse_fields = fields;
+  if (options.solver == SolverKind::dynamic) return dynamic(options.motion);
+  return fields ? quasi_static(options.motion) : for_outcomes(options.motion);
 }
 
 }  // namespace voussoir

@@ -12,8 +12,9 @@ struct BuildOptions {
   BuildRequest request;                         ///< all but the bridge and its variants
   int variants = 0;                             ///< bridges to draw beside the nominal one
   std::uint64_t variant_seed = 1;
-  DynamicSettings motion;  ///< of scenes in motion
-  SolverChoice solver;
+  SolverKind solver = SolverKind::quasi_static;
+  DynamicSettings motion;                        ///< of scenes in motion
+  std::optional<bool> collapse_fields;           ///< nothing: where motion follows the joints as they are
   std::optional<std::filesystem::path> drawing;  ///< only draw the bridge, into this file
   bool version = false;                          ///< only tell what would be built with what
   bool quiet = false;
@@ -23,5 +24,8 @@ struct BuildOptions {
 
 /// Fills in the options; prints help, version or what is wrong with the command line itself.
 void parse_build_options(int argc, char** argv, BuildOptions& options);
+
+/// Settles what depends on the bridge: whether fields of collapses are kept. Returns the solver.
+SolverChoice settle_collapses(const Model& bridge, BuildOptions& options);
 
 }  // namespace voussoir

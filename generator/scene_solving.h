@@ -32,6 +32,8 @@ SolverChoice solver_with(const SolverSettings& settings);
 /// The solver that acts as a database states it. Throws Failure if another version wrote the settings.
 SceneSolver stated_solver(const Model& model, const std::string& settings);
 SolverChoice quasi_static(const DynamicSettings& motion = {});
+/// The same for databases without fields of collapses (core/solve/outcomes_only.h).
+SolverChoice for_outcomes(const DynamicSettings& motion = {});
 SolverChoice dynamic(const DynamicSettings& motion = {});
 
 /// Solves the scenes and rounds their fields to the storage precision. What the joints remember is left

@@ -1,6 +1,7 @@
 #include <memory>
 
 #include "core/solve/combined_solver.h"
+#include "core/solve/outcomes_only.h"
 #include "generator/scene_solving.h"
 
 namespace voussoir {
@@ -40,6 +41,14 @@ SolverChoice solver_with(const SolverSettings& settings) {
 
 SolverChoice quasi_static(const DynamicSettings& motion) {
   return solver_with(SolverSettings::of(SolverKind::quasi_static, motion));
+}
+
+SolverChoice for_outcomes(const DynamicSettings& motion) {
+  SolverChoice choice = quasi_static(motion);
+  choice.settings = [settings = SolverSettings::of(SolverKind::quasi_static, motion)](const Model& model) {
+    return to_text(acting_settings(for_outcomes(settings, model), model));
+  };
+  return choice;
 }
 
 SolverChoice dynamic(const DynamicSettings& motion) {

@@ -32,7 +32,7 @@ void StartingFields::add(const Scene& scene, std::size_t state, const Solution& 
 bool StartingFields::falls_likely(const Scene& scene, std::size_t state) const {
   const auto is_there = [&](BlockId block) { return !std::ranges::binary_search(scene.removed, block); };
   return std::ranges::any_of(starting_subsets(scene), [&](const Scene& fewer) {
-    const std::vector<BlockId>* falling = fewer.removed.empty() ? nullptr : find_falling(fewer, state);
+    const std::vector<BlockId>* falling = find_falling(fewer, state);
     return falling != nullptr && std::ranges::any_of(*falling, is_there);
   });
 }

@@ -40,8 +40,8 @@ class StartingFields {
   /// both. Where the intact bridge does not stand in both: `own`.
   Field start_after(const Scene& scene, const Field& own, std::size_t before, std::size_t after) const;
 
-  /// Does one of the singles, or with more than two missing blocks one of the pairs, within the scene let
-  /// blocks fall that this scene has?
+  /// Does the intact bridge, one of the singles, or with more than two missing blocks one of the pairs,
+  /// within the scene let blocks fall that this scene has?
   bool falls_likely(const Scene& scene, std::size_t state) const;
 
   /// The singles and pairs that fall in a state, in the order of rows, and which of their blocks move.

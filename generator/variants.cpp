@@ -68,21 +68,6 @@ bool same_in_images(const std::vector<double>& values, const std::vector<std::si
 
 }  // namespace
 
-VariantParameters parameters_of(const Model& bridge) {
-  VariantParameters result;
-  for (const Material& block : bridge.parameters.blocks) {
-    result.young_modulus.push_back(block.young_modulus);
-    result.poisson_ratio.push_back(block.poisson_ratio);
-    result.density.push_back(block.density);
-  }
-  for (const JointMaterial& joint : bridge.parameters.joints) {
-    result.normal_stiffness.push_back(joint.normal_stiffness);
-    result.tangential_stiffness.push_back(joint.tangential_stiffness);
-    result.friction_coefficient.push_back(joint.friction_coefficient());
-  }
-  return result;
-}
-
 Model variant_of(const Model& bridge, const VariantParameters& parameters) {
   const std::size_t blocks = bridge.layout.size();
   const std::size_t joints = bridge.joints.size();
@@ -116,8 +101,8 @@ std::vector<VariantParameters> sampled_variants(const Model& bridge, const Uncer
                                                 int count, std::uint64_t seed) {
   std::vector<VariantParameters> variants;
   for (int number = 0; number < count; ++number)
-    variants.push_back(
-        parameters_of(sampled(bridge, uncertainty, series_seed(seed, static_cast<std::uint64_t>(number)))));
+    variants.push_back(variant_parameters(
+        sampled(bridge, uncertainty, series_seed(seed, static_cast<std::uint64_t>(number))).parameters));
   return variants;
 }
 

@@ -7,9 +7,6 @@
 
 namespace voussoir {
 
-/// The parameters that a bridge has, of every block and every joint.
-VariantParameters parameters_of(const Model& bridge);
-
 /// The bridge with other parameters. It keeps its mirror symmetry if the parameters have it, too. Throws
 /// InputError if the numbers of blocks or joints are others.
 Model variant_of(const Model& bridge, const VariantParameters& parameters);

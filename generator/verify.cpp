@@ -44,7 +44,8 @@ void check_geometry(const Database& database, const Model& stored, VerifyReport&
   const bool same_program = differences(own, provenance).empty();
   const Model bridge = same_program ? make_model(description) : stored;
   std::vector<VariantParameters> variants = database.variants();
-  variants.front() = parameters_of(bridge);  // of the others nothing else says what they should be
+  // Of the others nothing else says what they should be.
+  variants.front() = variant_parameters(bridge.parameters);
   const auto expected = shared_datasets(provenance, bridge, variants, database.states(),
                                         database.model_errors(), database.sensitivities());
   for (const DatasetValue& value : expected)

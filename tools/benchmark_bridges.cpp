@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "core/random.h"
+#include "core/solve/outcomes_only.h"
 #include "tools/timing.h"
 
 namespace voussoir {
@@ -42,10 +43,14 @@ std::vector<Scene> drawn_scenes(const Model& model, int count, std::uint64_t see
   return scenes;
 }
 
-/// From the intact bridge's field, as build-database does; null: from rest.
-std::vector<Solution> solve(CombinedSolver& solver, std::span<const Scene> scenes, const Field* start) {
+/// As build-database does: from the intact bridge's field if it stands; if it falls, so do its scenes,
+/// likely.
+std::vector<Solution> solve(CombinedSolver& solver, std::span<const Scene> scenes, const Solution& intact) {
+  const Field* start = stands(intact) ? &intact.displacement : nullptr;
+  const bool falls = intact.outcome == Outcome::collapsed;
   std::vector<StageTask> tasks;
-  for (const Scene& scene : scenes) tasks.push_back({.stage = {.scene = scene}, .start = start});
+  for (const Scene& scene : scenes)
+    tasks.push_back({.stage = {.scene = scene}, .start = start, .falls_likely = falls});
   return solver.solve(tasks);
 }
 
@@ -61,11 +66,11 @@ void count(const std::vector<Solution>& solutions, std::span<const Scene> scenes
 }
 
 /// The scene of a group that takes longest is looked for in the slowest group alone.
-void find_worst(CombinedSolver& solver, std::span<const Scene> scenes, const Field* start,
+void find_worst(CombinedSolver& solver, std::span<const Scene> scenes, const Solution& intact,
                 const BlockLayout& layout, BridgeRow& row) {
   for (const Scene& scene : scenes) {
     const double begin = processor_seconds();
-    solve(solver, std::span(&scene, 1), start);
+    solve(solver, std::span(&scene, 1), intact);
     const double seconds = processor_seconds() - begin;
     if (seconds <= row.worst) continue;
     row.worst = seconds;
@@ -73,10 +78,17 @@ void find_worst(CombinedSolver& solver, std::span<const Scene> scenes, const Fie
   }
 }
 
-BridgeRow measure(const BridgeDescription& description, const BridgeOptions& options, std::uint64_t seed) {
+/// Of build-database: fields of what falls are kept where motion can follow the joints as they are.
+SolverSettings default_settings(const Model& model) {
+  const SolverSettings settings = SolverSettings::of(SolverKind::quasi_static);
+  return acting_settings(softens_joints(settings.motion, model) ? for_outcomes(settings, model) : settings,
+                         model);
+}
+
+BridgeRow measure(const BridgeDescription& description, int scenes_drawn, std::uint64_t seed) {
   const Model model = make_model(description);
-  CombinedSolver solver(model);
-  const std::vector<Scene> scenes = drawn_scenes(model, options.scenes, seed);
+  CombinedSolver solver(model, default_settings(model));
+  const std::vector<Scene> scenes = drawn_scenes(model, scenes_drawn, seed);
   BridgeRow row{
       .name = description.name, .blocks = model.block_count(), .scenes = static_cast<int>(scenes.size())};
   std::span<const Scene> slowest;
@@ -85,9 +97,8 @@ BridgeRow measure(const BridgeDescription& description, const BridgeOptions& opt
   for (std::size_t first = 0; first < scenes.size();) {
     const std::size_t size = first == 0 ? 1 : std::min(kTogether, scenes.size() - first);
     const auto group = std::span(scenes).subspan(first, size);
-    const Field* start = stands(intact) ? &intact.displacement : nullptr;
     const double begin = processor_seconds();
-    std::vector<Solution> solutions = solve(solver, group, start);
+    std::vector<Solution> solutions = solve(solver, group, intact);
     const double seconds = processor_seconds() - begin;
     row.seconds += seconds;
     count(solutions, group, model.layout, row);
@@ -98,7 +109,7 @@ BridgeRow measure(const BridgeDescription& description, const BridgeOptions& opt
       slowest = group;
     }
   }
-  find_worst(solver, slowest, stands(intact) ? &intact.displacement : nullptr, model.layout, row);
+  find_worst(solver, slowest, intact, model.layout, row);
   return row;
 }
 
@@ -141,14 +152,14 @@ BridgeDescription random_bridge(std::uint64_t seed) {
 std::vector<BridgeRow> measure_bridges(const BridgeOptions& options,
                                        const std::function<void(const BridgeRow&)>& progress) {
   std::vector<BridgeRow> rows;
-  const auto add = [&](const BridgeDescription& bridge, std::uint64_t seed) {
-    rows.push_back(measure(bridge, options, seed));
+  const auto add = [&](const BridgeDescription& bridge, int scenes, std::uint64_t seed) {
+    rows.push_back(measure(bridge, scenes, seed));
     progress(rows.back());
   };
-  add(BridgeDescription{}, options.seed);
+  add(BridgeDescription{}, 0, options.seed);
   for (int i = 0; i < options.bridges; ++i) {
     const std::uint64_t seed = options.seed + static_cast<std::uint64_t>(i);
-    add(random_bridge(seed), seed);
+    add(random_bridge(seed), options.scenes, seed);
   }
   return rows;
 }

@@ -36,22 +36,21 @@ Pace acting_pace(const Model& model, const std::vector<BlockBody>& bodies, const
   return pace;
 }
 
-/// The bridge with joints that steps of the settings can follow; nothing if its own are.
-std::unique_ptr<Model> softened_bridge(const Model& bridge, const std::vector<BlockBody>& bodies,
-                                       const DynamicSettings& settings) {
-  if (settings.integrator != Integrator::implicit_blocks || settings.least_step == 0.0) return nullptr;
-  const std::vector<double> shares = softening(bridge, bodies, settings.contact_damping, settings.least_step);
+/// For each block the share of its joints' stiffness that steps of the settings can follow; empty if all can
+/// be followed as they are.
+std::vector<double> softened_shares(const Model& bridge, const std::vector<BlockBody>& bodies,
+                                    const DynamicSettings& settings) {
+  if (settings.integrator != Integrator::implicit_blocks || settings.least_step == 0.0) return {};
+  std::vector<double> shares = softening(bridge, bodies, settings.contact_damping, settings.least_step);
   const bool as_it_is = std::ranges::all_of(shares, [](double share) { return share == 1.0; });
-  return as_it_is ? nullptr : std::make_unique<Model>(softened(bridge, shares));
+  return as_it_is ? std::vector<double>{} : shares;
 }
 
-/// The largest share of its stiffness that a joint has left.
-double stiffest_share(const Model& bridge, const Model& softer) {
-  double share = 0.0;
-  for (std::size_t j = 0; j < bridge.joints.size(); ++j)
-    share = std::max(
-        share, softer.parameters.joints[j].normal_stiffness / bridge.parameters.joints[j].normal_stiffness);
-  return share;
+/// The bridge with such joints; nothing if its own are.
+std::unique_ptr<Model> softened_bridge(const Model& bridge, const std::vector<BlockBody>& bodies,
+                                       const DynamicSettings& settings) {
+  const std::vector<double> shares = softened_shares(bridge, bodies, settings);
+  return shares.empty() ? nullptr : std::make_unique<Model>(softened(bridge, shares));
 }
 
 }  // namespace
@@ -64,7 +63,6 @@ struct DynamicSolver::Workspace {
             const DynamicSettings& settings_)
       : settings(settings_),
         softer(softened_bridge(bridge, bodies, settings)),
-        stiffness_share(stiffest_share(bridge, followed(bridge))),
         natural(natural_motion(followed(bridge), system)),
         critical(
             voussoir::critical_step(followed(bridge), bodies, settings.integrator, settings.contact_damping)),
@@ -78,7 +76,6 @@ struct DynamicSolver::Workspace {
 
   DynamicSettings settings;
   std::unique_ptr<Model> softer;  ///< what is followed if it is not the bridge
-  double stiffness_share;
   NaturalMotion natural;
   double critical;
   MotionModel model;
@@ -248,6 +245,11 @@ DynamicSettings acting_settings(DynamicSettings settings, const Model& model) {
   return settings;
 }
 
+bool softens_joints(const DynamicSettings& settings, const Model& model) {
+  const DynamicSettings acting = acting_settings(settings, model);
+  return !softened_shares(model, make_block_bodies(model, acting.inertia), acting).empty();
+}
+
 DynamicSolver::DynamicSolver(const Model& model, DynamicSettings settings)
     : DynamicSolver(model, EquilibriumSystem(model), settings) {}
 
@@ -282,11 +284,11 @@ double DynamicSolver::step() const {
 double DynamicSolver::critical_step() const {
   return workspace_->critical;
 }
+double DynamicSolver::frequency() const {
+  return workspace_->natural.frequency;
+}
 double DynamicSolver::damping() const {
   return workspace_->model.damping;
-}
-double DynamicSolver::stiffness_share() const {
-  return workspace_->stiffness_share;
 }
 double DynamicSolver::sag() const {
   return workspace_->natural.sag;

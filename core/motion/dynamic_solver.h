@@ -59,6 +59,9 @@ struct DynamicSettings {
 /// The settings that act on this model: bonds of mortar are followed in one pace, as stiff as they are.
 DynamicSettings acting_settings(DynamicSettings settings, const Model& model);
 
+/// Does a motion with these settings follow softer joints than the model has (softening.h)?
+bool softens_joints(const DynamicSettings& settings, const Model& model);
+
 /// What happened to a scene in motion.
 struct DynamicSolution {
   Solution solution;  ///< `residual` is the sum of the blocks' resultant forces over the bridge's weight;
@@ -90,11 +93,11 @@ class DynamicSolver {
   DynamicSolution solve(const Scene& scene);
 
   const Pace& pace() const;
-  double step() const;             ///< of most blocks [s]
-  double critical_step() const;    ///< of all blocks [s]
-  double damping() const;          ///< [1/s]
-  double sag() const;              ///< of the bonded bridge [m]
-  double stiffness_share() const;  ///< no joint has more of its stiffness in motion (softening.h) [-]
+  double step() const;           ///< of most blocks [s]
+  double critical_step() const;  ///< of all blocks [s]
+  double frequency() const;      ///< the lowest of the bonded bridge [rad/s]
+  double damping() const;        ///< [1/s]
+  double sag() const;            ///< of the bonded bridge [m]
 
  private:
   struct Workspace;

@@ -1,7 +1,6 @@
 #pragma once
 /// @file The solver that builds databases: Newton for scenes that stand, motion for all others.
 
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -10,14 +9,12 @@
 namespace voussoir {
 
 /// Solves scenes of one variant, several side by side. Most scenes stand and Newton finds their equilibrium
-/// in milliseconds; where joints are stiff against blocks, or along against across, with a patient search at
-/// once, and where they are stiff, what it does not find is approached from softer ones (softer_joints.h).
-/// Where Newton makes no progress, the scene is set in motion under growing gravity. What
-/// falls is `collapsed`, with the field at the dynamic settings' moment. What seems to come to rest is handed
-/// back to Newton, which polishes the resting field to equilibrium; if there is none near, Newton searches
-/// from rest with all patience; and if that finds none, a block creeps, held by nearly enough friction, and
-/// the motion is followed until it has come to rest or moved away. Scenes that are said to fall are set in
-/// motion first.
+/// in milliseconds; where joints are stiff against blocks, or along against across, by a search that
+/// descends. Where Newton makes no progress, the scene is set in motion under growing gravity. What falls is
+/// `collapsed`, with the field at the dynamic settings' moment. What seems to come to rest is handed back to
+/// Newton, which polishes the resting field to equilibrium; if there is none near, Newton searches from rest
+/// with all patience; and if that finds none, a block creeps, held by nearly enough friction, and the motion
+/// is followed until it has come to rest or moved away. Scenes that are said to fall are set in motion first.
 ///
 /// A solution depends on its scene and start only, to the last bit. Not thread-safe: one solver a thread. The
 /// model must outlive the solver. `residual` is a nodal one for standing scenes and that of DynamicSolution
@@ -36,14 +33,11 @@ class CombinedSolver {
  private:
   std::vector<Solution> search(std::span<const StageTask> tasks);
   void insist(std::span<const StageTask> tasks, std::vector<Solution>& solutions);
-  std::vector<bool> approach(std::span<const StageTask> tasks, std::vector<Solution>& solutions);
-  void follow(const DecisionRules& rules, std::span<const StageTask> tasks, const std::vector<bool>& left_out,
-              bool patiently, std::vector<Solution>& solutions);
+  void follow(const DecisionRules& rules, std::span<const StageTask> tasks, bool patiently,
+              std::vector<Solution>& solutions);
 
   SolverSettings settings_;
-  const Parameters* parameters_;
   QuasiStaticSolver newton_;
-  std::optional<QuasiStaticSolver> approaching_;  ///< where joints are stiff
   DynamicSolver motion_;
 };
 

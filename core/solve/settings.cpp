@@ -133,11 +133,9 @@ void visit_motion(Settings& settings, const Visit& visit) {
 
 template <class Settings, class Visit>
 void visit_settings(Settings& settings, const Visit& visit) {
-  auto& [kind, newton, softest_joints, motion, patient] = settings;
+  auto& [kind, newton, motion, patient] = settings;
   visit("solver", kind);
   if (kind == SolverKind::quasi_static) visit_newton(newton, visit);
-  if (kind == SolverKind::quasi_static && !newton.skips.early_outcome)
-    visit("newton.softest_joints", softest_joints);
   visit_motion(motion, visit);
   if (kind == SolverKind::quasi_static) visit_rules("patient", patient, visit);
 }
@@ -190,17 +188,11 @@ SolverSettings acting_settings(SolverSettings settings, const Model& model) {
   // That three steps show whether there is a way was measured on joints much softer than blocks, and ten
   // times as soft along as across. Where they are stiffer, bridges that stand take up to fifty, and motion
   // might pass an equilibrium (docs/numerics.md).
-  constexpr double kSoftJoints = 0.03;
   constexpr double kStiffJoints = 0.1;
   constexpr double kStiffAlong = 0.2;
   settings.motion = acting_settings(settings.motion, model);
-  const double stiffness = joints_against_blocks(model);
-  const bool is_stiff = stiffness > kStiffJoints;
-  if (is_stiff && !has_mortar(model.parameters)) settings.softest_joints = kSoftJoints / stiffness;
-  if (is_stiff || along_against_across(model) > kStiffAlong) {
-    settings.newton.patient_first = true;
-    settings.newton.skips.early_outcome = false;
-  }
+  settings.newton.patient_first =
+      joints_against_blocks(model) > kStiffJoints || along_against_across(model) > kStiffAlong;
   return settings;
 }
 

@@ -18,8 +18,6 @@ enum class SolverKind {
 struct SolverSettings {
   SolverKind kind = SolverKind::quasi_static;
   QuasiStaticSettings newton{};  ///< of the quasi-static kind
-  double softest_joints = 1.0;   ///< share of the joints' stiffness from which equilibria are approached that
-                                 ///< Newton's method does not find (softer_joints.h); 1: they are not
   DynamicSettings motion{};      ///< of scenes in motion
   DecisionRules patient{};       ///< of the quasi-static kind: for what neither rests nor falls soon
 
@@ -28,8 +26,7 @@ struct SolverSettings {
 };
 
 /// The settings that act on this model: where joints are stiff against blocks, or along against across,
-/// Newton's search is patient from the start; where they are stiff against blocks, what it does not find is
-/// approached from softer joints; of motion see its own.
+/// Newton's search descends; of motion see its own.
 SolverSettings acting_settings(SolverSettings settings, const Model& model);
 
 /// "key = value" lines, a key for every setting that acts, named for its phase: "newton.tolerance",

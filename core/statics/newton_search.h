@@ -11,12 +11,13 @@
 
 namespace voussoir {
 
-/// The phases of a search, in the order in which they are tried.
+/// The phases of a search, in the order in which they are tried; or one of the last two alone.
 enum class SearchPhase {
-  warm,     ///< from a given start
-  quick,    ///< from rest, given up when it has no hope
-  falling,  ///< goes on with bolder steps: does something fall?
-  patient,  ///< from rest once more, with all patience, the unbalance falling: the last word
+  warm,        ///< from a given start
+  quick,       ///< from rest, given up when it has no hope
+  falling,     ///< goes on with bolder steps: does something fall?
+  descending,  ///< from a given start or rest, the unbalance falling, given up when it falls no more
+  patient,     ///< likewise, from rest after the others, with all patience: the last word
   done
 };
 
@@ -26,10 +27,9 @@ enum class SearchPhase {
 /// steps, until one makes too little progress.
 class NewtonSearch {
  public:
-  /// `start` may be null: the search then begins at rest. `patiently`: with the last phase. `has_matrix`: the
-  /// target holds a matrix of a search
-  /// that has just ended at `start`, which may serve this one, too. System, coefficients and settings outlive
-  /// the search.
+  /// `start` may be null: the search then begins at rest. `patiently`: with the patient phase. `has_matrix`:
+  /// the target holds a matrix of a search that has just ended at `start`, which may serve this one, too.
+  /// System, coefficients and settings outlive the search.
   NewtonSearch(StageEquations equations, const QuasiStaticSettings& settings, const Field* start,
                TangentTarget tangent, bool patiently = false, bool has_matrix = false);
 
@@ -51,6 +51,7 @@ class NewtonSearch {
   void try_step_with_old_matrix(const Eigen::VectorXd& step);
   void move(const Field& from, double factor, const Eigen::VectorXd& step);
   void note_step(double length);
+  void note_progress();
   void evaluate();
   void evaluate_forces();
   bool may_keep_matrix() const;
@@ -82,6 +83,8 @@ class NewtonSearch {
       recent_{};             ///< the last norms of `unbalanced_`: a step may rise to the worst of them
   double bonded_sag_ = 0.0;  ///< largest displacement after the bonded first step from rest [m]; 0 before
   double first_norm_ = 0.0;  ///< after the start's first step
+  double least_norm_ = 0.0;  ///< that counted as progress
+  int stalled_ = 0;          ///< steps since
   int steps_ = 0;            ///< since the start
   int phase_iterations_ = 0;
   int iterations_ = 0;  ///< linear systems in all phases

@@ -81,8 +81,8 @@ struct LaneSearch {
                              before != nullptr ? before->memory : std::vector<JointMemory>{});
     const int left = task->steps - ++step;
     if (left > 0) hold_back(static_cast<double>(left) / (left + 1), before, equations);
-    search.emplace(std::move(equations), settings, start, w.lane_of_tangents(lane),
-                   task->patiently || settings.patient_first, step > 1);
+    search.emplace(std::move(equations), settings, start, w.lane_of_tangents(lane), task->patiently,
+                   step > 1);
   }
 
   /// Takes what the search has found; true if that is the task's answer, otherwise the next step begins.

@@ -25,7 +25,7 @@ struct QuasiStaticSettings {
   int most_iterations = 30;  ///< factorisations of a search from zero
   int most_falling_iterations = 40;   ///< factorisations of a fall
   int most_patient_iterations = 100;  ///< factorisations of a patient search
-  bool patient_first = false;         ///< true: searches begin with their patient phase
+  bool patient_first = false;         ///< true: searches descend, as a patient one does, and do nothing else
   bool follow_falls = true;           ///< false: a search without progress ends there, `unresolved`
   double collapse_displacement =
       0.1;  ///< [m] beyond it, and beyond ten sags of the bonded scene, blocks are falling

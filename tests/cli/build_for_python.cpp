@@ -1,7 +1,7 @@
 #include <catch2/catch.hpp>
 
+#include "database/records/variant_parameters.h"
 #include "generator/build.h"
-#include "generator/variants.h"
 #include "tests/support/bridges.h"
 #include "tests/support/made_up_database.h"
 #include "tests/support/program.h"
@@ -44,7 +44,7 @@ TEST_CASE("The h5py example finds the checksums of every variant and state right
   Model stiffer = make_model(request.bridge.description);
   for (std::size_t j = 0; j < stiffer.joints.size(); ++j)
     stiffer.parameters.joints[j].normal_stiffness *= 1.0 + 0.01 * static_cast<double>(j % 7);
-  request.other_variants = {parameters_of(stiffer)};
+  request.other_variants = {variant_parameters(stiffer.parameters)};
   Progress quiet(Progress::Mode::quiet);
   build_database(request, quasi_static(), quiet);
   check(request.output, "78", "variants: 2; states: built");

@@ -5,8 +5,8 @@
 
 #include "core/solve/combined_solver.h"
 #include "database/format/field_codec.h"
+#include "database/records/variant_parameters.h"
 #include "database/records/writer.h"
-#include "generator/variants.h"
 #include "lookup/lookup.h"
 #include "lookup/report/words.h"
 #include "tests/support/temporary_folder.h"
@@ -49,7 +49,7 @@ void build(const Model& model, const std::vector<Scene>& scenes, const std::file
   const DatabaseContent content{
       .provenance = make_provenance({"polygons", "", {}}, "solver = test\n", "test"),
       .bridge = model,
-      .variants = {parameters_of(model)},
+      .variants = {variant_parameters(model.parameters)},
       .keys = keys_of(kNominalVariant, scenes)};
   write_database(path, content, [&](std::size_t row) {
     Solution rounded = solutions[row];

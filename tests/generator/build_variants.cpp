@@ -5,8 +5,8 @@
 
 #include "core/error.h"
 #include "database/records/database.h"
+#include "database/records/variant_parameters.h"
 #include "generator/build.h"
-#include "generator/variants.h"
 #include "generator/verify.h"
 #include "tests/support/bridges.h"
 #include "tests/support/made_up_solver.h"
@@ -22,7 +22,8 @@ BridgeFile with_stiffness(BridgeFile file, double factor) {
 }
 
 VariantParameters stiffer(double factor) {
-  return parameters_of(make_model(with_stiffness(test::small_bridge_file(), factor).description));
+  return variant_parameters(
+      make_model(with_stiffness(test::small_bridge_file(), factor).description).parameters);
 }
 
 struct Site {

@@ -105,6 +105,9 @@ TEST_CASE("A pair is likely to fall if what falls without one of its blocks is t
   CHECK_FALSE(starts.falls_likely(without({1, 3}), 0));
   CHECK_FALSE(starts.falls_likely(without({0, 1}), 1));  // another state
   CHECK_FALSE(starts.falls_likely(without({0}), 0));     // a single says nothing of itself
+  starts.add(Scene{}, 0, fall);
+  CHECK(starts.falls_likely(without({0}), 0));  // the bridge itself falls
+  CHECK_FALSE(starts.falls_likely(without({3}), 0));
 }
 
 }  // namespace voussoir
