@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/error.h"
+#include "lookup/evidence/largest_places.h"
 #include "lookup/search/exhaustive_search.h"
 #include "lookup/search/misfit.h"
 #include "lookup/search/nearest_search.h"
@@ -25,6 +27,13 @@ Eligible eligible_or_failure(const SceneTable& table, const Prior& prior) {
     throw Failure(fmt::format("the database has no solved scene with {} missing blocks",
                               fmt::join(prior.missing, ", ")));
   return eligible;
+}
+
+/// From a value for each row of the table.
+RowValues values_of(const Eligible& eligible, const std::vector<double>& log_evidence) {
+  RowValues result{-std::numeric_limits<double>::infinity(), eligible.rows, {}};
+  for (const std::size_t row : eligible.rows) result.values.push_back(log_evidence[row]);
+  return result;
 }
 
 std::vector<ScoredRow> run_genetic(const Library& library, const Observation& observation,
@@ -62,19 +71,12 @@ std::vector<ScoredRow> scored_by_posterior(const Library& library, const Observa
                                            const Preparation& preparation, const Posterior& posterior,
                                            std::size_t count) {
   std::vector<std::size_t> likely;
-  for (const std::size_t row : preparation.eligible().rows)
-    if (posterior.probability[row] > 0.0) likely.push_back(row);
-  const std::size_t kept = std::min(count, likely.size());
-  std::partial_sort(likely.begin(), likely.begin() + static_cast<std::ptrdiff_t>(kept), likely.end(),
-                    [&](std::size_t a, std::size_t b) {
-                      const double pa = posterior.probability[a], pb = posterior.probability[b];
-                      return pa != pb ? pa > pb : a < b;
-                    });
-  likely.resize(kept);
+  for (const std::size_t place : largest_places(posterior.probability.values, count))
+    if (posterior.probability.values[place] > 0.0) likely.push_back(posterior.probability.rows[place]);
   std::vector<ScoredRow> result;
   for (const std::size_t row : likely)
     result.push_back({row, sum_of_differences(observation.displacement, library.table.row(row))});
-  if (kept == count) return result;
+  if (result.size() == count) return result;
   for (const ScoredRow& row : preparation.smallest_misfits(observation, count))
     if (result.size() < count && std::find(likely.begin(), likely.end(), row.row) == likely.end())
       result.push_back(row);
@@ -277,9 +279,9 @@ Answer locate_damage(const Comparison& comparison, const LookupSettings& setting
     question.emplace(comparison, observation,
                      UnknownSettings{settings.epochs, settings.conditions, settings.nuisance.scale});
   if (settings.objective == Objective::posterior) {
-    const std::vector<double> evidence = question
-                                             ? question->log_evidence(eligible, answer.prior, settings.top)
-                                             : preparation.screen()(observation, settings.top);
+    const RowValues evidence =
+        question ? values_of(eligible, question->log_evidence(eligible, answer.prior, settings.top))
+                 : preparation.screen()(observation, settings.top);
     answer.posterior = posterior(library.table, eligible, evidence, answer.prior, library.layout.size());
   }
   const std::vector<ScoredRow> found = found_rows(library, observation, preparation, settings, answer);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/error.h"
 #include "lookup/readings/simulate.h"
@@ -60,10 +61,10 @@ Posterior posterior_of(const Library& library, const Measurements& measured, con
 }
 
 std::size_t place_of(std::size_t truth, const Posterior& posterior) {
-  std::size_t ahead = 0;
-  for (std::size_t row = 0; row < posterior.probability.size(); ++row)
-    if (posterior.probability[row] > posterior.probability[truth]) ++ahead;
-  return posterior.probability[truth] > 0.0 ? ahead : posterior.probability.size();
+  const double of_truth = posterior.probability[truth];
+  if (!(of_truth > 0.0)) return std::numeric_limits<std::size_t>::max();
+  return static_cast<std::size_t>(
+      std::ranges::count_if(posterior.probability.values, [&](double one) { return one > of_truth; }));
 }
 
 void count_posterior(std::size_t truth, const Posterior& posterior, Success& success) {
@@ -111,13 +112,13 @@ std::vector<ReliabilityBin> unfinished_bins() {
 }
 
 void add_to_bins(const Posterior& posterior, std::size_t truth, std::vector<ReliabilityBin>& bins) {
-  for (std::size_t row = 0; row < posterior.probability.size(); ++row) {
-    const double p = posterior.probability[row];
+  for (std::size_t i = 0; i < posterior.probability.rows.size(); ++i) {
+    const double p = posterior.probability.values[i];
     if (p < kWorthCounting) continue;
     ReliabilityBin& bin = bins[std::min(kBins - 1, static_cast<std::size_t>(p * kBins))];
     ++bin.scenes;
     bin.mean_probability += p;
-    bin.frequency += row == truth ? 1.0 : 0.0;
+    bin.frequency += posterior.probability.rows[i] == truth ? 1.0 : 0.0;
     bin.standard_error += p * (1.0 - p);
   }
 }

@@ -52,8 +52,7 @@ NoiseModel told(const Instrument& instrument) {
 
 void count(const Posterior& posterior, std::size_t truth, Rates& rates) {
   ++rates.trials;
-  const auto likeliest = std::max_element(posterior.probability.begin(), posterior.probability.end());
-  rates.first += static_cast<std::size_t>(likeliest - posterior.probability.begin()) == truth ? 1 : 0;
+  rates.first += !posterior.credible.empty() && posterior.credible.front() == truth ? 1 : 0;
   rates.in_credible += std::ranges::count(posterior.credible, truth) > 0 ? 1 : 0;
   rates.damaged += posterior.missing_probability.front() < 1.0 - kCalledDamaged ? 1 : 0;
 }

@@ -30,6 +30,21 @@ constexpr std::array kColumns = {
 
 }  // namespace
 
+VariantParameters variant_parameters(const Parameters& parameters) {
+  VariantParameters result;
+  for (const Material& block : parameters.blocks) {
+    result.young_modulus.push_back(block.young_modulus);
+    result.poisson_ratio.push_back(block.poisson_ratio);
+    result.density.push_back(block.density);
+  }
+  for (const JointMaterial& joint : parameters.joints) {
+    result.normal_stiffness.push_back(joint.normal_stiffness);
+    result.tangential_stiffness.push_back(joint.tangential_stiffness);
+    result.friction_coefficient.push_back(joint.friction_coefficient());
+  }
+  return result;
+}
+
 std::vector<DatasetValue> parameter_datasets(const std::vector<VariantParameters>& variants) {
   std::vector<DatasetValue> datasets;
   for (const ParameterColumn& column : kColumns) {

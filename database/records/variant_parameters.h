@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "core/structure/parameters.h"
 #include "database/format/hdf5_file.h"
 
 namespace voussoir {
@@ -19,6 +20,9 @@ struct VariantParameters {
 
   friend bool operator==(const VariantParameters&, const VariantParameters&) = default;
 };
+
+/// The parameters of every block and every joint as a file holds them.
+VariantParameters variant_parameters(const Parameters& parameters);
 
 /// One dataset for each parameter, variants x blocks or variants x joints; a bridge without joints has none
 /// of joints. Precondition: at least one variant, and all of the same bridge.

@@ -15,9 +15,9 @@
 namespace voussoir {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kRoundOff = 1e-6;  // of a bound: it is compared with evidence worked out in another order
 constexpr double kLeastSum = 1e-30;
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// The least sums of RowStatistics that a scene in the box can have, and the least of its scales.
 struct BoxStatistics : RowStatistics {
@@ -40,8 +40,8 @@ struct BoxSums {
 
 /// Adds the places from the i-th: errors against the nearest number in the box over the largest scale that
 /// the box allows; the products take the least scale.
-VOUSSOIR_INLINE void add_places(const PlaceArrays& view, const ClusterBox& box, std::size_t i, double common,
-                                BoxSums& sums) {
+VOUSSOIR_INLINE void add_places(const PlaceArrays& view, const ClusterBox& box, std::size_t i,
+                                const CommonVariance& common, BoxSums& sums) {
   const DoubleLanes zero{}, one = DoubleLanes{} + 1.0;
   const PlaceBounds at = place_bounds(view, box, i, common);
   const DoubleLanes z =
@@ -59,11 +59,13 @@ VOUSSOIR_INLINE void add_places(const PlaceArrays& view, const ClusterBox& box, 
   if (view.per_student > 0.0) sums.student *= 1.0 + z * z * view.per_student;
 }
 
-VOUSSOIR_INLINE BoxStatistics statistics_of(const PlaceArrays& view, const ClusterBox& box) {
-  const double common = view.common_square > 0.0 ? most_common_variance(view, box) : 0.0;
+/// `bounded`: a scene is impossible if one error is; then the others need not be looked at.
+VOUSSOIR_INLINE BoxStatistics statistics_of(const PlaceArrays& view, const ClusterBox& box, bool bounded) {
+  const CommonVariance common = common_variance_in(view, box);
   BoxSums sums;
   for (std::size_t i = 0, step = 1; i < view.reading.size(); i += kLanes, ++step) {
     add_places(view, box, i, common, sums);
+    if (bounded && any(sums.square_beyond == kInfinity)) return {{}, kInfinity, 0.0};
     if (step % kSafeProducts == 0) sums.flush_products();
   }
   sums.flush_products();
@@ -77,9 +79,9 @@ VOUSSOIR_INLINE BoxStatistics statistics_of(const PlaceArrays& view, const Clust
 }
 
 VOUSSOIR_FOR_EVERY_PROCESSOR
-void collect(const PlaceArrays& view, const SearchIndex& index, BoxStatistics* results) {
+void collect(const PlaceArrays& view, const SearchIndex& index, bool bounded, BoxStatistics* results) {
   for (std::size_t cluster = 0; cluster < index.clusters(); ++cluster)
-    results[cluster] = statistics_of(view, box_of(index, cluster));
+    results[cluster] = statistics_of(view, box_of(index, cluster), bounded);
 }
 
 double sum_for(NoiseShape shape, const BoxStatistics& box) {
@@ -105,13 +107,13 @@ bool cluster_bounds_apply(const Observation& observation) {
 }
 
 std::vector<double> cluster_bounds(const Observation& observation, const SearchIndex& index) {
-  const double level =
-      observation.unknown_level ? 1.0 : std::max(observation.noise.relative.value_or(0.0), kSmallestLevel);
+  const double level = observation.unknown_level ? 1.0 : stated_level(observation);
   const ErrorScales scales = scales_at(observation, level);
   std::vector<BoxStatistics> boxes(index.clusters());
-  collect(PlaceArrays(observation, scales, index.places), index, boxes.data());
+  const bool bounded = !observation.unknown_level && observation.noise.shape == NoiseShape::uniform;
+  collect(PlaceArrays(observation, scales, index.places), index, bounded, boxes.data());
   const double shift = static_cast<double>(observation.count) * std::log(scales.unit);
-  std::vector<double> result(boxes.size(), -kInfinity);
+  std::vector<double> result(boxes.size(), kImpossible);
   for (const NoiseShape shape : shapes_of(observation.noise)) {
     const LevelIntegral integral =
         observation.unknown_level ? level_integral(shape, observation.count) : LevelIntegral{};

@@ -4,36 +4,19 @@
 #include <array>
 #include <cmath>
 #include <iterator>
-#include <limits>
-#include <numbers>
-#include <numeric>
 
 #include "lookup/evidence/level_curve.h"
 #include "lookup/evidence/level_evidence.h"
+#include "lookup/evidence/row_blocks.h"
 #include "lookup/evidence/scene_evidence.h"
 #include "lookup/evidence/table_evidence.h"
 
 namespace voussoir {
 namespace {
 
-constexpr double kImpossible = -std::numeric_limits<double>::infinity();
-constexpr std::size_t kBlockRows = 1024;  // worked out together: intermediate results stay in the cache
 constexpr double kOtherShape = 36.0;  // logarithm of how far behind another shape's best row one is left out
 
 using Rows = std::span<const std::size_t>;
-
-/// A function of blocks of rows, applied to all of them.
-template <typename Function>
-std::vector<double> block_by_block(Rows rows, Function function) {
-  std::vector<double> result;
-  result.reserve(rows.size());
-  for (std::size_t first = 0; first < rows.size(); first += kBlockRows) {
-    const std::vector<double> part = function(rows.subspan(first, std::min(kBlockRows, rows.size() - first)));
-    result.insert(result.end(), part.begin(), part.end());
-  }
-  return result;
-}
-
 using Logs = std::vector<std::vector<double>>;  // for each shape, of each row
 
 void append(Logs&& more, Logs& logs) {
@@ -138,12 +121,10 @@ std::vector<double> log_evidence_of_each(const Observation& observation, const S
   return logs;
 }
 
-std::vector<double> log_evidence_of_rows(const Observation& observation, const SceneTable& table,
-                                         std::span<const std::size_t> rows) {
-  const std::vector<double> logs = log_evidence_of_each(observation, table, rows);
-  std::vector<double> result(table.rows, kImpossible);
-  for (std::size_t i = 0; i < rows.size(); ++i) result[rows[i]] = logs[i];
-  return result;
+RowValues log_evidence_of_rows(const Observation& observation, const SceneTable& table,
+                               std::vector<std::size_t> rows) {
+  std::vector<double> logs = log_evidence_of_each(observation, table, rows);
+  return {kImpossible, std::move(rows), std::move(logs)};
 }
 
 NoiseEstimate estimate_noise(const Observation& observation, std::span<const double> prediction) {

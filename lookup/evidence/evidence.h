@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "database/records/database.h"
+#include "lookup/evidence/row_values.h"
 #include "lookup/readings/observation.h"
 
 namespace voussoir {
@@ -18,9 +19,9 @@ namespace voussoir {
 std::vector<double> log_evidence_of_each(const Observation& observation, const SceneTable& table,
                                          std::span<const std::size_t> rows);
 
-/// The same with a value for each row of the table, -infinity for those that are not given.
-std::vector<double> log_evidence_of_rows(const Observation& observation, const SceneTable& table,
-                                         std::span<const std::size_t> rows);
+/// The same as values of the table's rows, -infinity for those that are not given.
+RowValues log_evidence_of_rows(const Observation& observation, const SceneTable& table,
+                               std::vector<std::size_t> rows);
 
 /// The noise's shapes that are possible, equally likely beforehand.
 std::vector<NoiseShape> shapes_of(const NoiseModel& noise);

@@ -5,12 +5,12 @@
 #include <bit>
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <numeric>
 
 #include "lookup/evidence/cluster_bounds.h"
 #include "lookup/evidence/evidence.h"
 #include "lookup/evidence/level_screen.h"
+#include "lookup/evidence/scene_evidence.h"
 #include "lookup/search/exhaustive_search.h"
 #include "lookup/search/index_bounds.h"
 
@@ -19,7 +19,6 @@ namespace {
 
 /// So many clusters' rows are worked out first; more if they hold too few possible scenes.
 constexpr std::array<std::size_t, 2> kClustersFirst = {8, 32};
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr std::size_t kLikelyRows = 16;  // that say where an unknown level lies
 
 /// The sum of |reading - centre| for each cluster [m].
@@ -66,8 +65,8 @@ EvidenceScreen::EvidenceScreen(const SceneTable& table, const SearchIndex& index
     : table_(table),
       index_(index),
       eligible_(eligible),
-      priors_{std::vector<double>(table.rows, -kInfinity),
-              std::vector<double>(index.clusters(), -kInfinity)} {
+      priors_{std::vector<double>(table.rows, kImpossible),
+              std::vector<double>(index.clusters(), kImpossible)} {
   const std::vector<double> by_missing = log_prior_by_missing(table, eligible, prior);
   for (std::size_t i = 0; i < eligible.rows.size(); ++i)
     priors_.row[eligible.rows[i]] = by_missing[eligible.missing[i]];
@@ -95,7 +94,7 @@ std::vector<std::size_t> EvidenceScreen::rows_of(std::span<const std::size_t> cl
   std::vector<std::size_t> rows;
   for (const std::size_t cluster : clusters)
     for (const std::int32_t row : index_.row.subspan(index_.slot(cluster), index_.rows(cluster)))
-      if (priors_.row[static_cast<std::size_t>(row)] > -kInfinity)
+      if (priors_.row[static_cast<std::size_t>(row)] > kImpossible)
         rows.push_back(static_cast<std::size_t>(row));
   return in_order(rows);
 }
@@ -129,13 +128,13 @@ std::optional<double> EvidenceScreen::least_that_matters(const Observation& obse
 
 std::vector<std::size_t> EvidenceScreen::rows_within_bounds(const Observation& observation,
                                                             std::size_t count) const {
-  const double threshold = least_that_matters(observation, count).value_or(-kInfinity);
+  const double threshold = least_that_matters(observation, count).value_or(kImpossible);
   if (gaussian_screen_applies(observation))
     return in_order(rows_in_reach(observation, table_, index_, priors_, threshold));
   const std::vector<double> bounds = cluster_bounds(observation, index_);
   std::vector<std::size_t> clusters;
   for (std::size_t i = 0; i < bounds.size(); ++i)
-    if (bounds[i] + priors_.cluster[i] >= threshold && bounds[i] > -kInfinity) clusters.push_back(i);
+    if (bounds[i] + priors_.cluster[i] >= threshold && bounds[i] > kImpossible) clusters.push_back(i);
   return rows_of(clusters);
 }
 
@@ -153,22 +152,20 @@ std::vector<std::size_t> EvidenceScreen::likely_rows(const Observation& observat
 }
 
 /// Of the possible ones: no reading is at a block that they lack.
-std::vector<double> EvidenceScreen::in_order_of_estimates(const Observation& observation,
-                                                          std::size_t count) const {
-  const std::vector<std::size_t> rows = possible_rows(observation, table_, eligible_.rows);
-  std::vector<double> result(table_.rows, -kInfinity);
-  if (rows.empty()) return result;
+RowValues EvidenceScreen::in_order_of_estimates(const Observation& observation, std::size_t count) const {
+  std::vector<std::size_t> rows = possible_rows(observation, table_, eligible_.rows);
+  if (rows.empty()) return {kImpossible, {}, {}};
   const std::vector<double> log_silence = log_chance_of_silence(observation, table_, rows);
   std::vector<double> beforehand = log_silence;
   for (std::size_t i = 0; i < rows.size(); ++i) beforehand[i] += priors_.row[rows[i]];
   const std::vector<std::size_t> likely = likely_rows(observation, rows);
-  const std::vector<double> logs =
+  std::vector<double> logs =
       evidence_that_matters(observation, table_, rows, beforehand, likely, count, kScreenedAway);
-  for (std::size_t i = 0; i < rows.size(); ++i) result[rows[i]] = logs[i] + log_silence[i];
-  return result;
+  for (std::size_t i = 0; i < rows.size(); ++i) logs[i] += log_silence[i];
+  return {kImpossible, std::move(rows), std::move(logs)};
 }
 
-std::vector<double> EvidenceScreen::operator()(const Observation& observation, std::size_t count) const {
+RowValues EvidenceScreen::operator()(const Observation& observation, std::size_t count) const {
   if (observation.count == 0 || eligible_.rows.empty())
     return log_evidence_of_rows(observation, table_, eligible_.rows);
   if (cluster_bounds_apply(observation) && index_.clusters() > 0)

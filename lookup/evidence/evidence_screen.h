@@ -25,7 +25,7 @@ class EvidenceScreen {
 
   /// log_evidence_of_rows(..., eligible.rows), but -infinity for rows that hold less than a share of
   /// kScreenedAway of the posterior together; the `count` likeliest scenes are never left out.
-  std::vector<double> operator()(const Observation& observation, std::size_t count = 1) const;
+  RowValues operator()(const Observation& observation, std::size_t count = 1) const;
 
  private:
   std::vector<std::size_t> rows_of(std::span<const std::size_t> clusters) const;
@@ -35,7 +35,7 @@ class EvidenceScreen {
   std::vector<std::size_t> rows_within_bounds(const Observation& observation, std::size_t count) const;
   std::vector<std::size_t> likely_rows(const Observation& observation,
                                        std::span<const std::size_t> possible) const;
-  std::vector<double> in_order_of_estimates(const Observation& observation, std::size_t count) const;
+  RowValues in_order_of_estimates(const Observation& observation, std::size_t count) const;
 
   const SceneTable& table_;
   SearchIndex index_;

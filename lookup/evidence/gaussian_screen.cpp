@@ -1,10 +1,12 @@
 #include "lookup/evidence/gaussian_screen.h"
 
-#include <algorithm>
+#include <cmath>
 #include <numbers>
 
 #include "core/simd/lane_math.h"
+#include "lookup/evidence/evidence.h"
 #include "lookup/evidence/index_box.h"
+#include "lookup/evidence/scene_evidence.h"
 #include "lookup/evidence/wide_product.h"
 
 namespace voussoir {
@@ -32,7 +34,7 @@ struct BoxSums {
 
 /// Adds the places from the i-th and keeps the inverse of the largest variances there.
 VOUSSOIR_INLINE void add_places(const PlaceArrays& arrays, const ClusterBox& box, std::size_t i,
-                                double common, double* weights, BoxSums& sums) {
+                                const CommonVariance& common, double* weights, BoxSums& sums) {
   const DoubleLanes zero{}, one = DoubleLanes{} + 1.0;
   const PlaceBounds at = place_bounds(arrays, box, i, common);
   const DoubleLanes most_variance = at.most_instrument * at.most_instrument + at.most_variance;
@@ -47,19 +49,18 @@ VOUSSOIR_INLINE void add_places(const PlaceArrays& arrays, const ClusterBox& box
 /// The most that the logarithm of a density can be in a box but for the squares; -infinity if no row in it
 /// reaches `least`.
 VOUSSOIR_INLINE double bound_of(const Question& q, const ClusterBox& box, double least, double* weights) {
-  const double common = q.arrays.common_square > 0.0 ? most_common_variance(q.arrays, box) : 0.0;
+  const CommonVariance common = common_variance_in(q.arrays, box);
   BoxSums sums;
   WideProduct variances;
   for (std::size_t i = 0, step = 1; i < q.arrays.reading.size(); i += kLanes, ++step) {
     add_places(q.arrays, box, i, common, weights, sums);
     if (step % (kSafeProducts / 2) == 0) flush(sums.variances, variances);
-    if (i + kLanes == kPlacesTried && q.highest - 0.5 * sum_of(sums.square) < least)
-      return -std::numeric_limits<double>::infinity();
+    if (i + kLanes == kPlacesTried && q.highest - 0.5 * sum_of(sums.square) < least) return kImpossible;
   }
   flush(sums.variances, variances);
   const double bound =
       q.constant - 0.5 * (std::log(variances.mantissa) + variances.exponent * std::numbers::ln2);
-  return bound - 0.5 * sum_of(sums.square) < least ? -std::numeric_limits<double>::infinity() : bound;
+  return bound - 0.5 * sum_of(sums.square) < least ? kImpossible : bound;
 }
 
 /// NaN if a reading has no prediction; beyond `most` it may be too small.
@@ -80,7 +81,7 @@ VOUSSOIR_FOR_EVERY_PROCESSOR
 void find_rows(const Question& q, double* weights, std::vector<std::size_t>& found) {
   for (std::size_t cluster = 0; cluster < q.index.clusters(); ++cluster) {
     const double bound = bound_of(q, box_of(q.index, cluster), q.least - q.priors.cluster[cluster], weights);
-    if (!(bound > -std::numeric_limits<double>::infinity())) continue;
+    if (!(bound > kImpossible)) continue;
     for (const std::int32_t slot : q.index.row.subspan(q.index.slot(cluster), q.index.rows(cluster))) {
       const auto row = static_cast<std::size_t>(slot);
       const double left = bound + q.priors.row[row] - q.least;
@@ -99,8 +100,7 @@ bool gaussian_screen_applies(const Observation& observation) {
 
 std::vector<std::size_t> rows_in_reach(const Observation& observation, const SceneTable& table,
                                        const SearchIndex& index, const RowPriors& priors, double least) {
-  const ErrorScales scales =
-      scales_at(observation, std::max(observation.noise.relative.value_or(0.0), kSmallestLevel));
+  const ErrorScales scales = scales_at(observation, stated_level(observation));
   const PlaceArrays arrays(observation, scales, index.places);
   const auto count = static_cast<double>(observation.count);
   const double constant = -count * (0.5 * std::log(2.0 * std::numbers::pi) + std::log(scales.unit));

@@ -16,7 +16,7 @@ namespace voussoir {
 /// An Observation's arrays, filled up to the places of the index.
 struct PlaceArrays {
   std::vector<double> reading, slope, offset, intact, origin, own_variance;
-  double share_square, common_square, inverse_unit, per_student;
+  double share_square, common_square, inverse_unit, per_student, readings, points;
 
   PlaceArrays(const Observation& observation, const ErrorScales& scales, std::size_t places)
       : reading(filled(observation.reading, places, std::nan(""))),
@@ -30,7 +30,9 @@ struct PlaceArrays {
         inverse_unit(1.0 / scales.unit),
         per_student(observation.noise.shape == NoiseShape::student
                         ? 1.0 / (observation.noise.degrees_of_freedom - 2.0)
-                        : 0.0) {}
+                        : 0.0),
+        readings(static_cast<double>(observation.count)),
+        points(static_cast<double>(observation.reading.size())) {}
 
   static std::vector<double> filled(std::vector<double> values, std::size_t places, double filling) {
     values.resize(places, filling);
@@ -61,15 +63,27 @@ inline ClusterBox box_of(const SearchIndex& index, std::size_t cluster) {
           std::ldexp(1.0, index.exponent[cluster])};
 }
 
-/// The largest variance that all points of a scene can share: a mean square is at most the largest square.
-VOUSSOIR_INLINE double most_common_variance(const PlaceArrays& view, const ClusterBox& box) {
-  DoubleLanes most{};
+/// The variance of the model's error that all points of a scene share.
+struct CommonVariance {
+  double least, most;
+};
+
+/// Of the possible scenes in the box. A mean of squares over the points that a scene has, which are those
+/// with readings at least, is at most the largest square.
+VOUSSOIR_INLINE CommonVariance common_variance_in(const PlaceArrays& view, const ClusterBox& box) {
+  if (view.common_square == 0.0) return {0.0, 0.0};
+  DoubleLanes least{}, most{}, largest{};
   for (std::size_t i = 0; i < view.reading.size(); i += kLanes) {
     const auto intact = load<DoubleLanes>(view.intact.data() + i);
-    most = larger(most, distances(box.low(i) - intact, box.high(i) - intact).most);
+    const auto reading = load<DoubleLanes>(view.reading.data() + i);
+    const Distances signal = distances(box.low(i) - intact, box.high(i) - intact);
+    const DoubleLanes square = signal.most * signal.most;
+    least += reading == reading ? signal.least * signal.least : DoubleLanes{};
+    most += square;
+    largest = larger(largest, square);
   }
-  const double largest = largest_of(most);
-  return view.common_square * largest * largest;
+  return {view.common_square * (sum_of(least) / view.points),
+          view.common_square * smaller(largest_of(largest), sum_of(most) / view.readings)};
 }
 
 /// What the rows of a box can have at the places from the i-th.
@@ -80,9 +94,9 @@ struct PlaceBounds {
   DoubleLanes least_variance, most_variance;      ///< of the model's own error
 };
 
-/// @param common the variance of the model's error that all points of a scene may share
+/// @param common common_variance_in the box
 VOUSSOIR_INLINE PlaceBounds place_bounds(const PlaceArrays& view, const ClusterBox& box, std::size_t i,
-                                         double common) {
+                                         const CommonVariance& common) {
   const auto at = [&](const std::vector<double>& values) __attribute__((always_inline)) {
     return load<DoubleLanes>(values.data() + i);
   };
@@ -94,8 +108,8 @@ VOUSSOIR_INLINE PlaceBounds place_bounds(const PlaceArrays& view, const ClusterB
           distances(reading - high, reading - low).least,
           noise_scale(slope, offset, movement.least),
           noise_scale(slope, offset, movement.most),
-          model_variance(own, view.share_square, signal.least),
-          model_variance<DoubleLanes>(own + common, view.share_square, signal.most)};
+          model_variance<DoubleLanes>(own + common.least, view.share_square, signal.least),
+          model_variance<DoubleLanes>(own + common.most, view.share_square, signal.most)};
 }
 
 }  // namespace voussoir

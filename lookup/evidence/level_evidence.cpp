@@ -4,23 +4,21 @@
 #include <array>
 #include <boost/math/quadrature/gauss.hpp>
 #include <cmath>
-#include <limits>
 #include <numbers>
-#include <numeric>
 
 #include "lookup/evidence/bounded_errors.h"
+#include "lookup/evidence/largest_places.h"
 #include "lookup/evidence/level_curve.h"
+#include "lookup/evidence/row_blocks.h"
 #include "lookup/evidence/scene_evidence.h"
 
 namespace voussoir {
 namespace {
 
-constexpr double kImpossible = -std::numeric_limits<double>::infinity();
-constexpr double kNegligible = 25.0;      // parts of an integrand below exp(-this) of its peak are left out
-constexpr double kCommonLevel = 0.05;     // from which the likeliest rows are looked for
-constexpr std::size_t kLikely = 8;        // rows with which all levels are tried
-constexpr std::size_t kBlockRows = 1024;  // worked out together: intermediate results stay in the cache
-constexpr int kLevelsPerOctave = 4;       // of the search for the likeliest level
+constexpr double kNegligible = 25.0;   // parts of an integrand below exp(-this) of its peak are left out
+constexpr double kCommonLevel = 0.05;  // from which the likeliest rows are looked for
+constexpr std::size_t kLikely = 8;     // rows with which all levels are tried
+constexpr int kLevelsPerOctave = 4;    // of the search for the likeliest level
 constexpr double kPanel =
     3.0;  // widest panel of Gauss's rule, in the same deviations, and narrowest, in 1 / count
 constexpr double kWidening = 1.4;  // of the steps below the peaks, where likelihoods level out
@@ -243,27 +241,6 @@ class BoundedRow {
   double end_ = kSmallestLevel;
 };
 
-std::vector<std::span<const std::size_t>> blocks_of(std::span<const std::size_t> rows) {
-  std::vector<std::span<const std::size_t>> blocks;
-  for (std::size_t first = 0; first < rows.size(); first += kBlockRows)
-    blocks.push_back(rows.subspan(first, std::min(kBlockRows, rows.size() - first)));
-  return blocks;
-}
-
-/// The rows with the largest values.
-std::vector<std::size_t> rows_with_largest(const std::vector<double>& values,
-                                           std::span<const std::size_t> rows, std::size_t count) {
-  std::vector<std::size_t> order(rows.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  count = std::min(count, order.size());
-  std::partial_sort(
-      order.begin(), order.begin() + static_cast<std::ptrdiff_t>(count), order.end(),
-      [&](std::size_t a, std::size_t b) { return values[a] != values[b] ? values[a] > values[b] : a < b; });
-  order.resize(count);
-  for (std::size_t& place : order) place = rows[place];
-  return order;
-}
-
 }  // namespace
 
 double likeliest_level(const Observation& observation, Shapes shapes, const SceneTable& table,
@@ -288,24 +265,12 @@ double likeliest_level(const Observation& observation, Shapes shapes, const Scen
   return std::exp(best);
 }
 
-std::vector<double> estimated_peaks(const Observation& observation, Shapes shapes, double level,
-                                    const SceneTable& table, std::span<const std::size_t> rows) {
-  std::vector<double> result;
-  result.reserve(rows.size());
-  for (const auto block : blocks_of(rows)) {
-    const auto logs = log_likelihoods_at_peak(observation, shapes, level, table, block);
-    for (std::size_t i = 0; i < block.size(); ++i) {
-      result.push_back(kImpossible);
-      for (const std::vector<double>& of_shape : logs) result.back() = std::max(result.back(), of_shape[i]);
-    }
-  }
-  return result;
-}
-
 double likeliest_level_of_all(const Observation& observation, Shapes shapes, const SceneTable& table,
                               std::span<const std::size_t> rows) {
-  const auto values = estimated_peaks(observation, shapes, kCommonLevel, table, rows);
-  return likeliest_level(observation, shapes, table, rows_with_largest(values, rows, kLikely));
+  std::vector<std::size_t> likely =
+      largest_places(estimated_peaks(observation, shapes, kCommonLevel, table, rows), kLikely);
+  for (std::size_t& place : likely) place = rows[place];
+  return likeliest_level(observation, shapes, table, likely);
 }
 
 double log_width(NoiseShape shape, std::size_t count) {
@@ -324,7 +289,7 @@ std::vector<std::vector<double>> evidence_over_levels(const Observation& observa
       results.front().push_back(BoundedRow(observation, table, row).log_integral() - std::log(log_range()));
     return results;
   }
-  for (const auto block : blocks_of(rows)) {
+  for (const auto block : row_blocks(rows)) {
     const auto part =
         over_grid(observation, shapes, level, table, block, rule == LevelRule::fine ? kFine : kCoarse);
     for (std::size_t shape = 0; shape < shapes.size(); ++shape)

@@ -13,11 +13,6 @@ namespace voussoir {
 double likeliest_level(const Observation& observation, Shapes shapes, const SceneTable& table,
                        std::span<const std::size_t> rows);
 
-/// Estimates of log of the largest p(readings | scene, level) over levels, under any of the shapes, for each
-/// of the rows; from this level, where the readings are likeliest for the best of them.
-std::vector<double> estimated_peaks(const Observation& observation, Shapes shapes, double level,
-                                    const SceneTable& table, std::span<const std::size_t> rows);
-
 /// The same of many rows: with those that are likeliest by their estimates.
 double likeliest_level_of_all(const Observation& observation, Shapes shapes, const SceneTable& table,
                               std::span<const std::size_t> rows);

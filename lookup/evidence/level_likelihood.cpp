@@ -2,17 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "lookup/evidence/bounded_errors.h"
 #include "lookup/evidence/nuisance_likelihood.h"
+#include "lookup/evidence/row_blocks.h"
 #include "lookup/evidence/row_statistics.h"
 #include "lookup/evidence/scene_evidence.h"
 
 namespace voussoir {
 namespace {
-
-constexpr double kImpossible = -std::numeric_limits<double>::infinity();
 
 TableStatistics statistics_at(const Observation& observation, Shapes shapes, double level,
                               const SceneTable& table, std::span<const std::size_t> rows) {
@@ -33,6 +31,13 @@ std::vector<std::vector<double>> of_possible_rows(Shapes shapes, const TableStat
       if (!std::isnan(statistics.sum_absolute[row])) results.back()[row] = value(shape, statistics.row(row));
   }
   return results;
+}
+
+/// Of bounded errors, whose sums are NaN for impossible rows.
+std::vector<double> with_impossible_rows(std::vector<double> logs) {
+  for (double& log : logs)
+    if (std::isnan(log)) log = kImpossible;
+  return logs;
 }
 
 /// Of uniform noise at the level whose bounds take in all readings; where none does, at the largest.
@@ -57,17 +62,37 @@ std::vector<double> within_bounds(const Observation& observation, double level,
   return results;
 }
 
+/// For each shape: what estimated_peaks says of it.
+std::vector<std::vector<double>> likelihoods_at_peak(const Observation& observation, Shapes shapes,
+                                                     double level, const SceneTable& table,
+                                                     std::span<const std::size_t> rows) {
+  const TableStatistics statistics = statistics_at(observation, shapes, level, table, rows);
+  if (shapes.front() == NoiseShape::uniform)
+    return {within_bounds(observation, level, statistics, table, rows)};
+  return of_possible_rows(shapes, statistics, [&](NoiseShape shape, const RowStatistics& row) {
+    if (shape == NoiseShape::student)
+      return student_log_likelihood(row, observation.count, observation.noise.degrees_of_freedom);
+    return log_likelihood(shape, row, observation.count,
+                          likeliest_level(shape, row, observation.count, level));
+  });
+}
+
+/// For each row.
+std::vector<double> largest_over_shapes(const std::vector<std::vector<double>>& logs) {
+  std::vector<double> largest(logs.front().size(), kImpossible);
+  for (const std::vector<double>& of_shape : logs)
+    for (std::size_t i = 0; i < largest.size(); ++i) largest[i] = std::max(largest[i], of_shape[i]);
+  return largest;
+}
+
 }  // namespace
 
 std::vector<std::vector<double>> log_likelihoods_at(const Observation& observation, Shapes shapes,
                                                     double level, const SceneTable& table,
                                                     std::span<const std::size_t> rows) {
   if (shapes.front() == NoiseShape::uniform && observation.softens_bounds()) {
-    std::vector<double> logs =
-        log_bounded_likelihoods(observation, scales_at(observation, level), table, rows);
-    for (double& log : logs)
-      if (std::isnan(log)) log = kImpossible;
-    return {std::move(logs)};
+    const ErrorScales scales = scales_at(observation, level);
+    return {with_impossible_rows(log_bounded_likelihoods(observation, scales, table, rows))};
   }
   const TableStatistics statistics = statistics_at(observation, shapes, level, table, rows);
   return of_possible_rows(shapes, statistics, [&](NoiseShape shape, const RowStatistics& row) {
@@ -80,29 +105,16 @@ std::vector<std::vector<double>> log_likelihoods_at(const Observation& observati
 std::vector<double> highest_likelihoods_at(const Observation& observation, Shapes shapes, double level,
                                            const SceneTable& table, std::span<const std::size_t> rows) {
   if (shapes.front() == NoiseShape::uniform && observation.softens_bounds()) {
-    std::vector<double> logs =
-        highest_bounded_likelihoods(observation, scales_at(observation, level), table, rows);
-    for (double& log : logs) log = std::isnan(log) ? kImpossible : log;
-    return logs;
+    const ErrorScales scales = scales_at(observation, level);
+    return with_impossible_rows(highest_bounded_likelihoods(observation, scales, table, rows));
   }
-  const auto logs = log_likelihoods_at(observation, shapes, level, table, rows);
-  std::vector<double> highest = logs.front();
-  for (const std::vector<double>& of_shape : logs)
-    for (std::size_t i = 0; i < rows.size(); ++i) highest[i] = std::max(highest[i], of_shape[i]);
-  return highest;
+  return largest_over_shapes(log_likelihoods_at(observation, shapes, level, table, rows));
 }
 
-std::vector<std::vector<double>> log_likelihoods_at_peak(const Observation& observation, Shapes shapes,
-                                                         double level, const SceneTable& table,
-                                                         std::span<const std::size_t> rows) {
-  const TableStatistics statistics = statistics_at(observation, shapes, level, table, rows);
-  if (shapes.front() == NoiseShape::uniform)
-    return {within_bounds(observation, level, statistics, table, rows)};
-  return of_possible_rows(shapes, statistics, [&](NoiseShape shape, const RowStatistics& row) {
-    if (shape == NoiseShape::student)
-      return student_log_likelihood(row, observation.count, observation.noise.degrees_of_freedom);
-    return log_likelihood(shape, row, observation.count,
-                          likeliest_level(shape, row, observation.count, level));
+std::vector<double> estimated_peaks(const Observation& observation, Shapes shapes, double level,
+                                    const SceneTable& table, std::span<const std::size_t> rows) {
+  return block_by_block(rows, [&](std::span<const std::size_t> block) {
+    return largest_over_shapes(likelihoods_at_peak(observation, shapes, level, table, block));
   });
 }
 

@@ -22,11 +22,10 @@ std::vector<std::vector<double>> log_likelihoods_at(const Observation& observati
 std::vector<double> highest_likelihoods_at(const Observation& observation, Shapes shapes, double level,
                                            const SceneTable& table, std::span<const std::size_t> rows);
 
-/// Estimates of the largest of these over all levels, from statistics at this level: right if all errors grow
-/// with the level alone; of Student's t the likelihood at this level, of bounded errors too high where some
-/// come near the bound.
-std::vector<std::vector<double>> log_likelihoods_at_peak(const Observation& observation, Shapes shapes,
-                                                         double level, const SceneTable& table,
-                                                         std::span<const std::size_t> rows);
+/// For each of the rows an estimate of the largest of these over all levels and shapes, from statistics at
+/// this level: right if all errors grow with the level alone; of Student's t the likelihood at this level, of
+/// bounded errors too high where some come near the bound.
+std::vector<double> estimated_peaks(const Observation& observation, Shapes shapes, double level,
+                                    const SceneTable& table, std::span<const std::size_t> rows);
 
 }  // namespace voussoir

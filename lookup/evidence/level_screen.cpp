@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 
 #include "lookup/evidence/evidence.h"
+#include "lookup/evidence/largest_places.h"
 #include "lookup/evidence/level_evidence.h"
 #include "lookup/evidence/scene_evidence.h"
 #include "lookup/evidence/table_evidence.h"
@@ -13,7 +13,6 @@
 namespace voussoir {
 namespace {
 
-constexpr double kImpossible = -std::numeric_limits<double>::infinity();
 constexpr double kRoundOff = 1e-6;         // of a bound of a logarithm
 constexpr std::size_t kFirst = 32;         // rows that are worked out first, under the first shapes
 constexpr double kTooLow = 2.0;            // what an estimate's logarithm may be too low by at least
@@ -83,16 +82,8 @@ class LevelScreen {
   }
 
   std::vector<std::size_t> first_of(const Group& group, std::size_t count) const {
-    std::vector<std::size_t> places(rows_.size());
-    std::iota(places.begin(), places.end(), std::size_t{0});
+    std::vector<std::size_t> places = largest_places(group.estimate, count);
     std::erase_if(places, [&](std::size_t place) { return group.estimate[place] == kImpossible; });
-    count = std::min(count, places.size());
-    std::partial_sort(places.begin(), places.begin() + static_cast<std::ptrdiff_t>(count), places.end(),
-                      [&](std::size_t a, std::size_t b) {
-                        return group.estimate[a] != group.estimate[b] ? group.estimate[a] > group.estimate[b]
-                                                                      : a < b;
-                      });
-    places.resize(count);
     std::sort(places.begin(), places.end());
     return places;
   }

@@ -2,16 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 
 #include "core/error.h"
 #include "core/simd/lane_math.h"
+#include "lookup/evidence/scene_evidence.h"
 
 namespace voussoir {
 namespace {
-
-constexpr double kImpossible = -std::numeric_limits<double>::infinity();
 
 void normalise(std::vector<double>& probability) {
   const double total = std::accumulate(probability.begin(), probability.end(), 0.0);
@@ -21,20 +19,21 @@ void normalise(std::vector<double>& probability) {
 
 /// Takes the likeliest rows from a heap until they hold enough. Rows below an even distribution of what may
 /// be left out cannot be needed.
-std::vector<std::size_t> credible_set(const std::vector<double>& probability) {
-  const double negligible = (1.0 - kCredibleShare) / static_cast<double>(probability.size());
-  std::vector<std::size_t> heap;
-  for (std::size_t row = 0; row < probability.size(); ++row)
-    if (probability[row] >= negligible) heap.push_back(row);
+std::vector<std::size_t> credible_set(const RowValues& probability) {
+  const std::vector<double>& values = probability.values;
+  const double negligible = (1.0 - kCredibleShare) / static_cast<double>(values.size());
+  std::vector<std::size_t> heap;  // places in the values
+  for (std::size_t i = 0; i < values.size(); ++i)
+    if (values[i] >= negligible) heap.push_back(i);
   const auto less_likely = [&](std::size_t a, std::size_t b) {
-    return probability[a] != probability[b] ? probability[a] < probability[b] : a > b;
+    return values[a] != values[b] ? values[a] < values[b] : a > b;
   };
   std::make_heap(heap.begin(), heap.end(), less_likely);
   std::vector<std::size_t> rows;
   for (double share = 0.0; share < kCredibleShare && !heap.empty(); heap.pop_back()) {
     std::pop_heap(heap.begin(), heap.end(), less_likely);
-    rows.push_back(heap.back());
-    share += probability[heap.back()];
+    rows.push_back(probability.rows[heap.back()]);
+    share += values[heap.back()];
   }
   return rows;
 }
@@ -92,32 +91,34 @@ std::vector<double> log_prior_by_missing(const SceneTable& table, const Eligible
   return result;
 }
 
-Posterior posterior(const SceneTable& table, const Eligible& eligible,
-                    const std::vector<double>& log_evidence, const Prior& prior, std::size_t block_count) {
+Posterior posterior(const SceneTable& table, const Eligible& eligible, const RowValues& log_evidence,
+                    const Prior& prior, std::size_t block_count) {
   const std::vector<double> log_prior = log_prior_by_missing(table, eligible, prior);
-  Posterior result{std::vector<double>(table.rows, 0.0),
+  Posterior result{{0.0, {}, {}},
                    std::vector<double>(block_count, 0.0),
                    std::vector<double>(table.most_missing + 1, 0.0),
                    {}};
-  std::vector<std::size_t> possible;  // positions in `eligible`
-  std::vector<double> weight;
+  auto& [none, possible, weight] = result.probability;
+  std::vector<std::size_t> missing;
   double best = kImpossible;
-  for (std::size_t i = 0; i < eligible.rows.size(); ++i) {
-    if (log_evidence[eligible.rows[i]] == kImpossible) continue;
-    possible.push_back(i);
-    weight.push_back(log_prior[eligible.missing[i]] + log_evidence[eligible.rows[i]]);
+  for (std::size_t i = 0; i < log_evidence.rows.size(); ++i) {
+    if (log_evidence.values[i] == kImpossible) continue;
+    possible.push_back(log_evidence.rows[i]);
+    missing.push_back(static_cast<std::size_t>(missing_blocks(table, possible.back())));
+    weight.push_back(log_prior[missing.back()] + log_evidence.values[i]);
     best = std::max(best, weight.back());
   }
-  if (best == kImpossible) return result;
+  if (best == kImpossible) {
+    weight.assign(weight.size(), none);
+    return result;
+  }
   for (double& value : weight) value -= best;
   make_exponentials(weight);
   normalise(weight);
   for (std::size_t i = 0; i < possible.size(); ++i) {
-    const std::size_t row = eligible.rows[possible[i]];
-    result.probability[row] = weight[i];
-    result.missing_probability[eligible.missing[possible[i]]] += weight[i];
-    for (const std::int32_t id : table.removed.subspan(row * table.most_missing, table.most_missing))
-      if (id >= 0) result.block_probability[static_cast<std::size_t>(id)] += result.probability[row];
+    result.missing_probability[missing[i]] += weight[i];
+    for (const std::int32_t id : table.removed.subspan(possible[i] * table.most_missing, table.most_missing))
+      if (id >= 0) result.block_probability[static_cast<std::size_t>(id)] += weight[i];
   }
   result.intact_if_even = intact_if_even(result.missing_probability, eligible, log_prior);
   result.credible = credible_set(result.probability);

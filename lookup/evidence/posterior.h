@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "database/records/database.h"
+#include "lookup/evidence/row_values.h"
 #include "lookup/search/eligible_rows.h"
 
 namespace voussoir {
@@ -38,7 +39,7 @@ inline constexpr double kIntactWeight = 8.0;
 std::vector<double> weights_of(const Prior& prior);
 
 struct Posterior {
-  std::vector<double> probability;          ///< of each row of the table; all zero if no scene is possible
+  RowValues probability;                    ///< of each row of the table; all zero if no scene is possible
   std::vector<double> block_probability;    ///< that a block is missing: sum over the scenes that lack it
   std::vector<double> missing_probability;  ///< of 0, 1, 2... missing blocks
   std::vector<std::size_t> credible;  ///< the fewest rows that hold 95 % of the probability, likeliest first
@@ -56,9 +57,9 @@ inline constexpr double kCredibleShare = 0.95;
 std::vector<double> log_prior_by_missing(const SceneTable& table, const Eligible& eligible,
                                          const Prior& prior);
 
-/// prior x evidence, normalised. `log_evidence` has a value for each row of the table (-infinity:
-/// impossible); rows that are not eligible get no probability. Throws as log_prior_by_missing.
-Posterior posterior(const SceneTable& table, const Eligible& eligible,
-                    const std::vector<double>& log_evidence, const Prior& prior, std::size_t block_count);
+/// prior x evidence, normalised. `log_evidence` is -infinity for rows that are impossible or not eligible.
+/// Throws as log_prior_by_missing.
+Posterior posterior(const SceneTable& table, const Eligible& eligible, const RowValues& log_evidence,
+                    const Prior& prior, std::size_t block_count);
 
 }  // namespace voussoir

@@ -1,50 +1,53 @@
 #include "lookup/evidence/reduced_density.h"
 
-#include <limits>
-
 #include "core/simd/lane_math.h"
+#include "lookup/evidence/scatter_factorisation.h"
+#include "lookup/evidence/scene_evidence.h"
 
 namespace voussoir {
 namespace {
 
 constexpr std::size_t K = kDirections;
 constexpr auto kFirst = static_cast<std::size_t>(kFirstColumns);
-static_assert(K % kLanes == 0 && kFirstDirections % kLanes == 0 && kFirst % kLanes == 0 &&
-              kEpochColumns % kLanes == 0);
-static_assert(kScatterFactors.size() == kLanes, "one lane for each");
+static_assert(K % kLanes == 0 && kFirstDirections % kLanes == 0 && kMoreDirections % kLanes == 0 &&
+              kFirst % kLanes == 0 && kEpochColumns % kLanes == 0);
 
 template <std::size_t kCount>
 using Losses = std::span<const ReducedLoss* const, kCount>;
 
-/// A scene's signal in the directions, beyond that of its losses, and the mean square of the latter.
-struct Projected {
+/// What no case changes of a scene's Gaussian, in some of the directions.
+struct ReducedScene {
   double signal[K];
-  double beyond[K];
-  double mean_square = 0.0;  // NaN: the scene is impossible
+  double beyond[K];          // of it what is not that of its losses
+  double mean_square = 0.0;  // of that in rows of y; NaN: the scene is impossible
+  double bridge[lower_size(K)], epoch[lower_size(K)], model_error[lower_size(K)];
+  double loose[lower_size(K)];  // what a spread of 1 of the signal beyond its losses adds
 };
 
-/// In directions `from` to `end`.
-template <std::size_t from, std::size_t end, std::size_t kCount>
+/// In the first N directions. Even and odd rows are summed up by themselves, as sums wait for each other.
+template <std::size_t N, std::size_t kCount>
 VOUSSOIR_INLINE void project(const ReducedQuestion& q, const double* prediction, Losses<kCount> losses,
-                             Projected& to) {
-  constexpr std::size_t kParts = (end - from) / kLanes;
-  DoubleLanes sums[kParts] = {};
-  double squares = 0.0;
-  for (std::size_t k = 0; k < q.rows; ++k) {
-    const std::size_t channel = q.channel[k];
-    const double signal = q.after[k] == 0.0 ? 0.0 : q.after[k] * (prediction[channel] - q.intact[channel]);
-    double beyond = signal;
-    for (const ReducedLoss* loss : losses) beyond -= loss->signal_of_rows[k];
-    squares += beyond * beyond;
-    for (std::size_t i = 0; i < kParts; ++i)
-      sums[i] += signal * load<DoubleLanes>(q.directions + k * K + from + i * kLanes);
-  }
-  for (std::size_t i = 0; i < kParts; ++i) store_some(sums[i], kLanes, to.signal + from + i * kLanes);
-  for (std::size_t i = from; i < end; ++i) {
+                             ReducedScene& to) {
+  constexpr std::size_t kParts = N / kLanes;
+  DoubleLanes sums[2][kParts] = {};
+  double squares[2] = {};
+  for (std::size_t first = 0; first < q.rows; first += 2)
+    for (std::size_t k = first; k < smaller(first + 2, q.rows); ++k) {
+      const std::size_t channel = q.channel[k];
+      const double signal = q.after[k] == 0.0 ? 0.0 : q.after[k] * (prediction[channel] - q.intact[channel]);
+      double beyond = signal;
+      for (const ReducedLoss* loss : losses) beyond -= loss->signal_of_rows[k];
+      squares[k - first] += beyond * beyond;
+      for (std::size_t i = 0; i < kParts; ++i)
+        sums[k - first][i] += signal * load<DoubleLanes>(q.directions + k * K + i * kLanes);
+    }
+  for (std::size_t i = 0; i < kParts; ++i)
+    store_some(sums[0][i] + sums[1][i], kLanes, to.signal + i * kLanes);
+  for (std::size_t i = 0; i < N; ++i) {
     to.beyond[i] = to.signal[i];
     for (const ReducedLoss* loss : losses) to.beyond[i] -= loss->signal[i];
   }
-  to.mean_square = squares / q.changed;
+  to.mean_square = (squares[0] + squares[1]) / q.changed;
 }
 
 /// The sum of some columns of all losses, in the first N directions.
@@ -65,66 +68,72 @@ VOUSSOIR_INLINE double product(const double* columns, std::size_t i, std::size_t
   return sum_of(sum);
 }
 
-/// The covariance in the first N directions, for all kappa side by side.
+/// The triangles of the first N directions.
 template <std::size_t N, std::size_t kCount>
-VOUSSOIR_INLINE void fill(const ReducedQuestion& q, const Projected& scene, Losses<kCount> losses,
-                          DoubleLanes* covariance) {
-  const DoubleLanes kappa = load<DoubleLanes>(kScatterFactors.data());
-  const double square = q.spread * q.spread, point = square * scene.mean_square;
-  double first[N * kFirst], epoch[N * kEpochColumns];
-  if constexpr (kCount > 1) {
-    add_up<N, kFirst>(losses, &ReducedLoss::first, first);
-    add_up<N, kEpochColumns>(losses, &ReducedLoss::epoch, epoch);
+VOUSSOIR_INLINE void fill(const ReducedQuestion& q, Losses<kCount> losses, ReducedScene& to) {
+  double first[N * kFirst], epochs[N * kEpochColumns];
+  add_up<N, kFirst>(losses, &ReducedLoss::first, first);
+  add_up<N, kEpochColumns>(losses, &ReducedLoss::epoch, epochs);
+  for (std::size_t at = 0; at < lower_size(N); at += kLanes) {
+    DoubleLanes bridge = load<DoubleLanes>(q.bridge + at), epoch{}, model_error{};
+    for (const ReducedLoss* loss : losses) {
+      const auto add = [&](const ReducedPart& part, DoubleLanes& sum) __attribute__((always_inline)) {
+        sum += load<DoubleLanes>(part.crossed.data() + at) +
+               static_cast<double>(kCount) * load<DoubleLanes>(part.own.data() + at);
+      };
+      add(loss->of_bridge, bridge);
+      add(loss->of_epoch, epoch);
+      model_error += load<DoubleLanes>(loss->model_error.data() + at);
+    }
+    store_some(bridge, kLanes, to.bridge + at);
+    store_some(epoch, kLanes, to.epoch + at);
+    store_some(model_error, kLanes, to.model_error + at);
   }
   for (std::size_t i = 0; i < N; ++i)
     for (std::size_t j = 0; j <= i; ++j) {
       const std::size_t at = lower_size(i) + j;
-      double bridge = q.bridge[at];
-      double others = q.others[at] + square * scene.beyond[i] * scene.beyond[j] + point * q.points[at];
-      for (const ReducedLoss* loss : losses) {
-        bridge += loss->bridge[kCount - 1][at];
-        others += loss->others[kCount - 1][at];
-      }
-      if constexpr (kCount > 1) {
-        bridge += product<kFirst>(first, i, j);
-        others += product<kEpochColumns>(epoch, i, j);
-      }
-      covariance[at] = others + kappa * bridge;
+      to.bridge[at] += product<kFirst>(first, i, j);
+      to.epoch[at] += product<kEpochColumns>(epochs, i, j);
+      to.loose[at] = to.beyond[i] * to.beyond[j] + to.mean_square * q.points[at];
     }
 }
 
-/// -(log det + quadratic form) / 2 in the first N directions. The covariance is lost.
+/// What a case adds to kappa A A^T in the first N directions.
 template <std::size_t N>
-VOUSSOIR_INLINE DoubleLanes log_density(const ReducedQuestion& q, const Projected& scene,
-                                        DoubleLanes* covariance) {
-  DoubleLanes squares{}, determinant = DoubleLanes{} + 1.0, logs{};
-  DoubleLanes left[N];
-  for (std::size_t i = 0; i < N; ++i) left[i] = DoubleLanes{} + (q.reading[i] - scene.signal[i]);
-  for (std::size_t k = 0; k < N; ++k) {
-    const DoubleLanes pivot = covariance[lower_size(k) + k], inverse = 1.0 / pivot;
-    squares += left[k] * left[k] * inverse;
-    determinant *= pivot;
-    if (k % 4 == 3) {
-      make_logarithm(determinant);
-      logs += determinant;
-      determinant = DoubleLanes{} + 1.0;
-    }
-    for (std::size_t i = k + 1; i < N; ++i) {
-      const DoubleLanes factor = covariance[lower_size(i) + k] * inverse;
-      left[i] -= factor * left[k];
-      for (std::size_t j = k + 1; j <= i; ++j)
-        covariance[lower_size(i) + j] -= factor * covariance[lower_size(j) + k];
-    }
+VOUSSOIR_INLINE void fill_noise(const ReducedCase& one, const ReducedScene& scene, double* noise) {
+  for (std::size_t at = 0; at < lower_size(N); at += kLanes)
+    store_some(load<DoubleLanes>(one.others.data() + at) +
+                   one.epoch_factor * load<DoubleLanes>(scene.epoch + at) +
+                   one.spread_square * load<DoubleLanes>(scene.loose + at) +
+                   load<DoubleLanes>(scene.model_error + at),
+               kLanes, noise + at);
+}
+
+/// -(log det + quadratic form) / 2 in the first N directions.
+template <std::size_t N>
+VOUSSOIR_INLINE DoubleLanes log_density(const ReducedQuestion& q, const ReducedCase& one,
+                                        const ReducedScene& scene) {
+  double noise[lower_size(N)], difference[N], pivots[N * kLanes];
+  DoubleLanes factor[lower_size(N) + N], inverse[N];
+  fill_noise<N>(one, scene, noise);
+  for (std::size_t i = 0; i < N; ++i) difference[i] = q.reading[i] - scene.signal[i];
+  const DoubleLanes squares =
+      factorise_inline({N, difference, noise, scene.bridge, load<DoubleLanes>(kScatterFactors.data()), factor,
+                        inverse, pivots});
+  DoubleLanes logs{};
+  for (std::size_t i = 0; i < N; i += kLanes) {
+    DoubleLanes product = load<DoubleLanes>(pivots + i * kLanes);
+    for (std::size_t k = 1; k < kLanes; ++k) product *= load<DoubleLanes>(pivots + (i + k) * kLanes);
+    make_logarithm(product);
+    logs += product;
   }
   return -0.5 * (logs + squares);
 }
 
-template <std::size_t N, std::size_t kCount>
-VOUSSOIR_INLINE double over_kappa(const ReducedQuestion& q, const Projected& scene, Losses<kCount> losses,
-                                  const ScatterLogs& offset) {
-  DoubleLanes covariance[lower_size(N)];
-  fill<N>(q, scene, losses, covariance);
-  DoubleLanes logs = log_density<N>(q, scene, covariance) + load<DoubleLanes>(offset.data());
+template <std::size_t N>
+VOUSSOIR_INLINE double over_kappa(const ReducedQuestion& q, const ReducedCase& one, const ReducedScene& scene,
+                                  const ScatterLogs& outside) {
+  DoubleLanes logs = log_density<N>(q, one, scene) + load<DoubleLanes>(outside.data());
   const double largest = largest_of(logs);
   logs -= largest;
   make_exponential(logs);
@@ -132,31 +141,101 @@ VOUSSOIR_INLINE double over_kappa(const ReducedQuestion& q, const Projected& sce
   return largest + __builtin_log(sum);
 }
 
+/// How much the logarithm of each of `all` cases rises at most to each of the screen's, which come `before`
+/// many.
+struct Rises {
+  const double* of;
+  std::size_t all, before;
+};
+
+/// What the cases before it leave of one.
+VOUSSOIR_INLINE double bound_of(const ReducedCase& one, const double* logs, const double* rises,
+                                std::size_t before) {
+  double bound = one.peak;
+  for (std::size_t j = 0; j < before; ++j) bound = smaller(logs[j] + rises[j], bound);  // NaN does not bound
+  return bound;
+}
+
 template <std::size_t kCount>
-VOUSSOIR_INLINE double density_of(const ReducedQuestion& q, const double* prediction, Losses<kCount> losses,
-                                  double least) {
-  Projected scene;
-  project<0, kFirstDirections>(q, prediction, losses, scene);
-  if (scene.mean_square != scene.mean_square) return -std::numeric_limits<double>::infinity();
-  const double in_few = over_kappa<kFirstDirections>(q, scene, losses, q.offset_of_few);
-  if (in_few < least) return in_few;
-  project<kFirstDirections, K>(q, prediction, losses, scene);
-  return over_kappa<K>(q, scene, losses, q.offset);
+VOUSSOIR_INLINE void look(const ReducedQuestion& q, const double* prediction, Losses<kCount> losses,
+                          double least, const Rises& rises, double* logs) {
+  ReducedScene scene;
+  bool is_filled = false;
+  for (std::size_t k = 0; k < q.cases.size(); ++k) {
+    const ReducedCase& one = q.cases[k];
+    double& log = logs[rises.before + k];
+    log = bound_of(one, logs, rises.of + k * rises.all, rises.before + k);
+    if (log < least) continue;
+    if (!is_filled) {
+      project<kFirstDirections>(q, prediction, losses, scene);
+      fill<kFirstDirections>(q, losses, scene);
+      is_filled = true;
+    }
+    const bool is_possible = scene.mean_square == scene.mean_square;
+    log = is_possible ? over_kappa<kFirstDirections>(q, one, scene, one.outside_few) : kImpossible;
+  }
+}
+
+template <std::size_t N, std::size_t kCount>
+VOUSSOIR_INLINE void look_closer(const ReducedQuestion& q, const double* prediction, Losses<kCount> losses,
+                                 double least, ScatterLogs ReducedCase::*outside, double* logs) {
+  ReducedScene scene;
+  bool is_filled = false;
+  for (std::size_t k = 0; k < q.cases.size(); ++k) {
+    if (logs[k] < least || logs[k] == kImpossible) continue;
+    if (!is_filled) {
+      project<N>(q, prediction, losses, scene);
+      fill<N>(q, losses, scene);
+      is_filled = true;
+    }
+    const double refined = over_kappa<N>(q, q.cases[k], scene, q.cases[k].*outside);
+    logs[k] = smaller(refined, logs[k]);  // NaN changes nothing
+  }
 }
 
 VOUSSOIR_FOR_EVERY_PROCESSOR
-double density(const ReducedQuestion& q, const double* prediction, std::span<const ReducedLoss* const> losses,
-               double least) {
-  if (losses.size() == 1) return density_of<1>(q, prediction, losses.first<1>(), least);
-  if (losses.size() == 2) return density_of<2>(q, prediction, losses.first<2>(), least);
-  return density_of<3>(q, prediction, losses.first<3>(), least);
+void look_at(const ReducedQuestion& q, const ScenePrediction& scene, double least, const Rises& rises,
+             double* logs) {
+  const auto& losses = scene.losses;
+  if (losses.size() == 1) look<1>(q, scene.prediction, losses.first<1>(), least, rises, logs);
+  if (losses.size() == 2) look<2>(q, scene.prediction, losses.first<2>(), least, rises, logs);
+  if (losses.size() == 3) look<3>(q, scene.prediction, losses.first<3>(), least, rises, logs);
+}
+
+VOUSSOIR_FOR_EVERY_PROCESSOR
+void look_in_more(const ReducedQuestion& q, const ScenePrediction& scene, double least, double* logs) {
+  constexpr std::size_t N = kMoreDirections;
+  constexpr auto kOutside = &ReducedCase::outside_more;
+  const auto& losses = scene.losses;
+  if (losses.size() == 1) look_closer<N>(q, scene.prediction, losses.first<1>(), least, kOutside, logs);
+  if (losses.size() == 2) look_closer<N>(q, scene.prediction, losses.first<2>(), least, kOutside, logs);
+  if (losses.size() == 3) look_closer<N>(q, scene.prediction, losses.first<3>(), least, kOutside, logs);
+}
+
+VOUSSOIR_FOR_EVERY_PROCESSOR
+void look_in_all(const ReducedQuestion& q, const ScenePrediction& scene, double least, double* logs) {
+  constexpr auto kOutside = &ReducedCase::outside_all;
+  const auto& losses = scene.losses;
+  if (losses.size() == 1) look_closer<K>(q, scene.prediction, losses.first<1>(), least, kOutside, logs);
+  if (losses.size() == 2) look_closer<K>(q, scene.prediction, losses.first<2>(), least, kOutside, logs);
+  if (losses.size() == 3) look_closer<K>(q, scene.prediction, losses.first<3>(), least, kOutside, logs);
 }
 
 }  // namespace
 
-double reduced_log_density(const ReducedQuestion& question, const double* prediction,
-                           std::span<const ReducedLoss* const> losses, double least) {
-  return density(question, prediction, losses, least);
+void estimate_log_densities(const ReducedQuestion& question, const ScenePrediction& scene, double least,
+                            const Eigen::MatrixXd& rises, std::span<double> logs) {
+  look_at(question, scene, least,
+          {rises.data(), static_cast<std::size_t>(rises.rows()), logs.size() - question.cases.size()},
+          logs.data());
+}
+
+void refine_log_densities(const ReducedQuestion& question, const ScenePrediction& scene,
+                          ScreenDirections directions, double least, std::span<double> logs) {
+  if (directions == ScreenDirections::more)
+    look_in_more(question, scene, least, logs.data());
+  else
+    look_in_all(question, scene, least, logs.data());
 }
 
 }  // namespace voussoir

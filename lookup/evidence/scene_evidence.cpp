@@ -3,15 +3,12 @@
 #include <algorithm>
 #include <boost/math/quadrature/gauss.hpp>
 #include <cmath>
-#include <limits>
-#include <numbers>
 
 #include "lookup/evidence/level_curve.h"
 
 namespace voussoir {
 namespace {
 
-constexpr double kImpossible = -std::numeric_limits<double>::infinity();
 /// Parts of the integrand below exp(-kNegligible) of its peak are left out.
 constexpr double kNegligible = 40.0;
 

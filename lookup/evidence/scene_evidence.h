@@ -2,10 +2,15 @@
 /// @file The probability (density) of the readings given one scene, for a stated noise level and over all
 /// levels, for the shapes whose statistics are short: uniform, Gaussian, Laplace.
 
+#include <limits>
+
 #include "lookup/evidence/row_statistics.h"
 #include "lookup/readings/noise_model.h"
 
 namespace voussoir {
+
+/// The logarithm of an impossible scene's probability.
+inline constexpr double kImpossible = -std::numeric_limits<double>::infinity();
 
 /// Errors may exceed the bound of uniform noise by this share of it: rounding.
 inline constexpr double kBoundTolerance = 1e-9;

@@ -2,36 +2,25 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "core/threads.h"
-#include "lookup/evidence/scene_evidence.h"
+#include "lookup/evidence/largest_places.h"
 
 namespace voussoir {
 namespace {
 
-constexpr double kImpossible = -std::numeric_limits<double>::infinity();
 constexpr double kNotWorkedOut = std::numeric_limits<double>::infinity();
 constexpr double kNegligible = 20.0;  // logarithm of how far behind the likeliest a scene's case is left out
 constexpr double kUncounted = 3e-4;   // probability of all scenes that are left at their first estimates
-constexpr double kLeftEstimated = 5e-4;  // probability of all scenes that are not worked out
-constexpr double kTooLow = 0.5;          // what an estimate's logarithm may be too low by at least
-constexpr std::size_t kAtOnce = 8;       // scenes that are worked out before the next look at what matters
+constexpr double kLeftEstimated = 5e-4;     // probability of all scenes that are not worked out
+constexpr double kLeftUnrefined = 1e-4;     // of those that are not looked at in all directions
+constexpr std::size_t kMostRefined = 4000;  // which take longer than what they save
+constexpr double kTooLow = 0.5;             // what an estimate's logarithm may be too low by at least
+constexpr std::size_t kAtOnce = 8;          // scenes that are worked out before the next look at what matters
 constexpr std::size_t kMostWorkedOut = 400;  // likely scenes; others count by their estimates
 constexpr std::size_t kTried = 4;            // scenes with which a case is tried before pairs are looked at
-
-/// An estimate that failed counts as likely: the scene is worked out.
-double usable(double estimate) {
-  return std::isnan(estimate) ? std::numeric_limits<double>::infinity() : estimate;
-}
-
-/// How much a density rises at most if the covariance becomes that of another case, which is nowhere wider.
-/// Of log det that is as much as for the intact bridge at most, as long as losses widen covariances.
-double highest_rise(const ScatterLogs& from, const ScatterLogs& to) {
-  double most = kImpossible;
-  for (std::size_t k = 0; k < from.size(); ++k) most = std::max(most, to[k] - from[k]);
-  return most;
-}
 
 }  // namespace
 
@@ -43,6 +32,7 @@ ScreenedCases::ScreenedCases(UnknownBridge& bridge, const Observation& observati
       table_(table),
       rows_(rows),
       beforehand_(beforehand),
+      estimates_(bridge, observation, table, cases, rows, beforehand),
       likelihoods_(bridge, observation, table),
       too_low_(kTooLow),
       exact_(rows.size()),
@@ -53,9 +43,8 @@ ScreenedCases::ScreenedCases(UnknownBridge& bridge, const Observation& observati
   }
   for (const UnknownCase& one : cases) {
     set_case(observation, one, bridge);
-    cases_.push_back({one, case_terms(bridge)});
+    terms_.push_back(case_terms(bridge));
   }
-  estimate_.assign(rows.size(), kImpossible);
 }
 
 /// The intact bridge, and singles whose signals are nearest to the readings: something to try cases with.
@@ -73,55 +62,42 @@ std::vector<std::size_t> ScreenedCases::nearest_singles() const {
   return places;
 }
 
-void ScreenedCases::estimate(const UnknownScreen& screen, std::span<const std::size_t> places, double least,
-                             std::vector<double>& estimates) const {
-  std::vector<std::size_t> rows;
-  std::vector<double> leasts;
-  for (const std::size_t place : places) {
-    rows.push_back(rows_[place]);
-    leasts.push_back(least - beforehand_[place]);
-  }
-  const std::vector<double> logs = screen.estimates(rows, leasts);
-  for (std::size_t i = 0; i < places.size(); ++i)
-    estimates[places[i]] = usable(logs[i]) + beforehand_[places[i]];
+/// Below it all scenes in all cases do not matter together.
+double ScreenedCases::least_counted() const {
+  return best_ - too_low_ + std::log(kUncounted / static_cast<double>(estimates_.count()));
 }
 
-/// Scenes with many missing blocks that may matter in a case, by its highest density and by what cases with
-/// wider covariances left of them. The others' estimates become these bounds.
-std::vector<std::size_t> ScreenedCases::not_ruled_out(Case& one, double least) const {
-  std::vector<double>& bounds = one.estimate;
-  for (const std::size_t place : many_) bounds[place] = over_scatter(one.peaks) + beforehand_[place];
-  for (const Case& wider : cases_) {
-    if (&wider == &one) break;
-    const bool next = wider.one.level == one.one.level || wider.one.conditions == one.one.conditions;
-    if (!next || wider.one.conditions < one.one.conditions) continue;
-    const double more = highest_rise(wider.peaks, one.peaks);
-    for (const std::size_t place : many_)
-      bounds[place] = std::min(bounds[place], wider.estimate[place] + more);
-  }
+/// Cases of one level: first the scenes with few missing blocks, which show how likely scenes are.
+void ScreenedCases::look_at_level() {
+  const std::size_t first = estimates_.look_at_next();
+  estimates_.estimate(few_, kImpossible);
+  estimates_.refine(few_, first, ScreenDirections::more, kImpossible);
+  for (std::size_t number = first; number < estimates_.looked_at(); ++number) try_case(number);
+  look_at_many(first);
+}
+
+/// Works out the scenes with few missing blocks that seem the likeliest in a case.
+void ScreenedCases::try_case(std::size_t number) {
+  std::vector<double> estimates(rows_.size(), kImpossible);
+  for (const std::size_t place : few_) estimates[place] = estimates_.of(place, number);
+  work_out(first_of(few_, estimates, kTried), [&](std::size_t, std::size_t k) { return k == number; });
+  for (const std::size_t place : few_)
+    if (!exact_[place].empty()) check_estimate(place, number);
+}
+
+/// Scenes with many missing blocks are looked at no better than they have to be; the likeliest of them are
+/// worked out to know how well that is.
+void ScreenedCases::look_at_many(std::size_t first) {
+  estimates_.estimate(many_, least_counted());
+  estimates_.add_up(many_);
+  work_out(first_of(many_, estimates_.sums(), kAtOnce), [&](std::size_t place, std::size_t number) {
+    return number < estimates_.looked_at() && may_matter(place, number);
+  });
+  const double least = least_counted();
   std::vector<std::size_t> places;
   for (const std::size_t place : many_)
-    if (!(bounds[place] < least)) places.push_back(place);
-  return places;
-}
-
-/// Estimates all scenes in a case; those with many missing blocks no better than they have to be, which the
-/// likeliest of the others show.
-void ScreenedCases::look_at(Case& one) {
-  set_case(observation_, one.one, bridge_);
-  const UnknownScreen screen(bridge_, observation_, table_, hardware_threads());
-  one.peaks = screen.peaks();
-  one.estimate.assign(rows_.size(), kImpossible);
-  estimate(screen, few_, kImpossible, one.estimate);
-  const auto here = static_cast<std::size_t>(&one - cases_.data());
-  work_out(first_of(few_, one.estimate, kTried), [&](std::size_t, std::size_t k) { return k == here; });
-  for (const std::size_t place : few_)
-    if (!exact_[place].empty()) check_estimate(place, here);
-  const double least =
-      best_ - too_low_ + std::log(kUncounted / static_cast<double>(rows_.size() * cases_.size()));
-  estimate(screen, not_ruled_out(one, least), least, one.estimate);
-  for (std::size_t i = 0; i < rows_.size(); ++i)
-    if (one.estimate[i] > kImpossible) estimate_[i] = log_sum(estimate_[i], one.estimate[i]);
+    if (!(estimates_.sums()[place] < least)) places.push_back(place);
+  estimates_.refine(places, first, ScreenDirections::more, least);
 }
 
 /// Places in the order of estimates, the intact bridge first: its estimate is right but for what lies in no
@@ -129,11 +105,7 @@ void ScreenedCases::look_at(Case& one) {
 std::vector<std::size_t> ScreenedCases::first_of(std::vector<std::size_t> places,
                                                  std::span<const double> estimates, std::size_t count) const {
   std::erase_if(places, [&](std::size_t place) { return !(estimates[place] > kImpossible); });
-  const auto end = places.begin() + static_cast<std::ptrdiff_t>(std::min(count, places.size()));
-  std::partial_sort(places.begin(), end, places.end(), [&](std::size_t a, std::size_t b) {
-    return estimates[a] != estimates[b] ? estimates[a] > estimates[b] : a < b;
-  });
-  places.erase(end, places.end());
+  places = largest_places(std::move(places), estimates, count);
   const auto intact = std::find_if(places.begin(), places.end(), [&](std::size_t place) {
     return table_.removed[rows_[place] * table_.most_missing] < 0;
   });
@@ -141,43 +113,46 @@ std::vector<std::size_t> ScreenedCases::first_of(std::vector<std::size_t> places
   return places;
 }
 
+/// All scenes that may count, and at least so many.
 std::vector<std::size_t> ScreenedCases::most_likely(std::size_t count) const {
-  std::vector<std::size_t> places(rows_.size());
+  const double least = least_counted();
+  std::vector<std::size_t> places;
+  for (std::size_t place = 0; place < rows_.size(); ++place)
+    if (!(estimates_.sums()[place] < least)) places.push_back(place);
+  if (places.size() >= count) return first_of(std::move(places), estimates_.sums(), rows_.size());
+  places.resize(rows_.size());
   std::iota(places.begin(), places.end(), std::size_t{0});
-  return first_of(std::move(places), estimate_, count);
+  return first_of(std::move(places), estimates_.sums(), count);
 }
 
 /// Of a scene that was worked out in a case, if it is likely: how much its estimate is too low.
 void ScreenedCases::check_estimate(std::size_t place, std::size_t number) {
-  const std::vector<double>& estimates = cases_[number].estimate;
   const double log = exact_[place][number] + beforehand_[place];
-  if (!estimates.empty() && exact_[place][number] != kNotWorkedOut && log > best_ - kNegligible)
-    too_low_ = std::max(too_low_, log - estimates[place]);
+  if (number < estimates_.looked_at() && log != kNotWorkedOut && log > best_ - kNegligible)
+    too_low_ = std::max(too_low_, log - estimates_.of(place, number));
 }
 
 /// In the cases that are wanted of each place, by their numbers, those worked out before left out.
 void ScreenedCases::work_out(std::span<const std::size_t> places, const WantedCase& is_wanted,
                              const Eigen::MatrixXd* rise) {
   std::vector<std::size_t> rows;
-  std::vector<CaseTerms> terms;
   std::vector<std::uint8_t> missing;
   CasePruning pruning;
   std::vector<double> least;
   for (const std::size_t place : places) least.push_back(best_ - too_low_ - kNegligible - beforehand_[place]);
   if (rise != nullptr) pruning = {least, *rise};
-  for (const Case& one : cases_) terms.push_back(one.terms);
   for (const std::size_t place : places) {
     rows.push_back(rows_[place]);
     std::vector<double>& exact = exact_[place];
-    exact.resize(cases_.size(), kNotWorkedOut);
-    for (std::size_t k = 0; k < cases_.size(); ++k)
+    exact.resize(terms_.size(), kNotWorkedOut);
+    for (std::size_t k = 0; k < terms_.size(); ++k)
       missing.push_back(is_wanted(place, k) && exact[k] == kNotWorkedOut);
   }
   const auto logs =
-      likelihoods_(terms, rows, missing, hardware_threads(), rise != nullptr ? &pruning : nullptr);
+      likelihoods_(terms_, rows, missing, hardware_threads(), rise != nullptr ? &pruning : nullptr);
   for (std::size_t i = 0; i < logs.size(); ++i) {
     if (missing[i] == 0) continue;
-    const std::size_t place = places[i / cases_.size()], number = i % cases_.size();
+    const std::size_t place = places[i / terms_.size()], number = i % terms_.size();
     exact_[place][number] = over_scatter(logs[i]);
     const double log = exact_[place][number] + beforehand_[place];
     if (log > best_) best_ = log, likeliest_ = number;
@@ -185,13 +160,17 @@ void ScreenedCases::work_out(std::span<const std::size_t> places, const WantedCa
   }
 }
 
-/// In all cases that may matter beside the likeliest scene's.
+/// Beside the likeliest scene's.
+bool ScreenedCases::may_matter(std::size_t place, std::size_t number) const {
+  return !(estimates_.of(place, number) + too_low_ < best_ - kNegligible);
+}
+
+/// In all cases that may matter.
 void ScreenedCases::work_out_where_likely(std::span<const std::size_t> places) {
   for (const std::size_t place : places) is_worked_out_[place] = true;
-  const auto may_matter = [&](std::size_t place, std::size_t number) {
-    return !(cases_[number].estimate[place] + too_low_ < best_ - kNegligible);
-  };
-  work_out(places, may_matter, &rise_);
+  work_out(
+      places, [&](std::size_t place, std::size_t number) { return may_matter(place, number); },
+      &estimates_.rises());
 }
 
 /// log of the sum over the cases in which the place was worked out.
@@ -202,43 +181,59 @@ double ScreenedCases::total(std::size_t place) const {
   return sum;
 }
 
-/// Tries all cases with a few scenes, then looks at each of them.
+/// Tries all cases with a few scenes, then looks at those of each level.
 void ScreenedCases::look_at_cases() {
   work_out(nearest_singles(), [](std::size_t, std::size_t) { return true; });
-  for (Case& one : cases_) look_at(one);
-  rise_ = rises();
-}
-
-/// From each case to those that are nowhere wider.
-Eigen::MatrixXd ScreenedCases::rises() const {
-  const auto count = static_cast<Eigen::Index>(cases_.size());
-  Eigen::MatrixXd result = Eigen::MatrixXd::Constant(count, count, std::numeric_limits<double>::infinity());
-  for (std::size_t i = 0; i < cases_.size(); ++i)
-    for (std::size_t j = i + 1; j < cases_.size(); ++j)
-      if (cases_[j].one.level <= cases_[i].one.level && cases_[j].one.conditions <= cases_[i].one.conditions)
-        result(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) =
-            highest_rise(cases_[i].peaks, cases_[j].peaks);
-  return result;
+  while (estimates_.looked_at() < terms_.size()) look_at_level();
+  estimates_.add_up(few_);
+  estimates_.add_up(many_);
 }
 
 /// How far sums of estimates are too high, of scenes that are worked out.
 double ScreenedCases::shift_of(std::span<const std::size_t> places) const {
   double exact = kImpossible, estimated = kImpossible;
   for (const std::size_t place : places) {
-    if (!std::isfinite(estimate_[place])) continue;
+    if (!std::isfinite(estimates_.sums()[place])) continue;
     exact = log_sum(exact, total(place) + beforehand_[place]);
-    estimated = log_sum(estimated, estimate_[place]);
+    estimated = log_sum(estimated, estimates_.sums()[place]);
   }
   return exact > kImpossible ? std::min(0.0, exact - estimated) : 0.0;
+}
+
+/// The sum of all estimates at each place of the order and behind it, and of those that are not in it.
+std::vector<double> ScreenedCases::left_behind(std::span<const std::size_t> order) const {
+  std::vector<bool> is_ordered(rows_.size(), false);
+  for (const std::size_t place : order) is_ordered[place] = true;
+  double others = 0.0;
+  for (std::size_t place = 0; place < rows_.size(); ++place)
+    if (!is_ordered[place]) others += std::exp(estimates_.sums()[place] - best_);
+  std::vector<double> left(order.size() + 1, best_ + std::log(others));
+  for (std::size_t i = order.size(); i-- > 0;) left[i] = log_sum(left[i + 1], estimates_.sums()[order[i]]);
+  return left;
+}
+
+/// Looks closer at scenes in the order of their estimates, until what is left does not matter.
+void ScreenedCases::refine_likely(std::size_t count) {
+  work_out_where_likely(first_of(many_, estimates_.sums(), kAtOnce));
+  const std::vector<std::size_t> order = most_likely(count);
+  const std::vector<double> left = left_behind(order);
+  std::size_t end = 0;
+  while (end < std::min(order.size(), kMostRefined) &&
+         !(left[end] + too_low_ < best_ + std::log(kLeftUnrefined)))
+    ++end;
+  const auto likely = std::span(order).first(end);
+  estimates_.refine(likely, 0, ScreenDirections::all, best_ - too_low_ - kNegligible);
+  estimates_.add_up(likely);
+  for (const std::size_t place : likely)
+    for (std::size_t number = 0; number < exact_[place].size(); ++number) check_estimate(place, number);
 }
 
 /// Works out scenes in the order of their estimates, so many at a time, until what is left can change no
 /// probability by more than kLeftEstimated. If more scenes than can be worked out are likely indeed, the
 /// others count by their estimates, shifted by what those of the last worked out are off.
 double ScreenedCases::work_out_likely(std::size_t count) {
-  const std::vector<std::size_t> order = most_likely(rows_.size());
-  std::vector<double> left(order.size() + 1, kImpossible);  // at each place and behind it
-  for (std::size_t i = order.size(); i-- > 0;) left[i] = log_sum(left[i + 1], estimate_[order[i]]);
+  const std::vector<std::size_t> order = most_likely(count);
+  const std::vector<double> left = left_behind(order);
   for (std::size_t place = 0; place < rows_.size(); ++place)
     if (!exact_[place].empty()) work_out_where_likely({&place, 1});  // was tried
   double shift = 0.0;
@@ -256,13 +251,17 @@ double ScreenedCases::work_out_likely(std::size_t count) {
 }
 
 std::vector<double> ScreenedCases::evidence(std::size_t count) {
+  count = std::max(count, kAtOnce);
   look_at_cases();
-  const double shift = work_out_likely(std::max(count, kAtOnce));
+  refine_likely(count);
+  const double shift = work_out_likely(count);
   std::vector<double> result(rows_.size(), kImpossible);
-  const double log_cases = std::log(static_cast<double>(cases_.size()));
+  const double log_cases = std::log(static_cast<double>(terms_.size()));
   for (std::size_t place = 0; place < rows_.size(); ++place) {
-    if (std::isinf(estimate_[place]) && estimate_[place] > 0.0) work_out_where_likely({&place, 1});
-    const double log = is_worked_out_[place] ? total(place) : estimate_[place] - beforehand_[place] + shift;
+    if (std::isinf(estimates_.sums()[place]) && estimates_.sums()[place] > 0.0)
+      work_out_where_likely({&place, 1});
+    const double log =
+        is_worked_out_[place] ? total(place) : estimates_.sums()[place] - beforehand_[place] + shift;
     result[place] = log - log_cases;
   }
   return result;

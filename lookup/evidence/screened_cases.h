@@ -6,8 +6,9 @@
 #include <span>
 #include <vector>
 
+#include "lookup/evidence/case_estimates.h"
+#include "lookup/evidence/scene_evidence.h"
 #include "lookup/evidence/unknown_evidence.h"
-#include "lookup/evidence/unknown_screen.h"
 
 namespace voussoir {
 
@@ -30,28 +31,23 @@ class ScreenedCases {
  private:
   using WantedCase = std::function<bool(std::size_t place, std::size_t number)>;
 
-  struct Case {
-    UnknownCase one;
-    CaseTerms terms;
-    std::vector<double> estimate{};  ///< of each row, with what was known beforehand
-    ScatterLogs peaks{};             ///< UnknownScreen::peaks
-  };
-
   std::vector<std::size_t> nearest_singles() const;
-  void estimate(const UnknownScreen& screen, std::span<const std::size_t> places, double least,
-                std::vector<double>& estimates) const;
-  std::vector<std::size_t> not_ruled_out(Case& one, double least) const;
-  void look_at(Case& one);
   void look_at_cases();
+  void look_at_level();
+  void try_case(std::size_t number);
+  void look_at_many(std::size_t first);
+  double least_counted() const;
   std::vector<std::size_t> first_of(std::vector<std::size_t> places, std::span<const double> estimates,
                                     std::size_t count) const;
   std::vector<std::size_t> most_likely(std::size_t count) const;
+  std::vector<double> left_behind(std::span<const std::size_t> order) const;
+  void refine_likely(std::size_t count);
   double work_out_likely(std::size_t count);
-  Eigen::MatrixXd rises() const;
   void check_estimate(std::size_t place, std::size_t number);
   void work_out(std::span<const std::size_t> places, const WantedCase& is_wanted,
                 const Eigen::MatrixXd* rise = nullptr);
   void work_out_where_likely(std::span<const std::size_t> places);
+  bool may_matter(std::size_t place, std::size_t number) const;
   double total(std::size_t place) const;
   double shift_of(std::span<const std::size_t> places) const;
 
@@ -61,15 +57,14 @@ class ScreenedCases {
   std::span<const std::size_t> rows_;
   std::span<const double> beforehand_;
   std::vector<std::size_t> few_, many_;  // places of rows with at most one missing block, and with more
-  std::vector<Case> cases_;              // those that widen another's covariance before it
-  std::vector<double> estimate_;         // of each row over all cases, the same
+  std::vector<CaseTerms> terms_;         // of each case
+  CaseEstimates estimates_;
   SceneLikelihoods likelihoods_;
   double too_low_;  // by how much estimates of likely scenes were found to be too low at most
   std::vector<std::vector<double>> exact_;  // of each row, for each case; empty: not worked out
-  Eigen::MatrixXd rise_;                    // CasePruning::rise, once all cases were looked at
   std::vector<bool> is_worked_out_;         // in all cases that may matter
   std::size_t likeliest_ = 0;
-  double best_ = -std::numeric_limits<double>::infinity();  // of any scene in any case, worked out
+  double best_ = kImpossible;  // of any scene in any case, worked out
 };
 
 }  // namespace voussoir

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <boost/math/special_functions/gamma.hpp>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "core/simd/lane_math.h"
@@ -14,7 +13,6 @@
 namespace voussoir {
 namespace {
 
-constexpr double kImpossible = -std::numeric_limits<double>::infinity();
 constexpr double kCutOff =
     1e-13;  // share of an integral over levels that may lie outside the range of levels
 

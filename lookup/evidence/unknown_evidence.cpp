@@ -4,14 +4,13 @@
 #include <limits>
 
 #include "core/threads.h"
+#include "lookup/evidence/scene_evidence.h"
 
 namespace voussoir {
 namespace {
 
 using Eigen::Index;
 using Eigen::MatrixXd;
-
-constexpr double kImpossible = -std::numeric_limits<double>::infinity();
 
 LowerTriangle lower_of(const MatrixXd& matrix) {
   LowerTriangle lower;

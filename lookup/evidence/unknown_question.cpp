@@ -1,7 +1,6 @@
 #include "lookup/evidence/unknown_question.h"
 
 #include <algorithm>
-#include <limits>
 #include <ranges>
 
 #include "lookup/evidence/evidence.h"
@@ -11,7 +10,6 @@
 namespace voussoir {
 namespace {
 
-constexpr double kImpossible = -std::numeric_limits<double>::infinity();
 constexpr double kSmallestCounted = 1e-3;  // [-] levels below it hide in what else is unknown
 
 /// Stated, or from 0.1 % by factors of two, equally likely beforehand.

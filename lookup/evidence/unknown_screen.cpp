@@ -9,7 +9,6 @@
 #include <numeric>
 
 #include "core/threads.h"
-#include "lookup/evidence/reduced_density.h"
 
 namespace voussoir {
 namespace {
@@ -20,9 +19,7 @@ using Eigen::VectorXd;
 
 constexpr auto K = static_cast<Index>(kDirections);
 constexpr auto kEpochs = static_cast<Index>(kEpochColumns);
-constexpr auto kFew = static_cast<Index>(kFirstDirections);
-constexpr std::size_t kBlockRows = 256;  // that a thread takes at a time
-constexpr int kIterations = 2;           // of the leading directions, which need not be exact
+constexpr int kIterations = 2;  // of the leading directions, which need not be exact
 
 /// A A^T of the intact bridge in rows of y.
 MatrixXd intact_product(const UnknownBridge& bridge) {
@@ -92,16 +89,6 @@ void store_lower(const MatrixXd& matrix, DirectionTriangle& lower) {
       lower[lower_size(static_cast<std::size_t>(i)) + static_cast<std::size_t>(j)] = matrix(i, j);
 }
 
-/// What a loss adds alone; and beside one or two others, with whose columns in common its own are summed up.
-std::array<DirectionTriangle, kMostLosses> by_count(const MatrixXd& alone, const MatrixXd& own,
-                                                    const MatrixXd& common) {
-  std::array<DirectionTriangle, kMostLosses> result;
-  store_lower(alone, result[0]);
-  for (std::size_t others = 1; others < kMostLosses; ++others)
-    store_lower(alone - common + static_cast<double>(others) * (own - common), result[others]);
-  return result;
-}
-
 LowerTriangle lower_of(const MatrixXd& matrix) {
   LowerTriangle lower;
   for (Index i = 0; i < matrix.rows(); ++i)
@@ -109,7 +96,7 @@ LowerTriangle lower_of(const MatrixXd& matrix) {
   return lower;
 }
 
-/// log density of no difference at all, but for the powers of two pi of so many rows.
+/// log density of no difference at all, but for the powers of two pi.
 ScatterLogs log_peak(const MatrixXd& noise, const MatrixXd& bridge) {
   const auto rows = static_cast<std::size_t>(noise.rows());
   ScatterLogs logs = ScatterDensity()(std::vector<double>(rows, 0.0), lower_of(noise), lower_of(bridge));
@@ -118,39 +105,35 @@ ScatterLogs log_peak(const MatrixXd& noise, const MatrixXd& bridge) {
 }
 
 /// What the density of all rows has more than that of the first few directions.
-ScatterLogs log_outside(const ScatterLogs& whole, const MatrixXd& noise, const MatrixXd& bridge, Index rows,
-                        Index few) {
+ScatterLogs log_outside(const ScatterLogs& peaks, const MatrixXd& noise, const MatrixXd& bridge,
+                        std::size_t directions) {
+  const Index few = std::min(static_cast<Index>(directions), noise.rows());
   const ScatterLogs inside = log_peak(noise.topLeftCorner(few, few), bridge.topLeftCorner(few, few));
-  ScatterLogs logs = whole;
-  for (std::size_t k = 0; k < logs.size(); ++k)
-    logs[k] -= inside[k] + 0.5 * static_cast<double>(rows) * std::log(2.0 * std::numbers::pi);
+  ScatterLogs logs = peaks;
+  for (std::size_t k = 0; k < logs.size(); ++k) logs[k] -= inside[k];
   return logs;
 }
 
 }  // namespace
 
-UnknownScreen::UnknownScreen(const UnknownBridge& bridge, const Observation& observation,
-                             const SceneTable& table, int threads)
-    : bridge_(bridge), observation_(observation), table_(table), spread_(bridge.spread), threads_(threads) {
+UnknownScreen::UnknownScreen(UnknownBridge& bridge, const Observation& observation, const SceneTable& table,
+                             std::span<const UnknownCase> cases, int threads)
+    : bridge_(bridge), observation_(observation), table_(table) {
   const MatrixXd product = intact_product(bridge);
-  MatrixXd others = bridge.noise;
-  const MatrixXd epoch = bridge.conditions * epoch_columns(bridge, {});
-  others.noalias() += epoch * epoch.transpose();
-  others.noalias() += bridge.scale * bridge.scale * bridge.movement * bridge.movement.transpose();
-  choose_directions(others + product);
+  const MatrixXd epoch = epoch_columns(bridge, {});
+  MatrixXd always = epoch * epoch.transpose();
+  std::vector<MatrixXd> others;
+  for (const UnknownCase& one : cases) {
+    set_case(observation, one, bridge);
+    others.push_back(bridge.noise + bridge.conditions * bridge.conditions * always +
+                     bridge.scale * bridge.scale * bridge.movement * bridge.movement.transpose());
+    cases_.push_back({bridge.conditions * bridge.conditions, bridge.spread * bridge.spread});
+  }
+  choose_directions(others, product);
   choose_epoch_columns();
-  intact_epochs_ = directions_.transpose() * epoch;
-  const MatrixXd reduced_product = directions_.transpose() * (product * directions_);
-  MatrixXd reduced_others = directions_.transpose() * (others * directions_);
-  const ScatterLogs whole = log_peak(others, product);
-  const Index rows = directions_.rows(), used = std::min(K, rows);
-  for (std::size_t k = 0; k < whole.size(); ++k)
-    peaks_[k] = whole[k] - 0.5 * static_cast<double>(rows) * std::log(2.0 * std::numbers::pi);
-  offset_ = log_outside(whole, reduced_others, reduced_product, rows, used);
-  offset_of_few_ = log_outside(whole, reduced_others, reduced_product, rows, std::min(used, kFew));
-  for (Index i = used; i < K; ++i) reduced_others(i, i) = 1.0;  // no direction is left
-  store_lower(reduced_product, bridge_of_intact_);
-  store_lower(reduced_others, others_of_intact_);
+  epoch_after_ = directions_.transpose() * epoch.rightCols(bridge.factors->of_epoch());
+  store_lower(directions_.transpose() * (product * directions_), bridge_of_intact_);
+  for (std::size_t k = 0; k < cases.size(); ++k) add_intact(others[k], product, cases_[k]);
   nothing_.assign(bridge.rows.size(), 0.0);
   none_.signal_of_rows = nothing_.data();
   losses_.resize(bridge.losses.size());
@@ -159,22 +142,55 @@ UnknownScreen::UnknownScreen(const UnknownBridge& bridge, const Observation& obs
   });
 }
 
-void UnknownScreen::choose_directions(const MatrixXd& reference) {
-  const Eigen::LLT<MatrixXd> factor(reference);
-  const auto lower = factor.matrixL();
-  const Index n = reference.rows(), used = std::min(K, n);
-  VectorXd first = lower.solve(bridge_.reading);
-  first /= std::max(first.norm(), std::numeric_limits<double>::min());
+void UnknownScreen::add_intact(const MatrixXd& others, const MatrixXd& bridge, ReducedCase& to) const {
+  to.peaks = log_peak(others, bridge);
+  const Index used = std::min(K, directions_.rows());
+  const auto few = directions_.leftCols(used);
+  const MatrixXd reduced_bridge = few.transpose() * (bridge * few),
+                 reduced_others = few.transpose() * (others * few);
+  to.outside_few = log_outside(to.peaks, reduced_others, reduced_bridge, kFirstDirections);
+  to.outside_more = log_outside(to.peaks, reduced_others, reduced_bridge, kMoreDirections);
+  to.outside_all = log_outside(to.peaks, reduced_others, reduced_bridge, kDirections);
+  MatrixXd all = MatrixXd::Identity(K, K);  // beyond those that there are
+  all.topLeftCorner(used, used) = reduced_others;
+  store_lower(all, to.others);
+  const double rows = static_cast<double>(directions_.rows());
+  for (double& peak : to.peaks) peak -= 0.5 * rows * std::log(2.0 * std::numbers::pi);
+  for (ScatterLogs* logs : {&to.outside_few, &to.outside_more, &to.outside_all})
+    for (double& log : *logs) log -= 0.5 * rows * std::log(2.0 * std::numbers::pi);
+  to.peak = over_scatter(to.peaks);
+}
+
+/// In which the readings are farthest from the intact bridge, in each case; orthonormal in whitened readings.
+MatrixXd UnknownScreen::reading_directions(std::span<const MatrixXd> others, const MatrixXd& product,
+                                           const Eigen::LLT<MatrixXd>& white) const {
+  const Index n = product.rows(), count = std::min(static_cast<Index>(others.size()), std::min(K, n));
+  MatrixXd first(n, count);
+  for (Index k = 0; k < count; ++k) {
+    const VectorXd direction =
+        Eigen::LLT<MatrixXd>(others[static_cast<std::size_t>(k)] + product).solve(bridge_.reading);
+    first.col(k) = white.matrixU() * direction;
+    first.col(k) /= std::max(first.col(k).norm(), std::numeric_limits<double>::min());
+  }
+  return Eigen::HouseholderQR<MatrixXd>(first).householderQ() * MatrixXd::Identity(n, count);
+}
+
+void UnknownScreen::choose_directions(std::span<const MatrixXd> others, const MatrixXd& product) {
+  const Eigen::LLT<MatrixXd> white(others[others.size() / 2] + product);
+  const auto lower = white.matrixL();
+  const Index n = product.rows(), used = std::min(K, n);
+  const MatrixXd first = reading_directions(others, product, white);
   MatrixXd losses = lower.solve(losses_product(bridge_));
   losses = lower.solve(losses.transpose().eval());
   const MatrixXd without = MatrixXd::Identity(n, n) - first * first.transpose();
   losses = without * losses * without;
   MatrixXd chosen(n, used);
-  chosen.col(0) = first;
-  if (used > 1) chosen.rightCols(used - 1) = leading_directions(losses, used - 1);
+  chosen.leftCols(first.cols()) = first;
+  if (used > first.cols())
+    chosen.rightCols(used - first.cols()) = leading_directions(losses, used - first.cols());
   chosen = Eigen::HouseholderQR<MatrixXd>(chosen).householderQ() * MatrixXd::Identity(n, used);
   directions_ = MatrixXd::Zero(n, K);
-  directions_.leftCols(used) = lower.transpose().solve(chosen);
+  directions_.leftCols(used) = white.matrixU().solve(chosen);
   const auto channels = static_cast<Index>(observation_.reading.size());
   of_loss_ = of_bridge_ = MatrixXd::Zero(channels, K);
   MatrixXd changed = directions_;
@@ -184,7 +200,10 @@ void UnknownScreen::choose_directions(const MatrixXd& reference) {
     of_loss_.row(to) += row.after * directions_.row(from);
     of_bridge_.row(to) += row.of_bridge() * directions_.row(from);
     if (row.after == 0.0) changed.row(from).setZero();
+    channels_.push_back(row.channel);
+    after_.push_back(row.after);
   }
+  directions_by_row_ = directions_;
   store_lower(changed.transpose() * changed, points_);
   store(directions_.transpose() * bridge_.reading, reading_);
 }
@@ -210,25 +229,20 @@ void UnknownScreen::reduce_bridge(const LossFactors& factors, ReducedLoss& to) c
   const MatrixXd first = of_loss_.transpose() * factors.lead.leftCols(width);
   store_rows(first, kFirstColumns, to.first.data());
   const MatrixXd own = of_loss_.transpose() * factors.signal.own;
-  const MatrixXd product = own * own.transpose();
-  MatrixXd bridge = product;
-  if (!of_bridge_.isZero(0.0)) {
-    const MatrixXd cross = (of_bridge_.transpose() * factors.signal.intact) * own.transpose();
-    bridge += cross + cross.transpose();
-  }
-  to.bridge = by_count(bridge, product, first * first.transpose());
+  store_lower(own * own.transpose() - first * first.transpose(), to.of_bridge.own);
+  if (of_bridge_.isZero(0.0)) return;
+  const MatrixXd cross = (of_bridge_.transpose() * factors.signal.intact) * own.transpose();
+  store_lower(cross + cross.transpose(), to.of_bridge.crossed);
 }
 
-/// The same of all else.
-void UnknownScreen::reduce_others(const LossFactors& factors, const VectorXd& signal, ReducedLoss& to) const {
-  const MatrixXd change = bridge_.conditions * (of_loss_.transpose() * factors.epoch);
+/// The same of E E^T, conditions being as the file states.
+void UnknownScreen::reduce_epoch(const LossFactors& factors, ReducedLoss& to) const {
+  const MatrixXd change = of_loss_.transpose() * factors.epoch;
   const MatrixXd first = change * epoch_columns_;
   store_rows(first, kEpochs, to.epoch.data());
-  MatrixXd epochs = intact_epochs_;
-  epochs.rightCols(change.cols()) += change;
-  MatrixXd others = epochs * epochs.transpose() - intact_epochs_ * intact_epochs_.transpose();
-  others += bridge_.model_error * bridge_.model_error * signal * signal.transpose();
-  to.others = by_count(others, change * change.transpose(), first * first.transpose());
+  store_lower(change * change.transpose() - first * first.transpose(), to.of_epoch.own);
+  const MatrixXd cross = epoch_after_ * change.transpose();
+  store_lower(cross + cross.transpose(), to.of_epoch.crossed);
 }
 
 ReducedLoss UnknownScreen::reduced(const Loss& loss) const {
@@ -238,42 +252,45 @@ ReducedLoss UnknownScreen::reduced(const Loss& loss) const {
   const VectorXd signal = directions_.transpose() * counted;
   store(signal, result.signal);
   reduce_bridge(*loss.factors, result);
-  reduce_others(*loss.factors, signal, result);
+  reduce_epoch(*loss.factors, result);
+  store_lower(bridge_.model_error * bridge_.model_error * signal * signal.transpose(), result.model_error);
   return result;
 }
 
-std::vector<double> UnknownScreen::estimates(std::span<const std::size_t> rows,
-                                             std::span<const double> least) const {
-  std::vector<double> result(rows.size());
-  const std::size_t n = bridge_.rows.size();
-  std::vector<std::size_t> channel;
-  std::vector<double> after;
-  for (const ReadingRow& row : bridge_.rows) channel.push_back(row.channel), after.push_back(row.after);
-  const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> directions = directions_;
-  const ReducedQuestion question{reading_.data(),
-                                 points_.data(),
-                                 bridge_of_intact_.data(),
-                                 others_of_intact_.data(),
-                                 offset_,
-                                 offset_of_few_,
-                                 spread_,
-                                 n,
-                                 channel.data(),
-                                 after.data(),
-                                 observation_.intact.data(),
-                                 directions.data(),
-                                 static_cast<double>(bridge_.has_first_epoch() ? n / 2 : n)};
-  const std::size_t blocks = (rows.size() + kBlockRows - 1) / kBlockRows;
-  for_each_index_on_threads(blocks, threads_, [&](std::size_t block) {
-    for (std::size_t i = block * kBlockRows; i < std::min(rows.size(), (block + 1) * kBlockRows); ++i) {
-      const KnownLosses known = known_losses(bridge_, table_, rows[i]);
-      std::array<const ReducedLoss*, kMostLosses> losses = {&none_};
-      for (std::size_t k = 0; k < known.count; ++k) losses[k] = &losses_[known.place[k]];
-      const auto lost = std::span(losses).first(std::max(known.count, std::size_t{1}));
-      result[i] = reduced_log_density(question, table_.row(rows[i]).data(), lost, least[i]);
-    }
-  });
+ReducedQuestion UnknownScreen::question() const {
+  const std::size_t rows = bridge_.rows.size();
+  return {reading_.data(),
+          points_.data(),
+          bridge_of_intact_.data(),
+          cases_,
+          rows,
+          channels_.data(),
+          after_.data(),
+          observation_.intact.data(),
+          directions_by_row_.data(),
+          static_cast<double>(bridge_.has_first_epoch() ? rows / 2 : rows)};
+}
+
+UnknownScreen::Lost UnknownScreen::lost(std::size_t row) const {
+  const KnownLosses known = known_losses(bridge_, table_, row);
+  Lost result{{&none_}};
+  for (std::size_t k = 0; k < known.count; ++k) result.losses[k] = &losses_[known.place[k]];
+  result.count = std::max(known.count, std::size_t{1});
   return result;
+}
+
+void UnknownScreen::estimate(std::size_t row, double least, const MatrixXd& rises,
+                             std::span<double> logs) const {
+  const Lost losses = lost(row);
+  estimate_log_densities(question(), {table_.row(row).data(), std::span(losses.losses).first(losses.count)},
+                         least, rises, logs);
+}
+
+void UnknownScreen::refine(std::size_t row, ScreenDirections directions, double least,
+                           std::span<double> logs) const {
+  const Lost losses = lost(row);
+  refine_log_densities(question(), {table_.row(row).data(), std::span(losses.losses).first(losses.count)},
+                       directions, least, logs);
 }
 
 }  // namespace voussoir

@@ -1,82 +1,78 @@
 #pragma once
-/// @file Estimates of the evidence of many scenes of a bridge that is not exactly known, in one case, from a
-/// few combinations of the readings.
+/// @file Estimates of the evidence of many scenes of a bridge that is not exactly known, from a few
+/// combinations of the readings, in cases that share them.
 ///
-/// Readings are whitened by the intact bridge's covariance. Of all directions the readings themselves come
-/// first, then those in which losses show most: the leading principal directions of what all losses change,
-/// their signals and their scatter. In kDirections of them the scene's Gaussian is worked out, with what two
+/// Readings are whitened by the intact bridge's covariance in one of the cases. Of all directions those in
+/// which the readings are farthest from the intact bridge come first, one for each case, then those in which
+/// losses show most: the leading principal directions of what all losses change, their signals and their
+/// scatter. In the first of them, as many as are worth it, the scene's Gaussian is worked out, with what two
 /// blocks' signals have in common as far as kFirstColumns show it; the rest of each counts once more for
 /// every other block. So a covariance is never less than the true one, and never loses its positive sign: X
 /// Y^T + Y X^T lies between -(X X^T + Y Y^T) and X X^T + Y Y^T. What lies in no direction counts as it does
-/// for the intact bridge: a loss can only widen it, so an estimate is rarely too low.
+/// for the intact bridge: a loss can only widen it, so an estimate is rarely too low. No choice of directions
+/// makes it so; it only makes estimates higher. So all cases can have the same ones, and what losses change
+/// in them is worked out once.
 
+#include <Eigen/Cholesky>
 #include <array>
-#include <limits>
 #include <span>
 #include <vector>
 
-#include "core/simd/lanes.h"
-#include "lookup/evidence/scatter_density.h"
-#include "lookup/evidence/unknown_bridge.h"
+#include "lookup/evidence/reduced_density.h"
 
 namespace voussoir {
 
-inline constexpr std::size_t kDirections = 16;
-inline constexpr std::size_t kFirstDirections = 8;  ///< that pairs are looked at in first
-inline constexpr std::size_t kEpochColumns = 4;     ///< combinations of an epoch's parameters, the leading
-
-using DirectionVector = std::array<double, kDirections>;
-using DirectionTriangle = std::array<double, lower_size(kDirections)>;
-
-/// A loss in the directions.
-struct ReducedLoss {
-  DirectionVector signal{};
-  std::array<double, kDirections* static_cast<std::size_t>(kFirstColumns)> first{};  ///< of A
-  std::array<double, kDirections * kEpochColumns> epoch{};                           ///< of E
-  /// What it adds to A A^T and to all else where a scene has one, two, three losses; of several without what
-  /// the columns above add, which the losses share.
-  std::array<DirectionTriangle, kMostLosses> bridge{}, others{};
-  const double* signal_of_rows = nullptr;  ///< in rows of y
-};
-
 class UnknownScreen {
  public:
-  /// In the bridge's case as it is now. All of them outlive the screen.
-  UnknownScreen(const UnknownBridge& bridge, const Observation& observation, const SceneTable& table,
-                int threads);
+  /// All of them outlive the screen; the bridge's case is changed. `cases` differ in conditions only.
+  UnknownScreen(UnknownBridge& bridge, const Observation& observation, const SceneTable& table,
+                std::span<const UnknownCase> cases, int threads);
 
-  /// log p(readings | scene) of these rows of the table, kappa marginalised; -infinity for impossible scenes,
-  /// NaN where the estimate fails. Where it is below `least` of a row, it may be anything below.
-  std::vector<double> estimates(std::span<const std::size_t> rows, std::span<const double> least) const;
+  /// log p(readings | scene, case) of a row of the table in the first few directions; see
+  /// estimate_log_densities. NaN where the estimate fails.
+  void estimate(std::size_t row, double least, const Eigen::MatrixXd& rises, std::span<double> logs) const;
 
-  /// log density of readings that the intact bridge would show exactly, for each of kScatterFactors: the most
-  /// that any scene can have that widens its covariance.
-  const ScatterLogs& peaks() const { return peaks_; }
+  /// The same in more directions; see refine_log_densities. `logs` are those of the screen's cases.
+  void refine(std::size_t row, ScreenDirections directions, double least, std::span<double> logs) const;
+
+  const std::vector<ReducedCase>& cases() const { return cases_; }
 
  private:
-  void choose_directions(const Eigen::MatrixXd& reference);
+  void choose_directions(std::span<const Eigen::MatrixXd> others, const Eigen::MatrixXd& product);
+  Eigen::MatrixXd reading_directions(std::span<const Eigen::MatrixXd> others, const Eigen::MatrixXd& product,
+                                     const Eigen::LLT<Eigen::MatrixXd>& white) const;
   void choose_epoch_columns();
   ReducedLoss reduced(const Loss& loss) const;
+  void add_intact(const Eigen::MatrixXd& others, const Eigen::MatrixXd& bridge, ReducedCase& to) const;
   void reduce_bridge(const LossFactors& factors, ReducedLoss& to) const;
-  void reduce_others(const LossFactors& factors, const Eigen::VectorXd& signal, ReducedLoss& to) const;
+  void reduce_epoch(const LossFactors& factors, ReducedLoss& to) const;
+
+  /// A scene's losses in the directions; that of nothing if there are none.
+  struct Lost {
+    std::array<const ReducedLoss*, kMostLosses> losses{};
+    std::size_t count = 1;
+  };
+  Lost lost(std::size_t row) const;
+  ReducedQuestion question() const;
 
   const UnknownBridge& bridge_;
   const Observation& observation_;
   const SceneTable& table_;
-  double spread_;
-  int threads_;
   Eigen::MatrixXd directions_;           // rows of y x directions: T^T
   Eigen::MatrixXd of_loss_, of_bridge_;  // the same by channel, as losses and the bridge count
-  Eigen::MatrixXd intact_epochs_;        // directions x columns of E
+  Eigen::MatrixXd epoch_after_;          // directions x columns of E of the second epoch
   Eigen::MatrixXd epoch_columns_;        // parameters of an epoch x kEpochColumns
   std::vector<ReducedLoss> losses_;      // of UnknownBridge::losses
+  ReducedLoss none_;                     // of scenes without known losses
   std::vector<double> nothing_;
-  ReducedLoss none_;  // of scenes without known losses
-  DirectionTriangle bridge_of_intact_{}, others_of_intact_{};
-  DirectionTriangle points_{};  // what a unit variance at each changed point adds
+  std::vector<ReducedCase> cases_;
+  // What question() refers to.
+  std::vector<std::size_t> channels_;
+  std::vector<double> after_;
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> directions_by_row_;
   DirectionVector reading_{};
-  // Logarithm of the density of what lies in no direction, and in none of kFirstDirections, by kappa.
-  ScatterLogs offset_{}, offset_of_few_{}, peaks_{};
+  DirectionTriangle points_{};  // what a unit variance at each changed point adds
+  DirectionTriangle bridge_of_intact_{};
 };
 
 }  // namespace voussoir

@@ -1,9 +1,9 @@
 #include "lookup/readings/reading_factors.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "core/threads.h"
+#include "lookup/readings/scene_change.h"
 
 namespace voussoir {
 namespace {
@@ -39,27 +39,12 @@ SceneFactors factors_of(const ReadingFactors& factors, const Scene& scene) {
   return result;
 }
 
-/// Where a block is gone (rows are zero) nothing is read and nothing changes.
-void subtract(const SceneFactors& intact, SceneFactors& factors) {
-  const Eigen::VectorXd sizes =
-      factors.bridge.cwiseAbs().rowwise().sum() + factors.epoch.cwiseAbs().rowwise().sum();
-  const Eigen::VectorXd there = (sizes.array() > 0.0).cast<double>();
-  factors.bridge -= there.asDiagonal() * intact.bridge;
-  factors.epoch -= there.asDiagonal() * intact.epoch;
-}
-
-/// What the first order leaves of a signal goes along what it knows: as an error of every point by itself it
-/// would make scenes likely that scatter little.
-void widen(const FirstOrderResidual& residual, SceneFactors& change) {
-  change.bridge *= std::sqrt(1.0 + std::pow(residual.share, 2) + std::pow(residual.common, 2));
-  change.epoch *= std::sqrt(1.0 + std::pow(residual.epoch_share, 2) + std::pow(residual.epoch_common, 2));
-}
-
 LossFactors loss_factors(const ReadingFactors& factors, const Scene& scene) {
-  SceneFactors change = factors_of(factors, scene);
-  if (!change.known()) return {};
-  subtract(factors.intact, change);
-  widen(factors.residual, change);
+  SceneFactors own = factors_of(factors, scene);
+  if (!own.known()) return {};
+  SceneFactors change = change_of(std::move(own), factors.intact);
+  change.bridge *= widening(factors.residual.share, factors.residual.common);
+  change.epoch *= widening(factors.residual.epoch_share, factors.residual.epoch_common);
   const Index lead = std::min(kLeadingColumns, change.bridge.cols());
   return {change.bridge.leftCols(lead), std::move(change.epoch),
           signal_factors(factors.intact.bridge, change.bridge)};
@@ -110,9 +95,9 @@ SceneFactors ReadingFactors::of(const Scene& scene) const {
   SceneFactors sum = intact;
   for (const BlockId block : scene.removed)
     if (SceneFactors alone = factors_of(*this, {{block}}); alone.known()) {
-      subtract(intact, alone);
-      sum.bridge += alone.bridge;
-      sum.epoch += alone.epoch;
+      const SceneFactors change = change_of(std::move(alone), intact);
+      sum.bridge += change.bridge;
+      sum.epoch += change.epoch;
     }
   return sum;
 }

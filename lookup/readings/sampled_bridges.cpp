@@ -7,7 +7,8 @@
 #include <numeric>
 
 #include "core/error.h"
-#include "core/structure/bridge_file.h"
+#include "database/records/stored_bridge.h"
+#include "lookup/readings/scene_change.h"
 #include "lookup/readings/standardised_parameters.h"
 
 namespace voussoir {
@@ -102,8 +103,9 @@ class StateFactors {
     MatrixXd change = MatrixXd::Zero(points(), intact_first_.bridge.cols());
     if (first != nullptr) change = first->bridge - left * intact_first_.bridge;
     const MatrixXd columns =
-        enough ? columns_of(change, left_of(*sample, first ? &change : nullptr), sample->standing)
-               : columns_of(widening() * change, MatrixXd::Zero(points(), sample->difference.cols()), 0);
+        enough
+            ? columns_of(change, left_of(*sample, first ? &change : nullptr), sample->standing)
+            : columns_of(first_widening() * change, MatrixXd::Zero(points(), sample->difference.cols()), 0);
     return {left * intact_ + columns, first != nullptr ? first->epoch : MatrixXd(left * intact_first_.epoch)};
   }
 
@@ -121,9 +123,9 @@ class StateFactors {
   Index points() const { return intact_sample_.difference.rows(); }
 
   /// What the first order leaves of signals where no samples show it, as ReadingFactors widens it.
-  double widening() const {
+  double first_widening() const {
     const FirstOrderResidual& residual = first_order_->sensitivities.states[state_].residual;
-    return std::sqrt(1.0 + std::pow(residual.share, 2) + std::pow(residual.common, 2));
+    return widening(residual.share, residual.common);
   }
 
   /// Of a scene's signal in each bridge, less what the first order makes of it.
@@ -179,9 +181,8 @@ void require_enough(const Database& database, std::size_t usable, bool alone) {
 /// Where each of the variants is, from the parameters that it was solved with.
 FirstOrder first_order_of(const Database& database, const std::vector<std::int32_t>& variants) {
   const Sensitivities& sensitivities = *database.sensitivities();
-  const BridgeDescription bridge =
-      parse_bridge_file(database.bridge_text(), database.bridge_name()).description;
-  const UncertainParameters uncertain = uncertain_parameters(make_model(bridge), bridge.uncertainty);
+  const UncertainParameters uncertain =
+      uncertain_parameters(bridge_of(database), description_of(database).uncertainty);
   if (uncertain.all() != sensitivities.parameters)
     throw Failure(
         fmt::format("{}: its sensitivities are of other parameters than its bridge file has: build "
@@ -208,14 +209,6 @@ std::vector<Scene> scenes_of(const Sensitivities* first_order, const SceneTable&
   return scenes;
 }
 
-/// What a loss changes in A.
-MatrixXd change_of(const SceneFactors& scene, const SceneFactors& intact) {
-  MatrixXd change = scene.bridge - intact.bridge;
-  for (Index i = 0; i < change.rows(); ++i)
-    if (scene.bridge.row(i).isZero(0.0)) change.row(i).setZero();
-  return change;
-}
-
 /// Nothing is known of states in which the intact bridge does not stand.
 StateSensitivities state_sensitivities(const Database& database, const FirstOrder* first_order,
                                        const std::vector<std::int32_t>& variants,
@@ -232,12 +225,12 @@ StateSensitivities state_sensitivities(const Database& database, const FirstOrde
   return result;
 }
 
-/// Calls for what every loss changes in every state.
+/// Calls for what every loss changes in A in every state.
 template <class Function>
 void for_each_change(const Sensitivities& sensitivities, Function function) {
   for (const StateSensitivities& state : sensitivities.states)
     for (std::size_t i = 1; i < state.scenes.size(); ++i)
-      if (state.scenes[i].known()) function(change_of(state.scenes[i], state.scenes.front()));
+      if (state.scenes[i].known()) function(change_of(state.scenes[i], state.scenes.front()).bridge);
 }
 
 /// Turns the samples' columns to their principal directions and puts all columns in the order of what losses

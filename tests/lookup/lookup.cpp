@@ -68,7 +68,7 @@ TEST_CASE("A scene is called most likely only if no other is likelier, whatever 
           library.measure(library.row_of({{BlockId{29}}}), 0.02, NoiseShape::uniform, random);
       settings.top = 1;  // the misfit prefers pairs, of which many fit the noise
       const Answer answer = locate_damage(absolute_readings(library.library(), measured), settings);
-      const auto& probability = answer.posterior->probability;
+      const auto& probability = answer.posterior->probability.values;
       const bool is_best =
           *answer.candidates.front().posterior == *std::max_element(probability.begin(), probability.end());
       (is_best ? likeliest : others) += 1;

@@ -140,10 +140,10 @@ TEST_CASE("One trial a bridge has the standard error of independent trials (bino
 
 TEST_CASE("Bins of several series joined are those of all answers at once") {
   Posterior answer;
-  answer.probability = {0.05, 0.15, 0.8};
+  answer.probability = {0.0, {0, 1, 2}, {0.05, 0.15, 0.8}};
   std::vector<ReliabilityBin> first = unfinished_bins(), second = unfinished_bins(), both = unfinished_bins();
   for (auto* bins : {&first, &both}) add_to_bins(answer, 2, *bins);
-  answer.probability = {0.0005, 0.1995, 0.8};
+  answer.probability = {0.0, {0, 1, 2}, {0.0005, 0.1995, 0.8}};
   for (auto* bins : {&second, &both}) add_to_bins(answer, 1, *bins);
   for (auto* bins : {&first, &second, &both}) finish_bins(*bins);
   std::vector<StudyRow> rows(3);

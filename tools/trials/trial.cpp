@@ -14,7 +14,7 @@ namespace {
 
 double brier_score(const Posterior& posterior, std::size_t truth) {
   double sum = 1.0 - 2.0 * posterior.probability[truth];
-  for (const double probability : posterior.probability) sum += probability * probability;
+  for (const double probability : posterior.probability.values) sum += probability * probability;
   return sum;
 }
 
@@ -76,7 +76,7 @@ Trial ask(const Asking& asking, const ReadingsFile& readings, std::size_t truth)
   trial.in_credible = std::ranges::find(set, truth) != set.end();
   trial.set_size = set.size();
   for (const std::size_t row : set) trial.in_set += posterior.probability[row];
-  trial.likeliest = *std::ranges::max_element(posterior.probability);
+  trial.likeliest = set.empty() ? 0.0 : posterior.probability[set.front()];
   trial.brier = brier_score(posterior, truth);
   trial.verdict = verdict_of(answer);
   trial.bins = unfinished_bins();

@@ -65,7 +65,7 @@ TEST_CASE("The likelihood for a stated level is the product of the textbook dens
         with_sigma.sigma[1] = 3e-4;
       }
       const auto logs =
-          log_evidence_of_rows(library.observe(with_sigma, noise, {}, error), library.table, rows);
+          log_evidence_of_each(library.observe(with_sigma, noise, {}, error), library.table, rows);
       int possible = 0, impossible = 0;
       for (const std::size_t row : rows) {
         const long double exact =
@@ -93,7 +93,7 @@ TEST_CASE("The evidence over all levels is the brute-force mean over a fine grid
   const auto rows = all_rows(library.table);
   for (const NoiseShape shape : {NoiseShape::uniform, NoiseShape::gaussian, NoiseShape::laplace}) {
     const NoiseModel noise{shape, std::nullopt};
-    const auto logs = log_evidence_of_rows(library.observe(measured, noise), library.table, rows);
+    const auto logs = log_evidence_of_each(library.observe(measured, noise), library.table, rows);
     std::vector<long double> exact;
     for (const std::size_t row : rows)
       exact.push_back(over_levels(measured, library.table.row(row), library.intact(), noise, shape));
@@ -123,7 +123,7 @@ TEST_CASE(
     for (const NoiseShape shape : kShapes) {
       const NoiseModel noise{shape, std::nullopt, 1e-5, 5.0};
       const auto logs =
-          log_evidence_of_rows(library.observe(measured, noise, {}, error), library.table, rows);
+          log_evidence_of_each(library.observe(measured, noise, {}, error), library.table, rows);
       const double best = *std::max_element(logs.begin(), logs.end());
       int compared = 0;
       for (const std::size_t row : rows) {
@@ -147,8 +147,8 @@ TEST_CASE("The automatic shape is the mean of uniform, Gaussian and Laplace") {
     long double sum = 0.0L;
     for (const NoiseShape shape : {NoiseShape::uniform, NoiseShape::gaussian, NoiseShape::laplace})
       sum += std::exp(static_cast<long double>(
-          log_evidence_of_rows(library.observe(measured, {shape, level}), library.table, rows)[2]));
-    const double automatic = log_evidence_of_rows(library.observe(measured, {NoiseShape::automatic, level}),
+          log_evidence_of_each(library.observe(measured, {shape, level}), library.table, rows)[2]));
+    const double automatic = log_evidence_of_each(library.observe(measured, {NoiseShape::automatic, level}),
                                                   library.table, rows)[2];
     CHECK(automatic == Approx(static_cast<double>(std::log(sum / 3.0L))).epsilon(1e-12));
   }
@@ -162,13 +162,13 @@ TEST_CASE("Points that no scene moves are left out, and readings only there are 
   const NoiseModel noise{NoiseShape::gaussian, 0.05};
   const auto rows = all_rows(library.table);
   measured.displacement[0] = 1e-4;
-  const auto with = log_evidence_of_rows(library.observe(measured, noise), library.table, rows);
+  const auto with = log_evidence_of_each(library.observe(measured, noise), library.table, rows);
   measured.displacement[0] = std::nan("");
-  CHECK(with == log_evidence_of_rows(library.observe(measured, noise), library.table, rows));
+  CHECK(with == log_evidence_of_each(library.observe(measured, noise), library.table, rows));
   Measurements only = measured;
   for (double& value : only.displacement) value = std::nan("");
   only.displacement[0] = 1e-4;
-  CHECK_THROWS_AS(log_evidence_of_rows(library.observe(only, noise), library.table, rows), InputError);
+  CHECK_THROWS_AS(log_evidence_of_each(library.observe(only, noise), library.table, rows), InputError);
 }
 
 TEST_CASE("The estimated level of a scene is that of the noise that made its readings") {

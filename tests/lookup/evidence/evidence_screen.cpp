@@ -60,12 +60,13 @@ TEST_CASE("The screened posterior is the exact one, for stated and unknown noise
         noise.floor = 1e-5;
         check_same(library, screen, eligible, prior, measured, {noise});
         check_same(library, screen, eligible, prior, measured, {noise, {}, {0.03, 0.02, {}}});
+        check_same(library, screen, eligible, prior, measured, {noise, {}, {0.08, 0.15, {}}});
         check_same(library, screen, eligible, prior, measured, {noise, {0.01}});
         if (shape == NoiseShape::gaussian)
           check_same(library, screen, eligible, prior, measured, {noise, {0.1, 1e-4, 1e-5}});
         if (level > 0.02 || shape == NoiseShape::student) continue;  // much noise leaves many scenes possible
         noise.floor = 0.0;
-        const std::vector<double> logs = screen(library.observe(measured, noise));
+        const std::vector<double> logs = screen(library.observe(measured, noise)).values;
         kept +=
             static_cast<std::size_t>(std::ranges::count_if(logs, [](double v) { return std::isfinite(v); }));
         ++trials;
@@ -81,7 +82,7 @@ TEST_CASE("The screened posterior has no row when every scene is impossible") {
   Random random(2);
   Measurements measured = library.measure(0, 0.0, NoiseShape::uniform, random);
   measured.displacement[3] *= 50.0;
-  const std::vector<double> evidence = screen(library.observe(measured, {NoiseShape::uniform, 0.05}));
+  const RowValues evidence = screen(library.observe(measured, {NoiseShape::uniform, 0.05}));
   CHECK(posterior(library.table, eligible, evidence, prior, library.blocks).credible.empty());
 }
 
@@ -113,7 +114,7 @@ TEST_CASE("What one shape leaves out because another explains the readings chang
       std::vector<double> sum(library.table.rows, 0.0);
       const auto evidence_of = [&](NoiseShape shape) {
         const Observation observation = library.observe(measured, {shape}, {0.01});
-        return log_evidence_of_rows(observation, library.table, eligible.rows);
+        return log_evidence_of_each(observation, library.table, eligible.rows);
       };
       const std::vector<double> together = evidence_of(NoiseShape::automatic);
       const double best = *std::max_element(together.begin(), together.end());

@@ -71,7 +71,7 @@ double dense_log_likelihood(const Comparison& comparison, std::size_t row, doubl
 
 std::vector<double> evidence(const Comparison& comparison, const NoiseModel& noise,
                              const Nuisance& nuisance) {
-  return log_evidence_of_rows(observe(comparison, noise, nuisance), comparison.library.table,
+  return log_evidence_of_each(observe(comparison, noise, nuisance), comparison.library.table,
                               all_rows(comparison.library.table));
 }
 
@@ -129,9 +129,9 @@ TEST_CASE("A shifted, tilted and scaled levelling is seen through") {
     measured.displacement[i] = 1.1 * measured.displacement[i] + 5e-4 + 2e-5 * library.points[i].position.x();
   const auto rows = eligible_rows(library.table, {0, 1}).rows;
   const NoiseModel noise{NoiseShape::gaussian, 0.002};
-  const auto naive = log_evidence_of_rows(library.observe(measured, noise), library.table, rows);
+  const auto naive = log_evidence_of_each(library.observe(measured, noise), library.table, rows);
   const auto with =
-      log_evidence_of_rows(library.observe(measured, noise, {0.2, 1e-3, 1e-4}), library.table, rows);
+      log_evidence_of_each(library.observe(measured, noise, {0.2, 1e-3, 1e-4}), library.table, rows);
   const auto best = [&](const std::vector<double>& logs) {
     return static_cast<std::size_t>(std::max_element(logs.begin(), logs.end()) - logs.begin());
   };
@@ -148,12 +148,12 @@ TEST_CASE(
   const auto rows = all_rows(library.table);
   const Nuisance nuisance = {0.02, 0.0, 0.0};
   const NoiseModel noise{NoiseShape::gaussian, 0.05, kFloor};
-  const auto logs = log_evidence_of_rows(observe(comparison, noise, nuisance), library.table, rows);
+  const auto logs = log_evidence_of_each(observe(comparison, noise, nuisance), library.table, rows);
   for (const std::size_t row : {std::size_t{0}, std::size_t{3}, std::size_t{20}})
     CHECK(logs[row] == Approx(dense_log_likelihood(comparison, row, 0.05, nuisance)).epsilon(1e-9));
   // Student's t of many degrees of freedom is the Gaussian: to 1 / nu of the squares.
   const NoiseModel student{NoiseShape::student, 0.05, kFloor, 1e6};
-  const auto nearly = log_evidence_of_rows(observe(comparison, student, nuisance), library.table, rows);
+  const auto nearly = log_evidence_of_each(observe(comparison, student, nuisance), library.table, rows);
   CHECK(nearly[3] == Approx(logs[3]).margin(1e-3));
 }
 
@@ -168,8 +168,8 @@ TEST_CASE(
     for (double& value : measured.displacement) value *= 1.03;
     const NoiseModel noise{shape, 0.003};
     const auto rows = eligible_rows(library.table, {0, 1}).rows;
-    const auto open = log_evidence_of_rows(library.observe(measured, noise, {0.02}), library.table, rows);
-    const auto closed = log_evidence_of_rows(library.observe(measured, noise), library.table, rows);
+    const auto open = log_evidence_of_each(library.observe(measured, noise, {0.02}), library.table, rows);
+    const auto closed = log_evidence_of_each(library.observe(measured, noise), library.table, rows);
     CHECK(static_cast<std::size_t>(std::max_element(open.begin(), open.end()) - open.begin()) == truth);
     CHECK(open[truth] > closed[truth] + 10.0);
   }

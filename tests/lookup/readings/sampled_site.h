@@ -54,21 +54,6 @@ inline Eigen::VectorXd theta_of(std::int32_t variant) {
   return theta;
 }
 
-inline VariantParameters stored_form(const Parameters& parameters) {
-  VariantParameters result;
-  for (const Material& block : parameters.blocks) {
-    result.young_modulus.push_back(block.young_modulus);
-    result.poisson_ratio.push_back(block.poisson_ratio);
-    result.density.push_back(block.density);
-  }
-  for (const JointMaterial& joint : parameters.joints) {
-    result.normal_stiffness.push_back(joint.normal_stiffness);
-    result.tangential_stiffness.push_back(joint.tangential_stiffness);
-    result.friction_coefficient.push_back(joint.friction_coefficient());
-  }
-  return result;
-}
-
 /// How a variant differs from the nominal bridge at a control point in a state [m].
 using Difference = std::function<double(const RecordKey& key, std::size_t state, Eigen::Index point)>;
 
@@ -109,8 +94,8 @@ class Site {
     content.states = {kBuiltState, kLostState};
     content.sensitivities = making.first_order;
     for (std::size_t v = 1; v < content.variants.size(); ++v)
-      content.variants[v] = stored_form(parameters_at(stored_bridge(), uncertain_of_stored_bridge(),
-                                                      theta_of(static_cast<std::int32_t>(v))));
+      content.variants[v] = variant_parameters(parameters_at(stored_bridge(), uncertain_of_stored_bridge(),
+                                                             theta_of(static_cast<std::int32_t>(v))));
     write_database(folder_ / "made-up.h5", content, [&](std::size_t row) {
       std::vector<Solution> solutions;
       for (std::size_t state = 0; state < kStates; ++state)

@@ -29,9 +29,9 @@ TEST_CASE("Standardised parameters are those that give the variant's, whatever i
   for (const Uncertainty& uncertainty : {all, only_own, only_common}) {
     const UncertainParameters uncertain = uncertain_parameters(bridge, uncertainty);
     const VectorXd drawn = sampled_theta(uncertain.of_bridge.size(), 5);
-    const VariantParameters variant = stored_form(parameters_at(bridge, uncertain, drawn));
-    const VectorXd found = standardised_parameters(uncertain, stored_form(bridge.parameters), variant);
-    const VariantParameters again = stored_form(parameters_at(bridge, uncertain, found));
+    const VariantParameters variant = variant_parameters(parameters_at(bridge, uncertain, drawn));
+    const VectorXd found = standardised_parameters(uncertain, variant_parameters(bridge.parameters), variant);
+    const VariantParameters again = variant_parameters(parameters_at(bridge, uncertain, found));
     CHECK(are_close(again.normal_stiffness, variant.normal_stiffness));
     CHECK(are_close(again.tangential_stiffness, variant.tangential_stiffness));
     CHECK(are_close(again.friction_coefficient, variant.friction_coefficient));
@@ -45,7 +45,7 @@ TEST_CASE("The common stiffness takes what joints' own factors have in common") 
   VectorXd theta = VectorXd::Zero(static_cast<Eigen::Index>(uncertain.of_bridge.size()));
   theta[0] = 1.25;
   const VectorXd found =
-      standardised_parameters(uncertain, stored_form(stored_bridge().parameters),
-                              stored_form(parameters_at(stored_bridge(), uncertain, theta)));
+      standardised_parameters(uncertain, variant_parameters(stored_bridge().parameters),
+                              variant_parameters(parameters_at(stored_bridge(), uncertain, theta)));
   CHECK(found.isApprox(theta, 1e-9));
 }

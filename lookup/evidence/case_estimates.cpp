@@ -1,0 +1,111 @@
+#include "lookup/evidence/case_estimates.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/threads.h"
+#include "lookup/evidence/row_blocks.h"
+#include "lookup/evidence/scene_evidence.h"
+
+namespace voussoir {
+namespace {
+
+/// An estimate that failed counts as likely: the scene is worked out.
+double usable(double estimate) {
+  return std::isnan(estimate) ? std::numeric_limits<double>::infinity() : estimate;
+}
+
+/// How much a density rises at most if the covariance becomes that of another case, which is nowhere wider.
+/// Of log det that is as much as for the intact bridge at most, as long as losses widen covariances.
+double highest_rise(const ScatterLogs& from, const ScatterLogs& to) {
+  double most = kImpossible;
+  for (std::size_t k = 0; k < from.size(); ++k) most = std::max(most, to[k] - from[k]);
+  return most;
+}
+
+}  // namespace
+
+CaseEstimates::CaseEstimates(UnknownBridge& bridge, const Observation& observation, const SceneTable& table,
+                             std::span<const UnknownCase> cases, std::span<const std::size_t> rows,
+                             std::span<const double> beforehand)
+    : bridge_(bridge),
+      observation_(observation),
+      table_(table),
+      cases_(cases),
+      rows_(rows),
+      beforehand_(beforehand),
+      logs_(rows.size() * cases.size(), kImpossible),
+      sums_(rows.size(), kImpossible) {
+  const auto count = static_cast<Eigen::Index>(cases.size());
+  rises_ = Eigen::MatrixXd::Constant(count, count, std::numeric_limits<double>::infinity());
+}
+
+std::size_t CaseEstimates::look_at_next() {
+  const std::size_t first = looked_at();
+  const auto same_level = [&](const UnknownCase& one) { return one.level == cases_[first].level; };
+  const auto others = cases_.subspan(first);
+  const auto end = std::find_if_not(others.begin(), others.end(), same_level);
+  screens_.emplace_back(bridge_, observation_, table_, std::span(others.begin(), end), hardware_threads());
+  for (const ReducedCase& one : screens_.back().cases()) {
+    peaks_.push_back(one.peaks);
+    add_rises(peaks_.size() - 1);
+  }
+  return first;
+}
+
+void CaseEstimates::estimate(std::span<const std::size_t> places, double least) {
+  const UnknownScreen& screen = screens_.back();
+  const std::size_t end = peaks_.size(), first = end - screen.cases().size();
+  const Eigen::MatrixXd rises =
+      rises_.middleCols(static_cast<Eigen::Index>(first), static_cast<Eigen::Index>(end - first));
+  const auto blocks = row_blocks(places);
+  for_each_index_on_threads(blocks.size(), hardware_threads(), [&](std::size_t block) {
+    for (const std::size_t place : blocks[block]) {
+      const auto logs = std::span(logs_).subspan(place * cases_.size(), end);
+      screen.estimate(rows_[place], least - beforehand_[place], rises, logs);
+      for (double& log : logs.subspan(first)) log = usable(log);
+    }
+  });
+}
+
+void CaseEstimates::refine(std::span<const std::size_t> places, std::size_t from, ScreenDirections directions,
+                           double least) {
+  const auto blocks = row_blocks(places);
+  for_each_index_on_threads(blocks.size(), hardware_threads(), [&](std::size_t block) {
+    for (const std::size_t place : blocks[block]) {
+      std::size_t first = 0;
+      for (const UnknownScreen& screen : screens_) {
+        const std::size_t count = screen.cases().size();
+        const auto logs = std::span(logs_).subspan(place * cases_.size() + first, count);
+        if (first >= from) screen.refine(rows_[place], directions, least - beforehand_[place], logs);
+        first += count;
+      }
+    }
+  });
+}
+
+/// From all cases before it with the same conditions. Wider conditions say nothing: they widen what is not
+/// known of a collapse at all points by a hundred times and more, and the intact bridge not at all.
+void CaseEstimates::add_rises(std::size_t number) {
+  const UnknownCase& to = cases_[number];
+  for (std::size_t i = 0; i < number; ++i)
+    if (to.level <= cases_[i].level && to.conditions == cases_[i].conditions)
+      rises_(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(number)) =
+          highest_rise(peaks_[i], peaks_[number]);
+}
+
+/// Cases that add nothing to the largest are not worth an exponential.
+void CaseEstimates::add_up(std::span<const std::size_t> places) {
+  constexpr double kNothing = 40.0;
+  for (const std::size_t place : places) {
+    const auto logs = std::span<const double>(logs_).subspan(place * cases_.size(), cases_.size());
+    const double largest = *std::max_element(logs.begin(), logs.end());
+    double sum = 0.0;
+    for (const double log : logs)
+      if (log > largest - kNothing) sum += log == largest ? 1.0 : std::exp(log - largest);
+    sums_[place] = (std::isinf(largest) ? largest : largest + std::log(sum)) + beforehand_[place];
+  }
+}
+
+}  // namespace voussoir

@@ -1,0 +1,63 @@
+#pragma once
+/// @file Estimates of the evidence of all scenes in all cases, each as good as it has to be.
+
+#include <span>
+#include <vector>
+
+#include "lookup/evidence/unknown_screen.h"
+
+namespace voussoir {
+
+/// Rows of a table are named by their places in a list.
+class CaseEstimates {
+ public:
+  /// All of them outlive this; the bridge's case is changed. `beforehand`: log prior of each of the rows.
+  /// Cases come in descending order of levels and conditions, those of one level side by side.
+  CaseEstimates(UnknownBridge& bridge, const Observation& observation, const SceneTable& table,
+                std::span<const UnknownCase> cases, std::span<const std::size_t> rows,
+                std::span<const double> beforehand);
+
+  /// Makes the screen of the next level's cases; the number of the first of them.
+  std::size_t look_at_next();
+
+  /// So many cases have a screen.
+  std::size_t looked_at() const { return peaks_.size(); }
+
+  /// In the cases of the last screen, in the first few directions, as far as log p(scene, readings | case)
+  /// may be `least`.
+  void estimate(std::span<const std::size_t> places, double least);
+
+  /// In more directions, in all cases from number `from` on that have a screen, where estimates are `least`.
+  void refine(std::span<const std::size_t> places, std::size_t from, ScreenDirections directions,
+              double least);
+
+  /// Sums over the cases of these rows, with what was known beforehand.
+  void add_up(std::span<const std::size_t> places);
+  const std::vector<double>& sums() const { return sums_; }
+
+  /// Of one case, with what was known beforehand; infinity where the estimate failed, -infinity if the scene
+  /// is impossible or the case has no screen.
+  double of(std::size_t place, std::size_t number) const {
+    return logs_[place * cases_.size() + number] + beforehand_[place];
+  }
+  std::size_t count() const { return logs_.size(); }  ///< of estimates
+
+  const Eigen::MatrixXd& rises() const { return rises_; }  ///< CasePruning::rise, of cases that have a screen
+
+ private:
+  void add_rises(std::size_t number);
+
+  UnknownBridge& bridge_;
+  const Observation& observation_;
+  const SceneTable& table_;
+  std::span<const UnknownCase> cases_;
+  std::span<const std::size_t> rows_;
+  std::span<const double> beforehand_;
+  std::vector<UnknownScreen> screens_;  // one for each level
+  std::vector<ScatterLogs> peaks_;      // of each case: ReducedCase::peaks
+  Eigen::MatrixXd rises_;
+  std::vector<double> logs_;  // row by row of each case: log p(readings | scene, case)
+  std::vector<double> sums_;
+};
+
+}  // namespace voussoir
