@@ -22,7 +22,7 @@ std::optional<int> parse_whole_number(std::string_view text);
 std::optional<double> parse_number(std::string_view text);
 
 /// The text between apostrophes, shortened and without unprintable bytes, fit for an error message.
-std::string quoted(std::string_view text);
+std::string in_quotes(std::string_view text);
 
 /// The text with &, <, > and quotation marks as character references.
 std::string escaped(std::string_view text);

@@ -43,7 +43,8 @@ CLI::Validator number_above(double least, bool least_allowed) {
   return {[=](std::string& text) {
             const std::optional<double> number = parse_number(text);
             const bool right = number && (*number > least || (least_allowed && *number == least));
-            return right ? std::string() : fmt::format("is {}: expected a {}", voussoir::quoted(text), name);
+            return right ? std::string()
+                         : fmt::format("is {}: expected a {}", voussoir::in_quotes(text), name);
           },
           name};
 }
@@ -98,7 +99,7 @@ void add_shard_option(CLI::App& app, BuildOptions& options) {
           [](std::string& text) {
             return parse_shard(text)
                        ? std::string()
-                       : fmt::format("is {}: expected a part such as 3/16", voussoir::quoted(text));
+                       : fmt::format("is {}: expected a part such as 3/16", voussoir::in_quotes(text));
           },
           "PART/PARTS"));
 }

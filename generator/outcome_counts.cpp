@@ -10,7 +10,7 @@
 namespace voussoir {
 namespace {
 
-constexpr std::size_t kMostListed = 20;  ///< unresolved scenes
+constexpr std::size_t kMostUnresolved = 20;  ///< unresolved scenes
 
 void count(const RecordedState& state, const RecordKey& key, const BlockLayout& layout,
            StateOutcomes& counts) {
@@ -36,11 +36,11 @@ std::string state_text(const StateOutcomes& counts) {
     text += fmt::format("  inherited   {} of the collapses, from scenes with fewer missing blocks\n",
                         counts.inherited);
   text += fmt::format("  unresolved  {}\n", counts.unresolved.size());
-  for (std::size_t i = 0; i < std::min(counts.unresolved.size(), kMostListed); ++i)
+  for (std::size_t i = 0; i < std::min(counts.unresolved.size(), kMostUnresolved); ++i)
     text +=
         fmt::format("    {}, residual {:.1e}\n", counts.unresolved[i].scene, counts.unresolved[i].residual);
-  if (counts.unresolved.size() > kMostListed)
-    text += fmt::format("    and {} more\n", counts.unresolved.size() - kMostListed);
+  if (counts.unresolved.size() > kMostUnresolved)
+    text += fmt::format("    and {} more\n", counts.unresolved.size() - kMostUnresolved);
   return text;
 }
 

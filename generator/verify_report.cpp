@@ -7,14 +7,15 @@
 namespace voussoir {
 namespace {
 
-constexpr std::size_t kMostListed = 20;  ///< problems in the text; JSON has them all
+constexpr std::size_t kMostProblems = 20;  ///< problems in the text; JSON has them all
 
 std::string problem_text(const std::vector<std::string>& problems) {
   if (problems.empty()) return "  no problems\n";
   std::string text = fmt::format("  {} problems:\n", problems.size());
-  for (std::size_t i = 0; i < std::min(problems.size(), kMostListed); ++i)
+  for (std::size_t i = 0; i < std::min(problems.size(), kMostProblems); ++i)
     text += "    " + problems[i] + "\n";
-  if (problems.size() > kMostListed) text += fmt::format("    and {} more\n", problems.size() - kMostListed);
+  if (problems.size() > kMostProblems)
+    text += fmt::format("    and {} more\n", problems.size() - kMostProblems);
   return text;
 }
 

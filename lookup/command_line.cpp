@@ -79,7 +79,7 @@ CLI::Validator number_in_range(double least, double most, const std::string& nam
         const std::optional<double> number = parse_number(text);
         if (!number || *number < least || *number > most)
           throw InputError(
-              fmt::format("{} given, expected a number from {:g} to {:g}", quoted(text), least, most));
+              fmt::format("{} given, expected a number from {:g} to {:g}", in_quotes(text), least, most));
       },
       name);
 }

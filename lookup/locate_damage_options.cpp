@@ -3,13 +3,13 @@
 #include <algorithm>
 
 #include "core/error.h"
+#include "core/units.h"
 #include "lookup/command_line.h"
 #include "lookup/readings/stated_sigmas.h"
 
 namespace voussoir {
 namespace {
 
-constexpr double kMetresPerMillimetre = 1e-3;
 constexpr std::size_t kMostCandidates = 100000;
 constexpr int kMostMissing = 3;
 constexpr double kLargestWeight = 1e12;

@@ -7,7 +7,7 @@
 namespace voussoir {
 namespace {
 
-constexpr double kRoundOff = 1e-9;   ///< [m] points this close to an edge lie on it
+constexpr double kOnEdge = 1e-9;     ///< [m] points this close to an edge lie on it
 constexpr double kTieMargin = 1e-9;  ///< relative: shapes that differ by round-off count as equal
 
 /// Area over the sum of squared sides: 0.144 for an equilateral triangle, 0 or less for a flat or inverted
@@ -111,7 +111,7 @@ void split_boundary_at(Triangulation& triangulation, const Point& point, double 
     if (off > tolerance) continue;
     if ((at(a) - point).norm() <= tolerance || (at(b) - point).norm() <= tolerance) return;
     const int middle = static_cast<int>(triangulation.points.size());
-    triangulation.points.push_back(off > kRoundOff ? foot : point);
+    triangulation.points.push_back(off > kOnEdge ? foot : point);
     for (auto& t : triangulation.triangles)
       for (std::size_t k = 0; k < 3; ++k)
         if (t[k] == a && t[(k + 1) % 3] == b) {

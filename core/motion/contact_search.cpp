@@ -17,13 +17,13 @@ bool near(const Box& a, const Box& b, double margin) {
          a.min().y() <= b.max().y() + margin && b.min().y() <= a.max().y() + margin;
 }
 
-Box box_of(const Eigen::Matrix2Xd& places, const BoundaryEdge& edge) {
+Box box_around(const Eigen::Matrix2Xd& places, const BoundaryEdge& edge) {
   const Point a = places.col(value(edge.from));
   const Point b = places.col(value(edge.to));
   return {a.cwiseMin(b), a.cwiseMax(b)};
 }
 
-Box box_of(const Eigen::Matrix2Xd& places, const IndexRange& nodes) {
+Box box_around(const Eigen::Matrix2Xd& places, const IndexRange& nodes) {
   const auto block = places.middleCols(nodes.begin, nodes.size());
   return {block.rowwise().minCoeff(), block.rowwise().maxCoeff()};
 }
@@ -139,18 +139,18 @@ std::vector<EdgePair> ContactSearch::candidates(const Eigen::Matrix2Xd& places,
     return places.col(value(e.to)) - places.col(value(e.from));
   };
   std::vector<Box> block_boxes;
-  for (const IndexRange& nodes : mesh_->block_nodes) block_boxes.push_back(box_of(places, nodes));
+  for (const IndexRange& nodes : mesh_->block_nodes) block_boxes.push_back(box_around(places, nodes));
   std::vector<EdgePair> pairs;
   for (const auto& [first, second] : near_blocks(block_boxes, absent, margin)) {
     const IndexRange& first_edges = mesh_->block_edges[static_cast<std::size_t>(first)];
     const IndexRange& second_edges = mesh_->block_edges[static_cast<std::size_t>(second)];
     for (int a = first_edges.begin; a < first_edges.end; ++a) {
       const BoundaryEdge& edge_a = mesh_->edges[static_cast<std::size_t>(a)];
-      const Box box_a = box_of(places, edge_a);
+      const Box box_a = box_around(places, edge_a);
       if (!near(box_a, block_boxes[static_cast<std::size_t>(second)], margin)) continue;
       for (int b = second_edges.begin; b < second_edges.end; ++b) {
         const BoundaryEdge& edge_b = mesh_->edges[static_cast<std::size_t>(b)];
-        if (may_face(along(edge_a), along(edge_b)) && near(box_a, box_of(places, edge_b), margin))
+        if (may_face(along(edge_a), along(edge_b)) && near(box_a, box_around(places, edge_b), margin))
           pairs.emplace_back(a, b);
       }
     }

@@ -35,9 +35,9 @@ std::vector<LoadDescription> chosen_loads(const std::string& text,
       throw InputError(fmt::format(
           "--loads: the bridge has no load case {}: expected all, none or names of its load "
           "cases ({})",
-          quoted(name), known.empty() ? "it has none" : fmt::format("{}", fmt::join(known, ", "))));
+          in_quotes(name), known.empty() ? "it has none" : fmt::format("{}", fmt::join(known, ", "))));
     if (std::ranges::find(chosen, *load) != chosen.end())
-      throw InputError(fmt::format("--loads: names {} twice", quoted(name)));
+      throw InputError(fmt::format("--loads: names {} twice", in_quotes(name)));
     chosen.push_back(*load);
   }
   return chosen;

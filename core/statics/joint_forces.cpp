@@ -8,12 +8,12 @@ namespace voussoir {
 namespace {
 
 /// Shares of a stretch that differ by less are alike: rounding.
-constexpr double kRoundOff = 1e-9;
+constexpr double kNearlyAll = 1e-9;
 
 JointCondition condition_of(const JointContact& contact) {
   if (contact.closed <= 0.0) return JointCondition::open;
-  return contact.sliding >= (1.0 - kRoundOff) * contact.closed ? JointCondition::sliding
-                                                               : JointCondition::sticking;
+  return contact.sliding >= (1.0 - kNearlyAll) * contact.closed ? JointCondition::sliding
+                                                                : JointCondition::sticking;
 }
 
 JointContact contact_of(const StageEquations& equations, std::size_t joint, const JointState& state) {

@@ -7,7 +7,7 @@ namespace voussoir {
 namespace {
 
 /// Of the largest gradient: what is less is round-off.
-constexpr double kRoundOff = 1e-9;
+constexpr double kNoSlope = 1e-9;
 /// Of the largest diagonal entry, added to all: columns of joints that share a line depend on each other.
 constexpr double kRegular = 1e-13;
 
@@ -53,7 +53,7 @@ Eigen::VectorXd non_negative_least_squares(const Eigen::MatrixXd& a, const Eigen
   FreeSet set{a.transpose() * a, a.transpose() * b};
   Eigen::VectorXd x = Eigen::VectorXd::Zero(a.cols());
   if (a.cols() == 0) return x;
-  const double least = kRoundOff * set.right.cwiseAbs().maxCoeff();
+  const double least = kNoSlope * set.right.cwiseAbs().maxCoeff();
   // Each unknown is let free once in the usual course; the bound only ends a cycle of round-off.
   for (Eigen::Index round = 0; round < 10 * a.cols(); ++round) {
     Eigen::VectorXd gradient = set.right - set.matrix * x;

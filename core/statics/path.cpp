@@ -10,7 +10,7 @@
 namespace voussoir {
 namespace {
 
-constexpr int kMostHalvings = 5;
+constexpr int kMostStepHalvings = 5;
 constexpr std::size_t kRecent = 4;   ///< a Newton step may rise to the worst of so many residuals
 constexpr double kProbe = 1e-3;      ///< share of a movement by which its forces are differentiated
 constexpr double kFirstDrag = 1e-2;  ///< of the tangent's mean diagonal
@@ -191,7 +191,7 @@ class PathFollower {
       const double bound = *std::max_element(begin, recent.end());
       const Field before = place;
       double factor = 1.0;
-      for (int halving = 0; halving <= kMostHalvings; ++halving, factor *= 0.5) {
+      for (int halving = 0; halving <= kMostStepHalvings; ++halving, factor *= 0.5) {
         place = before + factor * *change;
         unbalanced = unbalance(equations, place, drag);
         if (unbalanced.norm() < bound) break;

@@ -14,7 +14,7 @@ namespace voussoir {
 namespace {
 
 constexpr double kSameShare = 1e-12;  ///< of the intrados' length: round-off of its division
-constexpr double kRoundOff = 1e-9;    ///< [m] an end of the intrados this close to the foot lies on it
+constexpr double kAtFoot = 1e-9;      ///< [m] an end of the intrados this close to the foot lies on it
 constexpr double kFlattest =
     1e-3;  ///< an end whose joint rises by less than this share of its width is level
 
@@ -120,7 +120,7 @@ RingEnd ring_end(const SpanDescription& span, const Curve& curve, bool left, boo
   end.foot = end.inner.y();
   if (!has_skewbacks(span, wall_has_courses)) return end;
   end.foot = std::max(0.0, end.inner.y() - height);
-  if (std::abs(end.inner.y() - end.foot) < kRoundOff) end.inner.y() = end.foot;
+  if (std::abs(end.inner.y() - end.foot) < kAtFoot) end.inner.y() = end.foot;
   const bool level = end.outer.y() - end.inner.y() <= kFlattest * std::abs(end.outer.x() - end.inner.x());
   end.has_stone = end.foot < end.inner.y() || !level;
   return end;

@@ -33,7 +33,7 @@ void check_labels(const std::vector<Block>& blocks) {
     if (block.label.empty() || block.label.size() > kLongestLabel || !plain || block.label == "intact")
       throw InputError(
           fmt::format("label {}: expected 1 to {} letters, digits or signs without blanks, + ; *",
-                      quoted(block.label), kLongestLabel));
+                      in_quotes(block.label), kLongestLabel));
     if (!labels.insert(block.label).second)
       throw InputError(
           fmt::format("two blocks are called '{}': expected a label of its own for each", block.label));

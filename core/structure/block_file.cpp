@@ -71,7 +71,7 @@ Block block_of(const Json& entry, const Place& place) {
   for (const auto& [key, unused] : entry.items())
     if (key != "label" && key != "role" && key != "ring" && key != "vertices")
       place.refuse(
-          fmt::format("unknown key {}: expected label, role, ring and vertices", voussoir::quoted(key)));
+          fmt::format("unknown key {}: expected label, role, ring and vertices", voussoir::in_quotes(key)));
   Block block;
   block.role = role_of(entry, place);
   block.ring = ring_of(entry, block.role, place);

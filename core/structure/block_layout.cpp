@@ -14,15 +14,15 @@ namespace voussoir {
 namespace {
 
 /// An arch's outline and how far it reaches.
-struct Opening {
+struct ArchOpening {
   Polygon enclosed;
   Box box;
 };
 
 /// The rings of all spans, ring by ring from the intrados outwards, each from left to right. Returns what the
 /// arches leave free.
-std::vector<Opening> add_arches(const BridgeDescription& description, std::vector<Block>& blocks) {
-  std::vector<Opening> openings;
+std::vector<ArchOpening> add_arches(const BridgeDescription& description, std::vector<Block>& blocks) {
+  std::vector<ArchOpening> openings;
   std::vector<std::pair<int, double>> order;  // layer, x
   int rings = 0;
   for (const SpanDescription& span : description.spans) {
@@ -55,10 +55,10 @@ std::vector<double> joints_of_course(const WallDescription& wall, int course) {
   return x;
 }
 
-std::vector<Polygon> cut_by_arches(const Polygon& rectangle, const std::vector<Opening>& openings,
+std::vector<Polygon> cut_by_arches(const Polygon& rectangle, const std::vector<ArchOpening>& openings,
                                    double smallest_piece) {
   std::vector<Polygon> parts = {rectangle};
-  for (const Opening& opening : openings) {
+  for (const ArchOpening& opening : openings) {
     const bool beside =
         rectangle[1].x() <= opening.box.min().x() || rectangle[0].x() >= opening.box.max().x();
     if (beside) continue;
@@ -71,7 +71,7 @@ std::vector<Polygon> cut_by_arches(const Polygon& rectangle, const std::vector<O
   return parts;
 }
 
-void add_course(const WallPart& part, int course, const std::vector<Opening>& openings,
+void add_course(const WallPart& part, int course, const std::vector<ArchOpening>& openings,
                 std::vector<Block>& blocks) {
   const WallDescription& wall = part.courses;
   const double bottom = part.base_y + (course - 1) * wall.course_height;
@@ -93,7 +93,7 @@ void add_course(const WallPart& part, int course, const std::vector<Opening>& op
 }
 
 /// The wall or another part, behind the blocks that are there, its courses counted on from `courses_before`.
-SmallPieces add_part(const WallPart& part, int courses_before, const std::vector<Opening>& openings,
+SmallPieces add_part(const WallPart& part, int courses_before, const std::vector<ArchOpening>& openings,
                      double tolerance, std::vector<Block>& blocks) {
   const WallDescription& wall = part.courses;
   std::vector<Block> laid;
@@ -162,7 +162,7 @@ int BlockLayout::count_in_course(int course) const {
 BlockLayout lay_blocks(const BridgeDescription& description) {
   if (!description.blocks.empty()) return given_blocks(description);
   BlockLayout layout;
-  const std::vector<Opening> openings = add_arches(description, layout.blocks);
+  const std::vector<ArchOpening> openings = add_arches(description, layout.blocks);
   std::vector<WallPart> parts = {WallPart{.courses = description.wall}};
   parts.insert(parts.end(), description.parts.begin(), description.parts.end());
   int courses = 0;

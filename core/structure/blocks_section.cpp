@@ -13,7 +13,7 @@ namespace {
 constexpr std::size_t kCornersOfLine = 20;
 
 /// A text as TOML writes it; what cannot stand in a label is refused when it is read.
-std::string in_quotes(const std::string& text) {
+std::string toml_string(const std::string& text) {
   std::string result = "\"";
   for (const char c : text) {
     const auto byte = static_cast<unsigned char>(c);
@@ -30,7 +30,7 @@ std::string to_toml(const std::vector<Block>& blocks) {
   std::string text = "[\n";
   for (const Block& block : blocks) {
     const std::string ring = block.role == BlockRole::ring ? fmt::format("ring = {}, ", block.ring) : "";
-    text += fmt::format("  {{label = {}, role = \"{}\", {}vertices = [", in_quotes(block.label),
+    text += fmt::format("  {{label = {}, role = \"{}\", {}vertices = [", toml_string(block.label),
                         name_of(block.role), ring);
     for (std::size_t i = 0; i < block.polygon.size(); ++i)
       fmt::format_to(std::back_inserter(text), "{}[{}, {}]",
@@ -80,8 +80,8 @@ WithBlocks with_blocks_of_file(const std::string& text, const std::filesystem::p
   // A basic string stands on one line; what follows its value there, a comment, goes with it.
   const std::size_t start = start_of_line(text, node->source().begin.line);
   const std::size_t end = std::min(text.find('\n', start), text.size());
-  const std::string what = fmt::format("# the blocks of {}\nblocks = {}", in_quotes(file.filename().string()),
-                                       to_toml(read.blocks));
+  const std::string what = fmt::format("# the blocks of {}\nblocks = {}",
+                                       toml_string(file.filename().string()), to_toml(read.blocks));
   return {text.substr(0, start) + what + text.substr(end), std::move(read.notes)};
 }
 

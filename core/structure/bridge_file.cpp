@@ -21,7 +21,7 @@
 namespace voussoir {
 namespace {
 
-constexpr std::uintmax_t kLargestFile = 1 << 20;  ///< [bytes] a bridge file is a page or two
+constexpr std::uintmax_t kLongestText = 1 << 20;  ///< [bytes] a bridge file is a page or two
 constexpr std::size_t kLongestLine = 4096;        ///< [bytes] bounds how deep dotted keys nest
 constexpr double kMostPieces = 300000;            ///< blocks, each counted four times a level of refinement
 
@@ -205,7 +205,7 @@ BridgeFile parse_bridge_file(std::string_view text, const std::string& name) {
 }
 
 BridgeFile read_bridge_file(const std::filesystem::path& path) {
-  const std::string text = read_text(path, kLargestFile, "a bridge file (TOML)");
+  const std::string text = read_text(path, kLongestText, "a bridge file (TOML)");
   check_lines(text, path.string());
   WithBlocks whole = with_blocks_of_file(text, path);
   BridgeFile bridge = parse_bridge_file(whole.text, path.string());

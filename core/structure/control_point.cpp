@@ -8,7 +8,7 @@
 namespace voussoir {
 namespace {
 
-constexpr double kSamePlace = 1e-9;  ///< [m]
+constexpr double kOnTop = 1e-9;  ///< [m]
 
 NodeId node_at(const Mesh& mesh, BlockId block, const Point& place) {
   const IndexRange range = mesh.block_nodes[static_cast<std::size_t>(value(block))];
@@ -25,7 +25,7 @@ std::pair<Point, Point> upper_corners(const Polygon& polygon) {
                      })->y();
   Polygon upper;
   for (const Point& p : polygon)
-    if (p.y() > top - kSamePlace) upper.push_back(p);
+    if (p.y() > top - kOnTop) upper.push_back(p);
   const auto [left, right] = std::minmax_element(
       upper.begin(), upper.end(), [](const Point& a, const Point& b) { return a.x() < b.x(); });
   return {*left, *right};

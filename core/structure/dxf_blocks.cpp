@@ -36,7 +36,7 @@ class Groups {
     int code = 0;
     const auto [end, error] = std::from_chars(code_text.data(), code_text.data() + code_text.size(), code);
     if (error != std::errc{} || end != code_text.data() + code_text.size())
-      refuse(line_, fmt::format("{}: expected the number of a group code (ASCII DXF)", quoted(code_text)));
+      refuse(line_, fmt::format("{}: expected the number of a group code (ASCII DXF)", in_quotes(code_text)));
     const auto value = next_line();
     if (!value) refuse(line_, "the file ends after a group code: expected its value");
     return Group{code, trimmed(*value), line_};
@@ -48,12 +48,12 @@ class Groups {
 
   double number(const Group& group) const {
     const auto number = parse_number(group.value);
-    if (!number) refuse(group.line, fmt::format("{}: expected a number", quoted(group.value)));
+    if (!number) refuse(group.line, fmt::format("{}: expected a number", in_quotes(group.value)));
     return *number;
   }
   int flags(const Group& group) const {
     const auto flags = parse_whole_number(group.value);
-    if (!flags) refuse(group.line, fmt::format("{}: expected a whole number", quoted(group.value)));
+    if (!flags) refuse(group.line, fmt::format("{}: expected a whole number", in_quotes(group.value)));
     return *flags;
   }
 
@@ -267,8 +267,8 @@ BlockFile parse_dxf_blocks(std::string_view text, const std::string& name) {
             at_line(name, outline.line, fmt::format("a vertex is farther than {:g} m", kLargestLength)));
   }
   for (const auto& [layer, count] : left_out)
-    file.notes.push_back(
-        fmt::format("left out {} outlines on layer {}, which names no role", count, voussoir::quoted(layer)));
+    file.notes.push_back(fmt::format("left out {} outlines on layer {}, which names no role", count,
+                                     voussoir::in_quotes(layer)));
   if (open > 0) file.notes.push_back(fmt::format("left out {} outlines that are not closed", open));
   if (file.blocks.empty())
     throw InputError(fmt::format("{}: no closed polylines on layers that name roles: expected layers {}",

@@ -7,7 +7,7 @@
 namespace voussoir {
 namespace {
 
-constexpr double kSameHeight = 1e-9;  ///< [m]
+constexpr double kLevel = 1e-9;  ///< [m]
 
 double touched_length(const Edge& edge, const Block& block, const std::vector<Block>& blocks,
                       double tolerance) {
@@ -30,16 +30,16 @@ bool is_seen_from_above(const Block& block, const std::vector<Block>& blocks) {
   double left = 0.0, right = 0.0;
   bool found = false;
   for (const Point& p : block.polygon) {
-    if (p.y() < top - kSameHeight) continue;
+    if (p.y() < top - kLevel) continue;
     left = found ? std::min(left, p.x()) : p.x();
     right = found ? std::max(right, p.x()) : p.x();
     found = true;
   }
-  if (right - left <= kSameHeight) return false;
+  if (right - left <= kLevel) return false;
   return std::none_of(blocks.begin(), blocks.end(), [&](const Block& other) {
     if (&other == &block) return false;
     const auto height = highest_at(other.polygon, 0.5 * (left + right));
-    return height && *height > top + kSameHeight;
+    return height && *height > top + kLevel;
   });
 }
 

@@ -7,7 +7,7 @@ namespace voussoir {
 namespace {
 
 constexpr std::size_t kLongestName = 12;  ///< [bytes] names of states have room for history, load and step
-constexpr int kMostSteps = 999;
+constexpr int kMostPlaces = 999;
 
 /// Reads a force beside its place.
 void read_force(TomlSection& section, const char* key, double& force) {
@@ -80,7 +80,7 @@ void read_places(TomlSection& section, const Interval& bridge, LoadDescription& 
     read_place(section, "from_m", kAnywhere, from);
     read_place(section, "to_m", kAnywhere, to);
     section.require("steps");
-    section.count("steps", steps, 2, kMostSteps);
+    section.count("steps", steps, 2, kMostPlaces);
   } else {
     read_place(section, "place_m", kAnywhere, from);
   }

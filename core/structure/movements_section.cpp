@@ -4,7 +4,7 @@ namespace voussoir {
 namespace {
 
 constexpr double kFurthest = 10.0;  ///< [m]
-constexpr int kMostSteps = 100000;
+constexpr int kMostMovementSteps = 100000;
 
 MovementDescription read_movement(TomlSection section) {
   MovementDescription movement;
@@ -21,7 +21,7 @@ MovementDescription read_movement(TomlSection section) {
     if (movement.x == 0.0 && movement.y == 0.0)
       section.refuse("support", "expected pressure_Pa, x_m or y_m beside it");
   }
-  section.count("steps", movement.steps, 1, kMostSteps);
+  section.count("steps", movement.steps, 1, kMostMovementSteps);
   section.refuse_unknown_keys();
   return movement;
 }

@@ -11,7 +11,7 @@
 namespace voussoir {
 namespace {
 
-constexpr double kRoundOff = 1e-9;  // of an area: mirror images of a piece at the limit are treated alike
+constexpr double kAlike = 1e-9;  // of an area: mirror images of a piece at the limit are treated alike
 
 double shared_length(const Polygon& first, const Polygon& second, double tolerance) {
   double length = 0.0;
@@ -28,7 +28,7 @@ double shared_length(const Polygon& first, const Polygon& second, double toleran
 std::optional<std::size_t> smallest_piece(const std::vector<Block>& blocks, double smallest_area,
                                           const std::set<BlockIndex>& without_neighbour) {
   std::optional<std::size_t> smallest;
-  double least = smallest_area * (1.0 - kRoundOff);
+  double least = smallest_area * (1.0 - kAlike);
   for (std::size_t i = 0; i < blocks.size(); ++i) {
     if (blocks[i].role == BlockRole::ring || without_neighbour.contains(blocks[i].index)) continue;
     const double size = area(blocks[i].polygon);

@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 
+#include "core/not_a_number.h"
 #include "core/simd/lane_math.h"
 #include "lookup/evidence/point_arrays.h"
 #include "lookup/evidence/scale_fit.h"
@@ -14,7 +15,6 @@
 namespace voussoir {
 namespace {
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kSmallestDeviation = 1e-12;  // [m] a model error below it counts as that
 constexpr double kFarInside = 6.5;       // deviations from the bound inside of which it is not felt: 4e-11
 constexpr std::size_t kFewProducts = 4;  // of factors that may be as small as 1e-60

@@ -12,7 +12,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kNegligible = 0.02;  // parts of the mixture with less weight are left out
+constexpr double kNegligibleWeight = 0.02;  // parts of the mixture with less weight are left out
 
 /// A scene with one kappa, and its weight in the mixture.
 struct Part {
@@ -30,7 +30,7 @@ std::vector<Part> parts_of(const std::vector<WeightedScene>& scenes, const std::
     const double log_all = over_scatter(logs[i]);
     for (std::size_t k = 0; k < kScatterFactors.size(); ++k) {
       const double weight = scenes[i].probability / total * kScatterPrior[k] * std::exp(logs[i][k] - log_all);
-      if (weight < kNegligible) continue;
+      if (weight < kNegligibleWeight) continue;
       parts.push_back({i, k, weight});
       kept += weight;
     }

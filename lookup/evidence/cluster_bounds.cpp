@@ -15,7 +15,6 @@
 namespace voussoir {
 namespace {
 
-constexpr double kRoundOff = 1e-6;  // of a bound: it is compared with evidence worked out in another order
 constexpr double kLeastSum = 1e-30;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
@@ -126,7 +125,7 @@ std::vector<double> cluster_bounds(const Observation& observation, const SearchI
               ? integral.constant - integral.order * std::log(std::max(sum_for(shape, box), kLeastSum)) -
                     box.sum_log_scale
               : bound_at_level(shape, box, observation.count, observation.noise.degrees_of_freedom);
-      result[i] = std::max(result[i], bound + kRoundOff * (1.0 + std::abs(bound)));
+      result[i] = std::max(result[i], bound + kLogRoundOff * (1.0 + std::abs(bound)));
     }
   }
   return result;

@@ -9,6 +9,7 @@
 #include <limits>
 #include <numbers>
 
+#include "core/not_a_number.h"
 #include "lookup/evidence/bounded_errors.h"
 #include "lookup/evidence/nuisance_likelihood.h"
 #include "lookup/evidence/row_statistics.h"
@@ -136,7 +137,6 @@ std::vector<SensorResidual> sensor_residuals(const Observation& observation, con
 
 std::vector<SensorResidual> sensor_residuals(const Observation& observation, const UnknownBridge& bridge,
                                              const BridgePosterior& posterior) {
-  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   std::vector<SensorResidual> result;
   for (std::size_t point = 0; point < observation.displacement.size(); ++point)
     if (const double reading = observation.displacement[point]; !std::isnan(reading))

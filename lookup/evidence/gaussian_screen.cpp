@@ -12,7 +12,6 @@
 namespace voussoir {
 namespace {
 
-constexpr double kRoundOff = 1e-6;        // of a logarithm that is compared with one worked out otherwise
 constexpr std::size_t kPlacesTried = 20;  // after which hopeless boxes are left
 static_assert(kPlacesTried % kLanes == 0);
 
@@ -28,13 +27,13 @@ struct Question {
 
 /// Of a box: errors against the nearest number over the largest variance, and the product of the least
 /// variances.
-struct BoxSums {
+struct GaussianSums {
   DoubleLanes square{}, variances = DoubleLanes{} + 1.0;
 };
 
 /// Adds the places from the i-th and keeps the inverse of the largest variances there.
 VOUSSOIR_INLINE void add_places(const PlaceArrays& arrays, const ClusterBox& box, std::size_t i,
-                                const CommonVariance& common, double* weights, BoxSums& sums) {
+                                const CommonVariance& common, double* weights, GaussianSums& sums) {
   const DoubleLanes zero{}, one = DoubleLanes{} + 1.0;
   const PlaceBounds at = place_bounds(arrays, box, i, common);
   const DoubleLanes most_variance = at.most_instrument * at.most_instrument + at.most_variance;
@@ -50,7 +49,7 @@ VOUSSOIR_INLINE void add_places(const PlaceArrays& arrays, const ClusterBox& box
 /// reaches `least`.
 VOUSSOIR_INLINE double bound_of(const Question& q, const ClusterBox& box, double least, double* weights) {
   const CommonVariance common = common_variance_in(q.arrays, box);
-  BoxSums sums;
+  GaussianSums sums;
   WideProduct variances;
   for (std::size_t i = 0, step = 1; i < q.arrays.reading.size(); i += kLanes, ++step) {
     add_places(q.arrays, box, i, common, weights, sums);
@@ -109,7 +108,7 @@ std::vector<std::size_t> rows_in_reach(const Observation& observation, const Sce
     if (!std::isnan(observation.reading[i]))
       highest -= 0.5 * std::log((scales.offset[i] * scales.offset[i] + observation.own_variance[i]) *
                                 arrays.inverse_unit * arrays.inverse_unit);
-  const double safe = least - kRoundOff * (1.0 + std::abs(least));
+  const double safe = least - kLogRoundOff * (1.0 + std::abs(least));
   std::vector<double> weights(index.places);
   std::vector<std::size_t> found;
   find_rows({arrays, table, index, priors, constant, highest, safe}, weights.data(), found);

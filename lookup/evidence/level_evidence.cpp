@@ -15,23 +15,23 @@
 namespace voussoir {
 namespace {
 
-constexpr double kNegligible = 25.0;   // parts of an integrand below exp(-this) of its peak are left out
-constexpr double kCommonLevel = 0.05;  // from which the likeliest rows are looked for
-constexpr std::size_t kLikely = 8;     // rows with which all levels are tried
-constexpr int kLevelsPerOctave = 4;    // of the search for the likeliest level
+constexpr double kNegligiblePart = 25.0;  // parts of an integrand below exp(-this) of its peak are left out
+constexpr double kCommonLevel = 0.05;     // from which the likeliest rows are looked for
+constexpr std::size_t kLikely = 8;        // rows with which all levels are tried
+constexpr int kLevelsPerOctave = 4;       // of the search for the likeliest level
 constexpr double kPanel =
     3.0;  // widest panel of Gauss's rule, in the same deviations, and narrowest, in 1 / count
 constexpr double kWidening = 1.4;  // of the steps below the peaks, where likelihoods level out
 constexpr double kBeyondEdges =
     16.0;  // a bounded row's likelihood below exp(-this) of its peak ends the integral
-constexpr double kFarInside = 4.0;  // deviations of the model inside of which a bound is hardly felt: 3e-5
+constexpr double kHardlyFelt = 4.0;  // deviations of the model inside of which a bound is hardly felt: 3e-5
 constexpr double kMostScaleDeviations = 4.0;  // of an unknown common factor, that count
 constexpr double kFarBeyond = 7.0;            // .. and beyond which a reading is all but excluded
 
 constexpr std::array<NoiseShape, 1> kUniform = {NoiseShape::uniform};
 
-const double kFirst = std::log(kSmallestLevel);
-const double kLast = std::log(kLargestLevel);
+const double kLogSmallest = std::log(kSmallestLevel);
+const double kLogLargest = std::log(kLargestLevel);
 
 /// A grid of levels about a peak of deviation 1 / sqrt(power count).
 struct GridRule {
@@ -39,7 +39,7 @@ struct GridRule {
   double negligible;  // parts of an integrand below exp(-this) of its peak are left out
   double far;         // rows less likely than the best by exp(this) need not be exact
 };
-constexpr GridRule kFine = {1.1, kNegligible, 30.0};
+constexpr GridRule kFine = {1.1, kNegligiblePart, 30.0};
 constexpr GridRule kCoarse = {1.3, 12.0, 20.0};
 
 /// Logarithms of levels, ascending, with the weights of a rule of integration.
@@ -93,10 +93,10 @@ LevelGrid grid_about(double level, double count, double power, const GridRule& r
   const double reach = rule.far / count + std::sqrt(2.0 * rule.negligible / count);
   const double begin = peak - reach;
   const double end = peak + reach + (rule.negligible + 1.0) / count;
-  if (begin <= kFirst || end >= kLast) return graded_panels(kFirst, kLast, count);
+  if (begin <= kLogSmallest || end >= kLogLargest) return graded_panels(kLogSmallest, kLogLargest, count);
   std::vector<double> places;
-  for (double below = begin, width = step; below > kFirst; width *= kWidening) {
-    below = std::max(kFirst, below - width);
+  for (double below = begin, width = step; below > kLogSmallest; width *= kWidening) {
+    below = std::max(kLogSmallest, below - width);
     places.push_back(below);
   }
   std::reverse(places.begin(), places.end());
@@ -145,9 +145,10 @@ class BoundedRow {
   /// The integral over all levels.
   double log_integral() const {
     if (!is_possible_) return kImpossible;
-    const double edge_end = std::clamp(std::log(end_), kFirst, kLast);
+    const double edge_end = std::clamp(std::log(end_), kLogSmallest, kLogLargest);
     // Where no level takes in all readings, those below the largest count as well.
-    const double edge_begin = begin_ < kLargestLevel ? std::clamp(std::log(begin_), kFirst, kLast) : kFirst;
+    const double edge_begin =
+        begin_ < kLargestLevel ? std::clamp(std::log(begin_), kLogSmallest, kLogLargest) : kLogSmallest;
     const double width = kPanelWidth / static_cast<double>(observation_.count);
     double sum = kImpossible;
     double top = kImpossible;
@@ -158,8 +159,8 @@ class BoundedRow {
       return at_far_end > top - kBeyondEdges;
     };
     double step = width;
-    for (double from = edge_end; from < kLast; step *= 2.0) {
-      const double to = std::min(kLast, from + step);
+    for (double from = edge_end; from < kLogLargest; step *= 2.0) {
+      const double to = std::min(kLogLargest, from + step);
       const Panel panel = panel_of(from, to);
       if (!add(panel, panel.last)) break;
       from = to;
@@ -229,7 +230,7 @@ class BoundedRow {
       begin_ = std::max(
           begin_, (beyond - kFarBeyond * errors.model[i] - scaled) / relative * (1.0 - kBoundTolerance));
       end_ = std::max(end_,
-                      (beyond + kFarInside * errors.model[i] + scaled) / relative * (1.0 + kBoundTolerance));
+                      (beyond + kHardlyFelt * errors.model[i] + scaled) / relative * (1.0 + kBoundTolerance));
     }
   }
 
@@ -245,11 +246,11 @@ class BoundedRow {
 
 double likeliest_level(const Observation& observation, Shapes shapes, const SceneTable& table,
                        std::span<const std::size_t> rows) {
-  double best = 0.5 * (kFirst + kLast);
+  double best = 0.5 * (kLogSmallest + kLogLargest);
   for (const double step : {std::log(2.0), std::log(2.0) / kLevelsPerOctave}) {
     const bool whole_range = step > 0.5;
-    const double from = whole_range ? kFirst : std::max(kFirst, best - std::log(2.0));
-    const double to = whole_range ? kLast : std::min(kLast, best + std::log(2.0));
+    const double from = whole_range ? kLogSmallest : std::max(kLogSmallest, best - std::log(2.0));
+    const double to = whole_range ? kLogLargest : std::min(kLogLargest, best + std::log(2.0));
     const int steps = static_cast<int>(std::ceil((to - from) / step));
     double best_log = kImpossible;
     for (int i = 0; i <= steps; ++i) {

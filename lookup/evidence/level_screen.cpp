@@ -13,8 +13,7 @@
 namespace voussoir {
 namespace {
 
-constexpr double kRoundOff = 1e-6;         // of a bound of a logarithm
-constexpr std::size_t kFirst = 32;         // rows that are worked out first, under the first shapes
+constexpr std::size_t kFirstRows = 32;     // rows that are worked out first, under the first shapes
 constexpr double kTooLow = 2.0;            // what an estimate's logarithm may be too low by at least
 constexpr double kCountsForTooLow = 25.0;  // rows so far behind the best say nothing of that
 constexpr double kBin = 0.25;              // of logarithms, for sums over rows in the order of estimates
@@ -50,7 +49,7 @@ class LevelScreen {
   }
 
   std::vector<double> evidence(std::size_t count, double left_out) {
-    work_out(groups_.front(), first_of(groups_.front(), std::max(count, kFirst)), LevelRule::fine);
+    work_out(groups_.front(), first_of(groups_.front(), std::max(count, kFirstRows)), LevelRule::fine);
     for (const auto& [share, rule] :
          {std::pair{kCoarseShare, LevelRule::fine}, std::pair{left_out, LevelRule::coarse}})
       while (work_out_above(count, share, rule)) {
@@ -70,7 +69,7 @@ class LevelScreen {
     } else {
       group.level = stated_level(observation_);
       group.estimate = highest_likelihoods_at(observation_, group.shapes, group.level, table_, rows_);
-      group.too_low = kRoundOff;
+      group.too_low = kLogRoundOff;
     }
   }
 

@@ -7,21 +7,21 @@
 namespace voussoir {
 namespace {
 
-constexpr std::size_t K = kDirections;
-constexpr auto kFirst = static_cast<std::size_t>(kFirstColumns);
-static_assert(K % kLanes == 0 && kFirstDirections % kLanes == 0 && kMoreDirections % kLanes == 0 &&
-              kFirst % kLanes == 0 && kEpochColumns % kLanes == 0);
+constexpr std::size_t kWidth = kDirections;
+constexpr auto kFirstWidth = static_cast<std::size_t>(kFirstColumns);
+static_assert(kWidth % kLanes == 0 && kFirstDirections % kLanes == 0 && kMoreDirections % kLanes == 0 &&
+              kFirstWidth % kLanes == 0 && kEpochColumns % kLanes == 0);
 
 template <std::size_t kCount>
 using Losses = std::span<const ReducedLoss* const, kCount>;
 
 /// What no case changes of a scene's Gaussian, in some of the directions.
 struct ReducedScene {
-  double signal[K];
-  double beyond[K];          // of it what is not that of its losses
+  double signal[kWidth];
+  double beyond[kWidth];     // of it what is not that of its losses
   double mean_square = 0.0;  // of that in rows of y; NaN: the scene is impossible
-  double bridge[lower_size(K)], epoch[lower_size(K)], model_error[lower_size(K)];
-  double loose[lower_size(K)];  // what a spread of 1 of the signal beyond its losses adds
+  double bridge[lower_size(kWidth)], epoch[lower_size(kWidth)], model_error[lower_size(kWidth)];
+  double loose[lower_size(kWidth)];  // what a spread of 1 of the signal beyond its losses adds
 };
 
 /// In the first N directions. Even and odd rows are summed up by themselves, as sums wait for each other.
@@ -39,7 +39,7 @@ VOUSSOIR_INLINE void project(const ReducedQuestion& q, const double* prediction,
       for (const ReducedLoss* loss : losses) beyond -= loss->signal_of_rows[k];
       squares[k - first] += beyond * beyond;
       for (std::size_t i = 0; i < kParts; ++i)
-        sums[k - first][i] += signal * load<DoubleLanes>(q.directions + k * K + i * kLanes);
+        sums[k - first][i] += signal * load<DoubleLanes>(q.directions + k * kWidth + i * kLanes);
     }
   for (std::size_t i = 0; i < kParts; ++i)
     store_some(sums[0][i] + sums[1][i], kLanes, to.signal + i * kLanes);
@@ -71,8 +71,8 @@ VOUSSOIR_INLINE double product(const double* columns, std::size_t i, std::size_t
 /// The triangles of the first N directions.
 template <std::size_t N, std::size_t kCount>
 VOUSSOIR_INLINE void fill(const ReducedQuestion& q, Losses<kCount> losses, ReducedScene& to) {
-  double first[N * kFirst], epochs[N * kEpochColumns];
-  add_up<N, kFirst>(losses, &ReducedLoss::first, first);
+  double first[N * kFirstWidth], epochs[N * kEpochColumns];
+  add_up<N, kFirstWidth>(losses, &ReducedLoss::first, first);
   add_up<N, kEpochColumns>(losses, &ReducedLoss::epoch, epochs);
   for (std::size_t at = 0; at < lower_size(N); at += kLanes) {
     DoubleLanes bridge = load<DoubleLanes>(q.bridge + at), epoch{}, model_error{};
@@ -92,7 +92,7 @@ VOUSSOIR_INLINE void fill(const ReducedQuestion& q, Losses<kCount> losses, Reduc
   for (std::size_t i = 0; i < N; ++i)
     for (std::size_t j = 0; j <= i; ++j) {
       const std::size_t at = lower_size(i) + j;
-      to.bridge[at] += product<kFirst>(first, i, j);
+      to.bridge[at] += product<kFirstWidth>(first, i, j);
       to.epoch[at] += product<kEpochColumns>(epochs, i, j);
       to.loose[at] = to.beyond[i] * to.beyond[j] + to.mean_square * q.points[at];
     }
@@ -216,9 +216,9 @@ VOUSSOIR_FOR_EVERY_PROCESSOR
 void look_in_all(const ReducedQuestion& q, const ScenePrediction& scene, double least, double* logs) {
   constexpr auto kOutside = &ReducedCase::outside_all;
   const auto& losses = scene.losses;
-  if (losses.size() == 1) look_closer<K>(q, scene.prediction, losses.first<1>(), least, kOutside, logs);
-  if (losses.size() == 2) look_closer<K>(q, scene.prediction, losses.first<2>(), least, kOutside, logs);
-  if (losses.size() == 3) look_closer<K>(q, scene.prediction, losses.first<3>(), least, kOutside, logs);
+  if (losses.size() == 1) look_closer<kWidth>(q, scene.prediction, losses.first<1>(), least, kOutside, logs);
+  if (losses.size() == 2) look_closer<kWidth>(q, scene.prediction, losses.first<2>(), least, kOutside, logs);
+  if (losses.size() == 3) look_closer<kWidth>(q, scene.prediction, losses.first<3>(), least, kOutside, logs);
 }
 
 }  // namespace

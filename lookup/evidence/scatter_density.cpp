@@ -41,6 +41,14 @@ void add_lower(const double* a, const double* b, std::size_t rows, std::size_t w
 
 }  // namespace
 
+LowerTriangle lower_of(const Eigen::MatrixXd& matrix) {
+  LowerTriangle lower;
+  lower.reserve(lower_size(static_cast<std::size_t>(matrix.rows())));
+  for (Eigen::Index i = 0; i < matrix.rows(); ++i)
+    for (Eigen::Index j = 0; j <= i; ++j) lower.push_back(matrix(i, j));
+  return lower;
+}
+
 void add_outer_product(const std::vector<double>& a, std::size_t rows, LowerTriangle& sum) {
   if (rows > 0) add_lower(a.data(), a.data(), rows, a.size() / rows, sum.data());
 }

@@ -1,6 +1,7 @@
 #pragma once
 /// @file The density of readings under a covariance that is known but for the scatter of the bridge.
 
+#include <Eigen/Core>
 #include <array>
 #include <cstddef>
 #include <vector>
@@ -16,6 +17,8 @@ using LowerTriangle = std::vector<double>;
 constexpr std::size_t lower_size(std::size_t n) {
   return n * (n + 1) / 2;
 }
+
+LowerTriangle lower_of(const Eigen::MatrixXd& matrix);
 
 /// A logarithm for each of kScatterFactors.
 using ScatterLogs = std::array<double, kScatterFactors.size()>;

@@ -9,16 +9,16 @@
 namespace voussoir {
 namespace {
 
-/// Parts of the integrand below exp(-kNegligible) of its peak are left out.
-constexpr double kNegligible = 40.0;
+/// Parts of the integrand below exp(-kFarBelow) of its peak are left out.
+constexpr double kFarBelow = 40.0;
 
-/// How far from the peak, in u, the curve falls by kNegligible: at most this to the left, where it falls like
+/// How far from the peak, in u, the curve falls by kFarBelow: at most this to the left, where it falls like
 /// exp(u), and this to the right, where it falls linearly in the end.
 double reach_left(const LevelCurve& curve) {
-  return std::sqrt(2.0 * kNegligible / (curve.count * curve.power));
+  return std::sqrt(2.0 * kFarBelow / (curve.count * curve.power));
 }
 double reach_right(const LevelCurve& curve) {
-  return reach_left(curve) + (kNegligible + 1.0) / curve.count;
+  return reach_left(curve) + (kFarBelow + 1.0) / curve.count;
 }
 
 double log_integral(const LevelCurve& curve) {

@@ -15,6 +15,9 @@ inline constexpr double kImpossible = -std::numeric_limits<double>::infinity();
 /// Errors may exceed the bound of uniform noise by this share of it: rounding.
 inline constexpr double kBoundTolerance = 1e-9;
 
+/// Logarithms that are worked out in different orders differ by no more than this share of themselves.
+inline constexpr double kLogRoundOff = 1e-6;
+
 /// log p(readings | scene) when all scales are `level` times those of the statistics. -infinity for an
 /// impossible scene. Densities are per metre for each reading.
 double log_likelihood(NoiseShape shape, const RowStatistics& statistics, std::size_t count,

@@ -12,12 +12,13 @@ namespace voussoir {
 namespace {
 
 constexpr double kNotWorkedOut = std::numeric_limits<double>::infinity();
-constexpr double kNegligible = 20.0;  // logarithm of how far behind the likeliest a scene's case is left out
-constexpr double kUncounted = 3e-4;   // probability of all scenes that are left at their first estimates
+constexpr double kNegligibleCase =
+    20.0;                            // logarithm of how far behind the likeliest a scene's case is left out
+constexpr double kUncounted = 3e-4;  // probability of all scenes that are left at their first estimates
 constexpr double kLeftEstimated = 5e-4;     // probability of all scenes that are not worked out
 constexpr double kLeftUnrefined = 1e-4;     // of those that are not looked at in all directions
 constexpr std::size_t kMostRefined = 4000;  // which take longer than what they save
-constexpr double kTooLow = 0.5;             // what an estimate's logarithm may be too low by at least
+constexpr double kCaseTooLow = 0.5;         // what an estimate's logarithm may be too low by at least
 constexpr std::size_t kAtOnce = 8;          // scenes that are worked out before the next look at what matters
 constexpr std::size_t kMostWorkedOut = 400;  // likely scenes; others count by their estimates
 constexpr std::size_t kTried = 4;            // scenes with which a case is tried before pairs are looked at
@@ -34,7 +35,7 @@ ScreenedCases::ScreenedCases(UnknownBridge& bridge, const Observation& observati
       beforehand_(beforehand),
       estimates_(bridge, observation, table, cases, rows, beforehand),
       likelihoods_(bridge, observation, table),
-      too_low_(kTooLow),
+      too_low_(kCaseTooLow),
       exact_(rows.size()),
       is_worked_out_(rows.size(), false) {
   for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -128,7 +129,7 @@ std::vector<std::size_t> ScreenedCases::most_likely(std::size_t count) const {
 /// Of a scene that was worked out in a case, if it is likely: how much its estimate is too low.
 void ScreenedCases::check_estimate(std::size_t place, std::size_t number) {
   const double log = exact_[place][number] + beforehand_[place];
-  if (number < estimates_.looked_at() && log != kNotWorkedOut && log > best_ - kNegligible)
+  if (number < estimates_.looked_at() && log != kNotWorkedOut && log > best_ - kNegligibleCase)
     too_low_ = std::max(too_low_, log - estimates_.of(place, number));
 }
 
@@ -139,7 +140,8 @@ void ScreenedCases::work_out(std::span<const std::size_t> places, const WantedCa
   std::vector<std::uint8_t> missing;
   CasePruning pruning;
   std::vector<double> least;
-  for (const std::size_t place : places) least.push_back(best_ - too_low_ - kNegligible - beforehand_[place]);
+  for (const std::size_t place : places)
+    least.push_back(best_ - too_low_ - kNegligibleCase - beforehand_[place]);
   if (rise != nullptr) pruning = {least, *rise};
   for (const std::size_t place : places) {
     rows.push_back(rows_[place]);
@@ -162,7 +164,7 @@ void ScreenedCases::work_out(std::span<const std::size_t> places, const WantedCa
 
 /// Beside the likeliest scene's.
 bool ScreenedCases::may_matter(std::size_t place, std::size_t number) const {
-  return !(estimates_.of(place, number) + too_low_ < best_ - kNegligible);
+  return !(estimates_.of(place, number) + too_low_ < best_ - kNegligibleCase);
 }
 
 /// In all cases that may matter.
@@ -222,7 +224,7 @@ void ScreenedCases::refine_likely(std::size_t count) {
          !(left[end] + too_low_ < best_ + std::log(kLeftUnrefined)))
     ++end;
   const auto likely = std::span(order).first(end);
-  estimates_.refine(likely, 0, ScreenDirections::all, best_ - too_low_ - kNegligible);
+  estimates_.refine(likely, 0, ScreenDirections::all, best_ - too_low_ - kNegligibleCase);
   estimates_.add_up(likely);
   for (const std::size_t place : likely)
     for (std::size_t number = 0; number < exact_[place].size(); ++number) check_estimate(place, number);

@@ -13,8 +13,7 @@
 namespace voussoir {
 namespace {
 
-constexpr double kCutOff =
-    1e-13;  // share of an integral over levels that may lie outside the range of levels
+constexpr double kTail = 1e-13;  // share of an integral over levels that may lie outside the range of levels
 
 /// The evidence of every row for one shape; in the `open` rows it is an upper bound.
 struct ShapeEvidence {
@@ -23,7 +22,7 @@ struct ShapeEvidence {
   std::vector<std::size_t> open;
 };
 
-const std::vector<double>& sums_of(NoiseShape shape, const TableStatistics& statistics) {
+const std::vector<double>& sums_for(NoiseShape shape, const TableStatistics& statistics) {
   return shape == NoiseShape::uniform   ? statistics.largest
          : shape == NoiseShape::laplace ? statistics.sum_absolute
                                         : statistics.sum_square;
@@ -31,7 +30,7 @@ const std::vector<double>& sums_of(NoiseShape shape, const TableStatistics& stat
 
 ShapeEvidence shape_evidence(const LevelIntegral& integral, const TableStatistics& statistics,
                              std::size_t count, double& best) {
-  const std::vector<double>& sums = sums_of(integral.shape, statistics);
+  const std::vector<double>& sums = sums_for(integral.shape, statistics);
   ShapeEvidence result{integral.shape, sums, {}};
   make_logarithms(result.logs);
   for (std::size_t row = 0; row < statistics.rows(); ++row)
@@ -72,15 +71,15 @@ LevelIntegral level_integral(NoiseShape shape, std::size_t count) {
   const auto n = static_cast<double>(count);
   if (shape == NoiseShape::uniform)
     return {shape, n, -n * (std::numbers::ln2 + std::log1p(-kBoundTolerance)) - std::log(n * log_range()),
-            kSmallestLevel / (1.0 - kBoundTolerance), kLargestLevel * std::pow(kCutOff, 1.0 / n)};
+            kSmallestLevel / (1.0 - kBoundTolerance), kLargestLevel * std::pow(kTail, 1.0 / n)};
   // The integral over u of exp(-n u - a exp(-power u)) is Gamma(order) a^(-order) / power.
   using Policy = boost::math::policies::policy<boost::math::policies::promote_double<false>>;
   const LevelCurve unit = level_curve(shape, {1.0, 1.0, 1.0, 0.0}, count);  // its a is that of a sum of one
   const double order = n / unit.power;
   return {shape, order,
           unit.constant + std::lgamma(order) - std::log(unit.power * log_range()) - order * std::log(unit.a),
-          boost::math::gamma_q_inv(order, kCutOff, Policy()) * std::pow(kSmallestLevel, unit.power) / unit.a,
-          boost::math::gamma_p_inv(order, kCutOff, Policy()) * std::pow(kLargestLevel, unit.power) / unit.a};
+          boost::math::gamma_q_inv(order, kTail, Policy()) * std::pow(kSmallestLevel, unit.power) / unit.a,
+          boost::math::gamma_p_inv(order, kTail, Policy()) * std::pow(kLargestLevel, unit.power) / unit.a};
 }
 
 std::vector<double> log_mean_evidences(std::span<const LevelIntegral> integrals,

@@ -12,14 +12,6 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-LowerTriangle lower_of(const MatrixXd& matrix) {
-  LowerTriangle lower;
-  lower.reserve(lower_size(static_cast<std::size_t>(matrix.rows())));
-  for (Index i = 0; i < matrix.rows(); ++i)
-    for (Index j = 0; j <= i; ++j) lower.push_back(matrix(i, j));
-  return lower;
-}
-
 /// Row by row, filled up for lanes.
 void store_rows(const MatrixXd& matrix, std::vector<double>& rows) {
   const std::size_t width = padded(static_cast<std::size_t>(matrix.cols()));

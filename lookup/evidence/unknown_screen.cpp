@@ -17,7 +17,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr auto K = static_cast<Index>(kDirections);
+constexpr auto kAllDirections = static_cast<Index>(kDirections);
 constexpr auto kEpochs = static_cast<Index>(kEpochColumns);
 constexpr int kIterations = 2;  // of the leading directions, which need not be exact
 
@@ -84,16 +84,9 @@ void store_rows(const MatrixXd& matrix, Index width, double* rows) {
 }
 
 void store_lower(const MatrixXd& matrix, DirectionTriangle& lower) {
-  for (Index i = 0; i < K; ++i)
+  for (Index i = 0; i < kAllDirections; ++i)
     for (Index j = 0; j <= i; ++j)
       lower[lower_size(static_cast<std::size_t>(i)) + static_cast<std::size_t>(j)] = matrix(i, j);
-}
-
-LowerTriangle lower_of(const MatrixXd& matrix) {
-  LowerTriangle lower;
-  for (Index i = 0; i < matrix.rows(); ++i)
-    for (Index j = 0; j <= i; ++j) lower.push_back(matrix(i, j));
-  return lower;
 }
 
 /// log density of no difference at all, but for the powers of two pi.
@@ -144,14 +137,14 @@ UnknownScreen::UnknownScreen(UnknownBridge& bridge, const Observation& observati
 
 void UnknownScreen::add_intact(const MatrixXd& others, const MatrixXd& bridge, ReducedCase& to) const {
   to.peaks = log_peak(others, bridge);
-  const Index used = std::min(K, directions_.rows());
+  const Index used = std::min(kAllDirections, directions_.rows());
   const auto few = directions_.leftCols(used);
   const MatrixXd reduced_bridge = few.transpose() * (bridge * few),
                  reduced_others = few.transpose() * (others * few);
   to.outside_few = log_outside(to.peaks, reduced_others, reduced_bridge, kFirstDirections);
   to.outside_more = log_outside(to.peaks, reduced_others, reduced_bridge, kMoreDirections);
   to.outside_all = log_outside(to.peaks, reduced_others, reduced_bridge, kDirections);
-  MatrixXd all = MatrixXd::Identity(K, K);  // beyond those that there are
+  MatrixXd all = MatrixXd::Identity(kAllDirections, kAllDirections);  // beyond those that there are
   all.topLeftCorner(used, used) = reduced_others;
   store_lower(all, to.others);
   const double rows = static_cast<double>(directions_.rows());
@@ -164,7 +157,8 @@ void UnknownScreen::add_intact(const MatrixXd& others, const MatrixXd& bridge, R
 /// In which the readings are farthest from the intact bridge, in each case; orthonormal in whitened readings.
 MatrixXd UnknownScreen::reading_directions(std::span<const MatrixXd> others, const MatrixXd& product,
                                            const Eigen::LLT<MatrixXd>& white) const {
-  const Index n = product.rows(), count = std::min(static_cast<Index>(others.size()), std::min(K, n));
+  const Index n = product.rows(),
+              count = std::min(static_cast<Index>(others.size()), std::min(kAllDirections, n));
   MatrixXd first(n, count);
   for (Index k = 0; k < count; ++k) {
     const VectorXd direction =
@@ -178,7 +172,7 @@ MatrixXd UnknownScreen::reading_directions(std::span<const MatrixXd> others, con
 void UnknownScreen::choose_directions(std::span<const MatrixXd> others, const MatrixXd& product) {
   const Eigen::LLT<MatrixXd> white(others[others.size() / 2] + product);
   const auto lower = white.matrixL();
-  const Index n = product.rows(), used = std::min(K, n);
+  const Index n = product.rows(), used = std::min(kAllDirections, n);
   const MatrixXd first = reading_directions(others, product, white);
   MatrixXd losses = lower.solve(losses_product(bridge_));
   losses = lower.solve(losses.transpose().eval());
@@ -189,10 +183,10 @@ void UnknownScreen::choose_directions(std::span<const MatrixXd> others, const Ma
   if (used > first.cols())
     chosen.rightCols(used - first.cols()) = leading_directions(losses, used - first.cols());
   chosen = Eigen::HouseholderQR<MatrixXd>(chosen).householderQ() * MatrixXd::Identity(n, used);
-  directions_ = MatrixXd::Zero(n, K);
+  directions_ = MatrixXd::Zero(n, kAllDirections);
   directions_.leftCols(used) = white.matrixU().solve(chosen);
   const auto channels = static_cast<Index>(observation_.reading.size());
-  of_loss_ = of_bridge_ = MatrixXd::Zero(channels, K);
+  of_loss_ = of_bridge_ = MatrixXd::Zero(channels, kAllDirections);
   MatrixXd changed = directions_;
   for (std::size_t k = 0; k < bridge_.rows.size(); ++k) {
     const ReadingRow& row = bridge_.rows[k];

@@ -3,12 +3,11 @@
 #include <array>
 #include <limits>
 
+#include "core/not_a_number.h"
 #include "core/simd/lanes.h"
 
 namespace voussoir {
 namespace {
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 VOUSSOIR_INLINE double mean_square_signal(const double* intact, const double* row, std::size_t points) {
   DoubleLanes sum{}, count{};

@@ -5,13 +5,12 @@
 #include <limits>
 
 #include "core/error.h"
+#include "core/not_a_number.h"
 #include "core/solve/state_name.h"
 #include "core/threads.h"
 
 namespace voussoir {
 namespace {
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 bool is(Outcome outcome, const SceneTable& table, std::size_t row) {
   return table.outcome[row] == static_cast<std::uint8_t>(outcome);

@@ -4,12 +4,10 @@
 #include <cmath>
 #include <limits>
 
+#include "core/not_a_number.h"
+
 namespace voussoir {
-namespace {
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-
-}  // namespace
+namespace {}  // namespace
 
 std::size_t Measurements::count() const {
   return static_cast<std::size_t>(std::count_if(displacement.begin(), displacement.end(),

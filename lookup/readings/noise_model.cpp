@@ -48,7 +48,7 @@ NoiseShape parse_noise_shape(std::string_view text) {
   for (std::size_t i = 0; i < kShapeNames.size(); ++i)
     if (text == kShapeNames.at(i)) return static_cast<NoiseShape>(i);
   throw InputError(fmt::format("{} is no noise model, expected auto, uniform, gaussian, laplace or student",
-                               quoted(text)));
+                               in_quotes(text)));
 }
 
 double parse_noise_level(std::string_view text) {
@@ -57,7 +57,7 @@ double parse_noise_level(std::string_view text) {
   const double level = number ? *number * (percent ? 0.01 : 1.0) : -1.0;
   if (!(level >= 0.0 && level <= 1.0))
     throw InputError(fmt::format(
-        "{} is no noise level, expected a share of the displacement such as 5% or 0.05", quoted(text)));
+        "{} is no noise level, expected a share of the displacement such as 5% or 0.05", in_quotes(text)));
   return level;
 }
 

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "core/error.h"
+#include "core/not_a_number.h"
 #include "lookup/readings/common_variance.h"
 #include "lookup/readings/noise_scale.h"
 #include "lookup/readings/stated_sigmas.h"
@@ -12,7 +13,6 @@
 namespace voussoir {
 namespace {
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kClamped = 1e-12;  // [m] points that never move more are held by a support
 
 /// True if a point moves neither in the intact bridge nor in a single.

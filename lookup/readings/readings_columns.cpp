@@ -5,11 +5,10 @@
 
 #include "core/error.h"
 #include "core/text.h"
+#include "core/units.h"
 
 namespace voussoir {
 namespace {
-
-constexpr double kMetresPerMillimetre = 1e-3;
 
 struct ValueColumn {
   std::string_view name;
@@ -44,7 +43,7 @@ class Header {
   void claim(std::size_t& column, std::size_t position) const {
     if (column != kAbsent)
       fail(fmt::format("column {} is given twice or beside another value column",
-                       voussoir::quoted(names()[position])));
+                       voussoir::in_quotes(names()[position])));
     column = position;
   }
 
@@ -70,7 +69,7 @@ class Header {
     if (name == "after_mm") return columns_.after;
     if (name == "sigma_mm") return columns_.sigma;
     if (name == "load") return columns_.load;
-    fail(fmt::format("unknown column {}", voussoir::quoted(name)));
+    fail(fmt::format("unknown column {}", voussoir::in_quotes(name)));
   }
 
   void check_point() const {
@@ -86,7 +85,7 @@ class Header {
       fail(before ? "column 'before_mm' without 'after_mm'" : "column 'after_mm' without 'before_mm'");
     if (before && columns_.value != kAbsent)
       fail(fmt::format("column {} beside 'before_mm' and 'after_mm'",
-                       voussoir::quoted(names()[columns_.value])));
+                       voussoir::in_quotes(names()[columns_.value])));
     if (!before && columns_.value == kAbsent) fail("no value column");
     if (!before) return;
     columns_.factor = kMetresPerMillimetre;

@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/units.h"
+
 namespace voussoir {
 namespace {
-
-constexpr double kMillimetres = 1e3;
 
 /// To a tenth of a micrometre, and changes, which are smaller, to a nanometre.
 std::string in_millimetres(double metres, ReadingKind kind) {

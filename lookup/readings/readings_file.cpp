@@ -6,15 +6,15 @@
 #include <optional>
 
 #include "core/error.h"
+#include "core/not_a_number.h"
 #include "core/text.h"
+#include "core/units.h"
 #include "lookup/readings/readings_columns.h"
 #include "lookup/readings/text_input.h"
 
 namespace voussoir {
 namespace {
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr double kMetresPerMillimetre = 1e-3;
 constexpr double kSamePlace = 1e-6;  // [m] points closer than this share a place
 
 /// Nothing, or what programs write where they have no number.
@@ -22,9 +22,9 @@ bool says_nothing(std::string_view text) {
   return text.empty() || text == "NaN" || text == "nan" || text == "NAN" || text == "-nan";
 }
 
-class Reader {
+class ReadingsReader {
  public:
-  Reader(const CsvTable& table, const SensorList& list)
+  ReadingsReader(const CsvTable& table, const SensorList& list)
       : table_(table),
         sensors_(list.sensors),
         control_points_(list.control_points),
@@ -83,7 +83,7 @@ class Reader {
                                     [&](const Sensor& sensor) { return sensor.name == name; });
     if (found == sensors_.end())
       table_.fail(line.number,
-                  fmt::format("unknown point {}, expected {} to {}{}", voussoir::quoted(name),
+                  fmt::format("unknown point {}, expected {} to {}{}", voussoir::in_quotes(name),
                               sensors_.front().name, sensors_[control_points_ - 1].name,
                               sensors_.size() > control_points_ ? ", or a sensor of the list" : ""));
     if (found->quantity != Quantity::uy && columns_.vertical_only)
@@ -120,7 +120,7 @@ class Reader {
     const std::optional<double> number = parse_number(line.fields[column], columns_.mark);
     if (!number)
       table_.fail(line.number, fmt::format("{} is no coordinate, expected a number in metres",
-                                           voussoir::quoted(line.fields[column])));
+                                           voussoir::in_quotes(line.fields[column])));
     return *number;
   }
 
@@ -130,12 +130,12 @@ class Reader {
     const std::optional<double> number = parse_number(text, columns_.mark);
     if (!number)
       table_.fail(line.number, fmt::format("{} is no finite number, expected a displacement or nothing",
-                                           voussoir::quoted(text)));
+                                           voussoir::in_quotes(text)));
     const double metres = columns_.factor * *number;
     if (std::abs(metres) > kLargestDisplacement)
       table_.fail(line.number,
                   fmt::format("{} is a displacement of {:.3g} m, expected at most {} m (check the units)",
-                              voussoir::quoted(text), std::abs(metres), kLargestDisplacement));
+                              voussoir::in_quotes(text), std::abs(metres), kLargestDisplacement));
     return metres;
   }
 
@@ -146,7 +146,7 @@ class Reader {
     if (!number || *number <= 0.0)
       table_.fail(line.number,
                   fmt::format("{} is no sigma, expected a positive number of millimetres or nothing",
-                              voussoir::quoted(text)));
+                              voussoir::in_quotes(text)));
     return kMetresPerMillimetre * *number;
   }
 
@@ -161,7 +161,7 @@ class Reader {
 
 ReadingsFile parse_readings(std::string_view text, const std::string& name, const SensorList& list) {
   const CsvTable table = read_csv(text, name, kReadingsColumns);
-  return Reader(table, list).read();
+  return ReadingsReader(table, list).read();
 }
 
 ReadingsFile read_readings(const std::filesystem::path& path, const SensorList& list) {

@@ -40,9 +40,9 @@ bool touches(const Polygon& polygon, const Point& place) {
   return inside || distance_to_boundary(polygon, place) <= kPlaceTolerance;
 }
 
-class Reader {
+class SensorsReader {
  public:
-  Reader(const CsvTable& table, const BlockLayout& layout, const Mesh& mesh)
+  SensorsReader(const CsvTable& table, const BlockLayout& layout, const Mesh& mesh)
       : table_(table), layout_(layout), mesh_(mesh) {
     columns_.fill(kNone);
     for (std::size_t i = 0; i < table.header.fields.size(); ++i) read_column(i);
@@ -60,12 +60,12 @@ class Reader {
     const std::optional<Quantity> read_quantity = parse_quantity(text(line, kQuantity));
     if (!read_quantity)
       table_.fail(line.number, fmt::format("unknown quantity {}, expected {}",
-                                           voussoir::quoted(text(line, kQuantity)), kQuantities));
+                                           voussoir::in_quotes(text(line, kQuantity)), kQuantities));
     if (*read_quantity == Quantity::distance) return distance_sensor(line, label);
     for (const Column column : {kX2, kY2, kBlock2})
       if (!text(line, column).empty())
         table_.fail(line.number, fmt::format("{} in column {}, expected nothing but for a distance",
-                                             voussoir::quoted(text(line, column)), kNames[column]));
+                                             voussoir::in_quotes(text(line, column)), kNames[column]));
     if (*read_quantity == Quantity::tilt) return tilt_sensor(line, label);
     const Place at = place(line, kX, kY, kBlock);
     const Point direction = *read_quantity == Quantity::ux ? Point(1.0, 0.0) : Point(0.0, 1.0);
@@ -80,11 +80,11 @@ class Reader {
     const auto found = std::find(kNames.begin(), kNames.end(), header);
     if (found == kNames.end())
       table_.fail(table_.header.number,
-                  fmt::format("unknown column {}, expected {}", voussoir::quoted(header), kColumns));
+                  fmt::format("unknown column {}, expected {}", voussoir::in_quotes(header), kColumns));
     std::size_t& column = columns_[static_cast<std::size_t>(found - kNames.begin())];
     if (column != kNone)
-      table_.fail(table_.header.number,
-                  fmt::format("column {} is given twice, expected {}", voussoir::quoted(header), kColumns));
+      table_.fail(table_.header.number, fmt::format("column {} is given twice, expected {}",
+                                                    voussoir::in_quotes(header), kColumns));
     column = position;
   }
 
@@ -144,7 +144,7 @@ class Reader {
     const std::optional<double> number = parse_number(field, mark_);
     if (!number)
       table_.fail(line.number, fmt::format("{} is no coordinate, expected a number in metres in column {}",
-                                           voussoir::quoted(field), kNames[column]));
+                                           voussoir::in_quotes(field), kNames[column]));
     return *number;
   }
 
@@ -157,8 +157,8 @@ class Reader {
     } catch (const InputError& error) {
       table_.fail(line.number, error.what());
     }
-    table_.fail(line.number,
-                fmt::format("{} in column {}, expected one block", voussoir::quoted(field), kNames[column]));
+    table_.fail(line.number, fmt::format("{} in column {}, expected one block", voussoir::in_quotes(field),
+                                         kNames[column]));
   }
 
   const CsvTable& table_;
@@ -173,13 +173,13 @@ class Reader {
 void parse_sensors(std::string_view text, const std::string& name, const BlockLayout& layout,
                    const Mesh& mesh, SensorList& list) {
   const CsvTable table = read_csv(text, name, kColumns);
-  const Reader reader(table, layout, mesh);
+  const SensorsReader reader(table, layout, mesh);
   for (const CsvLine& line : table.rows) {
     Sensor sensor = reader.read(line);
     const auto same = [&](const Sensor& other) { return other.name == sensor.name; };
     if (std::any_of(list.sensors.begin(), list.sensors.end(), same))
       table.fail(line.number, fmt::format("sensor {} is there already, expected another name",
-                                          voussoir::quoted(sensor.name)));
+                                          voussoir::in_quotes(sensor.name)));
     list.sensors.push_back(std::move(sensor));
   }
 }

@@ -5,12 +5,11 @@
 #include <limits>
 
 #include "core/error.h"
+#include "core/not_a_number.h"
 #include "lookup/readings/noise_scale.h"
 
 namespace voussoir {
 namespace {
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 double draw_laplace(Random& random) {
   const double u = 1.0 - random.uniform();  // in (0, 1]

@@ -4,11 +4,11 @@
 
 #include "core/error.h"
 #include "core/text.h"
+#include "core/units.h"
 
 namespace voussoir {
 namespace {
 
-constexpr double kMetresPerMillimetre = 1e-3;
 constexpr double kLargestSigma = 1e6;  // [mm] beyond it nothing is known at all
 
 bool all_state_sigmas(const Measurements& measured) {
@@ -25,7 +25,7 @@ double parse_sigma(std::string_view text) {
   const std::optional<double> number = parse_number(trimmed(digits));
   if (!number || *number <= 0.0 || *number > kLargestSigma)
     throw InputError(
-        fmt::format("{} given, expected a positive number of millimetres such as 0.02mm", quoted(text)));
+        fmt::format("{} given, expected a positive number of millimetres such as 0.02mm", in_quotes(text)));
   return kMetresPerMillimetre * *number;
 }
 

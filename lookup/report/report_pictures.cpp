@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/not_a_number.h"
+#include "core/units.h"
 #include "lookup/report/drawing/bridge_drawing.h"
 #include "lookup/report/drawing/colour_map.h"
 #include "lookup/report/report_words.h"
@@ -14,13 +16,11 @@
 namespace voussoir {
 namespace {
 
-constexpr double kMillimetres = 1e3;
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kWorthColour = 0.001;  // blocks less likely to be missing look like any stone
 constexpr double kPictureWidth = 1040.0;
 constexpr double kReadingsHeight = 1.1;   // [m] above the bridge, for the top's readings
 constexpr double kLongestReading = 0.75;  // [m] on the bridge's scale
-constexpr double kDisc = 3.0;
+constexpr double kSensorDisc = 3.0;
 
 double probability_of(const ReportPictures& report, BlockId block) {
   if (!report.answer.posterior) return kNan;
@@ -71,7 +71,7 @@ std::string reading_element(const ReportPictures& report, const BridgeFrame& fra
           : path_element(fmt::format("line s{}", colour),
                          fmt::format("M{:.1f} {:.1f}v{:.2f}", at.x(), at.y(), -reading * units_a_metre));
   return stem + fmt::format("<circle class=\"{}\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{}\">{}</circle>\n",
-                            silent ? "silent" : fmt::format("f{}", colour), at.x(), at.y(), kDisc,
+                            silent ? "silent" : fmt::format("f{}", colour), at.x(), at.y(), kSensorDisc,
                             tip_element(point_tip(report, point)));
 }
 

@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/units.h"
+
 namespace voussoir {
 namespace {
-
-constexpr double kMillimetres = 1e3;
 
 std::string epochs_in_words(const ReportPictures& report, std::size_t point) {
   if (report.comparison.before.empty()) return "";

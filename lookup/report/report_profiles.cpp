@@ -6,13 +6,13 @@
 #include <cmath>
 #include <limits>
 
+#include "core/not_a_number.h"
+#include "core/units.h"
 #include "lookup/report/report_words.h"
 
 namespace voussoir {
 namespace {
 
-constexpr double kMillimetres = 1e3;
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr const char* kAcross = "sensor, from left to right";
 
 /// Half the width of the noise band [m]: the bound of uniform noise, two standard deviations of the others.

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "core/units.h"
 #include "lookup/report/bridge_report.h"
 #include "lookup/report/reading_words.h"
 #include "lookup/report/report.h"
@@ -13,7 +14,6 @@
 namespace voussoir {
 namespace {
 
-constexpr double kMillimetres = 1e3;
 constexpr std::size_t kMostBlocksListed = 5;
 constexpr std::size_t kMostSensorsListed = 5;
 constexpr double kBlockWorthListing = 0.01;

@@ -5,13 +5,12 @@
 #include <cmath>
 #include <limits>
 
+#include "core/not_a_number.h"
 #include "lookup/report/drawing/table.h"
 #include "lookup/report/verdict.h"
 
 namespace voussoir {
 namespace {
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 Table table_of(const std::vector<SurveyRow>& rows) {
   Table table{{"file", "verdict", "scene", "posterior", "intact_probability", "misfit", "readings", "error"},

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/not_a_number.h"
 #include "core/simd/lanes.h"
 
 namespace voussoir {
@@ -15,7 +16,6 @@ VOUSSOIR_INLINE DoubleLanes differences(const DoubleLanes& reading, const Double
 }
 
 VOUSSOIR_INLINE double sum_row(const double* readings, const double* prediction, std::size_t points) {
-  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   DoubleLanes even{}, odd{};
   std::size_t i = 0;
   for (; i + 2 * kLanes <= points; i += 2 * kLanes) {

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kRounding = 1e-12;  // relative: FLANN adds differences in another order than misfit() does
 
-using Index = flann::Index<flann::L1<double>>;
+using FlannIndex = flann::Index<flann::L1<double>>;
 
 std::vector<std::size_t> measured_points(std::span<const double> readings) {
   std::vector<std::size_t> result;
@@ -27,7 +27,7 @@ struct LinearIndex::Implementation {
   std::vector<std::size_t> points;  // with readings
   std::vector<std::size_t> rows;    // in the index
   std::vector<double> values;       // rows x points
-  std::unique_ptr<Index> index;
+  std::unique_ptr<FlannIndex> index;
 
   Implementation(const SceneTable& scene_table, std::span<const std::size_t> candidates,
                  std::span<const double> readings)
@@ -38,8 +38,8 @@ struct LinearIndex::Implementation {
     for (const std::size_t row : rows)
       for (const std::size_t point : points) values.push_back(table.row(row)[point]);
     if (rows.empty() || points.empty()) return;
-    index = std::make_unique<Index>(flann::Matrix<double>(values.data(), rows.size(), points.size()),
-                                    flann::LinearIndexParams());
+    index = std::make_unique<FlannIndex>(flann::Matrix<double>(values.data(), rows.size(), points.size()),
+                                         flann::LinearIndexParams());
     index->buildIndex();
   }
 

@@ -121,7 +121,8 @@ TEST_CASE("Variants that the old file has are taken over, whatever their number 
   CHECK(summary.digest == Site({0.5, 2.0, 1.2}).build().digest);
 }
 
-TEST_CASE("Variants may have fewer scenes than the nominal bridge; each is what it is alone") {
+TEST_CASE("Variants may have fewer scenes than the nominal bridge; each is what it is alone",
+          "[many-solutions]") {
   Site site({1.2, 0.5});
   site.request.scenes = "singles;4,1+4,2";
   site.request.scenes_of_variants = "intact;4,2..3";

@@ -49,7 +49,7 @@ struct Change {
 }  // namespace
 
 TEST_CASE("A database's sensitivities predict what a little more stiffness and heat do (solved anew)",
-          "[sensitivity]") {
+          "[sensitivity][many-solutions]") {
   const test::TemporaryFolder folder;
   build(folder / "small.h5", 2);
   const Database database = Database::open(folder / "small.h5");
@@ -88,7 +88,8 @@ TEST_CASE("A database's sensitivities predict what a little more stiffness and h
   CHECK(compared >= 8);
 }
 
-TEST_CASE("Sensitivities and digest are the same for all numbers of threads", "[sensitivity]") {
+TEST_CASE("Sensitivities and digest are the same for all numbers of threads",
+          "[sensitivity][many-solutions]") {
   const test::TemporaryFolder folder;
   CHECK(build(folder / "one.h5", 1).digest == build(folder / "three.h5", 3).digest);
 }
@@ -130,7 +131,8 @@ TEST_CASE("The basis is orthonormal and leaves little of every kind (definition)
   CHECK(share <= kLeftOfSignals * (1.0 + 1e-9));
 }
 
-TEST_CASE("Stored sensitivities are those of the fields, and changed ones are found", "[sensitivity]") {
+TEST_CASE("Stored sensitivities are those of the fields, and changed ones are found",
+          "[sensitivity][many-solutions]") {
   const test::TemporaryFolder folder;
   build(folder / "small.h5", 2);
   const Database database = Database::open(folder / "small.h5");

@@ -53,7 +53,8 @@ std::size_t count(const Database& database, std::size_t state, Origin origin) {
 
 TEST_CASE(
     "Triples that inherit fall in motion, too, and composed ones are as their equilibrium is "
-    "(every scene solved in full)") {
+    "(every scene solved in full)",
+    "[many-solutions]") {
   const Bridge bridge;
   const Database quick = bridge.build(bridge.request("quick.h5"));
   const Database full = bridge.build(bridge.request("full.h5", {.inherited = false, .composed = false}));
@@ -85,7 +86,8 @@ TEST_CASE("What triples inherit and compose is verified by solving them in full"
   CHECK_THAT(to_text(report, quick.path()), Catch::Contains("inherited"));
 }
 
-TEST_CASE("Parts of a database of triples give the digest of one build, with fields and without") {
+TEST_CASE("Parts of a database of triples give the digest of one build, with fields and without",
+          "[many-solutions]") {
   const Bridge bridge;
   for (const KeepField fields : {KeepField::yes, KeepField::no}) {
     BuildRequest whole = bridge.request(fields == KeepField::yes ? "fields.h5" : "points.h5");

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/units.h"
 #include "lookup/readings/simulate.h"
 #include "lookup/report/drawing/field_drawing.h"
 #include "lookup/report/words.h"
@@ -11,8 +12,6 @@
 
 namespace voussoir {
 namespace {
-
-constexpr double kMillimetres = 1e3;
 
 /// Displacements at all control points [mm], to be drawn as one line.
 struct Profile {

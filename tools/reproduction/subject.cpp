@@ -2,13 +2,12 @@
 
 #include <cmath>
 
+#include "core/units.h"
 #include "database/search/index_building.h"
 #include "tools/benchmark_localisation.h"
 
 namespace voussoir {
 namespace {
-
-constexpr double kMillimetres = 1e3;
 
 /// Rows come in the order of all_scenes: those with few missing blocks first.
 SceneTable rows_with_at_most_one(const SceneTable& table) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/units.h"
 #include "lookup/report/drawing/page.h"
 #include "lookup/report/drawing/style.h"
 #include "tools/trials/study_report.h"
@@ -9,7 +10,6 @@
 namespace voussoir {
 namespace {
 
-constexpr double kMillimetres = 1e3;
 constexpr double kPerCent = 100.0;
 constexpr int kUnknownColour = 1, kKnownColour = 2;
 

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "core/units.h"
+
 namespace voussoir {
 namespace {
-
-constexpr double kMillimetres = 1e3;
 
 std::string share_text(const Share& share) {
   return fmt::format("{:5.3f} ({:.3f})", share.value, share.standard_error);

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/not_a_number.h"
+
 namespace voussoir {
 
 std::string_view to_string(ReadingsTaken taken) {
@@ -17,7 +19,6 @@ std::string_view to_string(ReadingsTaken taken) {
 }
 
 ReadingsFile take_readings(const Shown& shown, ReadingsTaken taken, double sigma, Random& random) {
-  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   const bool absolute = taken == ReadingsTaken::absolute;
   const double of_epoch = absolute ? sigma : sigma * std::sqrt(0.5);
   ReadingsFile file{

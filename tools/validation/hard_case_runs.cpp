@@ -11,10 +11,6 @@ namespace {
 
 constexpr double kUnbalanced = 1e-5;  ///< of a standing field, at most: QuasiStaticSettings::loose_tolerance
 
-Eigen::VectorXd readings(const Model& bridge, const Field& field) {
-  return vertical_displacements(field, bridge.control_points);
-}
-
 std::vector<Solution> solve_all(const Setting& setting) {
   std::vector<StageTask> starts;
   for (const Expectation& e : setting.scenes)
@@ -30,10 +26,11 @@ Signals polished_signals(const Setting& setting, const std::vector<Solution>& so
     const std::string& name = setting.scenes[i].scene;
     if (solutions[i].outcome == Outcome::standing)
       signals[name] =
-          readings(setting.bridge, solver
-                                       .solve({.stage = {.scene = parse_scene(name, setting.bridge.layout)},
-                                               .start = &solutions[i].displacement})
-                                       .displacement);
+          vertical_displacements(solver
+                                     .solve({.stage = {.scene = parse_scene(name, setting.bridge.layout)},
+                                             .start = &solutions[i].displacement})
+                                     .displacement,
+                                 setting.bridge.control_points);
   }
   for (auto& [name, signal] : signals)
     if (name != "intact" && signals.contains("intact")) signal -= signals["intact"];
@@ -98,8 +95,9 @@ void run_setting(const Setting& setting, double tolerance, const Signals* refere
                  .iterations = solutions[i].iterations};
     row.correct = solutions[i].outcome == expectation.outcome;
     if (solutions[i].outcome == Outcome::standing) {
-      Eigen::VectorXd signal = readings(setting.bridge, solutions[i].displacement);
-      if (i > 0) signal -= readings(setting.bridge, solutions[0].displacement);
+      Eigen::VectorXd signal =
+          vertical_displacements(solutions[i].displacement, setting.bridge.control_points);
+      if (i > 0) signal -= vertical_displacements(solutions[0].displacement, setting.bridge.control_points);
       if (expected.contains(expectation.scene))
         row.error = relative_difference(signal, expected.at(expectation.scene));
       row.correct = row.correct && in_equilibrium(setting.bridge, expectation.scene, solutions[i]) &&

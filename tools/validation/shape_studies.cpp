@@ -16,7 +16,7 @@ namespace voussoir::validation {
 namespace {
 
 const std::vector<double> kStiffnesses = {1e9, 1e10, 1e11};  ///< [Pa/m] those of the semicircle
-constexpr double kBisection = 1e-6;
+constexpr double kThicknessStep = 1e-6;
 
 using SpanOfThickness = std::function<SpanDescription(double thickness)>;
 
@@ -28,7 +28,7 @@ double least_rigid_thickness(const SpanOfThickness& span) {
 Case thickness_case(const std::string& name, const SpanOfThickness& span) {
   const double expected = least_rigid_thickness(span);
   const Limit limit = find_limit(kStiffForThinRings, [&](double stiffness) {
-    return continued_down(3.0 * expected + 0.05, 0.1 * expected, kBisection,
+    return continued_down(3.0 * expected + 0.05, 0.1 * expected, kThicknessStep,
                           [&](double thickness) { return elastic(span(thickness), stiffness); });
   });
   Case found{.name = name,
@@ -97,7 +97,7 @@ Case force_case(int loaded, bool judged) {
   return comparison(found, "joints of these stiffnesses let the crown snap through long before");
 }
 
-Findings point_load() {
+Findings arch_under_point_load() {
   Findings findings;
   for (const int loaded : {2, 3, 4}) findings.cases.push_back(force_case(loaded, true));
   findings.cases.push_back(force_case(6, false));
@@ -119,7 +119,7 @@ std::vector<Study> shape_studies() {
           {.name = "shape-load",
            .title = "Segmental arch under a point load",
            .quick = false,
-           .run = point_load}};
+           .run = arch_under_point_load}};
 }
 
 }  // namespace voussoir::validation

@@ -14,10 +14,6 @@ namespace {
 
 constexpr const char* kScene = "4,2";
 
-Eigen::VectorXd readings(const Model& bridge, const Field& field) {
-  return vertical_displacements(field, bridge.control_points);
-}
-
 DynamicSolution moved(const Model& bridge, double step) {
   DynamicSettings settings;
   settings.step = step;
@@ -31,7 +27,8 @@ HardCase step_case(const Model& bridge, double share, double critical, const Eig
   try {
     const DynamicSolution solution = moved(bridge, share * critical);
     row.verdict = std::string(to_string(solution.solution.outcome));
-    row.error = relative_difference(readings(bridge, solution.solution.displacement), tightest);
+    row.error = relative_difference(
+        vertical_displacements(solution.solution.displacement, bridge.control_points), tightest);
     row.iterations = solution.solution.iterations;
   } catch (const InputError&) {
     row.verdict = "refused";
@@ -47,7 +44,8 @@ Findings time_steps() {
   Findings findings;
   const Model bridge = make_model(small_bridge());
   const double critical = DynamicSolver(bridge).critical_step();
-  const Eigen::VectorXd tightest = readings(bridge, moved(bridge, 0.05 * critical).solution.displacement);
+  const Eigen::VectorXd tightest =
+      vertical_displacements(moved(bridge, 0.05 * critical).solution.displacement, bridge.control_points);
   for (const double share : {0.1, 0.3, 0.9, 0.99, 1.0, 1.01, 2.0, 100.0})
     findings.hard_cases.push_back(step_case(bridge, share, critical, tightest));
   return findings;
@@ -87,7 +85,8 @@ Findings starting_guesses() {
         .scene = kScene,
         .verdict = std::string(to_string(solution.outcome)),
         .expected = "standing, as from rest within 1e-6",
-        .error = relative_difference(readings(bridge, solution.displacement), readings(bridge, answer)),
+        .error = relative_difference(vertical_displacements(solution.displacement, bridge.control_points),
+                                     vertical_displacements(answer, bridge.control_points)),
         .iterations = solution.iterations};
     row.correct = solution.outcome == Outcome::standing && *row.error < 1e-6;
     findings.hard_cases.push_back(row);
@@ -102,9 +101,10 @@ Findings single_precision() {
     const Model bridge = make_model(reference ? BridgeDescription{} : small_bridge());
     const std::string name = reference ? "10,4" : kScene;
     QuasiStaticSolver solver(bridge);
-    const Eigen::VectorXd intact = readings(bridge, solver.solve(Scene{}).displacement);
-    const Eigen::VectorXd damaged =
-        readings(bridge, solver.solve(parse_scene(name, bridge.layout)).displacement);
+    const Eigen::VectorXd intact =
+        vertical_displacements(solver.solve(Scene{}).displacement, bridge.control_points);
+    const Eigen::VectorXd damaged = vertical_displacements(
+        solver.solve(parse_scene(name, bridge.layout)).displacement, bridge.control_points);
     const Eigen::VectorXd rounded =
         damaged.cast<float>().cast<double>() - intact.cast<float>().cast<double>();
     HardCase row{.sweep = "single precision storage",

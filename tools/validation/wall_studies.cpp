@@ -9,11 +9,11 @@
 namespace voussoir::validation {
 namespace {
 
-constexpr double kWallWidth = 1.0;  ///< [m] of the wall; it is as high
-constexpr double kThickness = 0.2;  ///< [m]
-constexpr double kBlock = 0.2;      ///< [m] long, half as high
-constexpr double kLeft = 10.0;      ///< [m] x of the left side, away from the supports of bridges
-constexpr double kFooting = 0.1;    ///< [m]
+constexpr double kWallWidth = 1.0;      ///< [m] of the wall; it is as high
+constexpr double kWallThickness = 0.2;  ///< [m]
+constexpr double kBlock = 0.2;          ///< [m] long, half as high
+constexpr double kLeft = 10.0;          ///< [m] x of the left side, away from the supports of bridges
+constexpr double kFooting = 0.1;        ///< [m]
 constexpr int kCourses = 10;
 
 /// Ten courses in running bond between a clamped footing and a beam.
@@ -22,7 +22,7 @@ Model shear_wall(double friction) {
   description.wall.length = 100.0;
   description.supports.sides = SupportKind::free;
   description.material = {
-      .young_modulus = 15.5e9, .poisson_ratio = 0.2, .density = 2400.0, .thickness = kThickness};
+      .young_modulus = 15.5e9, .poisson_ratio = 0.2, .density = 2400.0, .thickness = kWallThickness};
   description.joints = {
       .normal_stiffness = 5e9, .tangential_stiffness = 2e9, .friction_angle = std::atan(friction)};
   std::vector<Polygon> blocks = {rectangle({kLeft, 0.0}, kWallWidth, kFooting)};
@@ -101,7 +101,7 @@ struct Tested {
 };
 
 void push_walls(const Tested& tested, Findings& findings) {
-  const double vertical = tested.stress * kWallWidth * kThickness;
+  const double vertical = tested.stress * kWallWidth * kWallThickness;
   const double measured = 0.5 * (tested.greatest[0] + tested.greatest[1]);
   Plot plot{.title = fmt::format("Dry-stone wall under {:.2f} MPa", tested.stress * 1e-6),
             .x_label = "displacement of the top [mm]",

@@ -24,6 +24,9 @@ struct BridgeFrame {
   }
 };
 
+inline constexpr double kHeadingHeight = 0.75;  ///< [m] on the bridge's scale
+inline constexpr int kBarMarks = 5;             ///< numbers beside a bar of colours
+
 /// A frame `width` wide that holds the bridge and leaves `above` and `below` [m] free.
 BridgeFrame frame_of(const BlockLayout& layout, double width, double above, double below);
 

@@ -16,7 +16,7 @@ constexpr double kLeft = 62.0, kRight = 14.0, kTop = 10.0, kBottom = 46.0;  // m
 constexpr int kTicksAcross = 6;
 constexpr int kTicksUp = 6;
 constexpr double kDisc = 3.4;
-constexpr double kLegendHeight = 22.0;
+constexpr double kLegendLine = 22.0;
 constexpr double kLegendSample = 30.0;
 constexpr double kLetter = 7.2;  // width of one, about
 
@@ -219,17 +219,17 @@ Drawing draw(const Chart& chart) {
 
 Drawing draw_with_legend(const Chart& chart) {
   std::string legend;
-  Point at(kLeft, 0.7 * kLegendHeight);
+  Point at(kLeft, 0.7 * kLegendLine);
   for (const Series& series : chart.series) {
     if (series.name.empty()) continue;
     const double width = kLegendSample + 26.0 + kLetter * static_cast<double>(series.name.size());
-    if (at.x() > kLeft && at.x() + width > chart.width) at = Point(kLeft, at.y() + kLegendHeight);
+    if (at.x() > kLeft && at.x() + width > chart.width) at = Point(kLeft, at.y() + kLegendLine);
     legend += sample(series, at);
     legend += text_element(at + Point(kLegendSample + 6.0, 4.0), "start", "small", series.name);
     at.x() += width;
   }
   Drawing drawing = draw(chart);
-  const double height = legend.empty() ? 0.0 : at.y() + 0.5 * kLegendHeight;
+  const double height = legend.empty() ? 0.0 : at.y() + 0.5 * kLegendLine;
   drawing.elements =
       legend + fmt::format("<g transform=\"translate(0 {:.1f})\">\n", height) + drawing.elements + "</g>\n";
   drawing.height += height;

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/units.h"
 #include "lookup/report/drawing/bridge_drawing.h"
 #include "lookup/report/drawing/colour_map.h"
 
@@ -14,9 +15,6 @@ namespace voussoir {
 namespace {
 
 constexpr double kLargestDrawn = 0.02;  // of the bridge's length
-constexpr double kMillimetres = 1e3;
-constexpr int kBarMarks = 5;
-constexpr double kHeadingHeight = 0.75;  // [m] on the bridge's scale
 
 /// Settlement [m], which colours measure: zero at the highest node, growing downwards.
 struct SettlementRange {

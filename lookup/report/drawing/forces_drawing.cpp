@@ -7,6 +7,7 @@
 #include <cmath>
 #include <map>
 
+#include "core/units.h"
 #include "lookup/report/drawing/bridge_drawing.h"
 #include "lookup/report/drawing/colour_map.h"
 
@@ -15,10 +16,7 @@ namespace {
 
 constexpr double kMegapascals = 1e-6;
 constexpr double kKilonewtons = 1e-3;
-constexpr double kMillimetres = 1e3;
-constexpr int kBarMarks = 5;
-constexpr double kHeadingHeight = 0.75;  // [m] on the bridge's scale ..
-constexpr double kHeadingShare = 0.125;  // .. and no more than this share of its height
+constexpr double kHeadingShare = 0.125;  // of a flat bridge's height
 constexpr double kLegendHeight = 34.0;
 constexpr double kThickest = 7.0;  // units, of the joint with the highest pressure
 constexpr double kThinnest = 1.2;

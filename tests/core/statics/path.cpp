@@ -100,7 +100,7 @@ State at_rest(const Model& model) {
 }  // namespace
 
 TEST_CASE("A couplet pulled apart: strength f_t and energy G_I (closed form), on every mesh",
-          "[mortar][path]") {
+          "[mortar][path][many-solutions]") {
   for (const int refinement : {0, 1, 2}) {
     const Model model = couplet(refinement);
     const Outside pulled =

@@ -125,7 +125,7 @@ Readings readings_about(Bench& bench, const Draw& draw, const std::vector<NamedS
 
 TEST_CASE(
     "Adjoint sensitivities are central differences, of built, lost in sixteen steps, and a load after it",
-    "[sensitivity]") {
+    "[sensitivity][many-solutions]") {
   constexpr double kStep = 3e-5;      // [standard deviations]
   constexpr double kResolved = 1e-9;  // [m] what rounding leaves of a difference is 1e-7 of that
   constexpr int kWanted = 50;

@@ -8,7 +8,7 @@ namespace {
 
 /// A posterior of a bridge of three blocks.
 Posterior posterior_of(double intact, const std::vector<double>& blocks) {
-  return {{1.0}, blocks, {intact, 1.0 - intact}, {0}};
+  return {{1.0, {}, {}}, blocks, {intact, 1.0 - intact}, {0}};
 }
 
 }  // namespace

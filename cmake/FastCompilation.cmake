@@ -1,0 +1,32 @@
+# A build from nothing spends most of its time on reading the same headers, and on compiling what they hold, once for each
+# file. So libraries are compiled several files at a time, and programs and tests read the headers of the libraries that
+# they share from one precompiled file. The preset dev does neither: there every file has to include what it uses.
+option(VOUSSOIR_COMPILE_TOGETHER "Compile libraries several files at a time, precompile the headers of programs and tests" ON)
+
+# voussoir_compile_together(LIBRARY)
+function(voussoir_compile_together library)
+  set_target_properties(${library} PROPERTIES UNITY_BUILD ${VOUSSOIR_COMPILE_TOGETHER} UNITY_BUILD_BATCH_SIZE 8)
+  # To the compiler the sources are headers then, where types of anonymous namespaces would be a mistake.
+  target_compile_options(${library} PRIVATE -Wno-subobject-linkage)
+endfunction()
+
+# voussoir_precompile(TARGET HEADER..): the target reads these headers, and the commonest ones, from a precompiled file.
+function(voussoir_precompile target)
+  if(VOUSSOIR_COMPILE_TOGETHER)
+    target_precompile_headers(${target} PRIVATE <algorithm> <cmath> <filesystem> <functional> <map> <optional> <random> <set>
+                              <span> <string> <vector> <Eigen/Dense> <fmt/format.h> ${ARGN})
+  endif()
+endfunction()
+
+# voussoir_precompiled_as(TARGET OTHER): the target reads the precompiled file of another one with the same flags.
+function(voussoir_precompiled_as target other)
+  if(VOUSSOIR_COMPILE_TOGETHER)
+    target_precompile_headers(${target} REUSE_FROM ${other})
+  endif()
+endfunction()
+
+# What ccache needs to know to keep what was compiled with precompiled headers (its manual has the section).
+if(VOUSSOIR_COMPILE_TOGETHER AND CCACHE)
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env CCACHE_SLOPPINESS=pch_defines,time_macros ${CCACHE})
+  add_compile_options(-fpch-preprocess)
+endif()
