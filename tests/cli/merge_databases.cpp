@@ -39,7 +39,7 @@ struct Site {
 
 }  // namespace
 
-TEST_CASE("Parts that the programs build and merge give the database of one build") {
+TEST_CASE("Parts that the programs build and merge give the database of one build", "[many-solutions]") {
   const Site site;
   const std::string whole = site.build("whole.h5", {});
   for (const char* part : {"2/3", "3/3", "1/3"})

@@ -36,7 +36,8 @@ struct Site {
 
 }  // namespace
 
-TEST_CASE("Programs build, verify and show states, and Python finds their checksums right by itself") {
+TEST_CASE("Programs build, verify and show states, and Python finds their checksums right by itself",
+          "[many-solutions]") {
   const Site site;
   const test::ProgramResult built =
       site.build({"--history", "built,lost", "--loads", "all", "--format", "json"});
@@ -59,7 +60,8 @@ TEST_CASE("Programs build, verify and show states, and Python finds their checks
              Catch::Contains("40 of 40 right; content digest right") && Catch::Contains("lost:lorry@2: "));
 }
 
-TEST_CASE("query-field shows the field of the state that is asked for (compared with the file)") {
+TEST_CASE("query-field shows the field of the state that is asked for (compared with the file)",
+          "[many-solutions]") {
   const Site site;
   REQUIRE(site.build({"--history", "lost,built", "--loads", "lorry"}).exit_code == 0);
   const Database database = Database::open(site.database);
@@ -214,7 +216,8 @@ TEST_CASE("States and numbers that cannot be are bad usage") {
 
 TEST_CASE(
     "build-database draws variants by their seed and solves their singles; verify-database finds them "
-    "right") {
+    "right",
+    "[many-solutions]") {
   const test::TemporaryFolder folder;
   const std::string bridge = test::example_bridge("small").string();
   const auto build = [&](const std::string& name, std::vector<std::string> options) {

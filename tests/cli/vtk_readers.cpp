@@ -102,7 +102,8 @@ void compare_points(const std::string& theirs_text, const std::string& ours_text
 
 }  // namespace
 
-TEST_CASE("VTK finds in query-field's VTU file the points, triangles and displacements of its CSV file") {
+TEST_CASE("VTK finds in query-field's VTU file the points, triangles and displacements of its CSV file",
+          "[many-solutions]") {
   if (test::run("/usr/bin/python3", {"-c", "import vtk"}).exit_code != 0) {
     WARN("skipped: python3-vtk9 is not installed");
     return;
