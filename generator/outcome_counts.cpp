@@ -25,6 +25,14 @@ void count(const RecordedState& state, const RecordKey& key, const BlockLayout& 
   if (state.extent == CollapseExtent::local) ++counts.local_collapses;
 }
 
+std::string intact_text(const std::optional<Outcome>& intact) {
+  if (!intact || *intact == Outcome::standing) return {};
+  return fmt::format(
+      "    the intact bridge {}, so that what its scenes change is not known. Is the bridge as it is meant?\n"
+      "    build-database --draw bridge.svg shows it\n",
+      *intact == Outcome::collapsed ? "falls" : "has no outcome");
+}
+
 std::string state_text(const StateOutcomes& counts) {
   std::string text = fmt::format("  standing    {}\n", counts.standing);
   text += fmt::format("  collapsed   {} ({} of the arch, {} of wall blocks only)\n", counts.collapsed,
@@ -41,7 +49,7 @@ std::string state_text(const StateOutcomes& counts) {
         fmt::format("    {}, residual {:.1e}\n", counts.unresolved[i].scene, counts.unresolved[i].residual);
   if (counts.unresolved.size() > kMostUnresolved)
     text += fmt::format("    and {} more\n", counts.unresolved.size() - kMostUnresolved);
-  return text;
+  return text + intact_text(counts.intact);
 }
 
 nlohmann::ordered_json state_json(const StateOutcomes& counts) {
@@ -55,19 +63,24 @@ nlohmann::ordered_json state_json(const StateOutcomes& counts) {
           {"composed", counts.composed},
           {"inherited", counts.inherited},
           {"unresolved", counts.unresolved.size()},
-          {"unresolved_scenes", unresolved}};
+          {"unresolved_scenes", unresolved},
+          {"intact", counts.intact ? nlohmann::ordered_json(to_string(*counts.intact)) : nullptr}};
 }
 
 }  // namespace
 
 OutcomeCounts::OutcomeCounts(const std::vector<std::string>& state_names) {
-  for (const std::string& name : state_names) states.push_back({.state = name, .unresolved = {}});
+  for (const std::string& name : state_names)
+    states.push_back({.state = name, .unresolved = {}, .intact = {}});
 }
 
 void OutcomeCounts::add(const Record& record, const BlockLayout& layout) {
   ++scenes;
-  for (std::size_t state = 0; state < states.size(); ++state)
+  for (std::size_t state = 0; state < states.size(); ++state) {
     count(record.states.at(state), record.key, layout, states[state]);
+    if (record.key.variant == kNominalVariant && record.key.scene.removed.empty())
+      states[state].intact = record.states[state].outcome;
+  }
 }
 
 OutcomeCounts count_outcomes(const Database& database) {
@@ -89,6 +102,9 @@ OutcomeCounts count_outcomes(const Database& database) {
         }
         count(state, key, database.layout(), counts.states[place]);
       }
+      const auto intact = table.find(Scene{});
+      if (variant == std::size_t{kNominalVariant} && intact)
+        counts.states[place].intact = static_cast<Outcome>(table.outcome[*intact]);
     }
   return counts;
 }

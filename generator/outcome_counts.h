@@ -3,6 +3,7 @@
 /// and which these last are.
 
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,7 @@ struct StateOutcomes {
   std::size_t composed = 0;         ///< of all: with this origin
   std::size_t inherited = 0;        ///< and with this one
   std::vector<UnresolvedScene> unresolved;
+  std::optional<Outcome> intact;  ///< of the intact nominal bridge, if it is among the scenes
 };
 
 struct OutcomeCounts {
@@ -41,11 +43,13 @@ struct OutcomeCounts {
 OutcomeCounts count_outcomes(const Database& database);
 
 /// Lines for people, indented by two blanks; at most twenty unresolved scenes of a history are listed.
-/// States are named if there are several; those with loads have a line each.
+/// States are named if there are several; those with loads have a line each. An intact bridge that does not
+/// stand is said: a bridge file is more often wrong than a bridge.
 std::string to_text(const OutcomeCounts& counts);
 
 /// {"scenes", "standing", "collapsed", "arch_collapses", "local_collapses", "composed",
-/// "inherited", "unresolved", "unresolved_scenes": [{"scene", "residual"}]} of the first state, and "states":
+/// "inherited", "unresolved", "unresolved_scenes": [{"scene", "residual"}], "intact": its outcome or null} of
+/// the first state, and "states":
 /// [{"state", the same}] of all.
 nlohmann::ordered_json to_json(const OutcomeCounts& counts);
 

@@ -14,18 +14,21 @@ struct Found {
   CollapseExtent extent;
 };
 
-/// A record of the scene without this block, in two states and one with a load.
-Record record_of(const Model& bridge, int block, const std::vector<Found>& found) {
+/// A record of the scene, in two states and one with a load.
+Record record_of(const Model& bridge, const Scene& scene, const std::vector<Found>& found) {
   std::vector<Solution> states;
   for (const Found& each : found) {
-    Solution& state = states.emplace_back(test::made_up_solution(bridge, Scene{{BlockId{block}}}));
+    Solution& state = states.emplace_back(test::made_up_solution(bridge, scene));
     state.outcome = each.outcome;
     state.extent = each.extent;
     state.moving.clear();
     state.residual = 0.25;
   }
-  return make_record({kNominalVariant, Scene{{BlockId{block}}}}, states, bridge.control_points, KeepField::no,
-                     KeepField::no);
+  return make_record({kNominalVariant, scene}, states, bridge.control_points, KeepField::no, KeepField::no);
+}
+
+Record record_of(const Model& bridge, int block, const std::vector<Found>& found) {
+  return record_of(bridge, Scene{{BlockId{block}}}, found);
 }
 
 constexpr Found kStands{Outcome::standing, CollapseExtent::none};
@@ -71,6 +74,31 @@ TEST_CASE("Outcomes are counted for each state, by the build and from the file a
     CHECK(json["states"][2]["unresolved_scenes"][0]["scene"] == first);
     CHECK_THAT(to_text(each), Catch::Contains("  lost\n  standing    2\n") &&
                                   Catch::Contains("  built:truck: 0 standing, 1 collapsed, 2 unresolved\n"));
+    CHECK(json["intact"].is_null());
+  }
+}
+
+TEST_CASE(
+    "An intact bridge that falls or has no outcome is said, by the build and from the file (written out)") {
+  const BridgeFile file = test::small_bridge_file();
+  const Model bridge = make_model(file.description);
+  const std::vector<std::pair<Found, std::string>> cases = {
+      {kStands, ""}, {kArchFalls, "the intact bridge falls"}, {kOpen, "the intact bridge has no outcome"}};
+  for (const auto& [found, said] : cases) {
+    const Record record = record_of(bridge, Scene{}, {found});
+    DatabaseContent content = test::made_up_content(file, bridge, {}, KeepField::no);
+    content.keys = {record.key};
+    OutcomeCounts counts(content.states);
+    counts.add(record, bridge.layout);
+    const test::TemporaryFolder folder;
+    write_database(folder / "one.h5", content, [&](std::size_t) { return record; });
+    for (const OutcomeCounts& each : {counts, count_outcomes(Database::open(folder / "one.h5"))}) {
+      CHECK(to_json(each)["intact"] == std::string(to_string(found.outcome)));
+      if (said.empty())
+        CHECK_THAT(to_text(each), !Catch::Contains("intact"));
+      else
+        CHECK_THAT(to_text(each), Catch::Contains(said));
+    }
   }
 }
 
