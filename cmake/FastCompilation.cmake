@@ -5,9 +5,11 @@ option(VOUSSOIR_COMPILE_TOGETHER "Compile libraries several files at a time, pre
 
 # voussoir_compile_together(LIBRARY)
 function(voussoir_compile_together library)
-  set_target_properties(${library} PROPERTIES UNITY_BUILD ${VOUSSOIR_COMPILE_TOGETHER} UNITY_BUILD_BATCH_SIZE 8)
-  # To the compiler the sources are headers then, where types of anonymous namespaces would be a mistake.
-  target_compile_options(${library} PRIVATE -Wno-subobject-linkage)
+  if(VOUSSOIR_COMPILE_TOGETHER)
+    set_target_properties(${library} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
+    # To the compiler the sources are headers then, where types of anonymous namespaces would be a mistake.
+    target_compile_options(${library} PRIVATE -Wno-subobject-linkage)
+  endif()
 endfunction()
 
 # voussoir_precompile(TARGET HEADER..): the target reads these headers, and the commonest ones, from a precompiled file.
@@ -25,8 +27,9 @@ function(voussoir_precompiled_as target other)
   endif()
 endfunction()
 
-# What ccache needs to know to keep what was compiled with precompiled headers (its manual has the section).
-if(VOUSSOIR_COMPILE_TOGETHER AND CCACHE)
+# ccache, where it is installed, with what it needs to know to keep what was compiled with precompiled headers.
+find_program(CCACHE ccache)
+if(CCACHE)
   set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env CCACHE_SLOPPINESS=pch_defines,time_macros ${CCACHE})
   add_compile_options(-fpch-preprocess)
 endif()

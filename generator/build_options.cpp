@@ -43,8 +43,7 @@ CLI::Validator number_above(double least, bool least_allowed) {
   return {[=](std::string& text) {
             const std::optional<double> number = parse_number(text);
             const bool right = number && (*number > least || (least_allowed && *number == least));
-            return right ? std::string()
-                         : fmt::format("is {}: expected a {}", voussoir::in_quotes(text), name);
+            return right ? std::string() : fmt::format("is {}: expected a {}", in_quotes(text), name);
           },
           name};
 }
@@ -97,9 +96,8 @@ void add_shard_option(CLI::App& app, BuildOptions& options) {
          "I/N: compute part I of N only, for merge-databases; --fields none acts when parts are merged")
       ->check(CLI::Validator(
           [](std::string& text) {
-            return parse_shard(text)
-                       ? std::string()
-                       : fmt::format("is {}: expected a part such as 3/16", voussoir::in_quotes(text));
+            return parse_shard(text) ? std::string()
+                                     : fmt::format("is {}: expected a part such as 3/16", in_quotes(text));
           },
           "PART/PARTS"));
 }
@@ -193,7 +191,8 @@ void parse_build_options(int argc, char** argv, BuildOptions& options) {
 }
 
 SolverChoice settle_collapses(const Model& bridge, BuildOptions& options) {
-  const bool fields = options.collapse_fields.value_or(!softens_joints(options.motion, bridge));
+  const bool fields =
+      options.collapse_fields ? *options.collapse_fields : !softens_joints(options.motion, bridge);
   options.request.rules.collapse_fields = fields;
   if (options.solver == SolverKind::dynamic) return dynamic(options.motion);
   return fields ? quasi_static(options.motion) : for_outcomes(options.motion);

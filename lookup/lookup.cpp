@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "core/error.h"
 #include "lookup/evidence/largest_places.h"
@@ -27,13 +26,6 @@ Eligible eligible_or_failure(const SceneTable& table, const Prior& prior) {
     throw Failure(fmt::format("the database has no solved scene with {} missing blocks",
                               fmt::join(prior.missing, ", ")));
   return eligible;
-}
-
-/// From a value for each row of the table.
-RowValues values_of(const Eligible& eligible, const std::vector<double>& log_evidence) {
-  RowValues result{-std::numeric_limits<double>::infinity(), eligible.rows, {}};
-  for (const std::size_t row : eligible.rows) result.values.push_back(log_evidence[row]);
-  return result;
 }
 
 std::vector<ScoredRow> run_genetic(const Library& library, const Observation& observation,
@@ -279,9 +271,8 @@ Answer locate_damage(const Comparison& comparison, const LookupSettings& setting
     question.emplace(comparison, observation,
                      UnknownSettings{settings.epochs, settings.conditions, settings.nuisance.scale});
   if (settings.objective == Objective::posterior) {
-    const RowValues evidence =
-        question ? values_of(eligible, question->log_evidence(eligible, answer.prior, settings.top))
-                 : preparation.screen()(observation, settings.top);
+    const RowValues evidence = question ? question->log_evidence(eligible, answer.prior, settings.top)
+                                        : preparation.screen()(observation, settings.top);
     answer.posterior = posterior(library.table, eligible, evidence, answer.prior, library.layout.size());
   }
   const std::vector<ScoredRow> found = found_rows(library, observation, preparation, settings, answer);

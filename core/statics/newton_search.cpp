@@ -49,12 +49,11 @@ constexpr PhaseRules kQuick{.largest_step = 0.5, .rise = 1.0, .patience = 3, .pr
 /// A residual that may rise lets joints open and close in turn for ever (docs/numerics.md).
 constexpr PhaseRules kPatient{
     .largest_step = 0.5, .rise = 1.0, .patience = kForever, .promising = 0.0, .descends = true};
-constexpr PhaseRules kDescending{.largest_step = 0.5,
-                                 .rise = 1.0,
-                                 .patience = kForever,
-                                 .promising = 0.0,
-                                 .descends = true,
-                                 .stalls = true};
+constexpr PhaseRules kDescending = [] {
+  PhaseRules rules = kPatient;
+  rules.stalls = true;
+  return rules;
+}();
 constexpr PhaseRules kFalling{.largest_step = 2.0, .rise = 3.0, .patience = kForever, .promising = 0.0};
 
 const PhaseRules& rules_of(SearchPhase phase) {

@@ -70,8 +70,7 @@ Block block_of(const Json& entry, const Place& place) {
   if (!entry.is_object()) place.refuse("expected {\"label\": .., \"role\": .., \"vertices\": [[x, y], ..]}");
   for (const auto& [key, unused] : entry.items())
     if (key != "label" && key != "role" && key != "ring" && key != "vertices")
-      place.refuse(
-          fmt::format("unknown key {}: expected label, role, ring and vertices", voussoir::in_quotes(key)));
+      place.refuse(fmt::format("unknown key {}: expected label, role, ring and vertices", in_quotes(key)));
   Block block;
   block.role = role_of(entry, place);
   block.ring = ring_of(entry, block.role, place);

@@ -267,8 +267,8 @@ BlockFile parse_dxf_blocks(std::string_view text, const std::string& name) {
             at_line(name, outline.line, fmt::format("a vertex is farther than {:g} m", kLargestLength)));
   }
   for (const auto& [layer, count] : left_out)
-    file.notes.push_back(fmt::format("left out {} outlines on layer {}, which names no role", count,
-                                     voussoir::in_quotes(layer)));
+    file.notes.push_back(
+        fmt::format("left out {} outlines on layer {}, which names no role", count, in_quotes(layer)));
   if (open > 0) file.notes.push_back(fmt::format("left out {} outlines that are not closed", open));
   if (file.blocks.empty())
     throw InputError(fmt::format("{}: no closed polylines on layers that name roles: expected layers {}",

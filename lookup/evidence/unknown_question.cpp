@@ -49,20 +49,19 @@ UnknownBridgeQuestion::UnknownBridgeQuestion(const Comparison& comparison, const
   bridge_ = unknown_bridge(comparison, observation, cases_.front(), settings);
 }
 
-std::vector<double> UnknownBridgeQuestion::log_evidence(const Eligible& eligible, const Prior& prior,
-                                                        std::size_t count) {
+RowValues UnknownBridgeQuestion::log_evidence(const Eligible& eligible, const Prior& prior,
+                                              std::size_t count) {
   const SceneTable& table = comparison_.library.table;
   const std::vector<double> by_missing = log_prior_by_missing(table, eligible, prior);
   const std::vector<double> silence = log_chance_of_silence(observation_, table, eligible.rows);
   std::vector<double> beforehand = silence;
   for (std::size_t i = 0; i < beforehand.size(); ++i) beforehand[i] += by_missing[eligible.missing[i]];
   ScreenedCases screened(bridge_, observation_, table, cases_, eligible.rows, beforehand);
-  const std::vector<double> logs = screened.evidence(count);
+  std::vector<double> logs = screened.evidence(count);
   likeliest_ = screened.likeliest();
   set_case(observation_, cases_[likeliest_], bridge_);
-  std::vector<double> result(table.rows, kImpossible);
-  for (std::size_t k = 0; k < eligible.rows.size(); ++k) result[eligible.rows[k]] = logs[k] + silence[k];
-  return result;
+  for (std::size_t k = 0; k < logs.size(); ++k) logs[k] += silence[k];
+  return {kImpossible, eligible.rows, std::move(logs)};
 }
 
 BridgePosterior UnknownBridgeQuestion::posterior(const std::vector<WeightedScene>& scenes) const {

@@ -18,11 +18,11 @@ class UnknownBridgeQuestion {
   UnknownBridgeQuestion(const Comparison& comparison, const Observation& observation,
                         const UnknownSettings& settings);
 
-  /// log p(readings | scene) by row of the table, what is not known marginalised: the parameters of bridge
+  /// log p(readings | scene) of the table's rows, what is not known marginalised: the parameters of bridge
   /// and epochs, their scatter, the noise's level, whether conditions changed. -infinity for rows that are
   /// impossible or not eligible. The `count` likeliest and all that matter are worked out, the others
   /// estimated (ScreenedCases).
-  std::vector<double> log_evidence(const Eligible& eligible, const Prior& prior, std::size_t count);
+  RowValues log_evidence(const Eligible& eligible, const Prior& prior, std::size_t count);
 
   /// Of these scenes, in the likeliest case.
   BridgePosterior posterior(const std::vector<WeightedScene>& scenes) const;

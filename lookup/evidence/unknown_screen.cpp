@@ -89,21 +89,21 @@ void store_lower(const MatrixXd& matrix, DirectionTriangle& lower) {
       lower[lower_size(static_cast<std::size_t>(i)) + static_cast<std::size_t>(j)] = matrix(i, j);
 }
 
-/// log density of no difference at all, but for the powers of two pi.
+/// log density of no difference at all.
 ScatterLogs log_peak(const MatrixXd& noise, const MatrixXd& bridge) {
-  const auto rows = static_cast<std::size_t>(noise.rows());
-  ScatterLogs logs = ScatterDensity()(std::vector<double>(rows, 0.0), lower_of(noise), lower_of(bridge));
-  for (double& one : logs) one += 0.5 * static_cast<double>(rows) * std::log(2.0 * std::numbers::pi);
-  return logs;
+  const std::vector<double> none(static_cast<std::size_t>(noise.rows()), 0.0);
+  return ScatterDensity()(none, lower_of(noise), lower_of(bridge));
 }
 
-/// What the density of all rows has more than that of the first few directions.
+/// What the density of all rows has more than that of the first few directions, which goes without its powers
+/// of two pi.
 ScatterLogs log_outside(const ScatterLogs& peaks, const MatrixXd& noise, const MatrixXd& bridge,
                         std::size_t directions) {
   const Index few = std::min(static_cast<Index>(directions), noise.rows());
   const ScatterLogs inside = log_peak(noise.topLeftCorner(few, few), bridge.topLeftCorner(few, few));
+  const double powers = 0.5 * static_cast<double>(few) * std::log(2.0 * std::numbers::pi);
   ScatterLogs logs = peaks;
-  for (std::size_t k = 0; k < logs.size(); ++k) logs[k] -= inside[k];
+  for (std::size_t k = 0; k < logs.size(); ++k) logs[k] -= inside[k] + powers;
   return logs;
 }
 
@@ -137,6 +137,7 @@ UnknownScreen::UnknownScreen(UnknownBridge& bridge, const Observation& observati
 
 void UnknownScreen::add_intact(const MatrixXd& others, const MatrixXd& bridge, ReducedCase& to) const {
   to.peaks = log_peak(others, bridge);
+  to.peak = over_scatter(to.peaks);
   const Index used = std::min(kAllDirections, directions_.rows());
   const auto few = directions_.leftCols(used);
   const MatrixXd reduced_bridge = few.transpose() * (bridge * few),
@@ -147,11 +148,6 @@ void UnknownScreen::add_intact(const MatrixXd& others, const MatrixXd& bridge, R
   MatrixXd all = MatrixXd::Identity(kAllDirections, kAllDirections);  // beyond those that there are
   all.topLeftCorner(used, used) = reduced_others;
   store_lower(all, to.others);
-  const double rows = static_cast<double>(directions_.rows());
-  for (double& peak : to.peaks) peak -= 0.5 * rows * std::log(2.0 * std::numbers::pi);
-  for (ScatterLogs* logs : {&to.outside_few, &to.outside_more, &to.outside_all})
-    for (double& log : *logs) log -= 0.5 * rows * std::log(2.0 * std::numbers::pi);
-  to.peak = over_scatter(to.peaks);
 }
 
 /// In which the readings are farthest from the intact bridge, in each case; orthonormal in whitened readings.

@@ -1,7 +1,6 @@
 #include "lookup/readings/common_variance.h"
 
 #include <array>
-#include <limits>
 
 #include "core/not_a_number.h"
 #include "core/simd/lanes.h"

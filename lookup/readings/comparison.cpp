@@ -110,7 +110,7 @@ void require_control_points(const ReadingsFile& file, const SensorList& list) {
                   fmt::format("sensor {} is no control point: what it shows of a bridge that is not "
                               "exactly known is not in the database; expected control points, or "
                               "--known-bridge",
-                              voussoir::in_quotes(list.sensors[reading.sensor].name))));
+                              in_quotes(list.sensors[reading.sensor].name))));
 }
 
 }  // namespace

@@ -82,13 +82,13 @@ class Cutter {
     if (place_ == line_.size())
       table_.fail(number_,
                   fmt::format("the quotation mark before {} is not closed, expected another in this line",
-                              voussoir::in_quotes(text)));
+                              in_quotes(text)));
     ++place_;
     const std::string rest = plain_field();
     if (!rest.empty())
       table_.fail(number_, fmt::format("{} follows a closing quotation mark, expected the end of the field "
                                        "(a quotation mark in a field is written twice)",
-                                       voussoir::in_quotes(rest)));
+                                       in_quotes(rest)));
     return std::string(trimmed(text));
   }
 

@@ -87,12 +87,12 @@ class Numbers {
     if (decided_) return decided_->mark;
     const bool commas_separate = table_.separator == ',' && !has_comma_;
     if (undecided_ && !commas_separate)
-      table_.fail(undecided_->line,
-                  fmt::format("{0} is {1} or {2}, and no number of the file decides, expected one that shows "
-                              "the decimal mark (such as '{3}0' in the place of {0})",
-                              voussoir::in_quotes(undecided_->field),
-                              *parse_number(undecided_->field, DecimalMark::point),
-                              *parse_number(undecided_->field, DecimalMark::comma), undecided_->field));
+      table_.fail(
+          undecided_->line,
+          fmt::format("{0} is {1} or {2}, and no number of the file decides, expected one that shows "
+                      "the decimal mark (such as '{3}0' in the place of {0})",
+                      in_quotes(undecided_->field), *parse_number(undecided_->field, DecimalMark::point),
+                      *parse_number(undecided_->field, DecimalMark::comma), undecided_->field));
     return DecimalMark::point;
   }
 
@@ -109,9 +109,9 @@ class Numbers {
   void decide(DecimalMark mark, const std::string& field, long line) {
     if (!decided_) decided_ = {mark, line};
     if (decided_->mark != mark)
-      table_.fail(line, fmt::format("{} has a decimal {}, expected a decimal {} as in line {}",
-                                    voussoir::in_quotes(field), name_of(mark), name_of(decided_->mark),
-                                    decided_->line));
+      table_.fail(line,
+                  fmt::format("{} has a decimal {}, expected a decimal {} as in line {}", in_quotes(field),
+                              name_of(mark), name_of(decided_->mark), decided_->line));
   }
 
   const CsvTable& table_;

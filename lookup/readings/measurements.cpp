@@ -2,12 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "core/not_a_number.h"
 
 namespace voussoir {
-namespace {}  // namespace
 
 std::size_t Measurements::count() const {
   return static_cast<std::size_t>(std::count_if(displacement.begin(), displacement.end(),

@@ -35,7 +35,7 @@ std::variant<ReadingStates, std::string> states_of(const ReadingsFile& file, con
     if (!states.loaded.back())
       return at_line(file.name, reading.line,
                      fmt::format("the database has no load {} after the history '{}', expected {}",
-                                 voussoir::in_quotes(reading.load), history, loads_of(database, history)));
+                                 in_quotes(reading.load), history, loads_of(database, history)));
   }
   return states;
 }

@@ -43,7 +43,7 @@ class Header {
   void claim(std::size_t& column, std::size_t position) const {
     if (column != kAbsent)
       fail(fmt::format("column {} is given twice or beside another value column",
-                       voussoir::in_quotes(names()[position])));
+                       in_quotes(names()[position])));
     column = position;
   }
 
@@ -69,7 +69,7 @@ class Header {
     if (name == "after_mm") return columns_.after;
     if (name == "sigma_mm") return columns_.sigma;
     if (name == "load") return columns_.load;
-    fail(fmt::format("unknown column {}", voussoir::in_quotes(name)));
+    fail(fmt::format("unknown column {}", in_quotes(name)));
   }
 
   void check_point() const {
@@ -84,8 +84,7 @@ class Header {
     if (before != after)
       fail(before ? "column 'before_mm' without 'after_mm'" : "column 'after_mm' without 'before_mm'");
     if (before && columns_.value != kAbsent)
-      fail(fmt::format("column {} beside 'before_mm' and 'after_mm'",
-                       voussoir::in_quotes(names()[columns_.value])));
+      fail(fmt::format("column {} beside 'before_mm' and 'after_mm'", in_quotes(names()[columns_.value])));
     if (!before && columns_.value == kAbsent) fail("no value column");
     if (!before) return;
     columns_.factor = kMetresPerMillimetre;

@@ -83,8 +83,8 @@ class ReadingsReader {
                                     [&](const Sensor& sensor) { return sensor.name == name; });
     if (found == sensors_.end())
       table_.fail(line.number,
-                  fmt::format("unknown point {}, expected {} to {}{}", voussoir::in_quotes(name),
-                              sensors_.front().name, sensors_[control_points_ - 1].name,
+                  fmt::format("unknown point {}, expected {} to {}{}", in_quotes(name), sensors_.front().name,
+                              sensors_[control_points_ - 1].name,
                               sensors_.size() > control_points_ ? ", or a sensor of the list" : ""));
     if (found->quantity != Quantity::uy && columns_.vertical_only)
       table_.fail(
@@ -120,7 +120,7 @@ class ReadingsReader {
     const std::optional<double> number = parse_number(line.fields[column], columns_.mark);
     if (!number)
       table_.fail(line.number, fmt::format("{} is no coordinate, expected a number in metres",
-                                           voussoir::in_quotes(line.fields[column])));
+                                           in_quotes(line.fields[column])));
     return *number;
   }
 
@@ -129,13 +129,13 @@ class ReadingsReader {
     if (says_nothing(text)) return kNan;
     const std::optional<double> number = parse_number(text, columns_.mark);
     if (!number)
-      table_.fail(line.number, fmt::format("{} is no finite number, expected a displacement or nothing",
-                                           voussoir::in_quotes(text)));
+      table_.fail(line.number,
+                  fmt::format("{} is no finite number, expected a displacement or nothing", in_quotes(text)));
     const double metres = columns_.factor * *number;
     if (std::abs(metres) > kLargestDisplacement)
       table_.fail(line.number,
                   fmt::format("{} is a displacement of {:.3g} m, expected at most {} m (check the units)",
-                              voussoir::in_quotes(text), std::abs(metres), kLargestDisplacement));
+                              in_quotes(text), std::abs(metres), kLargestDisplacement));
     return metres;
   }
 
@@ -146,7 +146,7 @@ class ReadingsReader {
     if (!number || *number <= 0.0)
       table_.fail(line.number,
                   fmt::format("{} is no sigma, expected a positive number of millimetres or nothing",
-                              voussoir::in_quotes(text)));
+                              in_quotes(text)));
     return kMetresPerMillimetre * *number;
   }
 

@@ -60,12 +60,12 @@ class SensorsReader {
     const std::optional<Quantity> read_quantity = parse_quantity(text(line, kQuantity));
     if (!read_quantity)
       table_.fail(line.number, fmt::format("unknown quantity {}, expected {}",
-                                           voussoir::in_quotes(text(line, kQuantity)), kQuantities));
+                                           in_quotes(text(line, kQuantity)), kQuantities));
     if (*read_quantity == Quantity::distance) return distance_sensor(line, label);
     for (const Column column : {kX2, kY2, kBlock2})
       if (!text(line, column).empty())
         table_.fail(line.number, fmt::format("{} in column {}, expected nothing but for a distance",
-                                             voussoir::in_quotes(text(line, column)), kNames[column]));
+                                             in_quotes(text(line, column)), kNames[column]));
     if (*read_quantity == Quantity::tilt) return tilt_sensor(line, label);
     const Place at = place(line, kX, kY, kBlock);
     const Point direction = *read_quantity == Quantity::ux ? Point(1.0, 0.0) : Point(0.0, 1.0);
@@ -80,11 +80,11 @@ class SensorsReader {
     const auto found = std::find(kNames.begin(), kNames.end(), header);
     if (found == kNames.end())
       table_.fail(table_.header.number,
-                  fmt::format("unknown column {}, expected {}", voussoir::in_quotes(header), kColumns));
+                  fmt::format("unknown column {}, expected {}", in_quotes(header), kColumns));
     std::size_t& column = columns_[static_cast<std::size_t>(found - kNames.begin())];
     if (column != kNone)
-      table_.fail(table_.header.number, fmt::format("column {} is given twice, expected {}",
-                                                    voussoir::in_quotes(header), kColumns));
+      table_.fail(table_.header.number,
+                  fmt::format("column {} is given twice, expected {}", in_quotes(header), kColumns));
     column = position;
   }
 
@@ -144,7 +144,7 @@ class SensorsReader {
     const std::optional<double> number = parse_number(field, mark_);
     if (!number)
       table_.fail(line.number, fmt::format("{} is no coordinate, expected a number in metres in column {}",
-                                           voussoir::in_quotes(field), kNames[column]));
+                                           in_quotes(field), kNames[column]));
     return *number;
   }
 
@@ -157,8 +157,8 @@ class SensorsReader {
     } catch (const InputError& error) {
       table_.fail(line.number, error.what());
     }
-    table_.fail(line.number, fmt::format("{} in column {}, expected one block", voussoir::in_quotes(field),
-                                         kNames[column]));
+    table_.fail(line.number,
+                fmt::format("{} in column {}, expected one block", in_quotes(field), kNames[column]));
   }
 
   const CsvTable& table_;
@@ -178,8 +178,8 @@ void parse_sensors(std::string_view text, const std::string& name, const BlockLa
     Sensor sensor = reader.read(line);
     const auto same = [&](const Sensor& other) { return other.name == sensor.name; };
     if (std::any_of(list.sensors.begin(), list.sensors.end(), same))
-      table.fail(line.number, fmt::format("sensor {} is there already, expected another name",
-                                          voussoir::in_quotes(sensor.name)));
+      table.fail(line.number,
+                 fmt::format("sensor {} is there already, expected another name", in_quotes(sensor.name)));
     list.sensors.push_back(std::move(sensor));
   }
 }

@@ -47,7 +47,7 @@ std::size_t find_point(const Database& database, std::string_view name) {
   if (found == points.end())
     throw InputError(fmt::format(
         "--at: unknown point {}, expected control, coordinates X,Y in metres, or names from {} to {}",
-        voussoir::in_quotes(name), points.front().name, points.back().name));
+        in_quotes(name), points.front().name, points.back().name));
   return static_cast<std::size_t>(found - points.begin());
 }
 
@@ -89,7 +89,7 @@ std::size_t find_state(const Database& database, const std::optional<std::string
   const auto state = database.find_state(name);
   if (!state)
     throw InputError(fmt::format("{}: has no state {}, expected one of {}", database.path().string(),
-                                 voussoir::in_quotes(name), fmt::join(database.states(), ", ")));
+                                 in_quotes(name), fmt::join(database.states(), ", ")));
   return *state;
 }
 

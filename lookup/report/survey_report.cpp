@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <limits>
 
 #include "core/not_a_number.h"
 #include "lookup/report/drawing/table.h"

@@ -14,6 +14,17 @@ inline BridgeDescription small_description() {
   return read_bridge_file(example_bridge("small")).description;
 }
 
+/// Its joints filled with a weak lime mortar.
+inline BridgeDescription small_description_with_mortar() {
+  BridgeDescription description = small_description();
+  description.joints.mortar = {.tensile_strength = 5e4,
+                               .opening_energy = 10.0,
+                               .cohesion = 1e5,
+                               .slip_energy = 200.0,
+                               .friction_angle = description.joints.friction_angle};
+  return description;
+}
+
 inline Model small_bridge() {
   return make_model(small_description());
 }

@@ -1,7 +1,6 @@
 #include "tools/trials/taken_readings.h"
 
 #include <cmath>
-#include <limits>
 
 #include "core/not_a_number.h"
 

@@ -10,14 +10,14 @@
 namespace voussoir {
 namespace {
 
-constexpr double kOfAStep = 1e-9;  // of a step
+constexpr double kStepRounding = 1e-9;  // of a step
 
 /// The smallest of 1, 2, 5 times a power of ten that covers the range in at most `count` steps.
 double round_step(double range, int count) {
   const double raw = range / count;
   const double power = std::pow(10.0, std::floor(std::log10(raw)));
   for (const double factor : {1.0, 2.0, 5.0})
-    if (factor * power >= raw * (1.0 - kOfAStep)) return factor * power;
+    if (factor * power >= raw * (1.0 - kStepRounding)) return factor * power;
   return 10.0 * power;
 }
 
@@ -50,8 +50,8 @@ Range range_of(std::span<const double> values, AxisScale scale) {
 }
 
 AxisMap whole_decades(const Range& range, double begin, double end) {
-  const double low = std::floor(std::log10(range.lowest) + kOfAStep);
-  const double high = std::max(low + 1.0, std::ceil(std::log10(range.highest) - kOfAStep));
+  const double low = std::floor(std::log10(range.lowest) + kStepRounding);
+  const double high = std::max(low + 1.0, std::ceil(std::log10(range.highest) - kStepRounding));
   return {std::pow(10.0, low), std::pow(10.0, high), begin, end, AxisScale::logarithmic};
 }
 
@@ -72,20 +72,21 @@ AxisMap axis_over(std::span<const double> values, AxisScale scale, int ticks, do
     range = {range.lowest - margin, range.highest + margin};
   }
   const double step = round_step(range.highest - range.lowest, ticks);
-  return {step * std::floor(range.lowest / step + kOfAStep),
-          step * std::ceil(range.highest / step - kOfAStep), begin, end, AxisScale::linear};
+  return {step * std::floor(range.lowest / step + kStepRounding),
+          step * std::ceil(range.highest / step - kStepRounding), begin, end, AxisScale::linear};
 }
 
 std::vector<Tick> ticks_of(const AxisMap& axis, int count) {
   std::vector<Tick> ticks;
   if (axis.scale == AxisScale::logarithmic) {
-    const auto last = static_cast<int>(std::floor(std::log10(axis.highest) + kOfAStep));
-    for (auto e = static_cast<int>(std::ceil(std::log10(axis.lowest) - kOfAStep)); e <= last; ++e)
+    const auto last = static_cast<int>(std::floor(std::log10(axis.highest) + kStepRounding));
+    for (auto e = static_cast<int>(std::ceil(std::log10(axis.lowest) - kStepRounding)); e <= last; ++e)
       ticks.push_back({std::pow(10.0, e), power_of_ten(e)});
     return ticks;
   }
   const double step = round_step(axis.highest - axis.lowest, count);
-  for (double k = std::ceil(axis.lowest / step - kOfAStep); k * step <= axis.highest + kOfAStep * step; ++k)
+  for (double k = std::ceil(axis.lowest / step - kStepRounding);
+       k * step <= axis.highest + kStepRounding * step; ++k)
     ticks.push_back({k * step, fmt::format("{:.6g}", k == 0.0 ? 0.0 : k * step)});
   return ticks;
 }

@@ -40,15 +40,8 @@ Model hanging_block(double tensile_strength) {
   return model;
 }
 
-/// The small bridge, its joints filled with a weak lime mortar.
 Model bridge_with_mortar() {
-  BridgeDescription description = test::small_description();
-  description.joints.mortar = {.tensile_strength = 5e4,
-                               .opening_energy = 10.0,
-                               .cohesion = 1e5,
-                               .slip_energy = 200.0,
-                               .friction_angle = description.joints.friction_angle};
-  return make_model(description);
+  return make_model(test::small_description_with_mortar());
 }
 
 std::vector<Scene> some_scenes(const Model& bridge) {

@@ -44,12 +44,7 @@ TEST_CASE("Of a bridge that swings n times as fast, times are an n-th (frequency
 }
 
 TEST_CASE("With mortar times stay as they are, however fast the bridge swings", "[combined]") {
-  BridgeDescription description = test::small_description();
-  description.joints.mortar = {.tensile_strength = 5e4,
-                               .opening_energy = 10.0,
-                               .cohesion = 1e5,
-                               .slip_energy = 200.0,
-                               .friction_angle = description.joints.friction_angle};
+  BridgeDescription description = test::small_description_with_mortar();
   description.joints.normal_stiffness *= 10.0;
   CHECK(for_outcomes(kPlain, make_model(description)).motion.ramp == kPlain.motion.ramp);
 }

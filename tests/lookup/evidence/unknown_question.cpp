@@ -101,12 +101,12 @@ double largest_difference(const Trial& trial, Asked asked) {
   const Eligible eligible = eligible_rows(table, asked.prior.missing);
   const Observation observation = observe(trial.comparison, asked.noise, asked.nuisance);
   UnknownBridgeQuestion question(trial.comparison, observation, asked.settings);
-  const auto posterior_of = [&](std::vector<double> logs) {
-    return posterior(table, eligible, {kImpossible, all_rows(table), std::move(logs)}, asked.prior,
-                     trial.library.blocks);
+  const auto posterior_of = [&](const RowValues& logs) {
+    return posterior(table, eligible, logs, asked.prior, trial.library.blocks);
   };
   const Posterior found = posterior_of(question.log_evidence(eligible, asked.prior, 10));
-  const Posterior wanted = posterior_of(brute_force(trial, observation, asked, eligible));
+  const Posterior wanted =
+      posterior_of({kImpossible, all_rows(table), brute_force(trial, observation, asked, eligible)});
   double worst = 0.0;
   const auto compare = [&](const std::vector<double>& a, const std::vector<double>& b) {
     for (std::size_t i = 0; i < a.size(); ++i) worst = std::max(worst, std::abs(a[i] - b[i]));
