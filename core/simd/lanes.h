@@ -88,6 +88,16 @@ VOUSSOIR_INLINE void store_some(const Lanes& lanes, std::size_t count, ElementOf
   std::memcpy(to, &lanes, count * sizeof *to == sizeof lanes ? sizeof lanes : count * sizeof *to);
 }
 
+/// Calls work(i, kLanes) for every kLanes of `size` numbers and work(i, rest) for the last few. Where it is
+/// inlined (VOUSSOIR_INLINE_WORK), whole registers are loaded without a look at how many numbers there are.
+#define VOUSSOIR_INLINE_WORK __attribute__((always_inline))
+template <class Work>
+VOUSSOIR_INLINE void for_lanes(std::size_t size, Work work) {
+  std::size_t i = 0;
+  for (; i + kLanes <= size; i += kLanes) work(i, kLanes);
+  if (i < size) work(i, size - i);
+}
+
 template <class T>
 VOUSSOIR_INLINE T larger(T a, T b) {
   return a > b ? a : b;

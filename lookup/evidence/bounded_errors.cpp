@@ -100,11 +100,10 @@ VOUSSOIR_INLINE double log_likelihood_of_row(const PointArrays& arrays, double i
                                              WideProduct& factors) {
   const DoubleLanes one = DoubleLanes{} + 1.0;
   DoubleLanes exponents{}, product = one;
-  for (std::size_t i = 0, step = 1; i < arrays.points; i += kLanes, ++step) {
-    const std::size_t some = arrays.points - i < kLanes ? arrays.points - i : kLanes;
+  for_lanes(arrays.points, [&](std::size_t i, std::size_t some) VOUSSOIR_INLINE_WORK {
     const PointLanes at = point_lanes(arrays, prediction, i, some, row.common);
     const DoubleMask has_reading = at.reading == at.reading;
-    if (!any(has_reading)) continue;
+    if (!any(has_reading)) return;
     const DoubleLanes movement = at.predicted - at.origin, half_width = at.instrument;
     const DoubleLanes variance = larger(at.variance + row.variance * movement * movement,
                                         DoubleLanes{} + kSmallestDeviation * kSmallestDeviation);
@@ -116,8 +115,8 @@ VOUSSOIR_INLINE double log_likelihood_of_row(const PointArrays& arrays, double i
       density = felt_density(size, half_width, variance, has_reading);
     exponents += has_reading ? (size == size ? density.exponent : size) : DoubleLanes{};
     product *= has_reading ? density.factor / (2.0 * half_width * inverse_unit) : one;
-    if (step % kFewProducts == 0) flush(product, factors);
-  }
+    if ((i / kLanes) % kFewProducts == 0) flush(product, factors);
+  });
   flush(product, factors);
   return sum_of(exponents);
 }

@@ -59,9 +59,8 @@ void CaseEstimates::estimate(std::span<const std::size_t> places, double least) 
   const std::size_t end = peaks_.size(), first = end - screen.cases().size();
   const Eigen::MatrixXd rises =
       rises_.middleCols(static_cast<Eigen::Index>(first), static_cast<Eigen::Index>(end - first));
-  const auto blocks = row_blocks(places);
-  for_each_index_on_threads(blocks.size(), hardware_threads(), [&](std::size_t block) {
-    for (const std::size_t place : blocks[block]) {
+  for_row_blocks_on_threads(places, [&](std::span<const std::size_t> block) {
+    for (const std::size_t place : block) {
       const auto logs = std::span(logs_).subspan(place * cases_.size(), end);
       screen.estimate(rows_[place], least - beforehand_[place], rises, logs);
       for (double& log : logs.subspan(first)) log = usable(log);
@@ -71,9 +70,8 @@ void CaseEstimates::estimate(std::span<const std::size_t> places, double least) 
 
 void CaseEstimates::refine(std::span<const std::size_t> places, std::size_t from, ScreenDirections directions,
                            double least) {
-  const auto blocks = row_blocks(places);
-  for_each_index_on_threads(blocks.size(), hardware_threads(), [&](std::size_t block) {
-    for (const std::size_t place : blocks[block]) {
+  for_row_blocks_on_threads(places, [&](std::span<const std::size_t> block) {
+    for (const std::size_t place : block) {
       std::size_t first = 0;
       for (const UnknownScreen& screen : screens_) {
         const std::size_t count = screen.cases().size();

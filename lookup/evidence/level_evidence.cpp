@@ -22,8 +22,6 @@ constexpr int kLevelsPerOctave = 4;       // of the search for the likeliest lev
 constexpr double kPanel =
     3.0;  // widest panel of Gauss's rule, in the same deviations, and narrowest, in 1 / count
 constexpr double kWidening = 1.4;  // of the steps below the peaks, where likelihoods level out
-constexpr double kBeyondEdges =
-    16.0;  // a bounded row's likelihood below exp(-this) of its peak ends the integral
 constexpr double kHardlyFelt = 4.0;  // deviations of the model inside of which a bound is hardly felt: 3e-5
 constexpr double kMostScaleDeviations = 4.0;  // of an unknown common factor, that count
 constexpr double kFarBeyond = 7.0;            // .. and beyond which a reading is all but excluded
@@ -134,6 +132,14 @@ std::vector<std::vector<double>> over_grid(const Observation& observation, Shape
   return results;
 }
 
+/// How the integral of a bounded row is worked out.
+struct PanelRule {
+  std::size_t places;  // of Gauss's rule
+  double negligible;   // what is below exp(-this) of the integrand's peak is left out
+};
+constexpr PanelRule kFinePanels = {7, 16.0};   // exp(6 t) to 3e-8 of its largest value
+constexpr PanelRule kCoarsePanels = {5, 8.0};  // .. to 2e-5
+
 /// One row under bounded errors: its integrand rises steeply where the bound takes in the last reading.
 class BoundedRow {
  public:
@@ -142,73 +148,97 @@ class BoundedRow {
     find_edge();
   }
 
-  /// The integral over all levels.
+  /// The integral over all levels, from panels of levels in which it can matter.
+  template <const PanelRule& kRule>
   double log_integral() const {
     if (!is_possible_) return kImpossible;
     const double edge_end = std::clamp(std::log(end_), kLogSmallest, kLogLargest);
     // Where no level takes in all readings, those below the largest count as well.
     const double edge_begin =
         begin_ < kLargestLevel ? std::clamp(std::log(begin_), kLogSmallest, kLogLargest) : kLogSmallest;
-    const double width = kPanelWidth / static_cast<double>(observation_.count);
+    const std::vector<Border> borders = borders_between(edge_begin, edge_end, kRule.negligible);
+    double top = std::max_element(borders.begin(), borders.end(), [](const Border& a, const Border& b) {
+                   return a.log < b.log;
+                 })->log;
     double sum = kImpossible;
-    double top = kImpossible;
-    // False once what lies beyond the far end adds nothing.
-    const auto add = [&](const Panel& panel, double at_far_end) {
+    const auto add = [&](double from, double to) {
+      const Panel panel = panel_of<kRule.places>(from, to);
       sum = log_sum(sum, panel.log_integral);
       top = std::max(top, panel.most);
-      return at_far_end > top - kBeyondEdges;
+      return panel;
     };
-    double step = width;
-    for (double from = edge_end; from < kLogLargest; step *= 2.0) {
+    for (std::size_t i = 1; i < borders.size(); ++i)
+      if (most_below(borders[i - 1], borders[i].at) > top - kRule.negligible)
+        add(borders[i].at, borders[i - 1].at);
+    double last = borders.front().log;
+    double step = width();
+    for (double from = edge_end; from < kLogLargest && last > top - kRule.negligible; step *= 2.0) {
       const double to = std::min(kLogLargest, from + step);
-      const Panel panel = panel_of(from, to);
-      if (!add(panel, panel.last)) break;
+      last = add(from, to).last;
       from = to;
-    }
-    step = std::min(width, edge_end - edge_begin);
-    for (double to = edge_end; to > edge_begin && step > 0.0;) {
-      const double from = std::max(edge_begin, to - step);
-      const Panel panel = panel_of(from, to);
-      if (!add(panel, panel.first)) break;
-      to = from;
-      step = panel.is_level() ? 2.0 * step : std::min(2.0 * step, width);
     }
     return sum;
   }
 
  private:
   static constexpr double kPanelWidth = 6.0;
-  static constexpr std::size_t kPanelPlaces = 7;  // of Gauss's rule: exp(6 t) to 3e-8 of its largest value
+
+  /// Of log levels, in which the likelihood changes by exp(kPanelWidth) where all bounds hold.
+  double width() const { return kPanelWidth / static_cast<double>(observation_.count); }
 
   double log_likelihood(double log_level) const {
     return log_likelihoods_at(observation_, kUniform, std::exp(log_level), table_, row_).front().front();
   }
 
-  /// A part of the range of levels, the likelihood's logarithm at its first and last place and where it is
-  /// largest.
-  struct Panel {
-    double log_integral = kImpossible, first = kImpossible, last = kImpossible, most = kImpossible;
-
-    /// The likelihood hardly changes: the next panel may be wider.
-    bool is_level() const { return most - std::min(first, last) < 1.0; }
+  /// A log level and the likelihood's logarithm there.
+  struct Border {
+    double at, log;
   };
 
+  /// The likelihood's logarithm between a border and a level below it at most: wider bounds take in no less,
+  /// and make a reading within them less likely by their width alone.
+  double most_below(const Border& border, double level) const {
+    return border.log + static_cast<double>(observation_.count) * (border.at - level);
+  }
+
+  /// From the end down to the beginning, or to where the likelihood has become negligible; wider apart where
+  /// it hardly changes.
+  std::vector<Border> borders_between(double begin, double end, double negligible) const {
+    std::vector<Border> borders = {{end, log_likelihood(end)}};
+    double top = borders.front().log;
+    for (double step = std::min(width(), end - begin); borders.back().at > begin && step > 0.0;) {
+      const Border last = borders.back();
+      const double at = std::max(begin, last.at - step);
+      borders.push_back({at, log_likelihood(at)});
+      const double log = borders.back().log;
+      top = std::max(top, log);
+      if (log < top - negligible) break;
+      step = std::abs(log - last.log) < 1.0 ? 2.0 * step : std::min(2.0 * step, width());
+    }
+    return borders;
+  }
+
+  /// A part of the range of levels, the likelihood's logarithm at its last place and where it is largest.
+  struct Panel {
+    double log_integral = kImpossible, last = kImpossible, most = kImpossible;
+  };
+
+  template <std::size_t kPlaces>
   Panel panel_of(double from, double to) const {
-    using Rule = boost::math::quadrature::gauss<double, kPanelPlaces>;
-    constexpr std::size_t kMiddle = kPanelPlaces / 2;
+    using Rule = boost::math::quadrature::gauss<double, kPlaces>;
+    constexpr std::size_t kMiddle = kPlaces / 2;
     const double half = 0.5 * (to - from), middle = 0.5 * (to + from);
-    std::array<double, kPanelPlaces> logs{};
+    std::array<double, kPlaces> logs{};
     Panel panel;
-    for (std::size_t i = 0; i < kPanelPlaces; ++i) {
+    for (std::size_t i = 0; i < kPlaces; ++i) {
       const double place = i < kMiddle ? -Rule::abscissa()[kMiddle - i] : Rule::abscissa()[i - kMiddle];
       logs.at(i) = log_likelihood(middle + half * place);
       panel.most = std::max(panel.most, logs.at(i));
     }
-    panel.first = logs.front();
     panel.last = logs.back();
     if (panel.most == kImpossible) return panel;
     double sum = 0.0;
-    for (std::size_t i = 0; i < kPanelPlaces; ++i)
+    for (std::size_t i = 0; i < kPlaces; ++i)
       sum += Rule::weights()[i < kMiddle ? kMiddle - i : i - kMiddle] * std::exp(logs.at(i) - panel.most);
     panel.log_integral = panel.most + std::log(half * sum);
     return panel;
@@ -241,6 +271,19 @@ class BoundedRow {
   double begin_ = kSmallestLevel;
   double end_ = kSmallestLevel;
 };
+
+/// Of bounded errors, row by row.
+std::vector<std::vector<double>> over_panels(const Observation& observation, const SceneTable& table,
+                                             std::span<const std::size_t> rows, LevelRule rule) {
+  std::vector<double> result;
+  for (const std::size_t row : rows) {
+    const BoundedRow bounded(observation, table, row);
+    result.push_back((rule == LevelRule::fine ? bounded.log_integral<kFinePanels>()
+                                              : bounded.log_integral<kCoarsePanels>()) -
+                     std::log(log_range()));
+  }
+  return {std::move(result)};
+}
 
 }  // namespace
 
@@ -284,18 +327,15 @@ double log_width(NoiseShape shape, std::size_t count) {
 std::vector<std::vector<double>> evidence_over_levels(const Observation& observation, Shapes shapes,
                                                       double level, const SceneTable& table,
                                                       std::span<const std::size_t> rows, LevelRule rule) {
-  std::vector<std::vector<double>> results(shapes.size());
-  if (shapes.front() == NoiseShape::uniform) {
-    for (const std::size_t row : rows)
-      results.front().push_back(BoundedRow(observation, table, row).log_integral() - std::log(log_range()));
-    return results;
-  }
-  for (const auto block : row_blocks(rows)) {
-    const auto part =
-        over_grid(observation, shapes, level, table, block, rule == LevelRule::fine ? kFine : kCoarse);
+  std::vector<std::vector<double>> results(shapes.size(), std::vector<double>(rows.size()));
+  for_row_blocks_on_threads(rows, [&](std::span<const std::size_t> block) {
+    const auto part = shapes.front() == NoiseShape::uniform
+                          ? over_panels(observation, table, block, rule)
+                          : over_grid(observation, shapes, level, table, block,
+                                      rule == LevelRule::fine ? kFine : kCoarse);
     for (std::size_t shape = 0; shape < shapes.size(); ++shape)
-      results[shape].insert(results[shape].end(), part[shape].begin(), part[shape].end());
-  }
+      std::ranges::copy(part[shape], results[shape].begin() + (block.data() - rows.data()));
+  });
   return results;
 }
 

@@ -113,9 +113,12 @@ std::vector<double> highest_likelihoods_at(const Observation& observation, Shape
 
 std::vector<double> estimated_peaks(const Observation& observation, Shapes shapes, double level,
                                     const SceneTable& table, std::span<const std::size_t> rows) {
-  return block_by_block(rows, [&](std::span<const std::size_t> block) {
-    return largest_over_shapes(likelihoods_at_peak(observation, shapes, level, table, block));
+  std::vector<double> result(rows.size());
+  for_row_blocks_on_threads(rows, [&](std::span<const std::size_t> block) {
+    std::ranges::copy(largest_over_shapes(likelihoods_at_peak(observation, shapes, level, table, block)),
+                      result.begin() + (block.data() - rows.data()));
   });
+  return result;
 }
 
 }  // namespace voussoir

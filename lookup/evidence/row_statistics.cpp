@@ -78,13 +78,10 @@ VOUSSOIR_INLINE void collect_row(const View& view, const double* prediction, con
     flush(lanes.scales, scales);
     if (view.per_student > 0.0) flush(lanes.student, student);
   };
-  std::size_t i = 0;
-  for (std::size_t step = 1; i + kLanes <= view.arrays.points; i += kLanes, ++step) {
-    add_errors<kModelError, kSum>(view, i, kLanes, prediction, terms, lanes);
-    if (step % kSafeProducts == 0) flush_both();
-  }
-  if (i < view.arrays.points)
-    add_errors<kModelError, kSum>(view, i, view.arrays.points - i, prediction, terms, lanes);
+  for_lanes(view.arrays.points, [&](std::size_t i, std::size_t some) VOUSSOIR_INLINE_WORK {
+    add_errors<kModelError, kSum>(view, i, some, prediction, terms, lanes);
+    if ((i / kLanes) % kSafeProducts == 0) flush_both();
+  });
   flush_both();
   columns.sum_absolute[row] = sum_of(lanes.sum_absolute);
   columns.sum_square[row] = sum_of(lanes.sum_square);
@@ -100,11 +97,10 @@ VOUSSOIR_INLINE void collect_squares_of_row(const View& view, const double* pred
                                             std::size_t row, const Columns& columns) {
   LaneStatistics lanes;
   WideProduct squares;
-  for (std::size_t i = 0, step = 1; i < view.arrays.points; i += kLanes, ++step) {
-    const std::size_t some = view.arrays.points - i < kLanes ? view.arrays.points - i : kLanes;
+  for_lanes(view.arrays.points, [&](std::size_t i, std::size_t some) VOUSSOIR_INLINE_WORK {
     add_squares(view, i, some, prediction, terms, lanes);
-    if (step % (kSafeProducts / 2) == 0) flush(lanes.scales, squares);
-  }
+    if ((i / kLanes) % (kSafeProducts / 2) == 0) flush(lanes.scales, squares);
+  });
   flush(lanes.scales, squares);
   columns.sum_absolute[row] = columns.sum_square[row] = sum_of(lanes.sum_square);
   columns.scale_mantissa[row] = square_root(squares.mantissa);

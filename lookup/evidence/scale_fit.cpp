@@ -16,15 +16,14 @@ struct Products {
 VOUSSOIR_INLINE Products products(const PointArrays& arrays, const double* prediction, double common,
                                   double instrument_variance) {
   DoubleLanes with_reading{}, with_itself{};
-  for (std::size_t i = 0; i < arrays.points; i += kLanes) {
-    const std::size_t some = arrays.points - i < kLanes ? arrays.points - i : kLanes;
+  for_lanes(arrays.points, [&](std::size_t i, std::size_t some) VOUSSOIR_INLINE_WORK {
     const PointLanes at = point_lanes(arrays, prediction, i, some, common);
     const DoubleLanes movement = at.predicted - at.origin;
     const DoubleLanes weight = movement / (instrument_variance * at.instrument * at.instrument + at.variance);
     const DoubleMask has_reading = at.reading == at.reading;
     with_reading += has_reading ? weight * (at.reading - at.origin) : DoubleLanes{};
     with_itself += has_reading ? weight * movement : DoubleLanes{};
-  }
+  });
   return {sum_of(with_reading), sum_of(with_itself)};
 }
 

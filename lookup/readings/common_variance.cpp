@@ -10,14 +10,13 @@ namespace {
 
 VOUSSOIR_INLINE double mean_square_signal(const double* intact, const double* row, std::size_t points) {
   DoubleLanes sum{}, count{};
-  for (std::size_t i = 0; i < points; i += kLanes) {
-    const std::size_t some = points - i < kLanes ? points - i : kLanes;
+  for_lanes(points, [&](std::size_t i, std::size_t some) VOUSSOIR_INLINE_WORK {
     const DoubleLanes signal =
         load_some<DoubleLanes>(row + i, some, kNan) - load_some<DoubleLanes>(intact + i, some, kNan);
     const DoubleMask known = signal == signal;
     sum += known ? signal * signal : DoubleLanes{};
     count += known ? DoubleLanes{} + 1.0 : DoubleLanes{};
-  }
+  });
   return sum_of(sum) / larger(sum_of(count), 1.0);
 }
 
