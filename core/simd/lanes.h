@@ -122,11 +122,9 @@ VOUSSOIR_INLINE double square_root(double a) {
 #ifdef __SSE2__
 /// Two roots at a time, which every processor with 64 bits has and the compiler does not find.
 VOUSSOIR_INLINE DoubleLanes square_root(DoubleLanes a) {
-  __m128d halves[2];
-  std::memcpy(halves, &a, sizeof a);
-  for (__m128d& half : halves) half = _mm_sqrt_pd(half);
-  std::memcpy(&a, halves, sizeof a);
-  return a;
+  const __m128d low = _mm_sqrt_pd(__builtin_shufflevector(a, a, 0, 1));
+  const __m128d high = _mm_sqrt_pd(__builtin_shufflevector(a, a, 2, 3));
+  return __builtin_shufflevector(low, high, 0, 1, 2, 3);
 }
 #else
 VOUSSOIR_INLINE DoubleLanes square_root(DoubleLanes a) {

@@ -52,7 +52,8 @@ VOUSSOIR_INLINE Tail<DoubleLanes> narrow_density(const DoubleLanes& size, const 
   return {q - 0.5 * z * z, kPeak * sinh_per_q * (1.0 - share * share * (1.0 / 6.0)) / deviation};
 }
 
-constexpr double kGone = -20.0;  // exp of it, 2e-9, is lost beside the tails' own error
+constexpr double kGone =
+    22.0;  // squares that lie so far apart: tails, by 20 in the logarithm; lost beside their error
 
 /// The density times 2 b as exp(exponent) factor.
 VOUSSOIR_INLINE Tail<DoubleLanes> bounded_density(const DoubleLanes& size, const DoubleLanes& half_width,
@@ -60,10 +61,10 @@ VOUSSOIR_INLINE Tail<DoubleLanes> bounded_density(const DoubleLanes& size, const
   const DoubleLanes zero{};
   const DoubleLanes from_bound = (size - half_width) / deviation;
   const Tail<DoubleLanes> near = gaussian_tail(magnitude(from_bound));
-  const Tail<DoubleLanes> far = gaussian_tail((size + half_width) / deviation);
   const DoubleMask is_outside = from_bound >= 0.0, is_narrow = half_width < kNarrow * deviation;
   DoubleLanes outside = near.factor, inside = 1.0 - near.factor * exponential(near.exponent);
-  if (any(far.exponent - near.exponent > kGone)) {
+  if (any(2.0 * size * half_width < kGone * deviation * deviation)) {
+    const Tail<DoubleLanes> far = gaussian_tail((size + half_width) / deviation);
     outside -= far.factor * exponential(far.exponent - near.exponent);
     inside -= far.factor * exponential(far.exponent);
   }
@@ -94,14 +95,13 @@ VOUSSOIR_INLINE Tail<DoubleLanes> felt_density(const DoubleLanes& size, const Do
 
 /// Sum of the densities' exponents; the product of their factors, times the unit each, goes to `factors`. NaN
 /// if a reading has no prediction.
-template <bool kHighest>
-VOUSSOIR_INLINE double log_likelihood_of_row(const PointArrays& arrays, double inverse_unit,
-                                             const RowTerms& row, const double* prediction,
+template <bool kHighest, class Places>
+VOUSSOIR_INLINE double log_likelihood_of_row(const Places& places, double inverse_unit, const RowTerms& row,
                                              WideProduct& factors) {
   const DoubleLanes one = DoubleLanes{} + 1.0;
   DoubleLanes exponents{}, product = one;
-  for_lanes(arrays.points, [&](std::size_t i, std::size_t some) VOUSSOIR_INLINE_WORK {
-    const PointLanes at = point_lanes(arrays, prediction, i, some, row.common);
+  for_lanes(places.count(), [&](std::size_t i, std::size_t some) VOUSSOIR_INLINE_WORK {
+    const PointLanes at = places.lanes(i, some);
     const DoubleMask has_reading = at.reading == at.reading;
     if (!any(has_reading)) return;
     const DoubleLanes movement = at.predicted - at.origin, half_width = at.instrument;
@@ -125,16 +125,27 @@ VOUSSOIR_FOR_EVERY_PROCESSOR
 void collect(const PointArrays& arrays, double inverse_unit, const double* table, const std::size_t* rows,
              const RowTerms* terms, std::size_t count, double* results, WideProduct* factors) {
   for (std::size_t i = 0; i < count; ++i)
-    results[i] = log_likelihood_of_row<false>(arrays, inverse_unit, terms[i], table + rows[i] * arrays.points,
-                                              factors[i]);
+    results[i] =
+        log_likelihood_of_row<false>(StoredPlaces{arrays, table + rows[i] * arrays.points, terms[i].common},
+                                     inverse_unit, terms[i], factors[i]);
 }
 VOUSSOIR_FOR_EVERY_PROCESSOR
 void collect_highest(const PointArrays& arrays, double inverse_unit, const double* table,
                      const std::size_t* rows, const RowTerms* terms, std::size_t count, double* results,
                      WideProduct* factors) {
   for (std::size_t i = 0; i < count; ++i)
-    results[i] = log_likelihood_of_row<true>(arrays, inverse_unit, terms[i], table + rows[i] * arrays.points,
-                                             factors[i]);
+    results[i] =
+        log_likelihood_of_row<true>(StoredPlaces{arrays, table + rows[i] * arrays.points, terms[i].common},
+                                    inverse_unit, terms[i], factors[i]);
+}
+VOUSSOIR_FOR_EVERY_PROCESSOR
+double collect_one(const LevelPlaces& places, const RowTerms& terms, WideProduct& factors) {
+  return log_likelihood_of_row<false>(places, 1.0, terms, factors);
+}
+
+/// What a row's likelihood has beside its sum of exponents.
+double log_rest(const WideProduct& factors, const ScaleFit& fit) {
+  return logarithm_of(factors) - 0.5 * fit.square - fit.log_width;
 }
 
 /// The integral of Q from x to infinity.
@@ -148,16 +159,14 @@ std::vector<double> log_likelihoods(const Observation& observation, const ErrorS
                                     decltype(&collect) function) {
   const std::vector<double> common =
       common_variances(observation.intact, observation.error_common, table, rows);
-  const ScaleFits fits = scale_fits(observation, scales, table, rows, common, kBoundedVariance);
+  const std::vector<ScaleFit> fits = scale_fits(observation, scales, table, rows, common, kBoundedVariance);
   const std::vector<RowTerms> terms = row_terms(common, fits);
   std::vector<double> results(rows.size());
   std::vector<WideProduct> factors(rows.size());
   function(point_arrays(observation, scales), 1.0 / scales.unit, table.vertical.data(), rows.data(),
            terms.data(), rows.size(), results.data(), factors.data());
   const double shift = static_cast<double>(observation.count) * std::log(scales.unit);
-  for (std::size_t i = 0; i < rows.size(); ++i)
-    results[i] += std::log(factors[i].mantissa) + factors[i].exponent * std::numbers::ln2 - shift;
-  for (std::size_t i = 0; i < fits.factor.size(); ++i) results[i] -= 0.5 * fits.square[i] + fits.log_width[i];
+  for (std::size_t i = 0; i < rows.size(); ++i) results[i] += log_rest(factors[i], fits[i]) - shift;
   return results;
 }
 
@@ -181,6 +190,13 @@ double chance_of_bounded_error(double error, double half_width, double deviation
 std::vector<double> log_bounded_likelihoods(const Observation& observation, const ErrorScales& scales,
                                             const SceneTable& table, std::span<const std::size_t> rows) {
   return log_likelihoods(observation, scales, table, rows, collect);
+}
+
+double log_bounded_likelihood(const LevelPlaces& places) {
+  const ScaleFit fit = scale_fit(places, kBoundedVariance);
+  WideProduct factors;
+  const double exponents = collect_one(places, {0.0, fit.factor, fit.variance}, factors);
+  return exponents + log_rest(factors, fit);
 }
 
 std::vector<double> highest_bounded_likelihoods(const Observation& observation, const ErrorScales& scales,

@@ -8,6 +8,7 @@
 
 #include <span>
 
+#include "lookup/evidence/row_at_levels.h"
 #include "lookup/readings/observation.h"
 
 namespace voussoir {
@@ -24,7 +25,10 @@ double chance_of_bounded_error(double error, double half_width, double deviation
 std::vector<double> log_bounded_likelihoods(const Observation& observation, const ErrorScales& scales,
                                             const SceneTable& table, std::span<const std::size_t> rows);
 
-/// Not below any of these, but for their rounding, in a fraction of the time.
+/// The same of a row at one level, whose errors have the scale 1/2 at places that are filled up.
+double log_bounded_likelihood(const LevelPlaces& places);
+
+/// Not below any of log_bounded_likelihoods, but for their rounding, in a fraction of the time.
 std::vector<double> highest_bounded_likelihoods(const Observation& observation, const ErrorScales& scales,
                                                 const SceneTable& table, std::span<const std::size_t> rows);
 

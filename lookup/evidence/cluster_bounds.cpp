@@ -68,13 +68,10 @@ VOUSSOIR_INLINE BoxStatistics statistics_of(const PlaceArrays& view, const Clust
     if (step % kSafeProducts == 0) sums.flush_products();
   }
   sums.flush_products();
-  const auto log = [](const WideProduct& product) __attribute__((always_inline)) {
-    return std::log(product.mantissa) + product.exponent * std::numbers::ln2;
-  };
-  return {{sum_of(sums.absolute), sum_of(sums.square), largest_of(sums.largest), log(sums.scales),
-           log(sums.students)},
+  return {{sum_of(sums.absolute), sum_of(sums.square), largest_of(sums.largest), logarithm_of(sums.scales),
+           logarithm_of(sums.students)},
           sum_of(sums.square_beyond),
-          log(sums.instruments)};
+          logarithm_of(sums.instruments)};
 }
 
 VOUSSOIR_FOR_EVERY_PROCESSOR

@@ -84,9 +84,10 @@ double chance_at_stated_level(const Observation& observation, const NoiseEstimat
   constexpr std::array<std::size_t, 1> kRow = {0};
   const SceneTable table = table_of_one_row(prediction);
   const auto n = static_cast<double>(observation.count);
-  const ErrorScales scales = scales_at(observation, std::max(noise.level, kSmallestLevel));
+  const double level = std::max(noise.level, kSmallestLevel);
+  const ErrorScales scales = scales_at(observation, level);
   if (observation.has_levelling()) {
-    const RowStatistics row = nuisance_statistics(observation, scales, table, kRow).row(0);
+    const RowStatistics row = nuisance_statistics(observation, level, table, kRow).row(0);
     return std::isnan(row.sum_absolute) ? 0.0 : boost::math::gamma_q(n / 2.0, row.sum_square / 2.0);
   }
   const RowStatistics row = table_statistics(observation, scales, table, kRow).row(0);
@@ -98,7 +99,8 @@ double chance_at_stated_level(const Observation& observation, const NoiseEstimat
   const double instrument_variance = noise.shape == NoiseShape::uniform ? kBoundedVariance : 1.0;
   const std::vector<double> common =
       common_variances(observation.intact, observation.error_common, table, kRow);
-  const ScaleFits fits = scale_fits(observation, scales, table, kRow, common, instrument_variance);
+  const std::vector<ScaleFit> fits =
+      scale_fits(observation, scales, table, kRow, common, instrument_variance);
   return fisher_chance(observation, noise.shape, expected_errors(observation, scales, prediction), prediction,
                        row_terms(common, fits).front());
 }

@@ -57,8 +57,7 @@ VOUSSOIR_INLINE double bound_of(const Question& q, const ClusterBox& box, double
     if (i + kLanes == kPlacesTried && q.highest - 0.5 * sum_of(sums.square) < least) return kImpossible;
   }
   flush(sums.variances, variances);
-  const double bound =
-      q.constant - 0.5 * (std::log(variances.mantissa) + variances.exponent * std::numbers::ln2);
+  const double bound = q.constant - 0.5 * logarithm_of(variances);
   return bound - 0.5 * sum_of(sums.square) < least ? kImpossible : bound;
 }
 

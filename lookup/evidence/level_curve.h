@@ -1,6 +1,8 @@
 #pragma once
 /// @file The likelihood of Gaussian and Laplace errors as a function of the noise level.
 
+#include <cmath>
+
 #include "lookup/evidence/row_statistics.h"
 #include "lookup/readings/noise_model.h"
 
@@ -20,6 +22,9 @@ struct LevelCurve {
 };
 
 LevelCurve level_curve(NoiseShape shape, const RowStatistics& statistics, std::size_t count);
+
+inline const double kLogSmallestLevel = std::log(kSmallestLevel);
+inline const double kLogLargestLevel = std::log(kLargestLevel);
 
 /// log(kLargestLevel / kSmallestLevel): what the density over log level is divided by.
 double log_range();

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "lookup/evidence/level_likelihood.h"
+#include "lookup/evidence/level_rule.h"
 
 namespace voussoir {
 
@@ -19,12 +20,6 @@ double likeliest_level_of_all(const Observation& observation, Shapes shapes, con
 
 /// Share of the levels' range that a row's likelihood fills: log of what its peak has to be multiplied by.
 double log_width(NoiseShape shape, std::size_t count);
-
-/// How precisely levels are gone through.
-enum class LevelRule {
-  fine,   ///< to 1e-7 of a likelihood that is a bell over the levels
-  coarse  ///< to 1e-3: for scenes that hold less than a thousandth of the probability together
-};
 
 /// For each shape log of the mean of p(readings | scene, level) over levels with a density uniform in log
 /// level between kSmallestLevel and kLargestLevel, for each of these rows. `level` is where the readings are

@@ -1,22 +1,21 @@
 #include "lookup/evidence/level_likelihood.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "lookup/evidence/bounded_errors.h"
-#include "lookup/evidence/nuisance_likelihood.h"
 #include "lookup/evidence/row_blocks.h"
-#include "lookup/evidence/row_statistics.h"
 #include "lookup/evidence/scene_evidence.h"
+#include "lookup/readings/common_variance.h"
 
 namespace voussoir {
 namespace {
 
 TableStatistics statistics_at(const Observation& observation, Shapes shapes, double level,
                               const SceneTable& table, std::span<const std::size_t> rows) {
-  const ErrorScales scales = scales_at(observation, level);
-  if (observation.has_levelling()) return nuisance_statistics(observation, scales, table, rows);
-  return table_statistics(observation, scales, table, rows,
+  if (observation.has_levelling()) return nuisance_statistics(observation, level, table, rows);
+  return table_statistics(observation, scales_at(observation, level), table, rows,
                           shapes.front() == NoiseShape::uniform ? ErrorSum::beyond : ErrorSum::variance);
 }
 
@@ -31,6 +30,18 @@ std::vector<std::vector<double>> of_possible_rows(Shapes shapes, const TableStat
       if (!std::isnan(statistics.sum_absolute[row])) results.back()[row] = value(shape, statistics.row(row));
   }
   return results;
+}
+
+/// Of a possible row at the statistics' own level.
+double log_likelihood_of(const Observation& observation, NoiseShape shape, const RowStatistics& row) {
+  if (shape == NoiseShape::student)
+    return student_log_likelihood(row, observation.count, observation.noise.degrees_of_freedom);
+  return log_likelihood(shape, row, observation.count);
+}
+
+/// Errors of one shape whose bounds are softened by others.
+bool has_soft_bounds(const Observation& observation, Shapes shapes) {
+  return shapes.front() == NoiseShape::uniform && observation.softens_bounds();
 }
 
 /// Of bounded errors, whose sums are NaN for impossible rows.
@@ -90,21 +101,48 @@ std::vector<double> largest_over_shapes(const std::vector<std::vector<double>>& 
 std::vector<std::vector<double>> log_likelihoods_at(const Observation& observation, Shapes shapes,
                                                     double level, const SceneTable& table,
                                                     std::span<const std::size_t> rows) {
-  if (shapes.front() == NoiseShape::uniform && observation.softens_bounds()) {
+  if (has_soft_bounds(observation, shapes)) {
     const ErrorScales scales = scales_at(observation, level);
     return {with_impossible_rows(log_bounded_likelihoods(observation, scales, table, rows))};
   }
   const TableStatistics statistics = statistics_at(observation, shapes, level, table, rows);
   return of_possible_rows(shapes, statistics, [&](NoiseShape shape, const RowStatistics& row) {
-    if (shape == NoiseShape::student)
-      return student_log_likelihood(row, observation.count, observation.noise.degrees_of_freedom);
-    return log_likelihood(shape, row, observation.count);
+    return log_likelihood_of(observation, shape, row);
   });
+}
+
+RowLikelihood::RowLikelihood(const Observation& observation, Shapes shapes)
+    : observation_(observation),
+      shapes_(shapes),
+      is_soft_(has_soft_bounds(observation, shapes)),
+      row_(observation, is_soft_ ? 0.5 : 1.0) {
+  if (observation.has_levelling()) levelled_.emplace(observation);
+}
+
+void RowLikelihood::take(std::span<const double> prediction) {
+  if (levelled_)
+    levelled_->take(prediction, common_variance(observation_.intact, observation_.error_common, prediction));
+  else
+    row_.take(prediction);
+}
+
+std::array<double, kMostShapes> RowLikelihood::at(double level) {
+  std::array<double, kMostShapes> logs{kImpossible, kImpossible};
+  if (is_soft_) {
+    logs.front() = log_bounded_likelihood({row_, level});
+  } else {
+    const RowStatistics statistics = levelled_ ? levelled_->at(level) : row_statistics({row_, level});
+    for (std::size_t i = 0; i < shapes_.size(); ++i)
+      logs.at(i) = log_likelihood_of(observation_, shapes_[i], statistics);
+  }
+  for (double& log : logs)
+    if (std::isnan(log)) log = kImpossible;
+  return logs;
 }
 
 std::vector<double> highest_likelihoods_at(const Observation& observation, Shapes shapes, double level,
                                            const SceneTable& table, std::span<const std::size_t> rows) {
-  if (shapes.front() == NoiseShape::uniform && observation.softens_bounds()) {
+  if (has_soft_bounds(observation, shapes)) {
     const ErrorScales scales = scales_at(observation, level);
     return with_impossible_rows(highest_bounded_likelihoods(observation, scales, table, rows));
   }

@@ -2,6 +2,10 @@
 /// @file Gaussian readings with unknowns that are no damage, marginalised in closed form: they are linear and
 /// Gaussian, too.
 
+#include <Eigen/Cholesky>
+#include <span>
+#include <vector>
+
 #include "lookup/evidence/row_statistics.h"
 
 namespace voussoir {
@@ -12,7 +16,30 @@ namespace voussoir {
 /// logarithm of the determinant, so that the Gaussian likelihood follows from them as it does without
 /// unknowns (Woodbury's identity and the matrix determinant lemma); `sum_absolute` says with NaN that a scene
 /// is impossible.
-TableStatistics nuisance_statistics(const Observation& observation, const ErrorScales& scales,
-                                    const SceneTable& table, std::span<const std::size_t> rows);
+TableStatistics nuisance_statistics(const Observation& observation, double level, const SceneTable& table,
+                                    std::span<const std::size_t> rows);
+
+/// The same of one row after the other, each at many levels.
+class NuisanceStatistics {
+ public:
+  /// Precondition: has_levelling.
+  explicit NuisanceStatistics(const Observation& observation);
+
+  /// From now on it is this row, with its common_variance.
+  void take(std::span<const double> prediction, double common);
+
+  RowStatistics at(double level);
+
+ private:
+  std::vector<std::size_t> point_;  // that have a reading
+  Eigen::ArrayXd reading_, share_, floor_, intact_, origin_, own_variance_;
+  Eigen::MatrixXd levelling_;  // readings x columns
+  Eigen::MatrixXd products_;   // of two levellings' columns each: readings x pairs
+  double share_square_, unknown_scale_;
+  Eigen::ArrayXd difference_, movement_, slope_, model_variance_, variance_, weight_;  // of the row
+  Eigen::VectorXd right_, squares_, weighted_, column_;
+  Eigen::MatrixXd normal_;
+  Eigen::LLT<Eigen::MatrixXd> factorised_;
+};
 
 }  // namespace voussoir

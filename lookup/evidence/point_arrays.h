@@ -52,4 +52,16 @@ VOUSSOIR_INLINE PointLanes point_lanes(const PointArrays& arrays, const double* 
   return lanes;
 }
 
+/// The places of a row of a table: what loops over places are written for.
+struct StoredPlaces {
+  const PointArrays& arrays;
+  const double* prediction;
+  double common;
+
+  std::size_t count() const { return arrays.points; }
+  VOUSSOIR_INLINE PointLanes lanes(std::size_t i, std::size_t some) const {
+    return point_lanes(arrays, prediction, i, some, common);
+  }
+};
+
 }  // namespace voussoir

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "database/records/database.h"
+#include "lookup/evidence/row_at_levels.h"
 #include "lookup/readings/observation.h"
 
 namespace voussoir {
@@ -42,5 +43,8 @@ struct TableStatistics {
 TableStatistics table_statistics(const Observation& observation, const ErrorScales& scales,
                                  const SceneTable& table, std::span<const std::size_t> rows,
                                  ErrorSum sum = ErrorSum::variance);
+
+/// Of one row at one level (ErrorSum::variance), whose errors have the scale 1 at places that are filled up.
+RowStatistics row_statistics(const LevelPlaces& places);
 
 }  // namespace voussoir

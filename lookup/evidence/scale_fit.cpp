@@ -13,11 +13,11 @@ struct Products {
   double with_reading, with_itself;
 };
 
-VOUSSOIR_INLINE Products products(const PointArrays& arrays, const double* prediction, double common,
-                                  double instrument_variance) {
+template <class Places>
+VOUSSOIR_INLINE Products products(const Places& places, double instrument_variance) {
   DoubleLanes with_reading{}, with_itself{};
-  for_lanes(arrays.points, [&](std::size_t i, std::size_t some) VOUSSOIR_INLINE_WORK {
-    const PointLanes at = point_lanes(arrays, prediction, i, some, common);
+  for_lanes(places.count(), [&](std::size_t i, std::size_t some) VOUSSOIR_INLINE_WORK {
+    const PointLanes at = places.lanes(i, some);
     const DoubleLanes movement = at.predicted - at.origin;
     const DoubleLanes weight = movement / (instrument_variance * at.instrument * at.instrument + at.variance);
     const DoubleMask has_reading = at.reading == at.reading;
@@ -31,40 +31,48 @@ VOUSSOIR_FOR_EVERY_PROCESSOR
 void collect(const PointArrays& arrays, const double* table, const std::size_t* rows, std::size_t count,
              const double* common, double instrument_variance, Products* results) {
   for (std::size_t i = 0; i < count; ++i)
-    results[i] = products(arrays, table + rows[i] * arrays.points, common[i], instrument_variance);
+    results[i] =
+        products(StoredPlaces{arrays, table + rows[i] * arrays.points, common[i]}, instrument_variance);
+}
+VOUSSOIR_FOR_EVERY_PROCESSOR
+void collect_one(const LevelPlaces& places, double instrument_variance, Products* result) {
+  *result = products(places, instrument_variance);
+}
+
+ScaleFit fit_of(const Products& sums, double tau) {
+  const double prior = 1.0 / (tau * tau);
+  const double variance = 1.0 / (sums.with_itself + prior);
+  const double factor = (sums.with_reading + prior) * variance;
+  return {factor, variance, (factor - 1.0) * (factor - 1.0) * prior, -0.5 * std::log(variance * prior)};
 }
 
 }  // namespace
 
-ScaleFits scale_fits(const Observation& observation, const ErrorScales& scales, const SceneTable& table,
-                     std::span<const std::size_t> rows, std::span<const double> common,
-                     double instrument_variance) {
-  ScaleFits fits;
+std::vector<ScaleFit> scale_fits(const Observation& observation, const ErrorScales& scales,
+                                 const SceneTable& table, std::span<const std::size_t> rows,
+                                 std::span<const double> common, double instrument_variance) {
+  std::vector<ScaleFit> fits(rows.size());
   if (observation.unknown_scale == 0.0) return fits;
   std::vector<Products> sums(rows.size());
   collect(point_arrays(observation, scales), table.vertical.data(), rows.data(), rows.size(), common.data(),
           instrument_variance, sums.data());
-  const double tau = observation.unknown_scale;
-  const double prior = 1.0 / (tau * tau);
-  for (const Products& sum : sums) {
-    const double variance = 1.0 / (sum.with_itself + prior);
-    const double factor = (sum.with_reading + prior) * variance;
-    fits.factor.push_back(factor);
-    fits.variance.push_back(variance);
-    fits.square.push_back((factor - 1.0) * (factor - 1.0) * prior);
-    fits.log_width.push_back(-0.5 * std::log(variance * prior));
-  }
+  for (std::size_t i = 0; i < rows.size(); ++i) fits[i] = fit_of(sums[i], observation.unknown_scale);
   return fits;
 }
 
-std::vector<RowTerms> row_terms(std::span<const double> common, const ScaleFits& fits) {
+ScaleFit scale_fit(const LevelPlaces& places, double instrument_variance) {
+  const double tau = places.row.observation().unknown_scale;
+  if (tau == 0.0) return {};
+  Products sums;
+  collect_one(places, instrument_variance, &sums);
+  return fit_of(sums, tau);
+}
+
+std::vector<RowTerms> row_terms(std::span<const double> common, std::span<const ScaleFit> fits) {
   std::vector<RowTerms> terms;
   terms.reserve(common.size());
-  for (const double variance : common) terms.push_back({.common = variance});
-  for (std::size_t i = 0; i < fits.factor.size(); ++i) {
-    terms[i].factor = fits.factor[i];
-    terms[i].variance = fits.variance[i];
-  }
+  for (std::size_t i = 0; i < common.size(); ++i)
+    terms.push_back({common[i], fits[i].factor, fits[i].variance});
   return terms;
 }
 

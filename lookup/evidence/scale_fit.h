@@ -11,16 +11,17 @@
 #include <vector>
 
 #include "database/records/database.h"
+#include "lookup/evidence/row_at_levels.h"
 #include "lookup/readings/observation.h"
 
 namespace voussoir {
 
-/// Of some rows; without rows if the factor is known.
-struct ScaleFits {
-  std::vector<double> factor;     ///< c
-  std::vector<double> variance;   ///< v
-  std::vector<double> square;     ///< ((c - 1) / tau)^2
-  std::vector<double> log_width;  ///< log(tau / sqrt(v))
+/// Of a row; as it stands where the factor is known.
+struct ScaleFit {
+  double factor = 1.0;     ///< c
+  double variance = 0.0;   ///< v
+  double square = 0.0;     ///< ((c - 1) / tau)^2
+  double log_width = 0.0;  ///< log(tau / sqrt(v))
 };
 
 /// Variance of an error that is even within a bound of one.
@@ -28,9 +29,12 @@ inline constexpr double kBoundedVariance = 1.0 / 3.0;
 
 /// `common` are the rows' common_variances; `instrument_variance` is that of an instrument's error in units
 /// of its scale squared: 1, or kBoundedVariance.
-ScaleFits scale_fits(const Observation& observation, const ErrorScales& scales, const SceneTable& table,
-                     std::span<const std::size_t> rows, std::span<const double> common,
-                     double instrument_variance);
+std::vector<ScaleFit> scale_fits(const Observation& observation, const ErrorScales& scales,
+                                 const SceneTable& table, std::span<const std::size_t> rows,
+                                 std::span<const double> common, double instrument_variance);
+
+/// The same of one row at one level.
+ScaleFit scale_fit(const LevelPlaces& places, double instrument_variance);
 
 /// What the likelihood of a row needs of its own.
 struct RowTerms {
@@ -40,6 +44,6 @@ struct RowTerms {
 };
 
 /// One for each row.
-std::vector<RowTerms> row_terms(std::span<const double> common, const ScaleFits& fits);
+std::vector<RowTerms> row_terms(std::span<const double> common, std::span<const ScaleFit> fits);
 
 }  // namespace voussoir

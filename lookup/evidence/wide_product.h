@@ -1,6 +1,9 @@
 #pragma once
 /// @file Products of many positive numbers, in the place of sums of their logarithms.
 
+#include <cmath>
+#include <numbers>
+
 #include "core/simd/lanes.h"
 
 namespace voussoir {
@@ -25,6 +28,10 @@ VOUSSOIR_INLINE void flush(DoubleLanes& product, WideProduct& wide) {
   wide.mantissa *= (mantissas[0] * mantissas[1]) * (mantissas[2] * mantissas[3]);
   wide.exponent += static_cast<double>((exponents[0] + exponents[1]) + (exponents[2] + exponents[3]));
   product = DoubleLanes{} + 1.0;
+}
+
+VOUSSOIR_INLINE double logarithm_of(const WideProduct& product) {
+  return std::log(product.mantissa) + product.exponent * std::numbers::ln2;
 }
 
 }  // namespace voussoir
