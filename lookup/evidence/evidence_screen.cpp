@@ -10,9 +10,11 @@
 #include "lookup/evidence/cluster_bounds.h"
 #include "lookup/evidence/evidence.h"
 #include "lookup/evidence/level_screen.h"
+#include "lookup/evidence/row_blocks.h"
 #include "lookup/evidence/scene_evidence.h"
 #include "lookup/search/exhaustive_search.h"
 #include "lookup/search/index_bounds.h"
+#include "lookup/search/misfit.h"
 
 namespace voussoir {
 namespace {
@@ -42,19 +44,18 @@ double least_beside(std::vector<double> values, std::size_t count, std::size_t r
   return std::min(values[count - 1], values.front() + std::log(kScreenedAway / static_cast<double>(rows)));
 }
 
-/// Those that have a prediction for every reading.
+/// Those that have a prediction for every reading: the others are infinitely far from the readings.
 std::vector<std::size_t> possible_rows(const Observation& observation, const SceneTable& table,
                                        std::span<const std::size_t> rows) {
-  std::vector<std::size_t> points;
-  for (std::size_t i = 0; i < observation.reading.size(); ++i)
-    if (!std::isnan(observation.reading[i])) points.push_back(i);
+  std::vector<double> distance(rows.size());
+  for_row_blocks_on_threads(rows, [&](std::span<const std::size_t> block) {
+    std::ranges::copy(sums_of_differences(observation.reading, table, block),
+                      distance.begin() + (block.data() - rows.data()));
+  });
   std::vector<std::size_t> result;
   result.reserve(rows.size());
-  for (const std::size_t row : rows) {
-    const double* const predicted = table.row(row).data();
-    if (std::none_of(points.begin(), points.end(), [&](std::size_t i) { return std::isnan(predicted[i]); }))
-      result.push_back(row);
-  }
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    if (std::isfinite(distance[i])) result.push_back(rows[i]);
   return result;
 }
 

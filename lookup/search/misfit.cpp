@@ -32,16 +32,17 @@ VOUSSOIR_INLINE double sum_row(const double* readings, const double* prediction,
 }
 
 VOUSSOIR_FOR_EVERY_PROCESSOR
-void sum_rows(const double* readings, const double* table, std::size_t rows, std::size_t points,
-              double* sums) {
-  for (std::size_t row = 0; row < rows; ++row) sums[row] = sum_row(readings, table + row * points, points);
+void sum_rows(const double* readings, const double* table, const std::size_t* rows, std::size_t count,
+              std::size_t points, double* sums) {
+  for (std::size_t i = 0; i < count; ++i) sums[i] = sum_row(readings, table + rows[i] * points, points);
 }
 
 }  // namespace
 
 double sum_of_differences(std::span<const double> readings, std::span<const double> prediction) {
+  constexpr std::size_t kFirst = 0;
   double sum = 0.0;
-  sum_rows(readings.data(), prediction.data(), 1, readings.size(), &sum);
+  sum_rows(readings.data(), prediction.data(), &kFirst, 1, readings.size(), &sum);
   return sum;
 }
 
@@ -53,9 +54,10 @@ double misfit(std::span<const double> readings, std::span<const double> predicti
   return misfit_of(sum_of_differences(readings, prediction));
 }
 
-std::vector<double> sums_of_differences(std::span<const double> readings, const SceneTable& table) {
-  std::vector<double> sums(table.rows);
-  sum_rows(readings.data(), table.vertical.data(), table.rows, table.points, sums.data());
+std::vector<double> sums_of_differences(std::span<const double> readings, const SceneTable& table,
+                                        std::span<const std::size_t> rows) {
+  std::vector<double> sums(rows.size());
+  sum_rows(readings.data(), table.vertical.data(), rows.data(), rows.size(), table.points, sums.data());
   return sums;
 }
 

@@ -22,7 +22,8 @@ double misfit_of(double sum);
 /// Eq. 1 for one scene: log(sum_i |d_i^ex - d_i^j| + 1e-16), infinite for an impossible scene.
 double misfit(std::span<const double> readings, std::span<const double> prediction);
 
-/// sum_of_differences for every row of a table.
-std::vector<double> sums_of_differences(std::span<const double> readings, const SceneTable& table);
+/// sum_of_differences for each of these rows of a table.
+std::vector<double> sums_of_differences(std::span<const double> readings, const SceneTable& table,
+                                        std::span<const std::size_t> rows);
 
 }  // namespace voussoir

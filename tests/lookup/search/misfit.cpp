@@ -45,11 +45,12 @@ TEST_CASE("A reading on a block that the scene lacks makes the scene impossible,
   CHECK(misfit(std::vector<double>{1e-3, kNan, -2e-3}, prediction) == Approx(std::log(1e-16)));
 }
 
-TEST_CASE("The sums of a whole table are bit for bit those of its rows") {
+TEST_CASE("The sums of rows of a table are bit for bit those of each, in their order") {
   const test::SyntheticLibrary library(4, 7);
   Random random(5);
   const Measurements measured = library.measure(100, 0.05, NoiseShape::uniform, random);
-  const std::vector<double> sums = sums_of_differences(measured.displacement, library.table);
-  for (std::size_t row = 0; row < library.table.rows; ++row)
-    REQUIRE(sums[row] == sum_of_differences(measured.displacement, library.table.row(row)));
+  const std::vector<std::size_t> rows = {library.table.rows - 1, 0, 3, 3};
+  const std::vector<double> sums = sums_of_differences(measured.displacement, library.table, rows);
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    REQUIRE(sums[i] == sum_of_differences(measured.displacement, library.table.row(rows[i])));
 }
