@@ -30,25 +30,48 @@ VOUSSOIR_INLINE void update_rows(const DoubleLanes* __restrict l, int stride, co
   }
 }
 
-VOUSSOIR_INLINE void update_rows(int count, const DoubleLanes* l, int stride, const int* rows, int height,
-                                 const DoubleLanes* factor, DoubleLanes* work) {
+/// Calls work<count>() with a number of columns known when compiling, so that they fit registers.
+template <class Work>
+VOUSSOIR_INLINE void with_count(int count, const Work& work) {
   switch (count) {
     case 1:
-      return update_rows<1>(l, stride, rows, height, factor, work);
+      return work.template operator()<1>();
     case 2:
-      return update_rows<2>(l, stride, rows, height, factor, work);
+      return work.template operator()<2>();
     case 3:
-      return update_rows<3>(l, stride, rows, height, factor, work);
+      return work.template operator()<3>();
     case 4:
-      return update_rows<4>(l, stride, rows, height, factor, work);
+      return work.template operator()<4>();
     case 5:
-      return update_rows<5>(l, stride, rows, height, factor, work);
+      return work.template operator()<5>();
     case 6:
-      return update_rows<6>(l, stride, rows, height, factor, work);
+      return work.template operator()<6>();
     case 7:
-      return update_rows<7>(l, stride, rows, height, factor, work);
+      return work.template operator()<7>();
     default:
-      return update_rows<8>(l, stride, rows, height, factor, work);
+      return work.template operator()<8>();
+  }
+}
+
+/// x[column] -= sum_r u(column, r) x[row r] for the columns of a supernode, then solves with its own block.
+/// From the last row to the first: as they are found.
+template <int Width>
+VOUSSOIR_INLINE void substitute_back(const DoubleLanes* __restrict u, const int* __restrict rows, int height,
+                                     const DoubleLanes* __restrict pivot, const DoubleLanes* __restrict x,
+                                     DoubleLanes* __restrict own) {
+  DoubleLanes sum[Width];
+  for (int c = 0; c < Width; ++c) sum[c] = own[c];
+  const DoubleLanes* row = u + (Width + height) * Width;
+  for (int r = height; r-- > 0;) {
+    row -= Width;
+    const DoubleLanes value = x[rows[r]];
+    for (int c = 0; c < Width; ++c) sum[c] -= row[c] * value;
+  }
+  for (int r = Width; r-- > 0;) {
+    row -= Width;
+    const DoubleLanes value = sum[r] / pivot[r];
+    own[r] = value;
+    for (int c = 0; c < r; ++c) sum[c] -= row[c] * value;
   }
 }
 
@@ -101,7 +124,7 @@ void LaneFactorisation::Kernel::factorise(const Kernel& kernel, const DoubleLane
     for (int r = 0; r < own.height; ++r) f.work[f.row[own.rows + r]] = DoubleLanes{};
     for (int p = f.upper_begin[k]; p < f.upper_begin[k + 1]; ++p) {
       const Supernode& s = f.supernodes[f.upper[p].supernode];
-      for (int c = f.upper[p].first; c < s.first + s.width; ++c) f.work[c] = DoubleLanes{};
+      for (int c = s.first; c < s.first + s.width; ++c) f.work[c] = DoubleLanes{};
     }
     for (int p = f.a_begin[k]; p < f.a_begin[k + 1]; ++p) f.work[f.a_row[p]] = values[f.a_slot[p]];
     f.diagonal[k] = f.work[k];
@@ -111,14 +134,16 @@ void LaneFactorisation::Kernel::factorise(const Kernel& kernel, const DoubleLane
       const Supernode s = f.supernodes[part.supernode];
       const int end = std::min(s.first + s.width, k);
       const DoubleLanes* block = f.l + s.values;  // rows and columns of the supernode
-      for (int c = part.first; c < end; ++c) {
+      for (int c = s.first; c < end; ++c) {
         const DoubleLanes factor = f.work[c];
-        f.u[part.values + c - part.first] = factor;
+        f.u[part.values + c - s.first] = factor;
         for (int r = c + 1; r < s.first + s.width; ++r)
           f.work[r] -= block[(r - s.first) * s.width + c - s.first] * factor;
       }
-      update_rows(end - part.first, block + s.width * s.width + part.first - s.first, s.width, f.row + s.rows,
-                  s.height, f.u + part.values, f.work);
+      with_count(end - s.first, [&]<int kCount>() VOUSSOIR_INLINE_WORK {
+        update_rows<kCount>(block + s.width * s.width, s.width, f.row + s.rows, s.height, f.u + part.values,
+                            f.work);
+      });
     }
 
     const DoubleLanes pivot = f.work[k];
@@ -140,17 +165,15 @@ void LaneFactorisation::Kernel::substitute(const Kernel& kernel, DoubleLanes* x)
     for (; k < s.first + s.width; ++k)
       for (int r = k + 1; r < s.first + s.width; ++r)
         x[r] -= block[(r - s.first) * s.width + k - s.first] * x[k];
-    update_rows(s.width, block + s.width * s.width, s.width, f.row + s.rows, s.height, x + s.first, x);
+    with_count(s.width, [&]<int kWidth>() VOUSSOIR_INLINE_WORK {
+      update_rows<kWidth>(block + s.width * s.width, kWidth, f.row + s.rows, s.height, x + s.first, x);
+    });
   }
-  for (int k = f.n - 1; k >= 0; --k) {
-    const DoubleLanes value = x[k] / f.pivot[k];
-    x[k] = value;
-    for (int p = f.upper_begin[k]; p < f.upper_begin[k + 1]; ++p) {
-      const UpperPart& part = f.upper[p];
-      const Supernode& s = f.supernodes[part.supernode];
-      const int end = std::min(s.first + s.width, k);
-      for (int c = part.first; c < end; ++c) x[c] -= f.u[part.values + c - part.first] * value;
-    }
+  for (int i = f.supernode_of[f.n - 1]; i >= 0; --i) {
+    const Supernode s = f.supernodes[i];
+    with_count(s.width, [&]<int kWidth>() VOUSSOIR_INLINE_WORK {
+      substitute_back<kWidth>(f.u + s.values, f.row + s.rows, s.height, f.pivot + s.first, x, x + s.first);
+    });
   }
 }
 
@@ -159,7 +182,7 @@ LaneFactorisation::LaneFactorisation(const Eigen::SparseMatrix<double>& pattern)
   order(pattern);
   const std::vector<std::vector<int>> lower = find_fill(pattern);
   form_supernodes(lower);
-  form_upper_parts(lower);
+  form_upper_parts();
   const auto n = static_cast<std::size_t>(n_);
   pivot_.resize(n);
   diagonal_.resize(n);
@@ -225,28 +248,23 @@ void LaneFactorisation::form_supernodes(const std::vector<std::vector<int>>& low
   l_.resize(static_cast<std::size_t>(l_size));
 }
 
-void LaneFactorisation::form_upper_parts(const std::vector<std::vector<int>>& lower) {
-  // Column k of U: every supernode that reaches row k, from its first column that does; columns ascend.
+/// Column k of U: every supernode that reaches row k; columns of a supernode reach the same rows below it.
+void LaneFactorisation::form_upper_parts() {
   std::vector<std::vector<UpperPart>> parts(static_cast<std::size_t>(n_));
-  int u_size = 0;
-  for (int j = 0; j < n_; ++j) {
-    const int s = supernode_of_[static_cast<std::size_t>(j)];
-    for (const int k : lower[static_cast<std::size_t>(j)]) {
-      auto& of_column = parts[static_cast<std::size_t>(k)];
-      if (of_column.empty() || of_column.back().supernode != s) of_column.push_back({s, j, 0});
-    }
+  for (std::size_t i = 0; i < supernodes_.size(); ++i) {
+    const Supernode& s = supernodes_[i];
+    const auto reach = [&](int k, int row) {
+      parts[static_cast<std::size_t>(k)].push_back({static_cast<int>(i), s.values + row * s.width});
+    };
+    for (int row = 1; row < s.width; ++row) reach(s.first + row, row);
+    for (int r = 0; r < s.height; ++r) reach(row_[static_cast<std::size_t>(s.rows + r)], s.width + r);
   }
   upper_begin_ = {0};
-  for (auto& of_column : parts) {
-    for (UpperPart& part : of_column) {
-      const Supernode& s = supernodes_[static_cast<std::size_t>(part.supernode)];
-      part.values = u_size;
-      u_size += s.first + s.width - part.first;
-      upper_.push_back(part);
-    }
+  for (const auto& of_column : parts) {
+    upper_.insert(upper_.end(), of_column.begin(), of_column.end());
     upper_begin_.push_back(static_cast<int>(upper_.size()));
   }
-  u_.resize(static_cast<std::size_t>(u_size));
+  u_.resize(l_.size());
 }
 
 std::array<bool, kLanes> LaneFactorisation::factorise(const LaneVector& values) {

@@ -33,13 +33,12 @@ class LaneFactorisation {
     int width;
     int rows;    ///< begin in row_ of the rows below the supernode
     int height;  ///< how many
-    int values;  ///< begin in l_: `width` rows of the diagonal block, then `height` rows, each of `width`
-                 ///< values
+    int values;  ///< begin in l_ and, transposed, in u_: `width` rows of the diagonal block, then `height`
+                 ///< rows, each of `width` values
   };
-  /// Part of a column of U: rows `first` up to the end of a supernode.
+  /// Part of a column of U: the rows of a supernode.
   struct UpperPart {
     int supernode;
-    int first;
     int values;  ///< begin in u_
   };
   struct Kernel;
@@ -47,7 +46,7 @@ class LaneFactorisation {
   void order(const Eigen::SparseMatrix<double>& pattern);
   std::vector<std::vector<int>> find_fill(const Eigen::SparseMatrix<double>& pattern);
   void form_supernodes(const std::vector<std::vector<int>>& lower);
-  void form_upper_parts(const std::vector<std::vector<int>>& lower);
+  void form_upper_parts();
 
   int n_;
   std::vector<int> permutation_;  ///< new position -> old
