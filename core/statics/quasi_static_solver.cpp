@@ -80,15 +80,20 @@ struct LaneSearch {
     StageEquations equations(w.system, own ? *own : w.nominal, task->stage,
                              before != nullptr ? before->memory : std::vector<JointMemory>{});
     const int left = task->steps - ++step;
+    settings.tolerance = left > 0 ? w.settings.step_tolerance : w.settings.tolerance;
     if (left > 0) hold_back(static_cast<double>(left) / (left + 1), before, equations);
     search.emplace(std::move(equations), settings, start, w.lane_of_tangents(lane), task->patiently,
                    step > 1);
   }
 
-  /// Takes what the search has found; true if that is the task's answer, otherwise the next step begins.
+  /// Takes what the search has found; true if that is the task's answer, otherwise the next step begins, from
+  /// where the structure gets if it goes on as in this one.
   template <class Workspace>
   bool end_step(std::size_t lane, Workspace& w) {
     const int before = reached.iterations;
+    const Field from = step > 1                  ? reached.displacement
+                       : task->before != nullptr ? task->before->displacement
+                                                 : Field();
     std::vector<State> passed = std::move(reached.steps);
     if (task->keeps_steps && step > 1) passed.push_back(std::move(static_cast<State&>(reached)));
     reached = search->solution();
@@ -96,7 +101,9 @@ struct LaneSearch {
     reached.steps = std::move(passed);
     search.reset();
     if (step == task->steps || reached.outcome != Outcome::standing) return true;
-    begin_step(&reached, &reached.displacement, lane, w);
+    Field start = reached.displacement;
+    if (from.size() > 0) start += reached.displacement - from;
+    begin_step(&reached, &start, lane, w);
     return false;
   }
 

@@ -16,7 +16,9 @@ namespace voussoir {
 struct EquilibriumSystem;
 
 struct QuasiStaticSettings {
-  double tolerance = 1e-8;  ///< largest unbalanced nodal force over the largest nodal load [-]
+  double tolerance = 1e-8;       ///< largest unbalanced nodal force over the largest nodal load [-]
+  double step_tolerance = 1e-5;  ///< the same at the end of a stage's steps before the last: what they leave
+                                 ///< unbalanced is let go in the next
   double round_off =
       1e-12;  ///< a step this small against the largest displacement is round-off: converged, if
   double loose_tolerance = 1e-5;  ///< the residual is at most this (fine meshes cannot reach `tolerance`)

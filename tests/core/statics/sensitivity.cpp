@@ -16,7 +16,7 @@ namespace {
 /// Solved so tightly that differences of parameters by 3e-5 standard deviations have six digits.
 QuasiStaticSettings tight() {
   QuasiStaticSettings settings;
-  settings.tolerance = 1e-12;
+  settings.tolerance = settings.step_tolerance = 1e-12;
   settings.round_off = 1e-15;
   return settings;
 }
