@@ -4,8 +4,8 @@ namespace voussoir {
 
 SceneDerivatives::SceneDerivatives(const SensitivityStudy& study, const SensitivityEquations& equations)
     : equations_{equations.system, equations.coefficients, study.states,
-                 [&study](const StageTask& task) {
-                   return study.solver.make_solver(study.bridge, study.settings)({&task, 1}).front();
+                 [solver = study.solver.make_solver(study.bridge, study.settings)](const StageTask& task) {
+                   return solver({&task, 1}).front();
                  }},
       readings_(equations.readings),
       derivatives_(equations.system, equations.uncertain) {}

@@ -1,5 +1,8 @@
 #include "core/solve/state_history.h"
 
+#include <algorithm>
+#include <iterator>
+
 #include "core/solve/history.h"
 
 namespace voussoir {
@@ -13,25 +16,31 @@ void append(const StateEquations& equations, const Scene& scene, const PlannedSt
   };
   append_in(1, solution);
   if (!planned.is_loss()) return;
-  const double unbalanced = unbalanced_force(history.back().equations, solution.displacement);
-  if (unbalanced <= equations.good_enough) return;
-  const SolvedStep in_one = std::move(history.back());
+  const auto unbalanced = [&] { return unbalanced_force(history.back().equations, solution.displacement); };
+  double least = unbalanced();
+  SolvedHistory best;
+  best.push_back(std::move(history.back()));
   history.pop_back();
   const State before{history.back().displacement,
                      updated_memory(history.back().equations, history.back().displacement)};
-  const Solution anew = equations.solve({.stage = stage,
-                                         .start = &before.displacement,
-                                         .before = &before,
-                                         .steps = kStepsOfLoss,
-                                         .keeps_steps = true});
-  const bool has_steps = anew.steps.size() + 1 == kStepsOfLoss;  // not every solver keeps them
   const std::size_t steps_before = history.size();
-  if (stands(anew) && has_steps) append_in(kStepsOfLoss, anew);
-  if (history.size() > steps_before &&
-      unbalanced_force(history.back().equations, solution.displacement) < unbalanced)
-    return;
-  history.erase(history.begin() + static_cast<std::ptrdiff_t>(steps_before), history.end());
-  history.push_back(in_one);
+  for (int steps = 2; least > equations.good_enough && steps <= kStepsOfLoss; steps *= 2) {
+    const Solution anew = equations.solve({.stage = stage,
+                                           .start = &before.displacement,
+                                           .before = &before,
+                                           .steps = steps,
+                                           .keeps_steps = true});
+    const bool keeps_steps =
+        anew.steps.size() + 1 == static_cast<std::size_t>(steps);  // not every solver does
+    if (!stands(anew) || !keeps_steps) continue;
+    append_in(steps, anew);
+    if (const double left = unbalanced(); left < least) {
+      least = left;
+      best.assign(history.begin() + static_cast<std::ptrdiff_t>(steps_before), history.end());
+    }
+    history.erase(history.begin() + static_cast<std::ptrdiff_t>(steps_before), history.end());
+  }
+  std::ranges::move(best, std::back_inserter(history));
 }
 
 }  // namespace
