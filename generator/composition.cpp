@@ -34,8 +34,8 @@ double composed_error(std::span<const double> composed, std::span<const double> 
 Composition::Composition(const StageEquations& intact, const Field& displacement) {
   const EquilibriumSystem& system = *intact.system;
   const Structure& structure = *system.structure;
-  Eigen::MatrixXd influence = vertical_readings(structure, structure.control_points);
-  if (TransposedSolver(system).solve(intact, displacement, influence)) influence_ = std::move(influence);
+  ComponentRows influence = vertical_readings(structure, structure.control_points);
+  if (TransposedSolver(system).solve(intact, displacement, influence)) influence_ = influence;
 }
 
 bool Composition::has_parts(const Scene& scene, const StartingFields& starts) const {

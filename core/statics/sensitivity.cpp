@@ -25,9 +25,9 @@ Eigen::MatrixXd movements_of(const EquilibriumSystem& system, const UncertainPar
 
 /// Derivatives of the readings, on the way from the last step to the first.
 struct SensitivitySolver::Adjoint {
-  Eigen::MatrixXd by_displacement;  ///< of the step's end: components x readings
-  Eigen::MatrixXd by_memory;        ///< of the step's end: (2 joints) x readings
-  Eigen::MatrixXd by_parameters;    ///< so far: parameters x readings
+  ComponentRows by_displacement;  ///< of the step's end: components x readings
+  ComponentRows by_memory;        ///< of the step's end: (2 joints) x readings
+  ComponentRows by_parameters;    ///< so far: parameters x readings
 
   bool is_zero() const { return by_displacement.isZero(0.0) && by_memory.isZero(0.0); }
 };
@@ -68,19 +68,21 @@ SensitivitySolver::SensitivitySolver(const EquilibriumSystem& system, const Unce
 bool SensitivitySolver::step_back(const SolvedStep& step, Adjoint& adjoint) {
   if (!adjoint.by_memory.isZero(0.0)) {
     const MemoryJacobian jacobian = memory_jacobian(step.equations, step.displacement, uncertain_);
-    adjoint.by_displacement += jacobian.by_displacement.transpose() * adjoint.by_memory;
-    adjoint.by_parameters += jacobian.by_parameters.transpose() * adjoint.by_memory;
-    adjoint.by_memory = (jacobian.by_memory.transpose() * adjoint.by_memory).eval();
+    adjoint.by_displacement.noalias() += jacobian.by_displacement.transpose() * adjoint.by_memory;
+    adjoint.by_parameters.noalias() += jacobian.by_parameters.transpose() * adjoint.by_memory;
+    const ComponentRows by_memory = jacobian.by_memory.transpose() * adjoint.by_memory;
+    adjoint.by_memory = by_memory;
   }
-  adjoint.by_parameters.bottomRows(movements_.cols()) += movements_.transpose() * adjoint.by_displacement;
+  adjoint.by_parameters.bottomRows(movements_.cols()).noalias() +=
+      movements_.transpose() * adjoint.by_displacement;
   for (std::size_t block = 0; block < step.equations.removed.size(); ++block) {
     const IndexRange& nodes = system_.structure->mesh.block_nodes[block];
     if (step.equations.removed[block])
       adjoint.by_displacement.middleRows(2 * nodes.begin, 2 * nodes.size()).setZero();
   }
   if (adjoint.by_displacement.isZero(0.0)) return true;
-  Eigen::MatrixXd lambda = std::move(adjoint.by_displacement);
-  adjoint.by_displacement = Eigen::MatrixXd::Zero(lambda.rows(), lambda.cols());
+  ComponentRows lambda = std::move(adjoint.by_displacement);
+  adjoint.by_displacement = ComponentRows::Zero(lambda.rows(), lambda.cols());
   if (!transposed_.solve(step.equations, step.displacement, lambda)) return false;
   ColumnMatrix by_parameters =
       forces_by_parameters(step.equations, step.displacement, uncertain_, movements_);
@@ -91,15 +93,16 @@ bool SensitivitySolver::step_back(const SolvedStep& step, Adjoint& adjoint) {
     by_memory -= step.held_share * forces_by_memory(step.equations, step.place);
     Eigen::SparseMatrix<double> tangent = system_.pattern;
     assemble(step.equations, step.place, 0.0, {tangent.valuePtr()});
-    Eigen::MatrixXd free(system_.unknown_count(), lambda.cols());
+    ComponentRows free(system_.unknown_count(), lambda.cols());
     for (Eigen::Index i = 0; i < free.rows(); ++i)
       free.row(i) = lambda.row(system_.component[static_cast<std::size_t>(i)]);
-    const Eigen::MatrixXd held_back = step.held_share * (tangent.transpose() * free);
+    ComponentRows held_back = ComponentRows::Zero(free.rows(), free.cols());
+    held_back.noalias() += step.held_share * (tangent.transpose() * free);
     for (Eigen::Index i = 0; i < free.rows(); ++i)
       adjoint.by_displacement.row(system_.component[static_cast<std::size_t>(i)]) = held_back.row(i);
   }
-  adjoint.by_parameters += by_parameters.transpose() * lambda;
-  adjoint.by_memory += by_memory.transpose() * lambda;
+  adjoint.by_parameters.noalias() += by_parameters.transpose() * lambda;
+  adjoint.by_memory.noalias() += by_memory.transpose() * lambda;
   return true;
 }
 

@@ -28,13 +28,13 @@ TransposedSolver::TransposedSolver(const EquilibriumSystem& system)
       right_(static_cast<std::size_t>(system.unknown_count())) {}
 
 bool TransposedSolver::solve(const StageEquations& equations, const Field& displacement,
-                             Eigen::MatrixXd& right_hand_sides) {
+                             ComponentRows& right_hand_sides) {
   assemble(equations, displacement, 0.0, {tangent_.data()});
   for (std::size_t i = 0; i < tangent_.size(); ++i)
     for (std::size_t lane = 0; lane < kLanes; ++lane)
       lanes_[i].value[lane] = tangent_[static_cast<std::size_t>(transposed_slot_[i])];
   if (!linear_.factorise(lanes_).front()) return false;
-  const Eigen::MatrixXd given = right_hand_sides;
+  const ComponentRows given = right_hand_sides;
   right_hand_sides.setZero();
   for (Eigen::Index first = 0; first < given.cols(); first += kLanes) {
     const std::size_t count = std::min<std::size_t>(kLanes, static_cast<std::size_t>(given.cols() - first));

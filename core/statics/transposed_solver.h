@@ -9,6 +9,9 @@
 
 namespace voussoir {
 
+/// A row a displacement component, a column a reading: what is done at a component is done for all readings.
+using ComponentRows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
 class TransposedSolver {
  public:
   /// The system outlives the solver.
@@ -16,7 +19,7 @@ class TransposedSolver {
 
   /// Replaces right-hand sides, at all displacement components (a column each), by solutions of K^T z = b
   /// with the tangent K at this displacement; zero at held components. False if K is singular.
-  bool solve(const StageEquations& equations, const Field& displacement, Eigen::MatrixXd& right_hand_sides);
+  bool solve(const StageEquations& equations, const Field& displacement, ComponentRows& right_hand_sides);
 
  private:
   const EquilibriumSystem& system_;
