@@ -34,7 +34,8 @@ struct BuildPlan {
 struct PlanRules {
   bool mirror_images = true;  ///< of a scene and its mirror image one is solved
   bool warm_starts = true;    ///< searches start from the fields of scenes with fewer missing blocks
-  bool inherited = true;      ///< collapses of scenes with fewer missing blocks are passed on (Origin)
+  bool inherited = true;      ///< collapses of scenes with fewer missing blocks are passed on (Origin), and
+                              ///< what is proved to fall so is not searched for after a loss
   bool composed = true;       ///< triples are composed of pairs where a check allows it (Composition)
   /// False: of scenes that fall only that and what falls is found, not their fields, and what a single's
   /// collapse proves to fall is not set in motion (core/statics/mechanism.h).

@@ -5,10 +5,11 @@
 namespace voussoir {
 
 ProvedFalls::ProvedFalls(const StartingFields& starts, const Model& bridge, const Coefficients& coefficients,
-                         const PlanRules& rules)
+                         const PlanRules& rules, bool has_losses)
     : inherited_(rules.inherited && starts.has_pairs()), others_(!rules.collapse_fields) {
+  const bool of_singles = others_ || (rules.inherited && has_losses);
   for (const auto& [scene, moving] : starts.falling(kBuilt)) {
-    if (!(inherited_ || (others_ && scene.missing() == 1))) continue;
+    if (!(inherited_ || (of_singles && scene.missing() == 1))) continue;
     if (proved(scene)) continue;  // by a single within the pair
     if (auto mechanism = find_mechanism(bridge, coefficients, scene, moving))
       mechanisms_.emplace(scene, std::move(*mechanism));

@@ -91,10 +91,13 @@ Eigen::MatrixXd sensitivity_basis(const Derivatives& derivatives, Eigen::Index o
       if (state[i].size() == 0 || state.front().size() == 0) continue;
       const Eigen::MatrixXd signal = (state[i] - state.front()).leftCols(of_bridge);
       if (signal.squaredNorm() == 0.0) continue;
-      const Eigen::MatrixXd left = signal - (signal * of_intact) * of_intact.transpose();
-      gram += left.transpose() * left / signal.squaredNorm();
+      gram.selfadjointView<Eigen::Lower>().rankUpdate(signal.transpose(), 1.0 / signal.squaredNorm());
       count += 1.0;
     }
+  gram.triangularView<Eigen::StrictlyUpper>() = gram.transpose();
+  const Eigen::MatrixXd not_of_intact =
+      Eigen::MatrixXd::Identity(of_bridge, of_bridge) - of_intact * of_intact.transpose();
+  gram = (not_of_intact * gram * not_of_intact).eval();
   const Eigen::MatrixXd of_signals =
       leading_directions(gram, [&](double left, double) { return left <= kLeftOfSignals * count; });
   Eigen::MatrixXd basis(of_bridge, of_intact.cols() + of_signals.cols());

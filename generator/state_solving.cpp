@@ -93,7 +93,8 @@ std::optional<Solution> StateSolving::without_search(const Scene& scene, std::si
     return stands(*states[*planned.before]) ? std::nullopt
                                             : std::optional(without_memory(*states[*planned.before]));
   const bool loses_nothing = scene.removed.empty() || basis.starts.intact(kBuilt) == nullptr;
-  return loses_nothing ? std::optional(without_memory(*states[kBuilt])) : std::nullopt;
+  const bool falls_anyway = !stands(*states[kBuilt]) && basis.falls.proved(scene);
+  return loses_nothing || falls_anyway ? std::optional(without_memory(*states[kBuilt])) : std::nullopt;
 }
 
 StateSolving::Search StateSolving::one_step_search(const Scene& scene, std::size_t state, SceneStates& states,
@@ -236,12 +237,12 @@ StepsOfLoss StateSolving::steps_of_loss(const SceneSolver& solver, const SearchB
 SearchBasis StateSolving::basis(const SceneSolver& solver, StartingFields starts,
                                 const PlanRules& rules) const {
   SearchBasis basis{std::move(starts), rules.warm_starts, rules.collapse_fields, {}, {}, {}, {}};
-  basis.falls = ProvedFalls(basis.starts, bridge_, coefficients_, rules);
   const Field* intact = basis.starts.intact(kBuilt);
   if (rules.composed && intact != nullptr && basis.starts.has_pairs())
     basis.composition = Composition(equations(Scene{}, kBuilt, {}), *intact);
   basis.of_intact = memory_of_intact(intact);
   const auto lost = place_of_lost(plan_);
+  basis.falls = ProvedFalls(basis.starts, bridge_, coefficients_, rules, lost.has_value());
   if (lost && intact != nullptr) basis.steps = steps_of_loss(solver, basis, *lost);
   return basis;
 }

@@ -30,7 +30,7 @@ struct SearchBasis {
   StartingFields starts;
   bool warm_starts = true;             ///< false: a search starts from rest, or from the state before
   bool collapse_fields = true;         ///< false: solutions that fall have no field (NaN)
-  ProvedFalls falls;                   ///< as built, of which no field is wanted
+  ProvedFalls falls;                   ///< what is known to fall without a search
   Composition composition;             ///< as built, of what needs no search
   std::vector<JointMemory> of_intact;  ///< what joints remember of the intact bridge as built
   StepsOfLoss steps;
