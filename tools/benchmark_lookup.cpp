@@ -9,6 +9,7 @@
 #include "lookup/search/exhaustive_search.h"
 #include "lookup/search/indexed_search.h"
 #include "lookup/search/nearest_search.h"
+#include "tools/random_truth.h"
 
 namespace voussoir {
 namespace {
@@ -43,13 +44,13 @@ struct Query {
 };
 
 std::vector<Query> make_queries(const SceneTable& table, int count, std::uint64_t seed) {
-  const std::vector<Eligible> by_missing = {eligible_rows(table, {0}), eligible_rows(table, {1}),
-                                            eligible_rows(table, {2})};
+  std::vector<Eligible> by_missing;
+  for (const int missing : numbers_of_missing(table)) by_missing.push_back(eligible_rows(table, {missing}));
   Random random(seed);
   std::vector<Query> queries;
   for (int i = 0; i < count; ++i) {
-    const auto& rows = by_missing[static_cast<std::size_t>(i) % by_missing.size()].rows;
-    const std::size_t truth = rows[random.below(static_cast<std::uint32_t>(rows.size()))];
+    const std::size_t truth =
+        random_truth(table, by_missing[static_cast<std::size_t>(i) % by_missing.size()], random);
     NoiseModel noise{NoiseShape::uniform, kLowestLevel + (kHighestLevel - kLowestLevel) * random.uniform()};
     noise.silence = 0.0;
     queries.push_back({truth, *noise.relative, simulate_readings(table.row(truth), noise, random)});
@@ -127,7 +128,7 @@ void time_genetic(const Library& library, const std::vector<Query>& queries, Loo
 
 LookupTimings time_lookups(const Library& library, int count, std::uint64_t seed) {
   const std::vector<Query> queries = make_queries(library.table, count, seed);
-  const Eligible eligible = eligible_rows(library.table, {0, 1, 2});
+  const Eligible eligible = eligible_rows(library.table, numbers_of_missing(library.table));
   LookupTimings timings;
   time_searches(library, queries, eligible, timings);
   time_posteriors(library, queries, eligible, timings);

@@ -75,7 +75,9 @@ std::vector<Timing> time_processes(const std::filesystem::path& locate_damage,
   const std::vector<std::pair<std::string, std::vector<std::string>>> commands = {
       {"a process that does nothing", {"true"}},
       {"locate-damage", locate},
-      {"locate-damage --noise 5% --noise-model uniform", with({"--noise", "5%", "--noise-model", "uniform"})},
+      {"locate-damage --known-bridge", with({"--known-bridge"})},
+      {"the same, --noise 5% --noise-model uniform",
+       with({"--known-bridge", "--noise", "5%", "--noise-model", "uniform"})},
       {"locate-damage --objective paper", with({"--objective", "paper"})}};
   std::vector<std::vector<double>> times(commands.size());
   for (int run = 0; run < runs; ++run)

@@ -2,8 +2,9 @@
 
 #include <chrono>
 
-#include "lookup/lookup.h"
+#include "lookup/preparations.h"
 #include "lookup/readings/simulate.h"
+#include "tools/random_truth.h"
 
 namespace voussoir {
 namespace {
@@ -19,7 +20,7 @@ struct Question {
   NoiseModel told;
   Nuisance nuisance{};
   bool known_bridge = true;
-  std::vector<int> missing = {0, 1, 2};  // how many blocks may be
+  std::vector<int> missing = {};  // how many blocks may be; empty: as many as the database holds
 };
 
 const std::vector<Question>& questions() {
@@ -90,16 +91,17 @@ Comparison readings_of(const Library& library, const ModelError& error, const Fa
 Timing time_question(const Library& library, const ModelError& error, const Factors& factors,
                      const Question& question, int queries, std::uint64_t seed) {
   Random random(seed);
+  Preparations preparations;
   std::vector<double> milliseconds;
-  for (int i = 0; i < queries; ++i) {
-    const int missing = i % static_cast<int>(question.missing.size());
-    const Eligible rows = eligible_rows(library.table, {missing});
-    const std::size_t truth = rows.rows[random.below(static_cast<std::uint32_t>(rows.rows.size()))];
+  const std::vector<int> numbers =
+      question.missing.empty() ? numbers_of_missing(library.table) : question.missing;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(queries); ++i) {
+    const Eligible rows = eligible_rows(library.table, {numbers[i % numbers.size()]});
+    const std::size_t truth = random_truth(library.table, rows, random);
     const Comparison comparison = readings_of(library, error, factors, truth, question, random);
-    const LookupSettings settings{
-        .prior = {question.missing}, .noise = question.told, .nuisance = question.nuisance};
+    const LookupSettings settings{.prior = {numbers}, .noise = question.told, .nuisance = question.nuisance};
     const auto start = std::chrono::steady_clock::now();
-    locate_damage(comparison, settings);
+    preparations.ask(comparison, settings);
     milliseconds.push_back(
         std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
   }

@@ -10,8 +10,9 @@
 namespace voussoir {
 
 /// Whole answers (observation, evidence of all scenes, posterior, noise, fit), with the model's own error as
-/// the database states it, one row for each kind of question. Readings are those of random scenes with 0, 1
-/// or 2 missing blocks, the same for every question of a kind.
+/// the database states it, one row for each kind of question. Readings are those of random scenes with as
+/// many missing blocks as the database holds, the same for every question of a kind. What does not depend on
+/// readings is made once, with the first.
 std::vector<Timing> time_questions(const Database& database, int queries, std::uint64_t seed,
                                    const std::string& only = {});
 

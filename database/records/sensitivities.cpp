@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/threads.h"
 #include "database/format/names.h"
 #include "database/records/record_key.h"
 #include "database/records/schema.h"
@@ -121,18 +122,22 @@ void append_residual(const Sensitivities& from, std::uint64_t points, std::vecto
 
 // Reading.
 
-std::span<const double> finite_numbers(const Hdf5File& file, const DatasetView& found) {
+std::span<const double> numbers(const Hdf5File& file, const DatasetView& found) {
   const ByteView bytes = file.array(found.path.c_str(), ElementType::float64, found.shape);
-  const std::span values(reinterpret_cast<const double*>(bytes.data()), bytes.size() / sizeof(double));
+  return {reinterpret_cast<const double*>(bytes.data()), bytes.size() / sizeof(double)};
+}
+
+void require_finite(const Hdf5File& file, const DatasetView& found, std::span<const double> values) {
   file.require(std::ranges::all_of(values, [](double value) { return std::isfinite(value); }),
                fmt::format("dataset '{}' holds a number that is not finite", found.path));
-  return values;
 }
 
 std::span<const double> finite_numbers(const Hdf5File& file, const char* path, const Shape& shape) {
   const DatasetView found = file.view(path);
   file.require(found.shape == shape, fmt::format("dataset '{}' has not the expected type and shape", path));
-  return finite_numbers(file, found);
+  const auto values = numbers(file, found);
+  require_finite(file, found, values);
+  return values;
 }
 
 /// Matrices of so many rows, one for each of `leading`; how many columns they have the file says. Without the
@@ -148,12 +153,14 @@ std::vector<Eigen::MatrixXd> read_matrices(const Hdf5File& file, const char* pat
   expected.insert(expected.end(), {rows, found.shape.empty() ? 0 : found.shape.back()});
   file.require(found.shape == expected,
                fmt::format("dataset '{}' has not the expected type and shape", path));
-  const auto values = finite_numbers(file, found);
+  const auto values = numbers(file, found);
   const std::size_t columns = expected.back();
-  for (std::size_t i = 0; i < count; ++i)
-    matrices[i] =
-        Eigen::Map<const RowMajor>(values.data() + i * rows * columns, static_cast<Eigen::Index>(rows),
-                                   static_cast<Eigen::Index>(columns));
+  for_each_index_on_threads(count, hardware_threads(), [&](std::size_t i) {
+    const auto own = values.subspan(i * rows * columns, rows * columns);
+    require_finite(file, found, own);
+    matrices[i] = Eigen::Map<const RowMajor>(own.data(), static_cast<Eigen::Index>(rows),
+                                             static_cast<Eigen::Index>(columns));
+  });
   return matrices;
 }
 

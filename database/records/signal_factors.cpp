@@ -36,12 +36,8 @@ SignalFactors signal_factors(const MatrixXd& intact, const MatrixXd& change) {
   }
   own.conservativeResize(points, static_cast<Index>(pivots.size()));
   // H B^T = A_intact D^T at the pivots' rows, where B is a lower triangle.
-  MatrixXd at_pivots(own.cols(), own.cols()), across(own.cols(), points);
-  for (Index k = 0; k < own.cols(); ++k) {
-    const Index pivot = pivots[static_cast<std::size_t>(k)];
-    at_pivots.row(k) = own.row(pivot);
-    across.row(k) = change.row(pivot) * intact.transpose();
-  }
+  const MatrixXd at_pivots = own(pivots, Eigen::all);
+  MatrixXd across = change(pivots, Eigen::all) * intact.transpose();
   at_pivots.triangularView<Eigen::Lower>().solveInPlace(across);
   return {std::move(own), across.transpose()};
 }

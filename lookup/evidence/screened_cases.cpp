@@ -15,11 +15,11 @@ constexpr double kNotWorkedOut = std::numeric_limits<double>::infinity();
 constexpr double kNegligibleCase =
     20.0;                            // logarithm of how far behind the likeliest a scene's case is left out
 constexpr double kUncounted = 3e-4;  // probability of all scenes that are left at their first estimates
-constexpr double kLeftEstimated = 5e-4;     // probability of all scenes that are not worked out
-constexpr double kLeftUnrefined = 1e-4;     // of those that are not looked at in all directions
-constexpr std::size_t kMostRefined = 4000;  // which take longer than what they save
-constexpr double kCaseTooLow = 0.5;         // what an estimate's logarithm may be too low by at least
-constexpr std::size_t kAtOnce = 8;          // scenes that are worked out before the next look at what matters
+constexpr double kLeftEstimated = 5e-4;      // probability of all scenes that are not worked out
+constexpr double kLeftUnrefined = 1e-4;      // of those that are not looked at in all directions
+constexpr std::size_t kMostRefined = 64000;  // more take longer than what they save
+constexpr double kCaseTooLow = 0.5;          // what an estimate's logarithm may be too low by at least
+constexpr std::size_t kAtOnce = 8;  // scenes that are worked out before the next look at what matters
 constexpr std::size_t kMostWorkedOut = 400;  // likely scenes; others count by their estimates
 constexpr std::size_t kTried = 4;            // scenes with which a case is tried before pairs are looked at
 
