@@ -27,6 +27,7 @@ void StartingFields::add(const Scene& scene, std::size_t state, const Solution& 
   if (scene.missing() > 2) return;
   if (solution.outcome == Outcome::standing) standing_[{scene, state}] = solution.displacement;
   if (solution.outcome == Outcome::collapsed) falling_[{scene, state}] = solution.moving;
+  if (solution.outcome == Outcome::unresolved) open_.emplace(scene, state);
 }
 
 bool StartingFields::falls_likely(const Scene& scene, std::size_t state) const {
@@ -34,6 +35,12 @@ bool StartingFields::falls_likely(const Scene& scene, std::size_t state) const {
   return std::ranges::any_of(starting_subsets(scene), [&](const Scene& fewer) {
     const std::vector<BlockId>* falling = find_falling(fewer, state);
     return falling != nullptr && std::ranges::any_of(*falling, is_there);
+  });
+}
+
+bool StartingFields::open_likely(const Scene& scene, std::size_t state) const {
+  return std::ranges::any_of(starting_subsets(scene), [&](const Scene& fewer) {
+    return open_.contains({fewer, state});
   });
 }
 

@@ -44,6 +44,10 @@ class StartingFields {
   /// within the scene let blocks fall that this scene has?
   bool falls_likely(const Scene& scene, std::size_t state) const;
 
+  /// Has the intact bridge, one of the singles, or with more than two missing blocks one of the pairs, within
+  /// the scene no answer?
+  bool open_likely(const Scene& scene, std::size_t state) const;
+
   /// The singles and pairs that fall in a state, in the order of rows, and which of their blocks move.
   std::vector<std::pair<Scene, std::vector<BlockId>>> falling(std::size_t state) const;
 
@@ -67,6 +71,7 @@ class StartingFields {
   using Place = std::pair<Scene, std::size_t>;     ///< scene and state
   std::map<Place, Field> standing_;                ///< fields
   std::map<Place, std::vector<BlockId>> falling_;  ///< which blocks move
+  std::set<Place> open_;                           ///< no answer
 };
 
 }  // namespace voussoir

@@ -30,6 +30,7 @@ struct StateSolving::Search {
   std::optional<State> before;
   int steps = 1;
   bool falls_likely = false;
+  bool open_likely = false;
   bool starts_near = false;
 
   StageTask task() const {
@@ -38,6 +39,7 @@ struct StateSolving::Search {
             .before = before ? &*before : nullptr,
             .steps = steps,
             .falls_likely = falls_likely,
+            .open_likely = open_likely,
             .starts_near = starts_near};
   }
 
@@ -105,6 +107,7 @@ StateSolving::Search StateSolving::one_step_search(const Scene& scene, std::size
     if (!basis.warm_starts) return search;
     search.start = basis.starts.start_for(scene, state);
     search.falls_likely = basis.starts.falls_likely(scene, state);
+    search.open_likely = basis.starts.open_likely(scene, state);
     search.starts_near = scene.missing() > 2;  // of pairs
     return search;
   }

@@ -16,6 +16,7 @@ namespace {
 
 constexpr std::size_t kTogether = 16;  // scenes handed over at a time
 constexpr std::size_t kMostNamed = 5;  // unresolved scenes in the table
+constexpr int kBeside = 5;             // bridges between two measurements of the reference
 
 /// Uniform numbers from a seed.
 class Draw {
@@ -43,14 +44,16 @@ std::vector<Scene> drawn_scenes(const Model& model, int count, std::uint64_t see
   return scenes;
 }
 
-/// As build-database does: from the intact bridge's field if it stands; if it falls, so do its scenes,
-/// likely.
+/// As build-database does: from the intact bridge's field if it stands; if it falls or has no answer, so do
+/// its scenes, likely.
 std::vector<Solution> solve(CombinedSolver& solver, std::span<const Scene> scenes, const Solution& intact) {
   const Field* start = stands(intact) ? &intact.displacement : nullptr;
-  const bool falls = intact.outcome == Outcome::collapsed;
   std::vector<StageTask> tasks;
   for (const Scene& scene : scenes)
-    tasks.push_back({.stage = {.scene = scene}, .start = start, .falls_likely = falls});
+    tasks.push_back({.stage = {.scene = scene},
+                     .start = start,
+                     .falls_likely = intact.outcome == Outcome::collapsed,
+                     .open_likely = !scene.removed.empty() && intact.outcome == Outcome::unresolved});
   return solver.solve(tasks);
 }
 
@@ -152,17 +155,48 @@ BridgeDescription random_bridge(std::uint64_t seed) {
 std::vector<BridgeRow> measure_bridges(const BridgeOptions& options,
                                        const std::function<void(const BridgeRow&)>& progress) {
   std::vector<BridgeRow> rows;
-  const auto add = [&](const BridgeDescription& bridge, int scenes, std::uint64_t seed) {
-    rows.push_back(measure(bridge, scenes, seed));
+  double beside = 0.0;
+  const auto add = [&](BridgeRow row) {
+    row.beside = beside;
+    rows.push_back(std::move(row));
     progress(rows.back());
   };
-  add(BridgeDescription{}, 0, options.seed);
+  const auto measure_reference = [&] {
+    BridgeRow row = measure(BridgeDescription{}, 0, options.seed);
+    beside = row.per_scene_and_block();
+    return row;
+  };
+  add(measure_reference());
   for (int i = 0; i < options.bridges; ++i) {
+    if (i > 0 && i % kBeside == 0) measure_reference();
     const std::uint64_t seed = options.seed + static_cast<std::uint64_t>(i);
-    add(random_bridge(seed), options.scenes, seed);
+    add(measure(random_bridge(seed), options.scenes, seed));
   }
   return rows;
 }
+
+namespace {
+
+/// Of the bridges beside the reference.
+std::string summary(std::span<const BridgeRow> rows) {
+  if (rows.empty()) return "";
+  std::vector<double> times;
+  int scenes = 0, unresolved = 0;
+  for (const BridgeRow& row : rows) {
+    times.push_back(row.times_the_reference());
+    scenes += row.scenes;
+    unresolved += row.unresolved;
+  }
+  std::ranges::sort(times);
+  const auto within = [&](double most) { return std::ranges::upper_bound(times, most) - times.begin(); };
+  return fmt::format(
+      "\nOf {} bridges {} are within 4 times the reference's time a scene and block, {} within 10 times; "
+      "median "
+      "{:.2f}, most {:.1f}. Unresolved: {} of {} scenes.\n",
+      times.size(), within(4.0), within(10.0), times[times.size() / 2], times.back(), unresolved, scenes);
+}
+
+}  // namespace
 
 std::string to_markdown(const std::vector<BridgeRow>& rows) {
   std::string text =
@@ -178,10 +212,9 @@ std::string to_markdown(const std::vector<BridgeRow>& rows) {
     text += fmt::format("| {} | {} | {} | {} | {} | {} | {:.1f} | {:.1f} | {:.2f} | {}: {:.0f} | {} |\n",
                         row.name, row.blocks, row.scenes, row.standing, row.collapsed, row.unresolved,
                         1e3 * row.seconds / row.scenes, 1e6 * row.per_scene_and_block(),
-                        row.per_scene_and_block() / rows.front().per_scene_and_block(), row.worst_scene,
-                        1e3 * row.worst, fmt::join(named, " "));
+                        row.times_the_reference(), row.worst_scene, 1e3 * row.worst, fmt::join(named, " "));
   }
-  return text;
+  return text + summary(std::span(rows).subspan(1));
 }
 
 }  // namespace voussoir

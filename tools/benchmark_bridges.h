@@ -29,19 +29,21 @@ struct BridgeRow {
   int scenes = 0;
   int standing = 0, collapsed = 0, unresolved = 0;
   double seconds = 0.0;  ///< of all scenes, without making the solver
+  double beside = 0.0;   ///< [s] a scene and block of the reference bridge, measured last before
   double worst = 0.0;    ///< [s] of one scene, solved alone
   std::string worst_scene{};
   std::vector<std::string> unresolved_scenes{};
 
   double per_scene_and_block() const { return seconds / (scenes * static_cast<double>(blocks)); }
+  double times_the_reference() const { return per_scene_and_block() / beside; }
 };
 
-/// The reference bridge first. Scenes are solved as build-database solves them, four side by side; `progress`
-/// is told each row.
+/// The reference bridge first, and again before every fifth bridge: processors are not always as fast. Scenes
+/// are solved as build-database solves them, four side by side; `progress` is told each row.
 std::vector<BridgeRow> measure_bridges(const BridgeOptions& options,
                                        const std::function<void(const BridgeRow&)>& progress);
 
-/// A table (Markdown); times a scene and block as multiples of the reference's.
+/// A table (Markdown), times a scene and block as multiples of the reference's, and a line that sums it up.
 std::string to_markdown(const std::vector<BridgeRow>& rows);
 
 }  // namespace voussoir

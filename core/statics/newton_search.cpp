@@ -122,7 +122,10 @@ void NewtonSearch::begin(SearchPhase phase, const Field& start, double bonding) 
 void NewtonSearch::begin_next_phase() {
   switch (phase_) {
     case SearchPhase::warm:
-      begin(SearchPhase::quick, at_rest(), 1.0);
+      if (settings_->descends_near && !fallen())
+        begin(SearchPhase::descending, Field(displacement_), 0.0);
+      else
+        begin(SearchPhase::quick, at_rest(), 1.0);
       break;
     case SearchPhase::quick:
       phase_ =
@@ -133,6 +136,11 @@ void NewtonSearch::begin_next_phase() {
       begin(SearchPhase::patient, at_rest(), 1.0);
       break;
     case SearchPhase::descending:
+      if (!settings_->patient_first)
+        begin(SearchPhase::quick, at_rest(), 1.0);
+      else
+        phase_ = SearchPhase::done;
+      break;
     case SearchPhase::patient:
     case SearchPhase::done:
       phase_ = SearchPhase::done;

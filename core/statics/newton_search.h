@@ -11,12 +11,13 @@
 
 namespace voussoir {
 
-/// The phases of a search, in the order in which they are tried; or one of the last two alone.
+/// The phases of a search, in the order in which they are tried, some of them left out by the settings; or
+/// one of those that descend alone.
 enum class SearchPhase {
   warm,        ///< from a given start
+  descending,  ///< from there on, or at first: the unbalance falling, given up when it falls no more
   quick,       ///< from rest, given up when it has no hope
   falling,     ///< goes on with bolder steps: does something fall?
-  descending,  ///< from a given start or rest, the unbalance falling, given up when it falls no more
   patient,     ///< likewise, from rest after the others, with all patience: the last word
   done
 };

@@ -28,7 +28,9 @@ struct QuasiStaticSettings {
   int most_falling_iterations = 40;   ///< factorisations of a fall
   int most_patient_iterations = 100;  ///< factorisations of a patient search
   bool patient_first = false;         ///< true: searches descend, as a patient one does, and do nothing else
-  bool follow_falls = true;           ///< false: a search without progress ends there, `unresolved`
+  bool descends_near = true;  ///< true: a later stage's search that fails from its start first goes on from
+                              ///< there as one that descends
+  bool follow_falls = true;   ///< false: a search without progress ends there, `unresolved`
   double collapse_displacement =
       0.1;  ///< [m] beyond it, and beyond ten sags of the bonded scene, blocks are falling
   JointRule joint_rule = JointRule::exact;
@@ -46,6 +48,8 @@ struct StageTask {
   int steps = 1;
   bool patiently = false;     ///< the search begins with its patient phase, whatever the settings say
   bool falls_likely = false;  ///< so that who can follow a motion asks it first (CombinedSolver)
+  bool open_likely = false;   ///< fewer missing blocks have no answer with all patience, so that this is not
+                              ///< worth any (CombinedSolver)
   bool starts_near = false;   ///< the start is so near the answer that a factorisation serves several steps
                               ///< even of a stage with nothing before it
   bool keeps_steps = false;   ///< true: the solution has the states at the ends of all steps

@@ -94,6 +94,19 @@ TEST_CASE(
   CHECK(starts.start_after(without({0, 1}), row(10.0, 20.0), 0, 1) == row(10.0 + 1.0, 20.0 + 1.0));
 }
 
+TEST_CASE("A pair is likely to have no answer if the intact bridge or one of its singles has none") {
+  StartingFields starts;
+  starts.add(without({0}), 0, Solution{});
+  starts.add(without({1}), 0, standing(row(1.0, 2.0)));
+  CHECK(starts.open_likely(without({0, 1}), 0));
+  CHECK_FALSE(starts.open_likely(without({1, 3}), 0));
+  CHECK_FALSE(starts.open_likely(without({0, 1}), 1));  // another state
+  CHECK_FALSE(starts.open_likely(without({0}), 0));     // a single says nothing of itself
+  starts.add(Scene{}, 0, Solution{});
+  CHECK(starts.open_likely(without({3}), 0));
+  CHECK_FALSE(starts.open_likely(Scene{}, 0));
+}
+
 TEST_CASE("A pair is likely to fall if what falls without one of its blocks is there (written out by hand)") {
   StartingFields starts;
   Solution fall = collapsed(row(1.0, 2.0));

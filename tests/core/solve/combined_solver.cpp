@@ -111,6 +111,24 @@ TEST_CASE("Scenes that are said to fall have the same answers, whether they do o
   }
 }
 
+TEST_CASE("Scenes that are said to have no answer get what is found without patience (Newton, one motion)",
+          "[combined]") {
+  const Model bridge = test::reference_bridge();
+  std::vector<StageTask> tasks;
+  for (const char* text : {"10,4", "0,15", "10,1+11,9"})  // stands, falls, creeps: only patience sees it move
+    tasks.push_back({.stage = {.scene = parse_scene(text, bridge.layout)}});
+  CombinedSolver solver(bridge);
+  const std::vector<Solution> patient = solver.solve(tasks);
+  for (StageTask& task : tasks) task.open_likely = true;
+  const std::vector<Solution> brief = solver.solve(tasks);
+  CHECK(patient[2].outcome == Outcome::collapsed);
+  CHECK(brief[2].outcome == Outcome::unresolved);
+  for (const std::size_t i : {0, 1}) {
+    CHECK(brief[i].outcome == patient[i].outcome);
+    CHECK(test::without_nan(brief[i].displacement) == test::without_nan(patient[i].displacement));
+  }
+}
+
 TEST_CASE("The combined solver's answers do not depend on their company, to the last bit", "[combined]") {
   const Model bridge = test::small_bridge();
   CombinedSolver solver(bridge);

@@ -2,6 +2,9 @@
 
 #include <catch2/catch.hpp>
 
+#include "core/statics/elements.h"
+#include "core/statics/equilibrium.h"
+#include "core/structure/loads.h"
 #include "tests/support/bridges.h"
 #include "tools/validation/load_runs.h"
 
@@ -54,6 +57,31 @@ TEST_CASE("A load that is added and taken away without slip leaves no trace (ela
     CHECK(trace.under_load > 1e-6);
     CHECK(trace.left < 1e-5 * trace.under_load);  // Newton stops at 1e-8 of the pressure's 5 kN a node
   }
+}
+
+TEST_CASE(
+    "Where friction hardly carries a load, a search goes on from where it got (equilibrium from the field)",
+    "[history]") {
+  const Model bridge = test::reference_bridge();
+  const Scene scene = parse_scene("4,5+11,10", bridge.layout);
+  QuasiStaticSettings settings;
+  settings.follow_falls = false;
+  QuasiStaticSolver solver(bridge, settings);
+  const Solution before = solver.solve(StageTask{.stage = {.scene = scene}, .patiently = true});
+  REQUIRE(stands(before));
+  const LoadDescription crown{
+      .name = "crown", .points = {{10.0, 2.5e4}}, .lines = {}, .axles = {}, .places = {}, .width = {}};
+  const Stage loaded{.scene = scene, .load = load_stages(crown, bridge, 1.0).front().force};
+  const StageTask task{.stage = loaded, .start = &before.displacement, .before = &before};
+  const Solution found = solver.solve(task);
+  REQUIRE(stands(found));
+  const EquilibriumSystem system(bridge);
+  const Coefficients coefficients(system, bridge.parameters);
+  const StageEquations equations(system, coefficients, loaded, before.memory);
+  const Field unbalanced = unbalanced_forces(equations, test::without_nan(found.displacement));
+  CHECK(unbalanced.cwiseAbs().maxCoeff() < 1e-7 * equations.largest_load);
+  settings.descends_near = false;
+  CHECK_FALSE(stands(QuasiStaticSolver(bridge, settings).solve(task)));
 }
 
 TEST_CASE("Where joints slip a load that has gone leaves a trace (reference bridge, 10 t on the crown)",

@@ -29,6 +29,7 @@ TEST_CASE("Settings survive their text form, every value changed (round trip)", 
   settings.newton.most_iterations = 77;
   settings.newton.most_patient_iterations = 99;
   settings.newton.patient_first = true;
+  settings.newton.descends_near = false;
   settings.newton.joint_rule = JointRule::gauss_16;
   settings.patient.moving_sags = 9.0;
   const std::string text = to_text(settings);
