@@ -9,6 +9,8 @@
 
 #include "core/random.h"
 #include "core/solve/outcomes_only.h"
+#include "core/solve/state_plan.h"
+#include "generator/start_field.h"
 #include "tools/timing.h"
 
 namespace voussoir {
@@ -44,16 +46,15 @@ std::vector<Scene> drawn_scenes(const Model& model, int count, std::uint64_t see
   return scenes;
 }
 
-/// As build-database does: from the intact bridge's field if it stands; if it falls or has no answer, so do
-/// its scenes, likely.
-std::vector<Solution> solve(CombinedSolver& solver, std::span<const Scene> scenes, const Solution& intact) {
-  const Field* start = stands(intact) ? &intact.displacement : nullptr;
+/// As build-database does, with what it knows of the intact bridge.
+std::vector<Solution> solve(CombinedSolver& solver, std::span<const Scene> scenes,
+                            const StartingFields& starts) {
   std::vector<StageTask> tasks;
   for (const Scene& scene : scenes)
     tasks.push_back({.stage = {.scene = scene},
-                     .start = start,
-                     .falls_likely = intact.outcome == Outcome::collapsed,
-                     .open_likely = !scene.removed.empty() && intact.outcome == Outcome::unresolved});
+                     .start = starts.intact(kBuilt),
+                     .falls_likely = starts.falls_likely(scene, kBuilt),
+                     .open_likely = starts.open_likely(scene, kBuilt)});
   return solver.solve(tasks);
 }
 
@@ -69,11 +70,11 @@ void count(const std::vector<Solution>& solutions, std::span<const Scene> scenes
 }
 
 /// The scene of a group that takes longest is looked for in the slowest group alone.
-void find_worst(CombinedSolver& solver, std::span<const Scene> scenes, const Solution& intact,
+void find_worst(CombinedSolver& solver, std::span<const Scene> scenes, const StartingFields& starts,
                 const BlockLayout& layout, BridgeRow& row) {
   for (const Scene& scene : scenes) {
     const double begin = processor_seconds();
-    solve(solver, std::span(&scene, 1), intact);
+    solve(solver, std::span(&scene, 1), starts);
     const double seconds = processor_seconds() - begin;
     if (seconds <= row.worst) continue;
     row.worst = seconds;
@@ -96,24 +97,42 @@ BridgeRow measure(const BridgeDescription& description, int scenes_drawn, std::u
       .name = description.name, .blocks = model.block_count(), .scenes = static_cast<int>(scenes.size())};
   std::span<const Scene> slowest;
   double longest = -1.0;
-  Solution intact;
+  StartingFields starts;
   for (std::size_t first = 0; first < scenes.size();) {
     const std::size_t size = first == 0 ? 1 : std::min(kTogether, scenes.size() - first);
     const auto group = std::span(scenes).subspan(first, size);
     const double begin = processor_seconds();
-    std::vector<Solution> solutions = solve(solver, group, intact);
+    std::vector<Solution> solutions = solve(solver, group, starts);
     const double seconds = processor_seconds() - begin;
     row.seconds += seconds;
     count(solutions, group, model.layout, row);
-    if (first == 0) intact = std::move(solutions.front());
+    if (first == 0) starts.add(scenes.front(), kBuilt, solutions.front());
     first += size;
     if (seconds > longest) {
       longest = seconds;
       slowest = group;
     }
   }
-  find_worst(solver, slowest, intact, model.layout, row);
+  find_worst(solver, slowest, starts, model.layout, row);
   return row;
+}
+
+/// Of the bridges beside the reference.
+std::string summary(std::span<const BridgeRow> rows) {
+  if (rows.empty()) return "";
+  std::vector<double> times;
+  int scenes = 0, unresolved = 0;
+  for (const BridgeRow& row : rows) {
+    times.push_back(row.times_the_reference());
+    scenes += row.scenes;
+    unresolved += row.unresolved;
+  }
+  std::ranges::sort(times);
+  const auto within = [&](double most) { return std::ranges::upper_bound(times, most) - times.begin(); };
+  return fmt::format(
+      "\nOf {} bridges {} are within 4 times the reference's time a scene and block, {} within 10 times; "
+      "median {:.2f}, most {:.1f}. Unresolved: {} of {} scenes.\n",
+      times.size(), within(4.0), within(10.0), times[times.size() / 2], times.back(), unresolved, scenes);
 }
 
 }  // namespace
@@ -174,29 +193,6 @@ std::vector<BridgeRow> measure_bridges(const BridgeOptions& options,
   }
   return rows;
 }
-
-namespace {
-
-/// Of the bridges beside the reference.
-std::string summary(std::span<const BridgeRow> rows) {
-  if (rows.empty()) return "";
-  std::vector<double> times;
-  int scenes = 0, unresolved = 0;
-  for (const BridgeRow& row : rows) {
-    times.push_back(row.times_the_reference());
-    scenes += row.scenes;
-    unresolved += row.unresolved;
-  }
-  std::ranges::sort(times);
-  const auto within = [&](double most) { return std::ranges::upper_bound(times, most) - times.begin(); };
-  return fmt::format(
-      "\nOf {} bridges {} are within 4 times the reference's time a scene and block, {} within 10 times; "
-      "median "
-      "{:.2f}, most {:.1f}. Unresolved: {} of {} scenes.\n",
-      times.size(), within(4.0), within(10.0), times[times.size() / 2], times.back(), unresolved, scenes);
-}
-
-}  // namespace
 
 std::string to_markdown(const std::vector<BridgeRow>& rows) {
   std::string text =

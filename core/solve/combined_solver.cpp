@@ -22,11 +22,12 @@ bool is_open(const StageTask& task, const Solution& solution) {
   return solution.outcome == Outcome::unresolved && task.before == nullptr;
 }
 
-/// Those that have no answer yet, and with patience might.
-std::vector<std::size_t> places_worth_patience(std::span<const StageTask> tasks,
-                                               const std::vector<Solution>& solutions) {
-  return places_where(
-      tasks.size(), [&](std::size_t i) { return is_open(tasks[i], solutions[i]) && !tasks[i].open_likely; });
+/// Those that have no answer yet; `patiently`: of them those that are worth it.
+std::vector<std::size_t> open_places(std::span<const StageTask> tasks, const std::vector<Solution>& solutions,
+                                     bool patiently) {
+  return places_where(tasks.size(), [&](std::size_t i) {
+    return is_open(tasks[i], solutions[i]) && !(patiently && tasks[i].open_likely);
+  });
 }
 
 }  // namespace
@@ -57,7 +58,7 @@ std::vector<Solution> CombinedSolver::search(std::span<const StageTask> tasks) {
 
 /// Takes the equilibria that Newton's method finds with all patience, from rest.
 void CombinedSolver::insist(std::span<const StageTask> tasks, std::vector<Solution>& solutions) {
-  const std::vector<std::size_t> places = places_worth_patience(tasks, solutions);
+  const std::vector<std::size_t> places = open_places(tasks, solutions, true);
   std::vector<StageTask> open = tasks_at(tasks, places);
   for (StageTask& task : open) {
     task.start = nullptr;
@@ -72,9 +73,7 @@ void CombinedSolver::insist(std::span<const StageTask> tasks, std::vector<Soluti
 /// polishes what rests; with all patience what rests for certain.
 void CombinedSolver::follow(const DecisionRules& rules, std::span<const StageTask> tasks, bool patiently,
                             std::vector<Solution>& solutions) {
-  const auto open =
-      patiently ? places_worth_patience(tasks, solutions)
-                : places_where(tasks.size(), [&](std::size_t i) { return is_open(tasks[i], solutions[i]); });
+  const std::vector<std::size_t> open = open_places(tasks, solutions, patiently);
   std::vector<Scene> moving;
   for (const std::size_t place : open) moving.push_back(tasks[place].stage.scene);
   std::vector<DynamicSolution> motions = motion_.solve(moving, rules);

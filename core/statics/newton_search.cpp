@@ -123,9 +123,9 @@ void NewtonSearch::begin_next_phase() {
   switch (phase_) {
     case SearchPhase::warm:
       if (settings_->descends_near && !fallen())
-        begin(SearchPhase::descending, Field(displacement_), 0.0);
+        begin(SearchPhase::descending, displacement_, 0.0);
       else
-        begin(SearchPhase::quick, at_rest(), 1.0);
+        begin_from_rest(SearchPhase::quick);
       break;
     case SearchPhase::quick:
       phase_ =
@@ -133,13 +133,13 @@ void NewtonSearch::begin_next_phase() {
       phase_iterations_ = 0;
       break;
     case SearchPhase::falling:
-      begin(SearchPhase::patient, at_rest(), 1.0);
+      begin_from_rest(SearchPhase::patient);
       break;
     case SearchPhase::descending:
-      if (!settings_->patient_first)
-        begin(SearchPhase::quick, at_rest(), 1.0);
-      else
+      if (settings_->patient_first)
         phase_ = SearchPhase::done;
+      else
+        begin_from_rest(SearchPhase::quick);
       break;
     case SearchPhase::patient:
     case SearchPhase::done:

@@ -47,6 +47,7 @@ class NewtonSearch {
 
  private:
   void begin(SearchPhase phase, const Field& start, double bonding);
+  void begin_from_rest(SearchPhase phase) { begin(phase, at_rest(), 1.0); }
   void begin_next_phase();
   void take_step(const Eigen::VectorXd& step);
   void try_step_with_old_matrix(const Eigen::VectorXd& step);

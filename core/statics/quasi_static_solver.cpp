@@ -67,7 +67,7 @@ struct LaneSearch {
     number = stage_number;
     step = 0;
     settings = w.settings;
-    settings.descends_near = w.settings.descends_near && task->before != nullptr;
+    if (task->before == nullptr) settings.descends_near = false;
     if (task->before == nullptr && !task->starts_near) settings.skips.kept_factors = false;
     own.reset();
     if (task->parameters != nullptr) own.emplace(w.system, *task->parameters);

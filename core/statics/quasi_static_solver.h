@@ -68,7 +68,8 @@ class QuasiStaticSolver {
   /// Equilibria at the stages' ends, with the scenes' blocks absent; one solution a task, in their order. A
   /// lane that finishes early takes the next task.
   ///
-  /// A search from a given start that fails begins again from rest. One without progress goes on as a fall
+  /// A search from a given start that fails begins again from rest; that of a later stage goes on by descent
+  /// from where it got before it does. One without progress goes on as a fall
   /// with bolder steps: `collapsed`, with the field at the moment when a displacement passes the limit. If
   /// nothing falls either, a patient search from rest has the last word: `standing` or `unresolved`. A stage
   /// of several steps ends with the first that does not stand; `start` is for the first.
