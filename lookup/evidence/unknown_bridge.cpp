@@ -12,6 +12,9 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr double kLeastDeviation = 1e-9;  // [m] of an instrument: what the database was solved to
+/// What the first order leaves of conditions is far from Gaussian, so it counts for more than its second
+/// moments: at once, 53 of 400 intact bridges that were heated and moved were called damaged, twice, 7.
+constexpr double kHeavyTails = 2.0;
 
 /// The readings that there are. Of two epochs, where both count, first those of the first.
 std::vector<ReadingRow> rows_of(const Comparison& comparison, const Observation& observation, Epochs epochs) {
@@ -171,10 +174,11 @@ UnknownBridge unknown_bridge(const Comparison& comparison, const Observation& ob
   return bridge;
 }
 
-/// What heat and moved supports do beyond the first order grows with the square of their size.
+/// What heat and moved supports do beyond the first order grows with the square of their size; of little heat
+/// as much as with the size itself, to be careful.
 void set_case(const Observation& observation, const UnknownCase& one, UnknownBridge& bridge) {
   bridge.conditions = one.conditions;
-  const double left = one.conditions * std::max(1.0, one.conditions);
+  const double left = one.conditions * std::max(1.0, kHeavyTails * one.conditions);
   bridge.noise = bridge.fixed_noise + left * left * bridge.epoch_noise;
   add_instruments(bridge, observation, one.level, bridge.noise);
   bridge.spread = typical_spread(bridge);

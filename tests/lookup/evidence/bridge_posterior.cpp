@@ -48,7 +48,7 @@ Joint joint_gaussian(const Sensitivities& from, const VectorXd& reading, const S
   design << of.bridge, of.epoch;
   const MatrixXd noise = kSigma * kSigma * MatrixXd::Identity(n, n) +
                          residual.bridge * residual.bridge.transpose() +
-                         residual.epoch * residual.epoch.transpose();
+                         4.0 * residual.epoch * residual.epoch.transpose();  // heavy tails: twice as wide
   Joint joint{VectorXd::Zero(m + e), MatrixXd::Zero(m + e, m + e)};
   double total = 0.0;
   for (std::size_t k = 0; k < counts.size(); ++k) {

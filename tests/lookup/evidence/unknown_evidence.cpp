@@ -120,7 +120,7 @@ class TwoEpochs {
   void add_common(double datum) {
     const FirstOrderResidual& residual = from().states[0].residual;
     add(residual.bridge, residual.bridge);
-    add_each(residual.epoch, residual.epoch);
+    add_each(2.0 * residual.epoch, 2.0 * residual.epoch);  // with heavy tails
     MatrixXd level = datum * MatrixXd::Ones(p_, 1);
     level(0, 0) = 0.0;  // no reading there
     add_each(level, level);
