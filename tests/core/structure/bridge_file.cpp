@@ -148,6 +148,16 @@ TEST_CASE("Every example bridge makes a symmetric bridge with control points", "
   }
 }
 
+TEST_CASE("Example bridges from the literature take at most thirty lines (counted)", "[bridge-file]") {
+  for (const char* name :
+       {"prestwood", "preston", "torksey", "shinafoot", "pointed", "two-ring", "viaduct"}) {
+    const BridgeFile file = read_bridge_file(test::example_bridge(name));
+    INFO(name);
+    CHECK(std::ranges::count(file.text, '\n') <= 30);
+    CHECK(make_model(file.description).symmetry.has_value());
+  }
+}
+
 TEST_CASE("Bad bridge files are refused with file, line and what was expected", "[bridge-file]") {
   const auto message = [](const std::string& text) {
     try {
