@@ -14,8 +14,9 @@ inline constexpr double kBridgeWidth = 1040.0;  ///< of drawings of the whole br
 /// Figs. 1 and 2: blocks with their indices and control points; triangles.
 std::vector<Exhibit> geometry_exhibits(const Subject& subject);
 
-/// Fig. 3: the wall's cracks, force against displacement, Tresca stress.
-Exhibit wall_exhibit(const WallTest& test);
+/// Fig. 3: the wall's cracks, force against displacement, Tresca stress; if its greatest force misses the
+/// published one, what would have to move (as many runs as quantities).
+std::vector<Exhibit> wall_exhibits(const WallTest& test);
 
 /// Fig. 4: the example's displacements, intact, damaged, damaged with noise.
 Exhibit example_exhibit(const Subject& subject);

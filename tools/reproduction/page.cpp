@@ -104,7 +104,9 @@ std::string source_html(const Subject& subject) {
 std::vector<Chapter> reproduce(const Subject& subject) {
   const Results results = run_experiments(subject);
   std::vector<Exhibit> model = geometry_exhibits(subject);
-  if (!subject.settings.wall.empty()) model.push_back(wall_exhibit(run_wall_test(subject.settings.wall)));
+  if (!subject.settings.wall.empty())
+    for (Exhibit& exhibit : wall_exhibits(run_wall_test(subject.settings.wall)))
+      model.push_back(std::move(exhibit));
   return {findings_chapter(subject, results),
           {"model", "The model", "", std::move(model)},
           chapter_of(subject, results, false),

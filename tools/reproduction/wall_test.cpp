@@ -1,6 +1,7 @@
 #include "tools/reproduction/wall_test.h"
 
 #include <algorithm>
+#include <future>
 
 #include "core/error.h"
 #include "core/structure/halved_blocks.h"
@@ -42,13 +43,23 @@ void find_cracks(const WallTest& test, const Coefficients& coefficients, const S
   }
 }
 
-}  // namespace
+/// What decides how strong the wall is once its joints have cracked.
+struct VariedQuantity {
+  const char* name;
+  bool of_bricks;  ///< of the mortar in the middle of blocks, else of the joints'
+  double Mortar::*value;
+};
 
-WallTest run_wall_test(const std::filesystem::path& bridge_file) {
-  WallTest test{
-      .description = read_bridge_file(bridge_file).description, .model = {}, .moved = {}, .steps = {}};
+constexpr std::array<VariedQuantity, 4> kVaried = {
+    {{"joints: compressive strength [Pa]", false, &Mortar::compressive_strength},
+     {"joints: crushing energy [J/m2]", false, &Mortar::crushing_energy},
+     {"bricks: tensile strength [Pa]", true, &Mortar::tensile_strength},
+     {"bricks: opening energy [J/m2]", true, &Mortar::opening_energy}}};
+
+WallTest run(const BridgeDescription& description) {
+  WallTest test{.description = description, .model = {}, .moved = {}, .steps = {}};
   if (test.description.movements.empty())
-    throw InputError(bridge_file.string() + ": no [[movements]]: expected what is done to the wall");
+    throw InputError(description.name + ": no [[movements]]: expected what is done to the wall");
   test.model = make_model(test.description);
   test.moved = follow_movements(test.model, test.description.movements);
   const EquilibriumSystem system(test.model);
@@ -64,10 +75,39 @@ WallTest run_wall_test(const std::filesystem::path& bridge_file) {
     find_cracks(test, coefficients, point.at.state, step);
   }
   if (test.steps.empty())
-    throw InputError(bridge_file.string() + ": the wall gives way before the last movement");
+    throw InputError(description.name + ": the wall gives way before the last movement");
   const auto strongest = std::ranges::max_element(test.steps, {}, &WallStep::kilonewtons);
   test.peak = static_cast<std::size_t>(strongest - test.steps.begin());
   return test;
+}
+
+WallVariation vary(BridgeDescription wall, const VariedQuantity& quantity) {
+  WallVariation variation{.quantity = quantity.name, .strongest = {}};
+  for (MortarRegion& region : wall.mortar) {
+    if (region.within_blocks != quantity.of_bricks) continue;
+    double& value = region.mortar.*quantity.value;
+    variation.value = value;
+    value *= kVariedShare;
+    variation.varied = value;
+  }
+  const WallTest test = run(wall);
+  variation.strongest = test.steps[test.peak];
+  return variation;
+}
+
+}  // namespace
+
+WallTest run_wall_test(const std::filesystem::path& bridge_file) {
+  return run(read_bridge_file(bridge_file).description);
+}
+
+std::vector<WallVariation> vary_wall(const BridgeDescription& wall) {
+  std::vector<std::future<WallVariation>> runs;
+  for (const VariedQuantity& quantity : kVaried)
+    runs.push_back(std::async(std::launch::async, [&wall, quantity] { return vary(wall, quantity); }));
+  std::vector<WallVariation> variations;
+  for (std::future<WallVariation>& each : runs) variations.push_back(each.get());
+  return variations;
 }
 
 }  // namespace voussoir

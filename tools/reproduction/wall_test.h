@@ -55,4 +55,17 @@ struct WallTest {
 /// Runs the file's movements. Throws InputError as reading the file and moving the supports do.
 WallTest run_wall_test(const std::filesystem::path& bridge_file);
 
+inline constexpr double kVariedShare = 0.9;  ///< what is left of a quantity that is varied
+
+/// The greatest force if one of the quantities that break bricks and crush mortar is lower by a tenth.
+struct WallVariation {
+  std::string quantity;  ///< with its unit
+  double value = 0.0;    ///< in the bridge file
+  double varied = 0.0;
+  WallStep strongest;
+};
+
+/// One quantity at a time, each a run of its own. Throws as run_wall_test.
+std::vector<WallVariation> vary_wall(const BridgeDescription& wall);
+
 }  // namespace voussoir
