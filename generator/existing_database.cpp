@@ -36,6 +36,8 @@ std::vector<std::string> find_changes(const Database& database, const WantedData
   if (wanted.sensitivities != has_sensitivities && (has_sensitivities || stands_intact(database)))
     changes.push_back(wanted.sensitivities ? "sensitivities are wanted"
                                            : "sensitivities are no longer wanted");
+  if (has_sensitivities && wanted.sensitivities && !database.sensitivities()->signals)
+    changes.push_back("factors of the signals are wanted");
   return changes;
 }
 

@@ -5,6 +5,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 
+#include "database/records/order_of_sums.h"
 #include "generator/first_order_residual.h"
 #include "generator/parallel.h"
 #include "generator/scene_derivatives.h"
@@ -107,8 +108,7 @@ Eigen::MatrixXd sensitivity_basis(const Derivatives& derivatives, Eigen::Index o
 
 std::optional<Sensitivities> find_sensitivities(const SensitivityStudy& study,
                                                 const std::vector<Scene>& scenes, const KnownRecords& known) {
-  // Sums are ordered by the sizes of caches: the same ones everywhere give the same bits.
-  Eigen::setCpuCacheSizes(32 * 1024, 256 * 1024, 2 * 1024 * 1024);
+  fix_order_of_sums();
   const SensitivityEquations equations(study.bridge, study.uncertainty);
   Sensitivities result;
   result.parameters = equations.uncertain.all();
@@ -122,14 +122,15 @@ std::optional<Sensitivities> find_sensitivities(const SensitivityStudy& study,
   result.basis = sensitivity_basis(derivatives, of_bridge);
   const auto residuals =
       first_order_residuals(study, equations.uncertain, {result.scenes, states, derivatives});
-  for (std::size_t state = 0; state < derivatives.size(); ++state) {
-    StateSensitivities& one = result.states.emplace_back();
-    for (const Eigen::MatrixXd& scene : derivatives[state])
-      one.scenes.push_back(scene.size() == 0 ? SceneFactors{}
-                                             : SceneFactors{scene.leftCols(of_bridge) * result.basis,
-                                                            scene.rightCols(scene.cols() - of_bridge)});
-    one.residual = residuals[state];
-  }
+  result.make_room(derivatives.size(), static_cast<Eigen::Index>(study.bridge.control_points.size()));
+  result.residuals = residuals;
+  for (std::size_t state = 0; state < derivatives.size(); ++state)
+    for (std::size_t i = 0; i < derivatives[state].size(); ++i) {
+      const Eigen::MatrixXd scene = std::move(derivatives[state][i]);
+      if (scene.size() > 0)
+        result.set(state, i,
+                   {scene.leftCols(of_bridge) * result.basis, scene.rightCols(scene.cols() - of_bridge)});
+    }
   return result;
 }
 

@@ -37,14 +37,14 @@ SensitivityCheck check_sensitivities(const Database& database, const Model& brid
     const SceneStates states = stored_states(database, *row, plan);
     for (std::size_t state = 0; state < plan.size(); ++state) {
       const Eigen::MatrixXd anew = derivatives.of(scene, state, states, intact);
-      const SceneFactors* factors = stored->find(state, scene);
-      const bool is_same = (factors == nullptr) == (anew.size() == 0) &&
-                           (factors == nullptr ||
-                            (anew.cols() == stored->of_bridge() + stored->of_epoch() &&
-                             largest(anew.leftCols(stored->of_bridge()) * stored->basis - factors->bridge) <=
-                                 kSameSensitivity * largest(factors->bridge) &&
-                             largest(anew.rightCols(stored->of_epoch()) - factors->epoch) <=
-                                 kSameSensitivity * largest(factors->epoch)));
+      const auto factors = stored->find(state, scene);
+      const bool is_same =
+          factors.has_value() == (anew.size() > 0) &&
+          (!factors || (anew.cols() == stored->of_bridge() + stored->of_epoch() &&
+                        largest(anew.leftCols(stored->of_bridge()) * stored->basis - factors->bridge) <=
+                            kSameSensitivity * largest(factors->bridge) &&
+                        largest(anew.rightCols(stored->of_epoch()) - factors->epoch) <=
+                            kSameSensitivity * largest(factors->epoch)));
       if (!is_same)
         check.problems.push_back(fmt::format("scene {}: its sensitivities {} are not those of its field",
                                              to_string(scene, bridge.layout), database.states()[state]));

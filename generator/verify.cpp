@@ -34,6 +34,11 @@ void check_digest(const Database& database, const std::vector<DatasetValue>& exp
     report.problems.push_back("content digest: the content does not have the digest that the file states");
 }
 
+bool stands_in(const Database& database, const DatasetValue& value) {
+  const ByteView stored = database.dataset_bytes(value.path.c_str()), expected = value.content();
+  return expected.data() == stored.data() || std::ranges::equal(expected, stored);
+}
+
 /// Geometry, control points and the nominal variant are compared with what the bridge text gives, but only if
 /// the same program made them: another version may mesh blocks in another way.
 void check_geometry(const Database& database, const Model& stored, VerifyReport& report) {
@@ -49,7 +54,7 @@ void check_geometry(const Database& database, const Model& stored, VerifyReport&
   const auto expected = shared_datasets(provenance, bridge, variants, database.states(),
                                         database.model_errors(), database.sensitivities());
   for (const DatasetValue& value : expected)
-    if (!std::ranges::equal(value.bytes, database.dataset_bytes(value.path.c_str())))
+    if (!stands_in(database, value))
       report.problems.push_back(fmt::format("dataset '{}': is not what the bridge text gives", value.path));
   if (to_hexadecimal(sha256(provenance.bridge_text)) != database.bridge_sha256())
     report.problems.push_back(
@@ -96,10 +101,21 @@ void check_search(const Database& database, VerifyReport& report) {
     const SceneTable table = database.table(kNominalVariant, state);
     if (!is_history(name)) continue;
     for (const DatasetValue& value : search_datasets(name, table.vertical, table.points))
-      if (!std::ranges::equal(value.bytes, database.dataset_bytes(value.path.c_str())))
+      if (!stands_in(database, value))
         report.problems.push_back(
             fmt::format("dataset '{}': is not what the control displacements give", value.path));
   }
+}
+
+/// Of factors, which may be many, one scene after the other is looked at.
+void check_factors(const Sensitivities& sensitivities, VerifyReport& report) {
+  if (!are_factors_sound(sensitivities))
+    report.problems.push_back(fmt::format("datasets '{}' and '{}': a scene without sensitivities has some",
+                                          dataset::kBridgeFactors, dataset::kEpochFactors));
+  else if (sensitivities.signals && !are_signals_right(sensitivities))
+    report.problems.push_back(fmt::format("datasets '{}' and '{}': are not what '{}' gives",
+                                          dataset::kSignalOwn, dataset::kSignalIntact,
+                                          dataset::kBridgeFactors));
 }
 
 struct Recomputed {
@@ -253,6 +269,8 @@ void check_content(const VerifyRequest& request, VerifyReport& report) {
   const Model nominal = bridge_of(database);
   check_geometry(database, nominal, report);
   check_search(database, report);
+  if (const Sensitivities* const sensitivities = database.sensitivities())
+    check_factors(*sensitivities, report);
   const StatePlan plan = plan_of(database, nominal);
   for (std::int32_t variant = 0; static_cast<std::size_t>(variant) < database.variant_count(); ++variant)
     check_variant(request, database, variant_in(database, nominal, variant), variant, plan, report);

@@ -36,7 +36,7 @@ void prepare_heap() {
   mallopt(M_TRIM_THRESHOLD, kNever);
   mallopt(M_TOP_PAD, 1 << 20);
 #ifdef MADV_HUGEPAGE
-  constexpr std::size_t kRoom = 8 << 20;
+  constexpr std::size_t kRoom = 64 << 20;
   const auto page = static_cast<std::uintptr_t>(::sysconf(_SC_PAGESIZE));
   void* const room = std::malloc(kRoom);
   const std::uintptr_t first = reinterpret_cast<std::uintptr_t>(room) / page * page + page;

@@ -38,6 +38,9 @@ struct DatasetValue {
   std::string units;                 ///< "m", "1", "text"...
   std::string meaning;
   Bytes bytes;
+  ByteView elsewhere{};  ///< what has its bytes somewhere else, which outlives this, has none of its own
+
+  ByteView content() const { return elsewhere.empty() ? ByteView(bytes) : elsewhere; }
 };
 
 inline constexpr std::uint64_t kFlat = 0;  ///< columns of a dataset of rank 1

@@ -119,7 +119,7 @@ void Hdf5Output::add_dataset(const DatasetValue& value) {
                                    creation.get(), H5P_DEFAULT),
                         H5Dclose);
   const bool written =
-      made && H5Dwrite(made.get(), type.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, value.bytes.data()) >= 0;
+      made && H5Dwrite(made.get(), type.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, value.content().data()) >= 0;
   check(written, "cannot be written");
   describe(made, value.units, value.meaning);
 }

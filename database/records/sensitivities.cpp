@@ -1,9 +1,7 @@
 #include "database/records/sensitivities.h"
 
 #include <algorithm>
-#include <cmath>
 
-#include "core/threads.h"
 #include "database/format/names.h"
 #include "database/records/record_key.h"
 #include "database/records/schema.h"
@@ -12,7 +10,6 @@ namespace voussoir {
 namespace {
 
 using Shape = std::vector<std::uint64_t>;
-using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 std::uint64_t extent(Eigen::Index size) {
   return static_cast<std::uint64_t>(size);
@@ -28,7 +25,7 @@ struct Filling {
   std::vector<T> values{};
 
   void add(const Eigen::MatrixXd& matrix) {
-    const RowMajor rows = matrix;
+    const StackedMatrices::RowMajor rows = matrix;
     values.insert(values.end(), rows.data(), rows.data() + rows.size());
   }
   /// Nothing is kept of a dataset without elements.
@@ -76,29 +73,29 @@ void append_scenes(const Sensitivities& from, std::vector<DatasetValue>& dataset
   removed.finish({from.scenes.size(), most_missing}, datasets);
 }
 
-void append_factors(const Sensitivities& from, std::uint64_t points, std::vector<DatasetValue>& datasets) {
-  Filling<std::uint8_t> known{dataset::kSensitivityKnown, ElementType::uint8, "1",
-                              "1: the scene has sensitivities in the state, 0: it does not stand"};
-  Filling<double> bridge{
-      dataset::kBridgeFactors, ElementType::float64, "m",
-      "change of the control points' vertical displacements with each column of the basis"};
-  Filling<double> epoch{dataset::kEpochFactors, ElementType::float64, "m",
-                        "and with each parameter of an epoch, by one standard deviation"};
-  const auto rows = static_cast<Eigen::Index>(points);
-  for (const StateSensitivities& state : from.states)
-    for (const SceneFactors& scene : state.scenes) {
-      known.values.push_back(scene.known() ? 1 : 0);
-      bridge.add(scene.known() ? scene.bridge : Eigen::MatrixXd::Zero(rows, from.basis.cols()));
-      epoch.add(scene.known() ? scene.epoch : Eigen::MatrixXd::Zero(rows, from.of_epoch()));
-    }
-  const std::uint64_t states = from.states.size();
-  const std::uint64_t scenes = from.scenes.size();
-  known.finish({states, scenes}, datasets);
-  bridge.finish({states, scenes, points, extent(from.basis.cols())}, datasets);
-  epoch.finish({states, scenes, points, extent(from.of_epoch())}, datasets);
+/// Factors stay where they are.
+void append_in_place(const char* path, const StackedMatrices& from, const Shape& shape, const char* meaning,
+                     std::vector<DatasetValue>& datasets) {
+  if (from.numbers().empty()) return;
+  datasets.push_back({path, ElementType::float64, shape, 0, "m", meaning, {}, view_bytes(from.numbers())});
 }
 
-void append_residual(const Sensitivities& from, std::uint64_t points, std::vector<DatasetValue>& datasets) {
+void append_factors(const Sensitivities& from, std::vector<DatasetValue>& datasets) {
+  const std::uint64_t states = from.residuals.size(), scenes = from.scenes.size();
+  Filling<std::uint8_t>{dataset::kSensitivityKnown, ElementType::uint8, "1",
+                        "1: the scene has sensitivities in the state, 0: it does not stand", from.known}
+      .finish({states, scenes}, datasets);
+  const auto shape_of = [&](const StackedMatrices& of) {
+    return Shape{states, scenes, extent(of.rows()), extent(of.columns())};
+  };
+  append_in_place(dataset::kBridgeFactors, from.bridge, shape_of(from.bridge),
+                  "change of the control points' vertical displacements with each column of the basis",
+                  datasets);
+  append_in_place(dataset::kEpochFactors, from.epoch, shape_of(from.epoch),
+                  "and with each parameter of an epoch, by one standard deviation", datasets);
+}
+
+void append_residual(const Sensitivities& from, std::vector<DatasetValue>& datasets) {
   Filling<double> bridge{dataset::kResidualBridge, ElementType::float64, "m",
                          "what the first order leaves of the intact bridge: independent columns"};
   Filling<double> epoch{dataset::kResidualEpoch, ElementType::float64, "m",
@@ -107,61 +104,38 @@ void append_residual(const Sensitivities& from, std::uint64_t points, std::vecto
       dataset::kResidualShare, ElementType::float64, "1",
       "what it leaves of a signal: as a share of the signal's own standard deviation, and at all "
       "points alike as a share of that one's root mean square; then the same two of an epoch"};
-  for (const StateSensitivities& state : from.states) {
-    bridge.add(state.residual.bridge);
-    epoch.add(state.residual.epoch);
-    share.values.insert(share.values.end(), {state.residual.share, state.residual.common,
-                                             state.residual.epoch_share, state.residual.epoch_common});
+  for (const FirstOrderResidual& state : from.residuals) {
+    bridge.add(state.bridge);
+    epoch.add(state.epoch);
+    share.values.insert(share.values.end(),
+                        {state.share, state.common, state.epoch_share, state.epoch_common});
   }
-  const std::uint64_t states = from.states.size();
-  const FirstOrderResidual& first = from.states.front().residual;
-  bridge.finish({states, points, extent(first.bridge.cols())}, datasets);
-  epoch.finish({states, points, extent(first.epoch.cols())}, datasets);
+  const std::uint64_t states = from.residuals.size();
+  const FirstOrderResidual& first = from.residuals.front();
+  bridge.finish({states, extent(first.bridge.rows()), extent(first.bridge.cols())}, datasets);
+  epoch.finish({states, extent(first.epoch.rows()), extent(first.epoch.cols())}, datasets);
   share.finish({states, 4}, datasets);
 }
 
 // Reading.
 
-std::span<const double> numbers(const Hdf5File& file, const DatasetView& found) {
-  const ByteView bytes = file.array(found.path.c_str(), ElementType::float64, found.shape);
-  return {reinterpret_cast<const double*>(bytes.data()), bytes.size() / sizeof(double)};
-}
-
-void require_finite(const Hdf5File& file, const DatasetView& found, std::span<const double> values) {
-  file.require(std::ranges::all_of(values, [](double value) { return std::isfinite(value); }),
-               fmt::format("dataset '{}' holds a number that is not finite", found.path));
-}
-
 std::span<const double> finite_numbers(const Hdf5File& file, const char* path, const Shape& shape) {
-  const DatasetView found = file.view(path);
-  file.require(found.shape == shape, fmt::format("dataset '{}' has not the expected type and shape", path));
-  const auto values = numbers(file, found);
-  require_finite(file, found, values);
-  return values;
+  const StoredNumbers found(file, path, shape);
+  found.require_finite(found.all());
+  return found.all();
 }
 
 /// Matrices of so many rows, one for each of `leading`; how many columns they have the file says. Without the
 /// dataset they have none.
-std::vector<Eigen::MatrixXd> read_matrices(const Hdf5File& file, const char* path, const Shape& leading,
-                                           std::size_t rows) {
-  std::size_t count = 1;
-  for (const std::uint64_t size : leading) count *= size;
-  std::vector<Eigen::MatrixXd> matrices(count, Eigen::MatrixXd(rows, 0));
-  if (!file.has(path)) return matrices;
-  const DatasetView found = file.view(path);
+StackedMatrices read_matrices(const Hdf5File& file, const char* path, const Shape& leading,
+                              std::size_t rows) {
+  const auto height = static_cast<Eigen::Index>(rows);
+  if (!file.has(path)) return {StoredNumbers(), height, 0};
+  const Shape found = file.view(path).shape;
+  const std::uint64_t columns = found.empty() ? 0 : found.back();
   Shape expected = leading;
-  expected.insert(expected.end(), {rows, found.shape.empty() ? 0 : found.shape.back()});
-  file.require(found.shape == expected,
-               fmt::format("dataset '{}' has not the expected type and shape", path));
-  const auto values = numbers(file, found);
-  const std::size_t columns = expected.back();
-  for_each_index_on_threads(count, hardware_threads(), [&](std::size_t i) {
-    const auto own = values.subspan(i * rows * columns, rows * columns);
-    require_finite(file, found, own);
-    matrices[i] = Eigen::Map<const RowMajor>(own.data(), static_cast<Eigen::Index>(rows),
-                                             static_cast<Eigen::Index>(columns));
-  });
-  return matrices;
+  expected.insert(expected.end(), {rows, columns});
+  return {StoredNumbers(file, path, expected), height, static_cast<Eigen::Index>(columns)};
 }
 
 std::span<const std::uint8_t> read_flags(const Hdf5File& file, const char* path, const Shape& shape) {
@@ -218,36 +192,68 @@ std::vector<Scene> read_scenes(const Hdf5File& file, std::size_t blocks) {
   return scenes;
 }
 
-void read_states(const Hdf5File& file, const SensitivitySizes& sizes, Sensitivities& into) {
+void read_residuals(const Hdf5File& file, const SensitivitySizes& sizes, Sensitivities& into) {
+  const StackedMatrices bridge = read_matrices(file, dataset::kResidualBridge, {sizes.states}, sizes.points);
+  const StackedMatrices epoch = read_matrices(file, dataset::kResidualEpoch, {sizes.states}, sizes.points);
+  const auto shares = finite_numbers(file, dataset::kResidualShare, {sizes.states, 4});
+  for (std::size_t state = 0; state < sizes.states; ++state) {
+    const auto own = shares.subspan(4 * state, 4);
+    into.residuals.push_back({bridge[state], epoch[state], own[0], own[1], own[2], own[3]});
+  }
+}
+
+void read_factors(const Hdf5File& file, const SensitivitySizes& sizes, Sensitivities& into) {
   const std::uint64_t scenes = into.scenes.size();
   const auto known = read_flags(file, dataset::kSensitivityKnown, {sizes.states, scenes});
-  auto bridge = read_matrices(file, dataset::kBridgeFactors, {sizes.states, scenes}, sizes.points);
-  auto epoch = read_matrices(file, dataset::kEpochFactors, {sizes.states, scenes}, sizes.points);
-  auto left_of_bridge = read_matrices(file, dataset::kResidualBridge, {sizes.states}, sizes.points);
-  auto left_of_epoch = read_matrices(file, dataset::kResidualEpoch, {sizes.states}, sizes.points);
-  const auto shares = finite_numbers(file, dataset::kResidualShare, {sizes.states, 4});
+  into.known.assign(known.begin(), known.end());
+  into.bridge = read_matrices(file, dataset::kBridgeFactors, {sizes.states, scenes}, sizes.points);
+  into.epoch = read_matrices(file, dataset::kEpochFactors, {sizes.states, scenes}, sizes.points);
   file.require(
-      bridge.front().cols() == into.basis.cols() && epoch.front().cols() == into.of_epoch(),
+      into.bridge.columns() == into.basis.cols() && into.epoch.columns() == into.of_epoch(),
       fmt::format("datasets '{}' and '{}' have not the columns of '{}' and '{}'", dataset::kBridgeFactors,
                   dataset::kEpochFactors, dataset::kSensitivityBasis, dataset::kUncertainName));
-  for (std::size_t state = 0; state < sizes.states; ++state) {
-    StateSensitivities& one = into.states.emplace_back();
-    for (std::size_t i = state * scenes; i < (state + 1) * scenes; ++i)
-      one.scenes.push_back(known[i] != 0 ? SceneFactors{std::move(bridge[i]), std::move(epoch[i])}
-                                         : SceneFactors{});
-    const auto own = shares.subspan(4 * state, 4);
-    one.residual = {
-        std::move(left_of_bridge[state]), std::move(left_of_epoch[state]), own[0], own[1], own[2], own[3]};
-  }
+  into.signals = read_signals(file, sizes.states * scenes, sizes.points);
 }
 
 }  // namespace
 
-const SceneFactors* Sensitivities::find(std::size_t state, const Scene& scene) const {
+void Sensitivities::make_room(std::size_t states, Eigen::Index points) {
+  const std::size_t count = states * scenes.size();
+  known.assign(count, 0);
+  bridge = StackedMatrices(count, points, basis.cols());
+  epoch = StackedMatrices(count, points, of_epoch());
+  residuals.resize(states);
+}
+
+void Sensitivities::set(std::size_t state, std::size_t scene, const SceneFactors& factors) {
+  const std::size_t place = state * scenes.size() + scene;
+  known[place] = factors.known() ? 1 : 0;
+  if (!factors.known()) return;
+  bridge.own(place) = factors.bridge;
+  epoch.own(place) = factors.epoch;
+}
+
+std::optional<std::size_t> Sensitivities::place_of(std::size_t state, const Scene& scene) const {
   const auto found = std::lower_bound(scenes.begin(), scenes.end(), scene, precedes);
-  if (found == scenes.end() || *found != scene) return nullptr;
-  const SceneFactors& stored = states[state].scenes[static_cast<std::size_t>(found - scenes.begin())];
-  return stored.known() ? &stored : nullptr;
+  if (found == scenes.end() || *found != scene) return std::nullopt;
+  const std::size_t place = state * scenes.size() + static_cast<std::size_t>(found - scenes.begin());
+  return known[place] != 0 ? std::optional(place) : std::nullopt;
+}
+
+std::optional<FactorsView> Sensitivities::find(std::size_t state, const Scene& scene,
+                                               Eigen::Index columns) const {
+  const auto place = place_of(state, scene);
+  if (!place) return std::nullopt;
+  return FactorsView{bridge.leading(*place, columns), epoch[*place]};
+}
+
+bool are_factors_sound(const Sensitivities& sensitivities) {
+  for (std::size_t place = 0; place < sensitivities.known.size(); ++place) {
+    const FactorsView factors{sensitivities.bridge[place], sensitivities.epoch[place]};
+    if (sensitivities.known[place] == 0 && !(factors.bridge.isZero(0.0) && factors.epoch.isZero(0.0)))
+      return false;
+  }
+  return true;
 }
 
 std::vector<DatasetValue> sensitivity_datasets(const Sensitivities& sensitivities) {
@@ -258,9 +264,8 @@ std::vector<DatasetValue> sensitivity_datasets(const Sensitivities& sensitivitie
   basis.add(sensitivities.basis);
   basis.finish({extent(sensitivities.basis.rows()), extent(sensitivities.basis.cols())}, datasets);
   append_scenes(sensitivities, datasets);
-  const auto points = extent(sensitivities.states.front().residual.bridge.rows());
-  append_factors(sensitivities, points, datasets);
-  append_residual(sensitivities, points, datasets);
+  append_factors(sensitivities, datasets);
+  append_residual(sensitivities, datasets);
   return datasets;
 }
 
@@ -269,10 +274,10 @@ std::optional<Sensitivities> read_sensitivities(const Hdf5File& file, const Sens
   Sensitivities result;
   result.parameters = read_parameters(file);
   const auto of_bridge = std::ranges::count(result.parameters, false, &UncertainParameter::of_epoch);
-  result.basis =
-      read_matrices(file, dataset::kSensitivityBasis, {}, static_cast<std::size_t>(of_bridge)).front();
+  result.basis = read_matrices(file, dataset::kSensitivityBasis, {}, static_cast<std::size_t>(of_bridge))[0];
   result.scenes = read_scenes(file, sizes.blocks);
-  read_states(file, sizes, result);
+  read_factors(file, sizes, result);
+  read_residuals(file, sizes, result);
   return result;
 }
 

@@ -10,12 +10,15 @@
 /// the bridge's parameters, too: theta = V z and what V leaves out, of which they say nothing.
 
 #include <Eigen/Core>
+#include <limits>
 #include <optional>
 #include <vector>
 
 #include "core/structure/scene.h"
 #include "core/structure/uncertain_parameter.h"
 #include "database/format/hdf5_file.h"
+#include "database/records/stacked_matrices.h"
+#include "database/records/stored_signals.h"
 
 namespace voussoir {
 
@@ -47,26 +50,40 @@ struct FirstOrderResidual {
   double epoch_common = 0.0;  ///< [-]
 };
 
-/// Of all scenes that have been looked at, in one state.
-struct StateSensitivities {
-  std::vector<SceneFactors> scenes;  ///< one for each of Sensitivities::scenes
-  FirstOrderResidual residual;
+/// The same in place, where they are kept.
+struct FactorsView {
+  StackedMatrices::View bridge, epoch;
 };
 
+/// What a build makes, or what a file holds, whose factors stay where they are: they outlive this.
 struct Sensitivities {
   std::vector<UncertainParameter> parameters;  ///< those of the bridge, then those of an epoch
   Eigen::MatrixXd basis;                       ///< V: parameters of the bridge x columns, orthonormal
-  std::vector<Scene> scenes;               ///< ascending by missing blocks, then lexicographic: intact first
-  std::vector<StateSensitivities> states;  ///< of each state of the database
+  std::vector<Scene> scenes;        ///< ascending by missing blocks, then lexicographic: intact first
+  std::vector<std::uint8_t> known;  ///< states x scenes: 1, or 0 for a scene that does not stand
+  StackedMatrices bridge;           ///< states x scenes: A, zero where nothing is known
+  StackedMatrices epoch;            ///< states x scenes: E
+  std::vector<FirstOrderResidual> residuals;  ///< of each state of the database
+  std::optional<StoredSignals> signals;       ///< as a file keeps them
 
   Eigen::Index of_bridge() const { return basis.rows(); }  ///< parameters of the bridge
   Eigen::Index of_epoch() const { return static_cast<Eigen::Index>(parameters.size()) - basis.rows(); }
 
-  /// What is stored of a scene in a state; null if nothing is known of it. Precondition: the state exists.
-  const SceneFactors* find(std::size_t state, const Scene& scene) const;
+  /// Room for factors of all scenes at so many points, of which nothing is known yet, and for residuals.
+  void make_room(std::size_t states, Eigen::Index points);
+  /// Takes in what is known of a scene, or that nothing is.
+  void set(std::size_t state, std::size_t scene, const SceneFactors& factors);
+
+  /// The scene's place in `known`, `bridge` and `epoch`; nothing if nothing is known of it. Precondition: the
+  /// state exists.
+  std::optional<std::size_t> place_of(std::size_t state, const Scene& scene) const;
+  /// What is known of a scene in a state: E, and the leading columns of A. Throws InputError if the file has
+  /// a number there that is not finite.
+  std::optional<FactorsView> find(std::size_t state, const Scene& scene,
+                                  Eigen::Index columns = std::numeric_limits<Eigen::Index>::max()) const;
 };
 
-/// The datasets of sensitivities; datasets that would have no elements are left out.
+/// The datasets of sensitivities, which outlive them; datasets that would have no elements are left out.
 std::vector<DatasetValue> sensitivity_datasets(const Sensitivities& sensitivities);
 
 /// How many of everything there are in a file.
@@ -77,7 +94,12 @@ struct SensitivitySizes {
 };
 
 /// Nothing if the file has none. Throws InputError for wrong types, shapes and sizes, scenes that are out of
-/// order or without an intact bridge, and numbers that are not finite.
+/// order or without an intact bridge, and numbers that are not finite, but for the factors, which are looked
+/// at when they are asked for.
 std::optional<Sensitivities> read_sensitivities(const Hdf5File& file, const SensitivitySizes& sizes);
+
+/// Looks at all factors, one scene after the other. Throws InputError if a number is not finite; false if
+/// there are factors of scenes of which nothing is known.
+bool are_factors_sound(const Sensitivities& sensitivities);
 
 }  // namespace voussoir

@@ -15,7 +15,16 @@ struct SignalFactors {
   Eigen::MatrixXd intact;  ///< H [m]: the same shape
 };
 
+/// X X^T.
+Eigen::MatrixXd product_with_itself(const Eigen::MatrixXd& columns);
+
+/// Whether factors have the products that they are kept for, but for what may be left.
+bool are_signal_factors(const SignalFactors& factors, const Eigen::MatrixXd& intact,
+                        const Eigen::MatrixXd& change);
+
 /// By Cholesky's factorisation of D D^T, the largest diagonal first, until 1e-10 m are left at each point.
+/// The factors of other factors, {H, B} for {A_intact, D}, are as good and made faster: what some of the
+/// points need of those of all.
 SignalFactors signal_factors(const Eigen::MatrixXd& intact, const Eigen::MatrixXd& change);
 
 }  // namespace voussoir

@@ -112,7 +112,7 @@ void write_attributes(const Provenance& provenance, const std::string& digest, H
 
 std::string digest_of(const std::vector<DatasetValue>& shared, ByteView checksums) {
   std::vector<DigestPart> parts;
-  for (const DatasetValue& dataset : shared) parts.push_back({dataset.path, dataset.bytes});
+  for (const DatasetValue& dataset : shared) parts.push_back({dataset.path, dataset.content()});
   parts.push_back({dataset::kChecksum, checksums});
   return to_hexadecimal(content_digest(parts));
 }
@@ -132,6 +132,8 @@ std::string write_content(const std::filesystem::path& path, const DatabaseConte
     output.add_dataset(
         text_dataset(dataset::kShard, to_text(*content.shard), "which part of a database this is"));
   write_search_indices(content, columns.bytes(dataset::kVertical), output);
+  if (content.sensitivities)
+    for (const DatasetValue& dataset : signal_datasets(*content.sensitivities)) output.add_dataset(dataset);
   std::string digest = digest_of(shared, columns.bytes(dataset::kChecksum));
   write_attributes(content.provenance, digest, output);
   output.close();

@@ -7,8 +7,8 @@
 #include <numeric>
 
 #include "core/error.h"
+#include "database/records/scene_change.h"
 #include "database/records/stored_bridge.h"
-#include "lookup/readings/scene_change.h"
 #include "lookup/readings/standardised_parameters.h"
 
 namespace voussoir {
@@ -74,6 +74,10 @@ struct FirstOrder {
   MatrixXd positions;  ///< columns of the basis x bridges: V^T theta
 };
 
+SceneFactors owned(const FactorsView& factors) {
+  return {factors.bridge, factors.epoch};
+}
+
 /// Makes the factors of one state.
 class StateFactors {
  public:
@@ -83,7 +87,7 @@ class StateFactors {
         first_order_(first_order),
         state_(state),
         intact_sample_(sample_of(tables, {}).value()),
-        intact_first_(first_order ? *first_order->sensitivities.find(state, {})
+        intact_first_(first_order ? owned(*first_order->sensitivities.find(state, {}))
                                   : SceneFactors{MatrixXd(points(), 0), MatrixXd(points(), 0)}) {
     MatrixXd left = intact_sample_.difference;
     if (first_order) left -= intact_first_.bridge * first_order->positions;
@@ -95,24 +99,23 @@ class StateFactors {
     if (scene.removed.empty()) return {intact_, intact_first_.epoch};
     const auto sample = sample_of(tables_, scene);
     if (!sample) return {};
-    const SceneFactors* const first =
-        first_order_ ? first_order_->sensitivities.find(state_, scene) : nullptr;
+    const auto first = first_order_ ? first_order_->sensitivities.find(state_, scene) : std::nullopt;
     const bool enough = sample->standing >= static_cast<Index>(kFewestBridges);
-    if (first == nullptr && !enough) return {};
+    if (!first && !enough) return {};
     const auto left = sample->points_left.asDiagonal();
     MatrixXd change = MatrixXd::Zero(points(), intact_first_.bridge.cols());
-    if (first != nullptr) change = first->bridge - left * intact_first_.bridge;
+    if (first) change = first->bridge - left * intact_first_.bridge;
     const MatrixXd columns =
         enough
             ? columns_of(change, left_of(*sample, first ? &change : nullptr), sample->standing)
             : columns_of(first_widening() * change, MatrixXd::Zero(points(), sample->difference.cols()), 0);
-    return {left * intact_ + columns, first != nullptr ? first->epoch : MatrixXd(left * intact_first_.epoch)};
+    return {left * intact_ + columns, first ? MatrixXd(first->epoch) : MatrixXd(left * intact_first_.epoch)};
   }
 
   /// What is left of epochs, which are not sampled.
   FirstOrderResidual residual() const {
     FirstOrderResidual result;
-    if (first_order_) result = first_order_->sensitivities.states[state_].residual;
+    if (first_order_) result = first_order_->sensitivities.residuals[state_];
     if (!first_order_) result.epoch = MatrixXd(points(), 0);
     result.bridge = MatrixXd(points(), 0);
     result.share = result.common = 0.0;
@@ -124,7 +127,7 @@ class StateFactors {
 
   /// What the first order leaves of signals where no samples show it, as ReadingFactors widens it.
   double first_widening() const {
-    const FirstOrderResidual& residual = first_order_->sensitivities.states[state_].residual;
+    const FirstOrderResidual& residual = first_order_->sensitivities.residuals[state_];
     return widening(residual.share, residual.common);
   }
 
@@ -210,27 +213,25 @@ std::vector<Scene> scenes_of(const Sensitivities* first_order, const SceneTable&
 }
 
 /// Nothing is known of states in which the intact bridge does not stand.
-StateSensitivities state_sensitivities(const Database& database, const FirstOrder* first_order,
-                                       const std::vector<std::int32_t>& variants,
-                                       const std::vector<Scene>& scenes, std::size_t state) {
-  StateSensitivities result{std::vector<SceneFactors>(scenes.size()), {}};
+void add_state(const Database& database, const FirstOrder* first_order,
+               const std::vector<std::int32_t>& variants, std::size_t state, Sensitivities& made) {
   if (!intact_stands(database, kNominalVariant, state) ||
       (first_order && !first_order->sensitivities.find(state, {})))
-    return result;
+    return;
   StateTables tables{database.table(kNominalVariant, state), {}};
   for (const std::int32_t variant : variants) tables.sampled.push_back(database.table(variant, state));
   const StateFactors factors(tables, first_order, state);
-  std::ranges::transform(scenes, result.scenes.begin(), std::cref(factors));
-  result.residual = factors.residual();
-  return result;
+  for (std::size_t i = 0; i < made.scenes.size(); ++i) made.set(state, i, factors(made.scenes[i]));
+  made.residuals[state] = factors.residual();
 }
 
 /// Calls for what every loss changes in A in every state.
 template <class Function>
 void for_each_change(const Sensitivities& sensitivities, Function function) {
-  for (const StateSensitivities& state : sensitivities.states)
-    for (std::size_t i = 1; i < state.scenes.size(); ++i)
-      if (state.scenes[i].known()) function(change_of(state.scenes[i], state.scenes.front()).bridge);
+  for (std::size_t state = 0; state < sensitivities.residuals.size(); ++state)
+    for (const Scene& scene : sensitivities.scenes)
+      if (const auto own = sensitivities.find(state, scene); own && !scene.removed.empty())
+        function(change_of(owned(*own), owned(*sensitivities.find(state, {}))).bridge);
 }
 
 /// Turns the samples' columns to their principal directions and puts all columns in the order of what losses
@@ -248,12 +249,12 @@ void order_columns(Index samples, Sensitivities& sensitivities) {
   std::vector<Index> order(static_cast<std::size_t>(all));
   std::iota(order.begin(), order.end(), Index{0});
   std::stable_sort(order.begin(), order.end(), [&](Index a, Index b) { return sizes[a] > sizes[b]; });
-  for (StateSensitivities& state : sensitivities.states)
-    for (SceneFactors& scene : state.scenes) {
-      if (!scene.known()) continue;
-      scene.bridge.rightCols(samples) = (scene.bridge.rightCols(samples) * principal.eigenvectors()).eval();
-      scene.bridge = scene.bridge(Eigen::all, order).eval();
-    }
+  for (std::size_t place = 0; place < sensitivities.known.size(); ++place) {
+    if (sensitivities.known[place] == 0) continue;
+    MatrixXd columns = sensitivities.bridge[place];
+    columns.rightCols(samples) = (columns.rightCols(samples) * principal.eigenvectors()).eval();
+    sensitivities.bridge.own(place) = columns(Eigen::all, order);
+  }
   sensitivities.basis = sensitivities.basis(Eigen::all, order).eval();
 }
 
@@ -280,9 +281,9 @@ SampledBridges sampled_bridges(const Database& database) {
     made.basis = MatrixXd::Zero(sensitivities->basis.rows(), sensitivities->basis.cols() + samples);
     made.basis.leftCols(sensitivities->basis.cols()) = sensitivities->basis;
   }
+  made.make_room(database.states().size(), static_cast<Index>(database.control_points().size()));
   for (std::size_t state = 0; state < database.states().size(); ++state)
-    made.states.push_back(
-        state_sensitivities(database, first_order ? &*first_order : nullptr, variants, made.scenes, state));
+    add_state(database, first_order ? &*first_order : nullptr, variants, state, made);
   order_columns(samples, made);
   return result;
 }

@@ -65,8 +65,8 @@ TEST_CASE("A database's sensitivities predict what a little more stiffness and h
   for (const Scene& scene : found->scenes)
     for (const auto& [name, history] : {std::pair{"built", built(scene)}, std::pair{"lost", lost(scene)}}) {
       const std::size_t state = *database.find_state(name);
-      const SceneFactors* factors = found->find(state, scene);
-      if (factors == nullptr) continue;
+      const auto factors = found->find(state, scene);
+      if (!factors) continue;
       History moved = history;
       for (NamedStage& stage : moved.stages)
         stage.stage = in_epoch(stage.stage, bridge, uncertain, change.of_epoch);

@@ -110,13 +110,12 @@ inline Sensitivities made_up_sensitivities(const Model& bridge, const std::vecto
   made.basis = Eigen::MatrixXd::Identity(3, 2);
   for (const Scene& scene : scenes)
     if (scene.missing() < 2) made.scenes.push_back(scene);
+  made.make_room(states, points);
   for (std::size_t state = 0; state < states; ++state) {
-    StateSensitivities& one = made.states.emplace_back();
     for (std::size_t i = 0; i < made.scenes.size(); ++i)
-      one.scenes.push_back(state + 1 == states && i % 5 == 4
-                               ? SceneFactors{}
-                               : SceneFactors{numbers(points, 2), numbers(points, 2)});
-    one.residual = {numbers(points, 4), numbers(points, 5), 0.1, 0.2, 0.3, 0.4};
+      if (state + 1 < states || i % 5 != 4)
+        made.set(state, i, SceneFactors{numbers(points, 2), numbers(points, 2)});
+    made.residuals[state] = {numbers(points, 4), numbers(points, 5), 0.1, 0.2, 0.3, 0.4};
   }
   return made;
 }

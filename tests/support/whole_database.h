@@ -31,7 +31,10 @@ inline void read_all(const std::filesystem::path& path) {
   static_cast<void>(database.search_index());
   static_cast<void>(database.joints());
   static_cast<void>(database.variants());
-  static_cast<void>(database.sensitivities());
+  if (const Sensitivities* const sensitivities = database.sensitivities()) {
+    static_cast<void>(are_factors_sound(*sensitivities));
+    if (sensitivities->signals) static_cast<void>(are_signals_right(*sensitivities));
+  }
   for (std::size_t row = 0; row < database.rows(); ++row) {
     static_cast<void>(database.record(row));
     const auto [variant, scene] = database.key(row);

@@ -77,7 +77,9 @@ struct ManySizes {
                {"G", content.sensitivities->scenes.size()},
                {"M1", 1},
                {"H1", 4},
-               {"H2", 5}};
+               {"H2", 5},
+               {"Q G + 1", kStates * 39 + 1},
+               {"L", 2 * (kStates * 38 - 7)}};  // seven singles are unknown in the last state
   }
 
   /// "R x 2" -> {150, 2}

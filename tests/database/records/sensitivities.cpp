@@ -35,7 +35,7 @@ struct SmallDatabase {
   std::string refusal(const Sensitivities& sensitivities) {
     const Database database = write(sensitivities);
     try {
-      static_cast<void>(database.sensitivities());
+      static_cast<void>(are_factors_sound(*database.sensitivities()));
     } catch (const InputError& error) {
       return error.what();
     }
@@ -43,11 +43,17 @@ struct SmallDatabase {
   }
 };
 
-void check_same(const SceneFactors& stored, const SceneFactors& expected) {
-  REQUIRE(stored.known() == expected.known());
-  if (!expected.known()) return;
-  REQUIRE(stored.bridge == expected.bridge);
-  REQUIRE(stored.epoch == expected.epoch);
+/// Changes one number of a dataset that has been written.
+template <class T>
+void change(const std::filesystem::path& path, const char* dataset, hid_t type, std::size_t at, T number) {
+  const auto lock = lock_hdf5();
+  const Hdf5Handle file(H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT), H5Fclose);
+  const Hdf5Handle opened(H5Dopen2(file.get(), dataset, H5P_DEFAULT), H5Dclose);
+  const Hdf5Handle space(H5Dget_space(opened.get()), H5Sclose);
+  std::vector<T> numbers(static_cast<std::size_t>(H5Sget_simple_extent_npoints(space.get())));
+  REQUIRE(H5Dread(opened.get(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, numbers.data()) >= 0);
+  numbers.at(at) = number;
+  REQUIRE(H5Dwrite(opened.get(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, numbers.data()) >= 0);
 }
 
 }  // namespace
@@ -60,22 +66,27 @@ TEST_CASE("Sensitivities are read back as they were written, to the last bit") {
   CHECK(stored->parameters == small.made.parameters);
   CHECK(stored->basis == small.made.basis);
   CHECK(stored->scenes == small.made.scenes);
-  REQUIRE(stored->states.size() == kStates);
+  CHECK(stored->known == small.made.known);
+  REQUIRE(stored->residuals.size() == kStates);
   for (std::size_t state = 0; state < kStates; ++state) {
-    const StateSensitivities& expected = small.made.states[state];
-    for (std::size_t i = 0; i < small.made.scenes.size(); ++i) {
-      check_same(stored->states[state].scenes[i], expected.scenes[i]);
-      const SceneFactors* found = stored->find(state, small.made.scenes[i]);
-      REQUIRE((found != nullptr) == expected.scenes[i].known());
-      if (found != nullptr) check_same(*found, expected.scenes[i]);
+    for (const Scene& scene : small.made.scenes) {
+      const auto found = stored->find(state, scene), expected = small.made.find(state, scene);
+      REQUIRE(found.has_value() == expected.has_value());
+      if (!found) continue;
+      REQUIRE(found->bridge == expected->bridge);
+      REQUIRE(found->epoch == expected->epoch);
+      REQUIRE(stored->find(state, scene, 1)->bridge == expected->bridge.leftCols(1));
     }
-    CHECK(stored->states[state].residual.bridge == expected.residual.bridge);
-    CHECK(stored->states[state].residual.epoch == expected.residual.epoch);
-    CHECK(stored->states[state].residual.share == expected.residual.share);
-    CHECK(stored->states[state].residual.common == expected.residual.common);
-    CHECK(stored->states[state].residual.epoch_share == expected.residual.epoch_share);
-    CHECK(stored->states[state].residual.epoch_common == expected.residual.epoch_common);
+    const FirstOrderResidual& expected = small.made.residuals[state];
+    CHECK(stored->residuals[state].bridge == expected.bridge);
+    CHECK(stored->residuals[state].epoch == expected.epoch);
+    CHECK(stored->residuals[state].share == expected.share);
+    CHECK(stored->residuals[state].common == expected.common);
+    CHECK(stored->residuals[state].epoch_share == expected.epoch_share);
+    CHECK(stored->residuals[state].epoch_common == expected.epoch_common);
   }
+  CHECK_FALSE(stored->find(0, Scene{{BlockId{1}, BlockId{2}}}));
+  CHECK_FALSE(stored->find(kStates - 1, small.made.scenes[4]));
   CHECK(stored->of_bridge() == 3);
   CHECK(stored->of_epoch() == 2);
 }
@@ -85,18 +96,22 @@ TEST_CASE("A bridge without parameters of an epoch, or of its own, is read back 
   Sensitivities known = small.made;
   known.parameters = {{"temperature", "K", 10.0, true}};
   known.basis.resize(0, 0);
-  for (StateSensitivities& state : known.states) {
-    for (SceneFactors& scene : state.scenes)
-      if (scene.known()) scene = {Eigen::MatrixXd(scene.bridge.rows(), 0), scene.epoch.leftCols(1)};
-    state.residual.bridge.resize(state.residual.bridge.rows(), 0);
+  known.make_room(kStates, small.made.bridge.rows());
+  for (std::size_t state = 0; state < kStates; ++state) {
+    for (std::size_t i = 0; i < known.scenes.size(); ++i)
+      if (const auto scene = small.made.find(state, known.scenes[i]))
+        known.set(state, i, {Eigen::MatrixXd(scene->bridge.rows(), 0), scene->epoch.leftCols(1)});
+    known.residuals[state].bridge.resize(known.bridge.rows(), 0);
   }
   const Database database = small.write(known);
   const Sensitivities* stored = database.sensitivities();
   REQUIRE(stored != nullptr);
   CHECK(stored->of_bridge() == 0);
   CHECK(stored->find(0, Scene{})->bridge.cols() == 0);
-  CHECK(stored->find(0, Scene{})->epoch == known.states[0].scenes[0].epoch);
-  CHECK(stored->states[1].residual.bridge.cols() == 0);
+  CHECK(stored->find(0, Scene{})->epoch == known.find(0, Scene{})->epoch);
+  CHECK(stored->residuals[1].bridge.cols() == 0);
+  CHECK(are_factors_sound(*stored));
+  CHECK(are_signals_right(*stored));
 }
 
 TEST_CASE("A database without sensitivities says so") {
@@ -126,7 +141,7 @@ TEST_CASE("Sensitivities that do not fit together are refused and named") {
   wrong.scenes[38] = Scene{{BlockId{38}}};
   CHECK_THAT(small.refusal(wrong), Catch::Contains("removed' holds a row that is no scene"));
   wrong = small.made;
-  wrong.states[1].scenes[2].bridge(0, 1) = std::numeric_limits<double>::quiet_NaN();
+  wrong.bridge.own(wrong.scenes.size() + 2)(0, 1) = std::numeric_limits<double>::quiet_NaN();
   CHECK_THAT(small.refusal(wrong), Catch::Contains("bridge_factors' holds a number that is not finite"));
 }
 
@@ -135,7 +150,8 @@ TEST_CASE("Datasets of sensitivities of another type or shape are refused and na
        {dataset::kUncertainName, dataset::kUncertainUnit, dataset::kUncertainSigma,
         dataset::kUncertainOfEpoch, dataset::kSensitivityBasis, dataset::kSensitivityRemoved,
         dataset::kSensitivityKnown, dataset::kBridgeFactors, dataset::kEpochFactors, dataset::kResidualBridge,
-        dataset::kResidualEpoch, dataset::kResidualShare}) {
+        dataset::kResidualEpoch, dataset::kResidualShare, dataset::kSignalFirst, dataset::kSignalOwn,
+        dataset::kSignalIntact}) {
     INFO(path);
     SmallDatabase small;
     static_cast<void>(small.write(small.made));
@@ -154,6 +170,76 @@ TEST_CASE("Datasets of sensitivities of another type or shape are refused and na
     const Database database = Database::open(small.folder / "small.h5");
     CHECK_THROWS_WITH(database.sensitivities(), Catch::Contains(path));
   }
+}
+
+TEST_CASE("Signals are stored of every loss that is known, as they are made from the factors") {
+  SmallDatabase small;
+  const Database database = small.write(small.made);
+  const Sensitivities* stored = database.sensitivities();
+  REQUIRE(stored->signals);
+  const std::size_t scenes = small.made.scenes.size();
+  int compared = 0;
+  for (std::size_t state = 0; state < kStates; ++state) {
+    const auto intact = small.made.find(state, Scene{}).value();
+    for (std::size_t i = 0; i < scenes; ++i) {
+      const auto [own, of_intact] = (*stored->signals)[state * scenes + i];
+      const auto found = small.made.find(state, small.made.scenes[i]);
+      if (i == 0 || !found) {
+        CHECK(own.cols() == 0);
+        continue;
+      }
+      const SignalFactors expected = signal_factors(intact.bridge, found->bridge - intact.bridge);
+      REQUIRE(own == expected.own);
+      REQUIRE(of_intact == expected.intact);
+      ++compared;
+    }
+  }
+  CHECK(compared == 69);  // of 76 singles in two states seven have none
+  CHECK(are_signals_right(*stored));
+}
+
+TEST_CASE("Factors and signals that have been changed are found") {
+  SmallDatabase small;
+  const std::filesystem::path path = small.folder / "small.h5";
+  const auto block = static_cast<std::size_t>(2 * small.made.bridge.rows());
+  const std::size_t scenes = small.made.scenes.size(), unknown = scenes + 4;
+  const auto read = [&] { return Database::open(path); };
+  static_cast<void>(small.write(small.made));
+  CHECK(are_factors_sound(*read().sensitivities()));
+  change(path, dataset::kEpochFactors, H5T_NATIVE_DOUBLE, unknown * block, 1e-9);
+  CHECK_FALSE(are_factors_sound(*read().sensitivities()));
+  static_cast<void>(small.write(small.made));
+  for (const char* numbers : {dataset::kSignalOwn, dataset::kSignalIntact}) {
+    change(path, numbers, H5T_NATIVE_DOUBLE, 5, 2e-4);
+    CHECK_FALSE(are_signals_right(*read().sensitivities()));
+    change(path, numbers, H5T_NATIVE_DOUBLE, 5, std::numeric_limits<double>::infinity());
+    const Database database = read();
+    CHECK_THROWS_WITH(are_signals_right(*database.sensitivities()),
+                      Catch::Contains(numbers) && Catch::Contains("not finite"));
+    CHECK_THROWS_AS((*database.sensitivities()->signals)[1], InputError);
+    static_cast<void>(small.write(small.made));
+  }
+  for (const std::int32_t number : {-1, 3, 1 << 30}) {
+    change(path, dataset::kSignalFirst, H5T_NATIVE_INT, 2 * scenes, number);
+    CHECK_THROWS_WITH(read().sensitivities(), Catch::Contains("'signals/"));
+  }
+}
+
+TEST_CASE("Factors that are not finite are refused by those who ask for them, and by nobody else") {
+  SmallDatabase small;
+  const std::filesystem::path path = small.folder / "small.h5";
+  static_cast<void>(small.write(small.made));
+  const auto block = static_cast<std::size_t>(2 * small.made.bridge.rows());
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  change(path, dataset::kBridgeFactors, H5T_NATIVE_DOUBLE, 3 * block + 1, none);  // of the second column
+  const Database database = Database::open(path);
+  const Sensitivities& stored = *database.sensitivities();
+  CHECK(stored.find(0, small.made.scenes[2]));
+  CHECK(stored.find(0, small.made.scenes[3], 1));
+  CHECK_THROWS_WITH(
+      stored.find(0, small.made.scenes[3]),
+      Catch::Contains("small.h5") && Catch::Contains("bridge_factors' holds a number that is not finite"));
+  CHECK_THROWS_AS(are_factors_sound(stored), InputError);
 }
 
 }  // namespace voussoir

@@ -41,8 +41,8 @@ struct Joint {
 };
 
 Joint joint_gaussian(const Sensitivities& from, const VectorXd& reading, const ScatterLogs& counts) {
-  const SceneFactors& of = from.states[0].scenes[0];
-  const FirstOrderResidual& residual = from.states[0].residual;
+  const FactorsView of = from.find(0, {}).value();
+  const FirstOrderResidual& residual = from.residuals[0];
   const Index n = reading.size(), m = of.bridge.cols(), e = of.epoch.cols();
   MatrixXd design(n, m + e);
   design << of.bridge, of.epoch;

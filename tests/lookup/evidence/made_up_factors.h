@@ -27,23 +27,24 @@ inline Sensitivities made_up_sensitivities_of(const SyntheticLibrary& library, E
   result.basis = Eigen::MatrixXd::Identity(columns + 2, columns);
   result.scenes = all_scenes(library.blocks, 1);
   result.scenes.push_back({{BlockId{2}, BlockId{4}}});
-  StateSensitivities state;
+  result.make_room(1, points);
   const SceneFactors intact{numbers(points, columns, size), numbers(points, 2, size)};
-  for (const Scene& scene : result.scenes) {
+  for (std::size_t i = 0; i < result.scenes.size(); ++i) {
+    const Scene& scene = result.scenes[i];
     SceneFactors own = intact;
     if (!scene.removed.empty()) {
       own.bridge += numbers(points, columns, 0.2 * size);
       own.epoch += numbers(points, 2, 0.1 * size);
     }
-    for (Eigen::Index i = 0; i < points; ++i)
-      if (scene.lacks(library.points[static_cast<std::size_t>(i)].block)) {
-        own.bridge.row(i).setZero();
-        own.epoch.row(i).setZero();
+    for (Eigen::Index point = 0; point < points; ++point)
+      if (scene.lacks(library.points[static_cast<std::size_t>(point)].block)) {
+        own.bridge.row(point).setZero();
+        own.epoch.row(point).setZero();
       }
-    state.scenes.push_back(scene == Scene{{BlockId{1}}} ? SceneFactors{} : own);
+    if (scene != Scene{{BlockId{1}}}) result.set(0, i, own);
   }
-  state.residual = {numbers(points, 2, 0.05 * size), numbers(points, 1, 0.05 * size), 0.1, 0.05, 0.2, 0.07};
-  result.states = {state};
+  result.residuals = {
+      {numbers(points, 2, 0.05 * size), numbers(points, 1, 0.05 * size), 0.1, 0.05, 0.2, 0.07}};
   return result;
 }
 

@@ -116,9 +116,9 @@ TEST_CASE("Sampled bridges alone answer as their dense normal density does") {
 
 TEST_CASE("Bridges that are as the first order says give its answer") {
   Sensitivities first = first_order_of_stored_bridge();
-  for (StateSensitivities& state : first.states) {  // it leaves nothing
-    state.residual.share = state.residual.common = 0.0;
-    state.residual.bridge.setZero();
+  for (FirstOrderResidual& residual : first.residuals) {  // it leaves nothing
+    residual.share = residual.common = 0.0;
+    residual.bridge.setZero();
   }
   const auto exact = [&](const RecordKey& key, std::size_t state, Index point) -> double {
     return first.find(state, key.scene)->bridge.row(point) *

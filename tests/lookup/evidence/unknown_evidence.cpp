@@ -54,9 +54,14 @@ struct Question {
   }
 };
 
+std::optional<SceneFactors> stored(const Sensitivities& from, const Scene& scene) {
+  const auto found = from.find(0, scene);
+  return found ? std::optional(SceneFactors{found->bridge, found->epoch}) : std::nullopt;
+}
+
 /// What a scene changes in the factors: its own or the sum of its blocks' own.
 SceneFactors changed_by(const Sensitivities& from, const Scene& scene) {
-  const SceneFactors& intact = from.states[0].scenes[0];
+  const SceneFactors intact = stored(from, {}).value();
   const auto less_intact = [&](SceneFactors own) {
     for (Index i = 0; i < own.bridge.rows(); ++i)
       if (!own.bridge.row(i).isZero()) {
@@ -65,10 +70,10 @@ SceneFactors changed_by(const Sensitivities& from, const Scene& scene) {
       }
     return own;
   };
-  if (const SceneFactors* own = from.find(0, scene)) return less_intact(*own);
+  if (const auto own = stored(from, scene)) return less_intact(*own);
   SceneFactors sum{0.0 * intact.bridge, 0.0 * intact.epoch};
   for (const BlockId block : scene.removed)
-    if (const SceneFactors* own = from.find(0, {{block}})) {
+    if (const auto own = stored(from, {{block}})) {
       sum.bridge += less_intact(*own).bridge;
       sum.epoch += less_intact(*own).epoch;
     }
@@ -111,14 +116,14 @@ class TwoEpochs {
   }
 
   void add_parameters(double kappa) {
-    const SceneFactors& intact = from().states[0].scenes[0];
+    const SceneFactors intact = stored(from(), {}).value();
     const SceneFactors change = widened(changed_by(from(), scene_));
     add(intact.bridge, intact.bridge + change.bridge, kappa);
     add_each(intact.epoch, intact.epoch + change.epoch);
   }
 
   void add_common(double datum) {
-    const FirstOrderResidual& residual = from().states[0].residual;
+    const FirstOrderResidual& residual = from().residuals[0];
     add(residual.bridge, residual.bridge);
     add_each(2.0 * residual.epoch, 2.0 * residual.epoch);  // with heavy tails
     MatrixXd level = datum * MatrixXd::Ones(p_, 1);
@@ -130,7 +135,7 @@ class TwoEpochs {
 
   /// The first order, and what it leaves along it.
   SceneFactors widened(SceneFactors change) const {
-    const FirstOrderResidual& residual = from().states[0].residual;
+    const FirstOrderResidual& residual = from().residuals[0];
     change.bridge *= std::sqrt(1.0 + std::pow(residual.share, 2) + std::pow(residual.common, 2));
     change.epoch *= std::sqrt(1.0 + std::pow(residual.epoch_share, 2) + std::pow(residual.epoch_common, 2));
     return change;
@@ -151,7 +156,7 @@ class TwoEpochs {
     std::vector<double> shares;
     for (std::size_t b = 0; b < question_.library.blocks; ++b) {
       const BlockId block{static_cast<std::int32_t>(b)};
-      if (from().find(0, {{block}}) == nullptr) continue;
+      if (!from().find(0, {{block}})) continue;
       const SceneFactors of = widened(changed_by(from(), {{block}}));
       double norm = 0.0;
       const VectorXd signal = signal_of(block).tail(p_ - 1);
@@ -165,12 +170,12 @@ class TwoEpochs {
 
   void add_losses() {
     VectorXd beyond = signal_;
-    if (scene_.missing() == 2 && from().find(0, scene_) != nullptr) {
+    if (scene_.missing() == 2 && from().find(0, scene_)) {
       add_loss(signal_);
       beyond.setZero();
     } else {
       for (const BlockId block : scene_.removed) {
-        if (from().find(0, {{block}}) == nullptr) continue;
+        if (!from().find(0, {{block}})) continue;
         add_loss(signal_of(block));
         beyond -= signal_of(block);
       }

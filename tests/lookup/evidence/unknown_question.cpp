@@ -214,7 +214,8 @@ TEST_CASE("Scenes that make the same collapse of metres share its probability") 
   Trial trial(2, 30, 8, 3e-5);
   Random random(8);
   SyntheticLibrary& library = trial.library;
-  for (SceneFactors& scene : trial.sensitivities.states.front().scenes) scene.epoch *= 100.0;
+  for (std::size_t i = 0; i < trial.sensitivities.scenes.size(); ++i)
+    trial.sensitivities.epoch.own(i) *= 100.0;
   trial.comparison.factors = factors_of(library, trial.sensitivities);
   std::vector<std::size_t> collapses;
   for (std::size_t row = 0; row < library.table.rows; ++row) {

@@ -74,11 +74,11 @@ TEST_CASE("Beside the first order samples add what it leaves of each of them") {
                                 mean_square(site.database(), state, single(block), numbers_to(12), &first);
       CHECK(covariance(sampled, state, single(block)).isApprox(expected, 1e-10));
     }
-  const FirstOrderResidual& residual = sampled.sensitivities.states[1].residual;
+  const FirstOrderResidual& residual = sampled.sensitivities.residuals[1];
   CHECK(residual.bridge.cols() == 0);
   CHECK(residual.share == 0.0);
   CHECK(residual.common == 0.0);
-  CHECK(residual.epoch == first.states[1].residual.epoch);
+  CHECK(residual.epoch == first.residuals[1].epoch);
   CHECK(residual.epoch_share == 0.1);
 }
 

@@ -127,9 +127,10 @@ inline Sensitivities first_order_of_stored_bridge() {
   made.parameters = uncertain_of_stored_bridge().all();
   made.basis = Eigen::MatrixXd::Identity(bridge, bridge).middleCols(kFirstVaried, kVaried);
   made.scenes = all_scenes(stored_bridge().layout.size(), 1);
+  made.make_room(kStates, p);
   for (std::size_t state = 0; state < kStates; ++state) {
-    StateSensitivities& one = made.states.emplace_back();
-    for (const Scene& scene : made.scenes) {
+    for (std::size_t k = 0; k < made.scenes.size(); ++k) {
+      const Scene& scene = made.scenes[k];
       const std::size_t block = block_of(scene);
       const auto number = [&](std::size_t kind, Eigen::Index i, Eigen::Index j) {
         if (scene.lacks(points[static_cast<std::size_t>(i)].block)) return 0.0;
@@ -137,13 +138,14 @@ inline Sensitivities first_order_of_stored_bridge() {
         return 1e-4 * (number_of(column, 0, at, 0) +
                        (block == 0 ? 0.0 : 0.2 * number_of(column, 1 + state, at, block)));
       };
-      SceneFactors& factors = one.scenes.emplace_back();
+      SceneFactors factors;
       factors.bridge = Eigen::MatrixXd::NullaryExpr(
           p, kVaried, [&](Eigen::Index i, Eigen::Index j) { return number(1000, i, j); });
       factors.epoch = Eigen::MatrixXd::NullaryExpr(
           p, epoch, [&](Eigen::Index i, Eigen::Index j) { return number(2000, i, j); });
+      made.set(state, k, factors);
     }
-    one.residual = {
+    made.residuals[state] = {
         Eigen::MatrixXd::Constant(p, 1, 1e-5), Eigen::MatrixXd::Constant(p, 1, 1e-5), 0.3, 0.4, 0.1, 0.2};
   }
   return made;
@@ -176,7 +178,7 @@ inline Eigen::VectorXd difference_of(const Database& database, std::int32_t vari
 /// The first order's columns in the same rows.
 inline Eigen::MatrixXd columns_of(const Sensitivities& from, std::size_t state, const Scene& scene,
                                   double widening = 1.0) {
-  const Eigen::MatrixXd &intact = from.find(state, kIntact)->bridge, &own = from.find(state, scene)->bridge;
+  const Eigen::MatrixXd intact = from.find(state, kIntact)->bridge, own = from.find(state, scene)->bridge;
   const Eigen::Index p = intact.rows();
   Eigen::MatrixXd columns(2 * p, intact.cols());
   columns << intact, widening * (own - intact);

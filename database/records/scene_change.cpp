@@ -1,4 +1,4 @@
-#include "lookup/readings/scene_change.h"
+#include "database/records/scene_change.h"
 
 #include <cmath>
 

@@ -1,6 +1,6 @@
 /// @file Oracles: subtraction by hand, the sum of variances.
 
-#include "lookup/readings/scene_change.h"
+#include "database/records/scene_change.h"
 
 #include <catch2/catch.hpp>
 

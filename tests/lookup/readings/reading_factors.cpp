@@ -1,0 +1,78 @@
+/// @file Factors of readings. Oracle: the same sensitivities in memory, from which signals are made anew, and
+/// the products that define them.
+
+#include "lookup/readings/reading_factors.h"
+
+#include <catch2/catch.hpp>
+
+#include "tests/lookup/readings/sampled_site.h"
+
+namespace voussoir {
+namespace {
+
+using namespace test;
+using Eigen::MatrixXd;
+
+std::shared_ptr<const ReadingFactors> factors_of(const Sensitivities& sensitivities,
+                                                 const std::vector<Channel>& channels) {
+  return reading_factors(sensitivities, 0, channels, stored_bridge().layout.size());
+}
+
+MatrixXd across(const LossFactors& loss) {
+  return loss.signal.intact * loss.signal.own.transpose();
+}
+
+/// Of all control points, or of every third.
+std::vector<Channel> channels_at(std::size_t step) {
+  std::vector<Channel> channels;
+  for (std::size_t point = 0; point < stored_bridge().control_points.size(); point += step)
+    channels.push_back({nullptr, point});
+  return channels;
+}
+
+void check_same(const ReadingFactors& stored, const ReadingFactors& made) {
+  CHECK(stored.intact.bridge == made.intact.bridge);
+  CHECK(stored.intact_product.isApprox(made.intact.bridge * made.intact.bridge.transpose(), 1e-14));
+  CHECK(stored.signal_product.isApprox(made.signal_product, 1e-12));
+  int known = 0;
+  for (std::size_t block = 0; block < stored.blocks.size(); ++block) {
+    const LossFactors &one = stored.blocks[block], &other = made.blocks[block];
+    REQUIRE(one.known() == other.known());
+    if (!one.known()) continue;
+    ++known;
+    REQUIRE(one.lead == other.lead);
+    REQUIRE(one.epoch == other.epoch);
+    REQUIRE(one.signal.own.cols() <= std::max(one.lead.cols(), one.signal.own.rows()));
+    REQUIRE(product_with_itself(one.signal.own).isApprox(product_with_itself(other.signal.own), 1e-12));
+    REQUIRE(across(one).isApprox(across(other), 1e-9));
+  }
+  CHECK(known == 38);
+}
+
+}  // namespace
+
+TEST_CASE("Factors of readings are the same whether their signals stand in the file or are made anew") {
+  const Sensitivities made = first_order_of_stored_bridge();
+  const Site site({.difference = scattered, .first_order = made});
+  const Sensitivities& stored = *site.database().sensitivities();
+  REQUIRE(stored.signals);
+  REQUIRE_FALSE(made.signals);
+  for (const std::size_t step : {1, 3}) {
+    const auto channels = channels_at(step);
+    check_same(*factors_of(stored, channels), *factors_of(made, channels));
+  }
+}
+
+TEST_CASE("Stored signals are of single states: where loads are read they are made anew") {
+  const Sensitivities made = first_order_of_stored_bridge();
+  const Site site({.difference = scattered, .first_order = made});
+  auto channels = channels_at(2);
+  channels[1].loaded = 1;
+  check_same(*factors_of(*site.database().sensitivities(), channels), *factors_of(made, channels));
+  const auto factors = factors_of(made, channels);
+  const MatrixXd unloaded = made.find(0, {})->bridge, loaded = made.find(1, {})->bridge;
+  CHECK(factors->intact.bridge.row(0) == unloaded.row(0));
+  CHECK(factors->intact.bridge.row(1) == loaded.row(2) - unloaded.row(2));
+}
+
+}  // namespace voussoir
