@@ -5,6 +5,8 @@
 #include <cmath>
 #include <optional>
 
+#include "lookup/evidence/column_products.h"
+
 namespace voussoir {
 namespace {
 
@@ -55,6 +57,15 @@ SceneGaussian scene_gaussian(const UnknownBridge& bridge, const Observation& obs
   scene.epoch = bridge.conditions * epoch_columns(bridge, scene.loss);
   scene.noise = scene_noise(bridge, scene.loss);
   return scene;
+}
+
+/// Its lower triangle; nothing reads the other.
+MatrixXd matrix_of(const LowerTriangle& lower, Index rows) {
+  MatrixXd matrix = MatrixXd::Zero(rows, rows);
+  const double* from = lower.data();
+  for (Index i = 0; i < rows; ++i)
+    for (Index j = 0; j <= i; ++j) matrix(i, j) = *from++;
+  return matrix;
 }
 
 /// What all others let expect of reading i is off by (C^-1 r)_i / (C^-1)_ii, which has the variance
@@ -116,7 +127,7 @@ BridgePosterior bridge_posterior(const UnknownBridge& bridge, const Observation&
       continue;
     const SceneGaussian scene = scene_gaussian(bridge, observation, table, rows[i]);
     if (i == 0) likeliest = scene;
-    const MatrixXd scatter = scene.bridge * scene.bridge.transpose();
+    const MatrixXd scatter = matrix_of(outer_product(scene.bridge), scene.bridge.rows());
     for (const Part& part : parts) {
       if (part.scene != i) continue;
       add_part(scene, scatter, kScatterFactors[part.kappa], part.weight, result);

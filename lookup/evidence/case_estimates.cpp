@@ -16,6 +16,15 @@ double usable(double estimate) {
   return std::isnan(estimate) ? std::numeric_limits<double>::infinity() : estimate;
 }
 
+/// Calls work(block) for blocks of all places, on all threads.
+template <class Work>
+void for_blocks(std::span<const std::size_t> places, Work work) {
+  constexpr std::size_t kPlaces = 128;  // of which those that matter still fill lanes
+  const auto blocks = row_blocks(places, kPlaces);
+  const int threads = std::min(hardware_threads(), static_cast<int>(blocks.size()));
+  for_each_index_on_threads(blocks.size(), threads, [&](std::size_t i) { work(blocks[i]); });
+}
+
 /// How much a density rises at most if the covariance becomes that of another case, which is nowhere wider.
 /// Of log det that is as much as for the intact bridge at most, as long as losses widen covariances.
 double highest_rise(const ScatterLogs& from, const ScatterLogs& to) {
@@ -59,28 +68,35 @@ void CaseEstimates::estimate(std::span<const std::size_t> places, double least) 
   const std::size_t end = peaks_.size(), first = end - screen.cases().size();
   const Eigen::MatrixXd rises =
       rises_.middleCols(static_cast<Eigen::Index>(first), static_cast<Eigen::Index>(end - first));
-  for_row_blocks_on_threads(places, [&](std::span<const std::size_t> block) {
-    for (const std::size_t place : block) {
-      const auto logs = std::span(logs_).subspan(place * cases_.size(), end);
-      screen.estimate(rows_[place], least - beforehand_[place], rises, logs);
-      for (double& log : logs.subspan(first)) log = usable(log);
+  for_blocks(places, [&](std::span<const std::size_t> block) {
+    std::vector<ScreenedRow> rows = screened(block, 0, least);
+    screen.estimate(rows, rises, first);
+    for (ScreenedRow& row : rows) {
+      row.logs += first;
+      for (double& log : std::span(row.logs, end - first)) log = usable(log);
     }
+    screen.refine(rows, ScreenDirections::few);
   });
 }
 
 void CaseEstimates::refine(std::span<const std::size_t> places, std::size_t from, ScreenDirections directions,
                            double least) {
-  for_row_blocks_on_threads(places, [&](std::span<const std::size_t> block) {
-    for (const std::size_t place : block) {
-      std::size_t first = 0;
-      for (const UnknownScreen& screen : screens_) {
-        const std::size_t count = screen.cases().size();
-        const auto logs = std::span(logs_).subspan(place * cases_.size() + first, count);
-        if (first >= from) screen.refine(rows_[place], directions, least - beforehand_[place], logs);
-        first += count;
-      }
+  for_blocks(places, [&](std::span<const std::size_t> block) {
+    std::size_t first = 0;
+    for (const UnknownScreen& screen : screens_) {
+      if (first >= from) screen.refine(screened(block, first, least), directions);
+      first += screen.cases().size();
     }
   });
+}
+
+/// With the logarithms of cases from number `first` on.
+std::vector<ScreenedRow> CaseEstimates::screened(std::span<const std::size_t> places, std::size_t first,
+                                                 double least) {
+  std::vector<ScreenedRow> rows;
+  for (const std::size_t place : places)
+    rows.push_back({rows_[place], least - beforehand_[place], logs_.data() + place * cases_.size() + first});
+  return rows;
 }
 
 /// From all cases before it with the same conditions. Wider conditions say nothing: they widen what is not
@@ -93,17 +109,22 @@ void CaseEstimates::add_rises(std::size_t number) {
           highest_rise(peaks_[i], peaks_[number]);
 }
 
-/// Cases that add nothing to the largest are not worth an exponential.
 void CaseEstimates::add_up(std::span<const std::size_t> places) {
+  for_blocks(places, [&](std::span<const std::size_t> block) {
+    for (const std::size_t place : block) sums_[place] = sum_over_cases(place);
+  });
+}
+
+/// Cases that add nothing to the largest are not worth an exponential.
+double CaseEstimates::sum_over_cases(std::size_t place) const {
   constexpr double kNothing = 40.0;
-  for (const std::size_t place : places) {
-    const auto logs = std::span<const double>(logs_).subspan(place * cases_.size(), cases_.size());
-    const double largest = *std::max_element(logs.begin(), logs.end());
-    double sum = 0.0;
-    for (const double log : logs)
-      if (log > largest - kNothing) sum += log == largest ? 1.0 : std::exp(log - largest);
-    sums_[place] = (std::isinf(largest) ? largest : largest + std::log(sum)) + beforehand_[place];
-  }
+  const auto logs = std::span(logs_).subspan(place * cases_.size(), cases_.size());
+  const double largest = *std::max_element(logs.begin(), logs.end());
+  if (std::isinf(largest)) return largest + beforehand_[place];
+  double sum = 0.0;
+  for (const double log : logs)
+    if (log > largest - kNothing) sum += log == largest ? 1.0 : std::exp(log - largest);
+  return largest + std::log(sum) + beforehand_[place];
 }
 
 }  // namespace voussoir

@@ -45,6 +45,8 @@ class CaseEstimates {
   const Eigen::MatrixXd& rises() const { return rises_; }  ///< CasePruning::rise, of cases that have a screen
 
  private:
+  std::vector<ScreenedRow> screened(std::span<const std::size_t> places, std::size_t first, double least);
+  double sum_over_cases(std::size_t place) const;
   void add_rises(std::size_t number);
 
   UnknownBridge& bridge_;

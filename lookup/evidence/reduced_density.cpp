@@ -1,7 +1,7 @@
 #include "lookup/evidence/reduced_density.h"
 
 #include "core/simd/lane_math.h"
-#include "lookup/evidence/scatter_factorisation.h"
+#include "lookup/evidence/reduced_factorisation.h"
 #include "lookup/evidence/scene_evidence.h"
 
 namespace voussoir {
@@ -9,136 +9,171 @@ namespace {
 
 constexpr std::size_t kWidth = kDirections;
 constexpr auto kFirstWidth = static_cast<std::size_t>(kFirstColumns);
-static_assert(kWidth % kLanes == 0 && kFirstDirections % kLanes == 0 && kMoreDirections % kLanes == 0 &&
-              kFirstWidth % kLanes == 0 && kEpochColumns % kLanes == 0);
+static_assert(kFirstWidth % kLanes == 0 && kEpochColumns % kLanes == 0);
 
-template <std::size_t kCount>
-using Losses = std::span<const ReducedLoss* const, kCount>;
+using Scenes = std::span<const ScenePrediction, kLanes>;
 
-/// What no case changes of a scene's Gaussian, in some of the directions.
-struct ReducedScene {
-  double signal[kWidth];
-  double beyond[kWidth];     // of it what is not that of its losses
-  double mean_square = 0.0;  // of that in rows of y; NaN: the scene is impossible
-  double bridge[lower_size(kWidth)], epoch[lower_size(kWidth)], model_error[lower_size(kWidth)];
-  double loose[lower_size(kWidth)];  // what a spread of 1 of the signal beyond its losses adds
-};
-
-/// In the first N directions. Even and odd rows are summed up by themselves, as sums wait for each other.
-template <std::size_t N, std::size_t kCount>
-VOUSSOIR_INLINE void project(const ReducedQuestion& q, const double* prediction, Losses<kCount> losses,
-                             ReducedScene& to) {
-  constexpr std::size_t kParts = N / kLanes;
-  DoubleLanes sums[2][kParts] = {};
-  double squares[2] = {};
-  for (std::size_t first = 0; first < q.rows; first += 2)
-    for (std::size_t k = first; k < smaller(first + 2, q.rows); ++k) {
-      const std::size_t channel = q.channel[k];
-      const double signal = q.after[k] == 0.0 ? 0.0 : q.after[k] * (prediction[channel] - q.intact[channel]);
-      double beyond = signal;
-      for (const ReducedLoss* loss : losses) beyond -= loss->signal_of_rows[k];
-      squares[k - first] += beyond * beyond;
-      for (std::size_t i = 0; i < kParts; ++i)
-        sums[k - first][i] += signal * load<DoubleLanes>(q.directions + k * kWidth + i * kLanes);
-    }
-  for (std::size_t i = 0; i < kParts; ++i)
-    store_some(sums[0][i] + sums[1][i], kLanes, to.signal + i * kLanes);
-  for (std::size_t i = 0; i < N; ++i) {
-    to.beyond[i] = to.signal[i];
-    for (const ReducedLoss* loss : losses) to.beyond[i] -= loss->signal[i];
-  }
-  to.mean_square = (squares[0] + squares[1]) / q.changed;
+/// Numbers of four scenes, one after the other, as lanes.
+VOUSSOIR_INLINE void transpose(DoubleLanes (&rows)[kLanes]) {
+  const DoubleLanes a = __builtin_shufflevector(rows[0], rows[1], 0, 4, 2, 6),
+                    b = __builtin_shufflevector(rows[0], rows[1], 1, 5, 3, 7),
+                    c = __builtin_shufflevector(rows[2], rows[3], 0, 4, 2, 6),
+                    d = __builtin_shufflevector(rows[2], rows[3], 1, 5, 3, 7);
+  rows[0] = __builtin_shufflevector(a, c, 0, 1, 4, 5);
+  rows[1] = __builtin_shufflevector(b, d, 0, 1, 4, 5);
+  rows[2] = __builtin_shufflevector(a, c, 2, 3, 6, 7);
+  rows[3] = __builtin_shufflevector(b, d, 2, 3, 6, 7);
 }
 
-/// The sum of some columns of all losses, in the first N directions.
-template <std::size_t N, std::size_t kColumns, std::size_t kCount, class Columns>
-VOUSSOIR_INLINE void add_up(Losses<kCount> losses, Columns ReducedLoss::*columns, double* sums) {
-  for (std::size_t i = 0; i < N * kColumns; i += kLanes) {
-    DoubleLanes sum{};
-    for (const ReducedLoss* loss : losses) sum += load<DoubleLanes>((loss->*columns).data() + i);
-    store_some(sum, kLanes, sums + i);
+/// What no case changes of the scenes' Gaussians, in some of the directions.
+struct ReducedScenes {
+  DoubleLanes signal[kWidth];
+  DoubleLanes beyond[kWidth];  // of it what is not that of its losses
+  DoubleLanes mean_square;     // of that over the channels read; NaN: the scene is impossible
+  DoubleLanes bridge[lower_size(kWidth)], epoch[lower_size(kWidth)], model_error[lower_size(kWidth)];
+  DoubleLanes loose[lower_size(kWidth)];  // what a spread of 1 of the signal beyond its losses adds
+};
+
+/// Some numbers of each scene's losses, summed up over them.
+template <std::size_t kCount, class Numbers>
+VOUSSOIR_INLINE void add_up(Scenes scenes, std::size_t count, Numbers numbers, DoubleLanes* sums) {
+  for (std::size_t at = 0; at < count; at += kLanes) {
+    DoubleLanes rows[kLanes];
+    for (std::size_t k = 0; k < kLanes; ++k) {
+      rows[k] = numbers(*scenes[k].losses[0], at);
+      for (std::size_t l = 1; l < kCount; ++l) rows[k] += numbers(*scenes[k].losses[l], at);
+    }
+    transpose(rows);
+    for (std::size_t k = 0; k < kLanes; ++k) sums[at + k] = rows[k];
   }
+}
+
+/// Signals by channel, and the mean square of what they are beyond those of the losses.
+template <std::size_t kCount>
+VOUSSOIR_INLINE void subtract_intact(const ReducedQuestion& q, Scenes scenes, DoubleLanes* signals,
+                                     ReducedScenes& to) {
+  DoubleLanes squares[kLanes] = {};
+  for (std::size_t at = 0; at < q.points_of_rows; at += kLanes) {
+    const std::size_t count = smaller(kLanes, q.points_of_rows - at);
+    const DoubleLanes intact = load<DoubleLanes>(q.intact + at), is_read = load<DoubleLanes>(q.is_read + at);
+    DoubleLanes rows[kLanes];
+    for (std::size_t k = 0; k < kLanes; ++k) {
+      const DoubleLanes shown = load_some<DoubleLanes>(scenes[k].prediction + at, count, 0.0);
+      rows[k] = is_read > 0.0 ? shown - intact : DoubleLanes{};
+      DoubleLanes beyond = rows[k];
+      for (std::size_t l = 0; l < kCount; ++l)
+        beyond -= load<DoubleLanes>(scenes[k].losses[l]->signal_of_channels.data() + at);
+      squares[k] += beyond * beyond;
+    }
+    transpose(rows);
+    for (std::size_t k = 0; k < kLanes; ++k) signals[at + k] = rows[k];
+  }
+  transpose(squares);
+  to.mean_square = ((squares[0] + squares[1]) + (squares[2] + squares[3])) / q.read;
+}
+
+/// In the first N directions, some at a time, whose sums stay in registers.
+template <std::size_t N, std::size_t kCount>
+VOUSSOIR_INLINE void project(const ReducedQuestion& q, Scenes scenes, DoubleLanes* signals,
+                             ReducedScenes& to) {
+  constexpr std::size_t kTogether = N < 8 ? N : 8;
+  subtract_intact<kCount>(q, scenes, signals, to);
+  for (std::size_t first = 0; first < N; first += kTogether) {
+    DoubleLanes sums[kTogether] = {};
+    for (std::size_t k = 0; k < q.points_of_rows; ++k)
+      for (std::size_t i = 0; i < kTogether; ++i)
+        sums[i] += signals[k] * q.directions[k * kWidth + first + i];
+    for (std::size_t i = 0; i < kTogether; ++i) to.signal[first + i] = sums[i];
+  }
+  const auto signal = [](const ReducedLoss& loss, std::size_t at)
+                          VOUSSOIR_INLINE_WORK { return load<DoubleLanes>(loss.signal.data() + at); };
+  add_up<kCount>(scenes, N, signal, to.beyond);
+  for (std::size_t i = 0; i < N; ++i) to.beyond[i] = to.signal[i] - to.beyond[i];
 }
 
 template <std::size_t kColumns>
-VOUSSOIR_INLINE double product(const double* columns, std::size_t i, std::size_t j) {
-  DoubleLanes sum{};
-  for (std::size_t p = 0; p < kColumns; p += kLanes)
-    sum += load<DoubleLanes>(columns + i * kColumns + p) * load<DoubleLanes>(columns + j * kColumns + p);
-  return sum_of(sum);
+VOUSSOIR_INLINE void add_products(const DoubleLanes* columns, std::size_t rows, DoubleLanes* lower) {
+  for (std::size_t i = 0; i < rows; ++i)
+    for (std::size_t j = 0; j <= i; ++j, ++lower)
+      for (std::size_t p = 0; p < kColumns; ++p)
+        *lower += columns[i * kColumns + p] * columns[j * kColumns + p];
 }
 
 /// The triangles of the first N directions.
 template <std::size_t N, std::size_t kCount>
-VOUSSOIR_INLINE void fill(const ReducedQuestion& q, Losses<kCount> losses, ReducedScene& to) {
-  double first[N * kFirstWidth], epochs[N * kEpochColumns];
-  add_up<N, kFirstWidth>(losses, &ReducedLoss::first, first);
-  add_up<N, kEpochColumns>(losses, &ReducedLoss::epoch, epochs);
-  for (std::size_t at = 0; at < lower_size(N); at += kLanes) {
-    DoubleLanes bridge = load<DoubleLanes>(q.bridge + at), epoch{}, model_error{};
-    for (const ReducedLoss* loss : losses) {
-      const auto add = [&](const ReducedPart& part, DoubleLanes& sum) __attribute__((always_inline)) {
-        sum += load<DoubleLanes>(part.crossed.data() + at) +
-               static_cast<double>(kCount) * load<DoubleLanes>(part.own.data() + at);
-      };
-      add(loss->of_bridge, bridge);
-      add(loss->of_epoch, epoch);
-      model_error += load<DoubleLanes>(loss->model_error.data() + at);
-    }
-    store_some(bridge, kLanes, to.bridge + at);
-    store_some(epoch, kLanes, to.epoch + at);
-    store_some(model_error, kLanes, to.model_error + at);
-  }
+VOUSSOIR_INLINE void fill(const ReducedQuestion& q, Scenes scenes, ReducedScenes& to) {
+  DoubleLanes columns[N * kFirstWidth];
+  const auto part = [](ReducedPart ReducedLoss::*of) VOUSSOIR_INLINE_WORK {
+    return [of](const ReducedLoss& loss, std::size_t at) VOUSSOIR_INLINE_WORK {
+      return load<DoubleLanes>((loss.*of).crossed.data() + at) +
+             static_cast<double>(kCount) * load<DoubleLanes>((loss.*of).own.data() + at);
+    };
+  };
+  constexpr std::size_t kSize = lower_size(N);
+  add_up<kCount>(scenes, kSize, part(&ReducedLoss::of_bridge), to.bridge);
+  for (std::size_t at = 0; at < kSize; ++at) to.bridge[at] += q.bridge[at];
+  add_up<kCount>(
+      scenes, N * kFirstWidth,
+      [](const ReducedLoss& loss, std::size_t at)
+          VOUSSOIR_INLINE_WORK { return load<DoubleLanes>(loss.first.data() + at); },
+      columns);
+  add_products<kFirstWidth>(columns, N, to.bridge);
+  add_up<kCount>(scenes, kSize, part(&ReducedLoss::of_epoch), to.epoch);
+  add_up<kCount>(
+      scenes, N * kEpochColumns,
+      [](const ReducedLoss& loss, std::size_t at)
+          VOUSSOIR_INLINE_WORK { return load<DoubleLanes>(loss.epoch.data() + at); },
+      columns);
+  add_products<kEpochColumns>(columns, N, to.epoch);
+  add_up<kCount>(
+      scenes, kSize,
+      [](const ReducedLoss& loss, std::size_t at)
+          VOUSSOIR_INLINE_WORK { return load<DoubleLanes>(loss.model_error.data() + at); },
+      to.model_error);
+  std::size_t at = 0;
   for (std::size_t i = 0; i < N; ++i)
-    for (std::size_t j = 0; j <= i; ++j) {
-      const std::size_t at = lower_size(i) + j;
-      to.bridge[at] += product<kFirstWidth>(first, i, j);
-      to.epoch[at] += product<kEpochColumns>(epochs, i, j);
+    for (std::size_t j = 0; j <= i; ++j, ++at)
       to.loose[at] = to.beyond[i] * to.beyond[j] + to.mean_square * q.points[at];
-    }
 }
 
 /// What a case adds to kappa A A^T in the first N directions.
 template <std::size_t N>
-VOUSSOIR_INLINE void fill_noise(const ReducedCase& one, const ReducedScene& scene, double* noise) {
-  for (std::size_t at = 0; at < lower_size(N); at += kLanes)
-    store_some(load<DoubleLanes>(one.others.data() + at) +
-                   one.epoch_factor * load<DoubleLanes>(scene.epoch + at) +
-                   one.spread_square * load<DoubleLanes>(scene.loose + at) +
-                   load<DoubleLanes>(scene.model_error + at),
-               kLanes, noise + at);
+VOUSSOIR_INLINE void fill_noise(const ReducedCase& one, const ReducedScenes& scenes, DoubleLanes* noise) {
+  for (std::size_t at = 0; at < lower_size(N); ++at)
+    noise[at] = one.others[at] + one.epoch_factor * scenes.epoch[at] + one.spread_square * scenes.loose[at] +
+                scenes.model_error[at];
 }
 
-/// -(log det + quadratic form) / 2 in the first N directions.
+/// A case's log densities of four scenes in the first N directions, kappa marginalised. Those that do not
+/// matter in any scene are their bounds, the largest of all kappa.
 template <std::size_t N>
-VOUSSOIR_INLINE DoubleLanes log_density(const ReducedQuestion& q, const ReducedCase& one,
-                                        const ReducedScene& scene) {
-  double noise[lower_size(N)], difference[N], pivots[N * kLanes];
-  DoubleLanes factor[lower_size(N) + N], inverse[N];
-  fill_noise<N>(one, scene, noise);
-  for (std::size_t i = 0; i < N; ++i) difference[i] = q.reading[i] - scene.signal[i];
-  const DoubleLanes squares =
-      factorise_inline({N, difference, noise, scene.bridge, load<DoubleLanes>(kScatterFactors.data()), factor,
-                        inverse, pivots});
-  DoubleLanes logs{};
-  for (std::size_t i = 0; i < N; i += kLanes) {
-    DoubleLanes product = load<DoubleLanes>(pivots + i * kLanes);
-    for (std::size_t k = 1; k < kLanes; ++k) product *= load<DoubleLanes>(pivots + (i + k) * kLanes);
-    make_logarithm(product);
-    logs += product;
+VOUSSOIR_INLINE DoubleLanes over_kappa(const ReducedQuestion& q, const ReducedCase& one,
+                                       const ReducedScenes& scenes, const ScatterLogs& outside,
+                                       const DoubleLanes& least) {
+  DoubleLanes noise[lower_size(N)], difference[N], logs[kScatterFactors.size()];
+  fill_noise<N>(one, scenes, noise);
+  for (std::size_t i = 0; i < N; ++i) difference[i] = q.reading[i] - scenes.signal[i];
+  DoubleLanes largest = DoubleLanes{} + kImpossible, sum{};
+  Factorisation<N> factorisation;
+  factorisation.noise = noise;
+  factorisation.bridge = scenes.bridge;
+  for (std::size_t k = 0; k < kScatterFactors.size(); ++k) {
+    factorisation.kappa = kScatterFactors[k];
+    factorisation.factorise();
+    logs[k] = outside[k] - 0.5 * (factorisation.log_determinant + factorisation.square_of(difference));
+    largest = larger(largest, logs[k]);
+    sum += logs[k];
   }
-  return -0.5 * (logs + squares);
-}
-
-template <std::size_t N>
-VOUSSOIR_INLINE double over_kappa(const ReducedQuestion& q, const ReducedCase& one, const ReducedScene& scene,
-                                  const ScatterLogs& outside) {
-  DoubleLanes logs = log_density<N>(q, one, scene) + load<DoubleLanes>(outside.data());
-  const double largest = largest_of(logs);
-  logs -= largest;
-  make_exponential(logs);
-  const double sum = sum_of(logs * load<DoubleLanes>(kScatterPrior.data()));
-  return largest + __builtin_log(sum);
+  largest = sum == sum ? largest : sum;  // NaN stays
+  if (!any(largest >= least)) return largest;
+  sum = DoubleLanes{};
+  for (std::size_t k = 0; k < kScatterFactors.size(); ++k) {
+    logs[k] -= largest;
+    make_exponential(logs[k]);
+    sum += kScatterPrior[k] * logs[k];
+  }
+  make_logarithm(sum);
+  return largest + sum;
 }
 
 /// How much the logarithm of each of `all` cases rises at most to each of the screen's, which come `before`
@@ -157,85 +192,96 @@ VOUSSOIR_INLINE double bound_of(const ReducedCase& one, const double* logs, cons
 }
 
 template <std::size_t kCount>
-VOUSSOIR_INLINE void look(const ReducedQuestion& q, const double* prediction, Losses<kCount> losses,
-                          double least, const Rises& rises, double* logs) {
-  ReducedScene scene;
+VOUSSOIR_INLINE void look(const ReducedQuestion& q, Scenes scenes, const Rises& rises, DoubleLanes* signals) {
+  constexpr auto N = static_cast<std::size_t>(ScreenDirections::first);
+  ReducedScenes reduced;
+  DoubleLanes least{}, bounds{};
   bool is_filled = false;
+  for (std::size_t i = 0; i < kLanes; ++i) least[i] = scenes[i].least;
   for (std::size_t k = 0; k < q.cases.size(); ++k) {
     const ReducedCase& one = q.cases[k];
-    double& log = logs[rises.before + k];
-    log = bound_of(one, logs, rises.of + k * rises.all, rises.before + k);
-    if (log < least) continue;
-    if (!is_filled) {
-      project<kFirstDirections>(q, prediction, losses, scene);
-      fill<kFirstDirections>(q, losses, scene);
+    for (std::size_t i = 0; i < kLanes; ++i)
+      bounds[i] = bound_of(one, scenes[i].logs, rises.of + k * rises.all, rises.before + k);
+    DoubleLanes logs = bounds;
+    if (any(bounds >= least)) {
+      if (!is_filled) project<N, kCount>(q, scenes, signals, reduced), fill<N, kCount>(q, scenes, reduced);
       is_filled = true;
+      logs = over_kappa<N>(q, one, reduced, one.outside.front(), least);
+      logs = reduced.mean_square == reduced.mean_square ? logs : DoubleLanes{} + kImpossible;
+      logs = bounds < least ? bounds : logs;
     }
-    const bool is_possible = scene.mean_square == scene.mean_square;
-    log = is_possible ? over_kappa<kFirstDirections>(q, one, scene, one.outside_few) : kImpossible;
+    for (std::size_t i = 0; i < kLanes; ++i) scenes[i].logs[rises.before + k] = logs[i];
   }
 }
 
 template <std::size_t N, std::size_t kCount>
-VOUSSOIR_INLINE void look_closer(const ReducedQuestion& q, const double* prediction, Losses<kCount> losses,
-                                 double least, ScatterLogs ReducedCase::*outside, double* logs) {
-  ReducedScene scene;
+VOUSSOIR_INLINE void look_closer(const ReducedQuestion& q, Scenes scenes, std::size_t place,
+                                 DoubleLanes* signals) {
+  ReducedScenes reduced;
+  DoubleLanes least{}, before{};
   bool is_filled = false;
+  for (std::size_t i = 0; i < kLanes; ++i) least[i] = scenes[i].least;
   for (std::size_t k = 0; k < q.cases.size(); ++k) {
-    if (logs[k] < least || logs[k] == kImpossible) continue;
-    if (!is_filled) {
-      project<N>(q, prediction, losses, scene);
-      fill<N>(q, losses, scene);
-      is_filled = true;
-    }
-    const double refined = over_kappa<N>(q, q.cases[k], scene, q.cases[k].*outside);
-    logs[k] = smaller(refined, logs[k]);  // NaN changes nothing
+    for (std::size_t i = 0; i < kLanes; ++i) before[i] = scenes[i].logs[k];
+    if (!any((before < least ? DoubleLanes{} + kImpossible : before) != kImpossible)) continue;
+    if (!is_filled) project<N, kCount>(q, scenes, signals, reduced), fill<N, kCount>(q, scenes, reduced);
+    is_filled = true;
+    const DoubleLanes refined = over_kappa<N>(q, q.cases[k], reduced, q.cases[k].outside[place], least);
+    before = refined < before ? refined : before;  // NaN changes nothing
+    for (std::size_t i = 0; i < kLanes; ++i) scenes[i].logs[k] = before[i];
   }
 }
 
 VOUSSOIR_FOR_EVERY_PROCESSOR
-void look_at(const ReducedQuestion& q, const ScenePrediction& scene, double least, const Rises& rises,
-             double* logs) {
-  const auto& losses = scene.losses;
-  if (losses.size() == 1) look<1>(q, scene.prediction, losses.first<1>(), least, rises, logs);
-  if (losses.size() == 2) look<2>(q, scene.prediction, losses.first<2>(), least, rises, logs);
-  if (losses.size() == 3) look<3>(q, scene.prediction, losses.first<3>(), least, rises, logs);
+void look_at(const ReducedQuestion& q, Scenes scenes, std::size_t losses, const Rises& rises,
+             DoubleLanes* signals) {
+  if (losses == 1) look<1>(q, scenes, rises, signals);
+  if (losses == 2) look<2>(q, scenes, rises, signals);
+  if (losses == 3) look<3>(q, scenes, rises, signals);
 }
 
 VOUSSOIR_FOR_EVERY_PROCESSOR
-void look_in_more(const ReducedQuestion& q, const ScenePrediction& scene, double least, double* logs) {
-  constexpr std::size_t N = kMoreDirections;
-  constexpr auto kOutside = &ReducedCase::outside_more;
-  const auto& losses = scene.losses;
-  if (losses.size() == 1) look_closer<N>(q, scene.prediction, losses.first<1>(), least, kOutside, logs);
-  if (losses.size() == 2) look_closer<N>(q, scene.prediction, losses.first<2>(), least, kOutside, logs);
-  if (losses.size() == 3) look_closer<N>(q, scene.prediction, losses.first<3>(), least, kOutside, logs);
+void look_in_few(const ReducedQuestion& q, Scenes scenes, std::size_t losses, DoubleLanes* signals) {
+  if (losses == 1) look_closer<8, 1>(q, scenes, 1, signals);
+  if (losses == 2) look_closer<8, 2>(q, scenes, 1, signals);
+  if (losses == 3) look_closer<8, 3>(q, scenes, 1, signals);
 }
 
 VOUSSOIR_FOR_EVERY_PROCESSOR
-void look_in_all(const ReducedQuestion& q, const ScenePrediction& scene, double least, double* logs) {
-  constexpr auto kOutside = &ReducedCase::outside_all;
-  const auto& losses = scene.losses;
-  if (losses.size() == 1) look_closer<kWidth>(q, scene.prediction, losses.first<1>(), least, kOutside, logs);
-  if (losses.size() == 2) look_closer<kWidth>(q, scene.prediction, losses.first<2>(), least, kOutside, logs);
-  if (losses.size() == 3) look_closer<kWidth>(q, scene.prediction, losses.first<3>(), least, kOutside, logs);
+void look_in_more(const ReducedQuestion& q, Scenes scenes, std::size_t losses, DoubleLanes* signals) {
+  if (losses == 1) look_closer<16, 1>(q, scenes, 2, signals);
+  if (losses == 2) look_closer<16, 2>(q, scenes, 2, signals);
+  if (losses == 3) look_closer<16, 3>(q, scenes, 2, signals);
+}
+
+VOUSSOIR_FOR_EVERY_PROCESSOR
+void look_in_all(const ReducedQuestion& q, Scenes scenes, std::size_t losses, DoubleLanes* signals) {
+  if (losses == 1) look_closer<32, 1>(q, scenes, 3, signals);
+  if (losses == 2) look_closer<32, 2>(q, scenes, 3, signals);
+  if (losses == 3) look_closer<32, 3>(q, scenes, 3, signals);
+}
+
+/// Memory of one thread for signals by channel.
+DoubleLanes* memory_for(std::size_t channels) {
+  thread_local LaneVector signals;
+  signals.resize(std::max(signals.size(), padded(channels)));
+  return registers_of(signals);
 }
 
 }  // namespace
 
-void estimate_log_densities(const ReducedQuestion& question, const ScenePrediction& scene, double least,
-                            const Eigen::MatrixXd& rises, std::span<double> logs) {
-  look_at(question, scene, least,
-          {rises.data(), static_cast<std::size_t>(rises.rows()), logs.size() - question.cases.size()},
-          logs.data());
+void estimate_log_densities(const ReducedQuestion& question, Scenes scenes, std::size_t losses,
+                            const Eigen::MatrixXd& rises, std::size_t before) {
+  look_at(question, scenes, losses, {rises.data(), static_cast<std::size_t>(rises.rows()), before},
+          memory_for(question.points_of_rows));
 }
 
-void refine_log_densities(const ReducedQuestion& question, const ScenePrediction& scene,
-                          ScreenDirections directions, double least, std::span<double> logs) {
-  if (directions == ScreenDirections::more)
-    look_in_more(question, scene, least, logs.data());
-  else
-    look_in_all(question, scene, least, logs.data());
+void refine_log_densities(const ReducedQuestion& question, Scenes scenes, std::size_t losses,
+                          ScreenDirections directions) {
+  DoubleLanes* const signals = memory_for(question.points_of_rows);
+  if (directions == ScreenDirections::few) look_in_few(question, scenes, losses, signals);
+  if (directions == ScreenDirections::more) look_in_more(question, scenes, losses, signals);
+  if (directions == ScreenDirections::all) look_in_all(question, scenes, losses, signals);
 }
 
 }  // namespace voussoir

@@ -1,5 +1,6 @@
 #pragma once
-/// @file The density of one scene's readings in the directions of a screen, in cases that share them.
+/// @file The density of scenes' readings in the directions of a screen, in cases that share them: four scenes
+/// side by side.
 
 #include <array>
 #include <span>
@@ -10,10 +11,12 @@
 
 namespace voussoir {
 
-inline constexpr std::size_t kDirections = 32;
-inline constexpr std::size_t kFirstDirections = 8;  ///< that scenes are looked at in first
-inline constexpr std::size_t kMoreDirections = 16;  ///< where that leaves them likely enough
-inline constexpr std::size_t kEpochColumns = 4;     ///< combinations of an epoch's parameters, the leading
+/// How many of the directions are looked at.
+enum class ScreenDirections : std::size_t { first = 4, few = 8, more = 16, all = 32 };
+inline constexpr std::array kScreenDirections = {ScreenDirections::first, ScreenDirections::few,
+                                                 ScreenDirections::more, ScreenDirections::all};
+inline constexpr auto kDirections = static_cast<std::size_t>(ScreenDirections::all);
+inline constexpr std::size_t kEpochColumns = 4;  ///< combinations of an epoch's parameters, the leading
 
 using DirectionVector = std::array<double, kDirections>;
 using DirectionTriangle = std::array<double, lower_size(kDirections)>;
@@ -32,7 +35,7 @@ struct ReducedLoss {
   std::array<double, kDirections * kEpochColumns> epoch{};  ///< of E, conditions being as the file states
   ReducedPart of_bridge, of_epoch;
   DirectionTriangle model_error{};
-  const double* signal_of_rows = nullptr;  ///< in rows of y
+  std::vector<double> signal_of_channels;  ///< ReducedQuestion::channels many, zero where there is no reading
 };
 
 /// What a case makes of the intact bridge in the directions.
@@ -40,8 +43,8 @@ struct ReducedCase {
   double epoch_factor = 0.0;   ///< of E E^T
   double spread_square = 0.0;  ///< of what a signal is beyond that of its losses
   DirectionTriangle others{};  ///< all but A A^T
-  /// Logarithm of the density of what lies not in the first few, in more, in all directions, by kappa.
-  ScatterLogs outside_few{}, outside_more{}, outside_all{};
+  /// Logarithm of the density of what lies not in the directions, by kappa, for each of kScreenDirections.
+  std::array<ScatterLogs, kScreenDirections.size()> outside{};
   /// log density of readings that the intact bridge would show exactly: the most that any scene can have that
   /// widens its covariance.
   ScatterLogs peaks{};
@@ -53,33 +56,32 @@ struct ReducedQuestion {
   const double *reading, *points,
       *bridge;  ///< in the directions; points: a unit variance at each changed row
   std::span<const ReducedCase> cases;
-  // What rows of y are made of: channel, weight and, for each, its numbers in all directions.
-  std::size_t rows;
-  const std::size_t* channel;
-  const double *after, *intact, *directions;
-  double changed;  ///< rows of the second epoch
+  // Channels, filled up for lanes: what the intact bridge shows, 1 where there is a reading (else 0), and
+  // for each its numbers in all directions.
+  std::size_t points_of_rows;  ///< channels of a table's row
+  const double *intact, *is_read, *directions;
+  double read;  ///< channels with a reading
 };
 
 /// A scene: its row of the table, and its known losses, of which there is at least one, which may be that of
-/// nothing.
+/// nothing; densities below `least` do not matter.
 struct ScenePrediction {
   const double* prediction;
-  std::span<const ReducedLoss* const> losses;
+  std::array<const ReducedLoss*, kMostLosses> losses;
+  double least;
+  double* logs;  ///< log p(readings | scene, case), kappa marginalised, of all cases looked at so far
 };
 
-/// How many of the directions are looked at beyond the first few.
-enum class ScreenDirections { more, all };
+/// Of kLanes scenes with so many losses, in the first directions; -infinity if a scene is impossible. `logs`
+/// begin with those of the cases before the question's, `before` many; column k of `rises`, which has as many
+/// rows as there are cases in all, says how much those can rise to the question's case k. Where that leaves
+/// less than what matters, the bound is what is given.
+void estimate_log_densities(const ReducedQuestion& question, std::span<const ScenePrediction, kLanes> scenes,
+                            std::size_t losses, const Eigen::MatrixXd& rises, std::size_t before);
 
-/// log p(readings | scene, case), kappa marginalised, in kFirstDirections; -infinity if the scene is
-/// impossible. `logs` begins with those of the cases before the question's; column k of `rises`, which has as
-/// many rows as there are cases in all, says how much those can rise to the question's case k. Where that
-/// leaves less than `least`, the bound is what is given.
-void estimate_log_densities(const ReducedQuestion& question, const ScenePrediction& scene, double least,
-                            const Eigen::MatrixXd& rises, std::span<double> logs);
-
-/// The same in more directions, of those of the question's cases whose logarithms are at least `least`; none
-/// becomes larger.
-void refine_log_densities(const ReducedQuestion& question, const ScenePrediction& scene,
-                          ScreenDirections directions, double least, std::span<double> logs);
+/// The same in more directions, in the question's cases (`logs` begin with these) where a logarithm matters;
+/// none becomes larger.
+void refine_log_densities(const ReducedQuestion& question, std::span<const ScenePrediction, kLanes> scenes,
+                          std::size_t losses, ScreenDirections directions);
 
 }  // namespace voussoir

@@ -5,38 +5,68 @@
 #include <numbers>
 
 #include "core/simd/lane_math.h"
+#include "core/simd/wide_lanes.h"
 #include "lookup/evidence/scatter_factorisation.h"
 
 namespace voussoir {
 namespace {
 
-constexpr std::size_t kTogether = 4;  // columns whose sums are in registers at a time
+static_assert(kScatterFactors.size() == kLanes, "one lane for each");
 
-/// The sum of squares of L^-1 times the difference.
-VOUSSOIR_FOR_EVERY_PROCESSOR
-void factorise(const ScatterFactorisation& f, double* squares) {
-  store_some(factorise_inline(f), kLanes, squares);
-}
+/// What a density is made of, and where its lanes are worked out.
+template <class Lanes>
+struct Density {
+  std::size_t n;
+  const double *difference, *bridge;
+  std::array<const double*, 2> noise;
+  ScatterFactorisation<Lanes> factorisation;
 
-/// The lower triangle of A B^T.
-VOUSSOIR_FOR_EVERY_PROCESSOR
-void add_lower(const double* a, const double* b, std::size_t rows, std::size_t width, double* sum) {
-  for (std::size_t i = 0; i < rows; ++i) {
-    const double* const own = a + i * width;
-    double* const to = sum + lower_size(i);
-    for (std::size_t j = 0; j <= i; j += kTogether) {
-      const std::size_t last = i;  // rows beyond the diagonal are worked out once more and dropped
-      DoubleLanes sums[kTogether] = {};
-      const double* const others[kTogether] = {b + j * width, b + smaller(j + 1, last) * width,
-                                               b + smaller(j + 2, last) * width,
-                                               b + smaller(j + 3, last) * width};
-      for (std::size_t p = 0; p < width; p += kLanes) {
-        const DoubleLanes some = load<DoubleLanes>(own + p);
-        for (std::size_t k = 0; k < kTogether; ++k) sums[k] += some * load<DoubleLanes>(others[k] + p);
-      }
-      for (std::size_t k = 0; k < kTogether && j + k <= i; ++k) to[j + k] += sum_of(sums[k]);
+  VOUSSOIR_INLINE Lanes kappa() const {
+    Lanes result;
+    for (std::size_t k = 0; k < sizeof(Lanes) / sizeof(double); ++k) result[k] = kScatterFactors[k % kLanes];
+    return result;
+  }
+  VOUSSOIR_INLINE Lanes noise_at(std::size_t at) const {
+    if constexpr (sizeof(Lanes) == sizeof(DoubleLanes)) {
+      return Lanes{} + noise[0][at];
+    } else {
+      const Lanes one = Lanes{} + noise[0][at], two = Lanes{} + noise[1][at];
+      return __builtin_shufflevector(one, two, 0, 1, 2, 3, 8, 9, 10, 11);
     }
   }
+
+  /// The matrix, filled up with rows of the identity, and the difference as its last row: what is left there
+  /// of the diagonal is the quadratic form, but for its sign.
+  VOUSSOIR_INLINE void fill() const {
+    const Lanes factors = kappa();
+    Lanes* to = factorisation.lower;
+    for (std::size_t at = 0; at < lower_size(n); ++at, ++to) *to = noise_at(at) + factors * bridge[at];
+    const std::size_t last = factorisation.n - 1;
+    for (std::size_t i = n; i <= last; ++i)
+      for (std::size_t j = 0; j <= i; ++j, ++to) *to = Lanes{} + (i < last && i == j ? 1.0 : 0.0);
+    for (std::size_t j = 0; j < n; ++j) factorisation.row(last)[j] += difference[j];
+  }
+};
+
+VOUSSOIR_FOR_EVERY_PROCESSOR
+void work_out(const Density<DoubleLanes>& density) {
+  density.fill();
+  density.factorisation.factorise();
+}
+
+VOUSSOIR_WIDE void work_out_wide(const Density<WideLanes>& density) {
+  density.fill();
+  density.factorisation.factorise();
+}
+
+/// From the pivots of so many lanes.
+ScatterLogs logs_of(const double* pivots, std::size_t lanes, std::size_t n, std::size_t last) {
+  ScatterLogs logs;
+  logs.fill(static_cast<double>(n) * std::log(2.0 * std::numbers::pi));
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t k = 0; k < kLanes; ++k) logs[k] += pivots[i * lanes + k];
+  for (std::size_t k = 0; k < kLanes; ++k) logs[k] = -0.5 * (logs[k] - pivots[last * lanes + k]);
+  return logs;
 }
 
 }  // namespace
@@ -49,35 +79,34 @@ LowerTriangle lower_of(const Eigen::MatrixXd& matrix) {
   return lower;
 }
 
-void add_outer_product(const std::vector<double>& a, std::size_t rows, LowerTriangle& sum) {
-  if (rows > 0) add_lower(a.data(), a.data(), rows, a.size() / rows, sum.data());
-}
-
-void add_symmetric_product(const std::vector<double>& a, const std::vector<double>& b, std::size_t rows,
-                           LowerTriangle& sum) {
-  if (rows == 0) return;
-  add_lower(a.data(), b.data(), rows, a.size() / rows, sum.data());
-  add_lower(b.data(), a.data(), rows, a.size() / rows, sum.data());
+template <class Lanes, class Work>
+std::array<ScatterLogs, 2> ScatterDensity::work_out_with(Work work, const std::vector<double>& difference,
+                                                         std::array<const double*, 2> noise,
+                                                         const LowerTriangle& bridge) {
+  constexpr std::size_t kWidth = sizeof(Lanes) / sizeof(double);
+  const std::size_t n = difference.size(), all = padded(n + 1);
+  memory_.resize(lower_size(all) + 2 * all);
+  Lanes* const lower = reinterpret_cast<Lanes*>(memory_.data());
+  Lanes *const inverse = lower + lower_size(all), *const pivots = inverse + all;
+  work({n, difference.data(), bridge.data(), noise, {all, lower, inverse, pivots}});
+  double* const numbers = reinterpret_cast<double*>(pivots);
+  make_logarithms(std::span(numbers, n * kWidth));
+  std::array<ScatterLogs, 2> logs{};
+  for (std::size_t k = 0; k < kWidth / kLanes; ++k)
+    logs[k] = logs_of(numbers + k * kLanes, kWidth, n, all - 1);
+  return logs;
 }
 
 ScatterLogs ScatterDensity::operator()(const std::vector<double>& difference, const LowerTriangle& noise,
                                        const LowerTriangle& bridge) {
-  const std::size_t n = difference.size();
-  factor_.resize(lower_size(n) + n);
-  inverse_.resize(n);
-  pivots_.resize(n * kLanes);
-  std::array<double, kLanes> squares{};
-  factorise({n, difference.data(), noise.data(), bridge.data(), load<DoubleLanes>(kScatterFactors.data()),
-             registers_of(factor_), registers_of(inverse_), pivots_.data()},
-            squares.data());
-  make_logarithms(pivots_);
-  ScatterLogs logs{};
-  for (std::size_t k = 0; k < logs.size(); ++k) {
-    double sum = static_cast<double>(n) * std::log(2.0 * std::numbers::pi);
-    for (std::size_t i = 0; i < n; ++i) sum += pivots_[i * kLanes + k];
-    logs[k] = -0.5 * (sum + squares[k]);
-  }
-  return logs;
+  return work_out_with<DoubleLanes>(work_out, difference, {noise.data(), nullptr}, bridge)[0];
+}
+
+std::array<ScatterLogs, 2> ScatterDensity::operator()(const std::vector<double>& difference,
+                                                      const LowerTriangle& noise, const LowerTriangle& other,
+                                                      const LowerTriangle& bridge) {
+  if (!has_wide_registers()) return {(*this)(difference, noise, bridge), (*this)(difference, other, bridge)};
+  return work_out_with<WideLanes>(work_out_wide, difference, {noise.data(), other.data()}, bridge);
 }
 
 double over_scatter(const ScatterLogs& logs) {

@@ -28,25 +28,24 @@ constexpr std::size_t padded(std::size_t columns) {
   return (columns + kLanes - 1) / kLanes * kLanes;
 }
 
-/// Adds A A^T to a lower triangle. A: so many rows of padded(columns) numbers, one after the other.
-void add_outer_product(const std::vector<double>& a, std::size_t rows, LowerTriangle& sum);
-
-/// Adds A B^T + B A^T of two of the same shape.
-void add_symmetric_product(const std::vector<double>& a, const std::vector<double>& b, std::size_t rows,
-                           LowerTriangle& sum);
-
-/// Factorises noise + kappa * bridge for all kScatterFactors side by side. Keeps its memory for the next
-/// call.
+/// The density of one difference under noise + kappa * bridge for all kScatterFactors side by side, and for
+/// two noises where the processor's registers hold them. Keeps its memory for the next call.
 class ScatterDensity {
  public:
   /// log N(difference; 0, noise + kappa bridge) for each kappa; NaN where that is not positive definite.
   ScatterLogs operator()(const std::vector<double>& difference, const LowerTriangle& noise,
                          const LowerTriangle& bridge);
 
+  /// The same, number by number, for each of two noises.
+  std::array<ScatterLogs, 2> operator()(const std::vector<double>& difference, const LowerTriangle& noise,
+                                        const LowerTriangle& other, const LowerTriangle& bridge);
+
  private:
-  LaneVector factor_;  // lower triangle, and the difference as one more row
-  LaneVector inverse_;
-  std::vector<double> pivots_;
+  template <class Lanes, class Work>
+  std::array<ScatterLogs, 2> work_out_with(Work work, const std::vector<double>& difference,
+                                           std::array<const double*, 2> noise, const LowerTriangle& bridge);
+
+  std::vector<Cell<LanesOf<double, 2 * kLanes>::Type>> memory_;  // for the widest registers
 };
 
 /// log of the mean over kappa with the weights kScatterPrior.

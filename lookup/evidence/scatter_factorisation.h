@@ -1,80 +1,92 @@
 #pragma once
-/// @file The factorisation of noise + kappa * bridge = L L^T for all kScatterFactors side by side: four
-/// columns of a row at a time, whose sums stay in registers.
+/// @file Cholesky's factorisation L L^T of several symmetric matrices side by side, one in each lane, four
+/// columns at a time: they stay in the cache while all rows below them are worked out, whose sums stay in
+/// registers.
 
 #include "core/simd/lanes.h"
 #include "lookup/evidence/scatter_density.h"
 
 namespace voussoir {
 
-static_assert(kScatterFactors.size() == kLanes, "one lane for each");
-
+template <class Lanes>
 struct ScatterFactorisation {
-  std::size_t n;
-  const double *difference, *noise, *bridge;
-  DoubleLanes kappa;
-  DoubleLanes *factor, *inverse;  // lower triangle and the row of the difference; of its diagonal
-  double* pivots;                 // n lanes
+  static constexpr std::size_t kTogether = 4;
+  std::size_t n;   // a multiple of kTogether
+  Lanes* lower;    // the matrix, then L
+  Lanes* inverse;  // of the diagonal of L
+  Lanes* pivots;   // its squares
 
-  VOUSSOIR_INLINE DoubleLanes entry(std::size_t i, std::size_t j) const {
-    if (i == n) return DoubleLanes{} + difference[j];
-    const std::size_t at = lower_size(i) + j;
-    return noise[at] + kappa * bridge[at];
+  VOUSSOIR_INLINE Lanes* row(std::size_t i) const { return lower + lower_size(i); }
+
+  VOUSSOIR_INLINE static Lanes root(const Lanes& a) {
+    Lanes result;
+    for (std::size_t i = 0; i < sizeof(Lanes) / sizeof(DoubleLanes); ++i)
+      store_part(square_root(load<DoubleLanes>(reinterpret_cast<const double*>(&a) + i * kLanes)), i, result);
+    return result;
   }
-  VOUSSOIR_INLINE DoubleLanes* row(std::size_t i) const { return factor + lower_size(i); }
+  VOUSSOIR_INLINE static void store_part(const DoubleLanes& part, std::size_t i, Lanes& to) {
+    store_some(part, kLanes, reinterpret_cast<double*>(&to) + i * kLanes);
+  }
+
+  /// Columns j to j + 3 of the rows j to j + 3.
+  VOUSSOIR_INLINE void factorise_block(std::size_t first) const {
+    Lanes sums[kTogether][kTogether];
+    for (std::size_t i = 0; i < kTogether; ++i)
+      for (std::size_t j = 0; j <= i; ++j) sums[i][j] = row(first + i)[first + j];
+    for (std::size_t p = 0; p < first; ++p)
+      for (std::size_t i = 0; i < kTogether; ++i)
+        for (std::size_t j = 0; j <= i; ++j) sums[i][j] -= row(first + i)[p] * row(first + j)[p];
+    for (std::size_t j = 0; j < kTogether; ++j) {
+      pivots[first + j] = sums[j][j];
+      inverse[first + j] = 1.0 / root(sums[j][j]);
+      for (std::size_t i = j; i < kTogether; ++i) sums[i][j] *= inverse[first + j];
+      for (std::size_t i = j + 1; i < kTogether; ++i)
+        for (std::size_t k = j + 1; k <= i; ++k) sums[i][k] -= sums[i][j] * sums[k][j];
+    }
+    for (std::size_t i = 0; i < kTogether; ++i)
+      for (std::size_t j = 0; j <= i; ++j) row(first + i)[first + j] = sums[i][j];
+  }
+
+  /// What the columns owe each other, in one row.
+  VOUSSOIR_INLINE void finish(Lanes* to, std::size_t j, Lanes s0, Lanes s1, Lanes s2, Lanes s3) const {
+    const Lanes *const r1 = row(j + 1) + j, *const r2 = row(j + 2) + j, *const r3 = row(j + 3) + j;
+    s0 *= inverse[j];
+    s1 = (s1 - s0 * r1[0]) * inverse[j + 1];
+    s2 = (s2 - s0 * r2[0] - s1 * r2[1]) * inverse[j + 2];
+    s3 = (s3 - s0 * r3[0] - s1 * r3[1] - s2 * r3[2]) * inverse[j + 3];
+    to[j] = s0;
+    to[j + 1] = s1;
+    to[j + 2] = s2;
+    to[j + 3] = s3;
+  }
+
+  /// Columns j to j + 3 of rows i and i + 1.
+  VOUSSOIR_INLINE void factorise_two_rows(std::size_t i, std::size_t j) const {
+    Lanes *const one = row(i), *const two = row(i + 1);
+    const Lanes *const r0 = row(j), *const r1 = row(j + 1), *const r2 = row(j + 2), *const r3 = row(j + 3);
+    Lanes s0 = one[j], s1 = one[j + 1], s2 = one[j + 2], s3 = one[j + 3];
+    Lanes t0 = two[j], t1 = two[j + 1], t2 = two[j + 2], t3 = two[j + 3];
+    for (std::size_t p = 0; p < j; ++p) {
+      const Lanes a = one[p], b = two[p];
+      s0 -= a * r0[p];
+      s1 -= a * r1[p];
+      s2 -= a * r2[p];
+      s3 -= a * r3[p];
+      t0 -= b * r0[p];
+      t1 -= b * r1[p];
+      t2 -= b * r2[p];
+      t3 -= b * r3[p];
+    }
+    finish(one, j, s0, s1, s2, s3);
+    finish(two, j, t0, t1, t2, t3);
+  }
+
+  VOUSSOIR_INLINE void factorise() const {
+    for (std::size_t j = 0; j < n; j += kTogether) {
+      factorise_block(j);
+      for (std::size_t i = j + kTogether; i < n; i += 2) factorise_two_rows(i, j);
+    }
+  }
 };
-
-/// Entries j to j + 3 of row i: sums over what stands before them, then what they owe each other.
-VOUSSOIR_INLINE void four_columns(const ScatterFactorisation& f, std::size_t i, std::size_t j) {
-  DoubleLanes* const to = f.row(i);
-  const DoubleLanes *const r0 = f.row(j), *const r1 = f.row(j + 1), *const r2 = f.row(j + 2),
-                           *const r3 = f.row(j + 3);
-  DoubleLanes s0 = f.entry(i, j), s1 = f.entry(i, j + 1), s2 = f.entry(i, j + 2), s3 = f.entry(i, j + 3);
-  for (std::size_t p = 0; p < j; ++p) {
-    const DoubleLanes own = to[p];
-    s0 -= own * r0[p];
-    s1 -= own * r1[p];
-    s2 -= own * r2[p];
-    s3 -= own * r3[p];
-  }
-  s0 *= f.inverse[j];
-  s1 = (s1 - s0 * r1[j]) * f.inverse[j + 1];
-  s2 = (s2 - s0 * r2[j] - s1 * r2[j + 1]) * f.inverse[j + 2];
-  s3 = (s3 - s0 * r3[j] - s1 * r3[j + 1] - s2 * r3[j + 2]) * f.inverse[j + 3];
-  to[j] = s0;
-  to[j + 1] = s1;
-  to[j + 2] = s2;
-  to[j + 3] = s3;
-}
-
-/// Row i left of its diagonal; what it leaves of the diagonal's entry is returned.
-VOUSSOIR_INLINE DoubleLanes factorise_row(const ScatterFactorisation& f, std::size_t i) {
-  DoubleLanes* const to = f.row(i);
-  std::size_t j = 0;
-  for (; j + 4 <= i; j += 4) four_columns(f, i, j);
-  for (; j < i; ++j) {
-    DoubleLanes sum = f.entry(i, j);
-    for (std::size_t p = 0; p < j; ++p) sum -= to[p] * f.row(j)[p];
-    to[j] = sum * f.inverse[j];
-  }
-  DoubleLanes squares{}, others{};
-  for (std::size_t p = 0; p + 1 < i; p += 2) {
-    squares += to[p] * to[p];
-    others += to[p + 1] * to[p + 1];
-  }
-  if (i % 2 == 1) squares += to[i - 1] * to[i - 1];
-  return squares + others;
-}
-
-/// The sum of squares of L^-1 times the difference.
-VOUSSOIR_INLINE DoubleLanes factorise_inline(const ScatterFactorisation& f) {
-  for (std::size_t i = 0; i < f.n; ++i) {
-    const DoubleLanes pivot = f.entry(i, i) - factorise_row(f, i);
-    store_some(pivot, kLanes, f.pivots + kLanes * i);
-    f.inverse[i] = 1.0 / square_root(pivot);
-    f.row(i)[i] = pivot * f.inverse[i];
-  }
-  return factorise_row(f, f.n);
-}
 
 }  // namespace voussoir

@@ -99,6 +99,7 @@ void ScreenedCases::look_at_many(std::size_t first) {
   for (const std::size_t place : many_)
     if (!(estimates_.sums()[place] < least)) places.push_back(place);
   estimates_.refine(places, first, ScreenDirections::more, least);
+  estimates_.add_up(places);
 }
 
 /// Places in the order of estimates, the intact bridge first: its estimate is right but for what lies in no
@@ -188,7 +189,6 @@ void ScreenedCases::look_at_cases() {
   work_out(nearest_singles(), [](std::size_t, std::size_t) { return true; });
   while (estimates_.looked_at() < terms_.size()) look_at_level();
   estimates_.add_up(few_);
-  estimates_.add_up(many_);
 }
 
 /// How far sums of estimates are too high, of scenes that are worked out.
@@ -236,8 +236,10 @@ void ScreenedCases::refine_likely(std::size_t count) {
 double ScreenedCases::work_out_likely(std::size_t count) {
   const std::vector<std::size_t> order = most_likely(count);
   const std::vector<double> left = left_behind(order);
+  std::vector<std::size_t> tried;
   for (std::size_t place = 0; place < rows_.size(); ++place)
-    if (!exact_[place].empty()) work_out_where_likely({&place, 1});  // was tried
+    if (!exact_[place].empty()) tried.push_back(place);
+  work_out_where_likely(tried);
   double shift = 0.0;
   std::size_t likely = 0;
   for (std::size_t first = 0; first < order.size(); first += kAtOnce) {

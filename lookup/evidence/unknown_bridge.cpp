@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace voussoir {
@@ -52,12 +53,14 @@ double instrument_variance(const Observation& observation, std::size_t channel, 
 }
 
 /// Each of two epochs has half the change's variance, and the first one's error is in the change.
-void add_instruments(const UnknownBridge& bridge, const Observation& observation, double level,
-                     MatrixXd& noise) {
+void add_instruments(const Observation& observation, double level, UnknownBridge& bridge) {
+  MatrixXd& noise = bridge.noise;
+  bridge.least_variance = std::numeric_limits<double>::infinity();
   for (std::size_t k = 0; k < bridge.rows.size(); ++k) {
     const double variance = instrument_variance(observation, bridge.rows[k].channel, level);
     const auto at = static_cast<Index>(k);
     noise(at, at) += (bridge.rows[k].after == 0.0 ? 0.5 : 1.0) * variance;
+    bridge.least_variance = std::min(bridge.least_variance, 0.5 * variance);
     if (bridge.rows[k].after != 0.0) continue;
     const auto change = at + noise.rows() / 2;  // the same channels in the same order
     noise(at, change) -= 0.5 * variance;
@@ -111,13 +114,20 @@ VectorXd signal_of(const UnknownBridge& bridge, const Observation& observation,
   return signal;
 }
 
+/// Column by column, as they lie in memory.
+VectorXd squares_of_rows(const MatrixXd& matrix) {
+  VectorXd sums = VectorXd::Zero(matrix.rows());
+  for (Index j = 0; j < matrix.cols(); ++j) sums += matrix.col(j).cwiseAbs2();
+  return sums;
+}
+
 /// The loss of what stands in a row of the table.
 Loss loss_of(const UnknownBridge& bridge, const Observation& observation, const LossFactors& factors,
              std::span<const double> prediction) {
   Loss loss{&factors, signal_of(bridge, observation, prediction)};
   if (!factors.known()) return loss;
-  const VectorXd of_bridge = factors.signal.own.cwiseAbs2().rowwise().sum();
-  const VectorXd of_epoch = factors.epoch.cwiseAbs2().rowwise().sum();
+  const VectorXd of_bridge = squares_of_rows(factors.signal.own);
+  const VectorXd of_epoch = squares_of_rows(factors.epoch);
   for (const ReadingRow& row : bridge.rows) {
     const auto channel = static_cast<Index>(row.channel);
     loss.bridge_variance += row.after * row.after * of_bridge[channel];
@@ -180,17 +190,19 @@ void set_case(const Observation& observation, const UnknownCase& one, UnknownBri
   bridge.conditions = one.conditions;
   const double left = one.conditions * std::max(1.0, kHeavyTails * one.conditions);
   bridge.noise = bridge.fixed_noise + left * left * bridge.epoch_noise;
-  add_instruments(bridge, observation, one.level, bridge.noise);
+  add_instruments(observation, one.level, bridge);
   bridge.spread = typical_spread(bridge);
 }
 
+/// Column by column, as they lie in memory.
 MatrixXd in_rows(const std::vector<ReadingRow>& rows, const MatrixXd& before, const MatrixXd& after) {
   MatrixXd result(static_cast<Index>(rows.size()), after.cols());
-  for (std::size_t k = 0; k < rows.size(); ++k) {
-    const auto channel = static_cast<Index>(rows[k].channel);
-    result.row(static_cast<Index>(k)) =
-        rows[k].before * before.row(channel) + rows[k].after * after.row(channel);
-  }
+  for (Index j = 0; j < after.cols(); ++j)
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+      const auto channel = static_cast<Index>(rows[k].channel);
+      result(static_cast<Index>(k), j) =
+          rows[k].before * before(channel, j) + rows[k].after * after(channel, j);
+    }
   return result;
 }
 

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "core/threads.h"
+#include "lookup/evidence/column_products.h"
 #include "lookup/evidence/scene_evidence.h"
 
 namespace voussoir {
@@ -12,28 +13,37 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-/// Row by row, filled up for lanes.
-void store_rows(const MatrixXd& matrix, std::vector<double>& rows) {
-  const std::size_t width = padded(static_cast<std::size_t>(matrix.cols()));
-  rows.assign(static_cast<std::size_t>(matrix.rows()) * width, 0.0);
-  for (Index j = 0; j < matrix.cols(); ++j)
-    for (Index i = 0; i < matrix.rows(); ++i)
-      rows[static_cast<std::size_t>(i) * width + static_cast<std::size_t>(j)] = matrix(i, j);
-}
-
 /// Memory of one thread.
 struct Work {
   ScatterDensity density;
-  std::vector<double> difference, columns;
-  LowerTriangle noise, bridge, epoch, always;
+  std::vector<double> difference;
+  LowerTriangle noise, other, bridge, epoch, always;
 };
 
-/// Channels in rows of y, as they count after the loss or as what is the same in both epochs does.
-MatrixXd rows_after(const UnknownBridge& bridge, const MatrixXd& channels) {
-  return in_rows(bridge.rows, MatrixXd::Zero(channels.rows(), channels.cols()), channels);
+/// Channels in rows of y, each with a weight, filled up (add_lower_product).
+template <class Weight>
+MatrixXd weighted_rows(const UnknownBridge& bridge, const MatrixXd& channels, Weight weight) {
+  const auto n = static_cast<Index>(bridge.rows.size()), unit = static_cast<Index>(kColumnUnit);
+  MatrixXd result((n + unit - 1) / unit * unit, channels.cols());
+  result.bottomRows(result.rows() - n).setZero();
+  for (Index j = 0; j < result.cols(); ++j)
+    for (Index k = 0; k < n; ++k) {
+      const ReadingRow& row = bridge.rows[static_cast<std::size_t>(k)];
+      result(k, j) = weight(row) * channels(static_cast<Index>(row.channel), j);
+    }
+  return result;
 }
-MatrixXd rows_of_bridge(const UnknownBridge& bridge, const MatrixXd& channels) {
-  return in_rows(bridge.rows, channels, channels);
+
+double weight_after(const ReadingRow& row) {
+  return row.after;
+}
+double weight_of_bridge(const ReadingRow& row) {
+  return row.of_bridge();
+}
+
+/// Not more threads than there is work for: a thread takes as long to begin as a scene to be worked out.
+int threads_for(std::size_t count, int threads) {
+  return std::min(threads, static_cast<int>(count));
 }
 
 LowerTriangle intact_triangle(const UnknownBridge& bridge) {
@@ -56,36 +66,71 @@ void add_to(LowerTriangle& sum, const LowerTriangle& more) {
   for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += more[i];
 }
 
-void store_outer_product(const MatrixXd& columns, std::vector<double>& rows, LowerTriangle& lower) {
-  lower.assign(lower_size(static_cast<std::size_t>(columns.rows())), 0.0);
-  store_rows(columns, rows);
-  add_outer_product(rows, static_cast<std::size_t>(columns.rows()), lower);
-}
-
 /// What no case changes of the scene's Gaussian, but for A A^T.
 void store_scene(const UnknownBridge& bridge, const SceneLoss& loss, Work& work) {
   const Eigen::VectorXd difference = bridge.reading - loss.signal;
   work.difference.assign(difference.begin(), difference.end());
-  store_outer_product(epoch_columns(bridge, loss), work.columns, work.epoch);
-  store_outer_product(other_columns(bridge, loss), work.columns, work.always);
+  work.epoch = outer_product(epoch_columns(bridge, loss));
+  work.always = outer_product(other_columns(bridge, loss));
 }
 
-ScatterLogs logs_of(const UnknownBridge& bridge, const SceneLoss& loss, const CaseTerms& one, Work& work) {
+/// Everything but A A^T in a case.
+void store_noise(const UnknownBridge& bridge, const SceneLoss& loss, const CaseTerms& one, const Work& work,
+                 LowerTriangle& noise) {
   const double conditions = one.conditions * one.conditions;
-  work.noise.resize(one.noise.size());
+  noise.resize(one.noise.size());
   for (std::size_t i = 0; i < one.noise.size(); ++i)
-    work.noise[i] = one.noise[i] + conditions * work.epoch[i] + work.always[i];
+    noise[i] = one.noise[i] + conditions * work.epoch[i] + work.always[i];
   if (loss.mean_square_beyond > 0.0) {
     const double square = one.spread * one.spread;
     for (std::size_t i = 0; i < bridge.rows.size(); ++i) {
       const double own = square * loss.beyond[static_cast<Index>(i)];
-      double* const to = work.noise.data() + lower_size(i);
+      double* const to = noise.data() + lower_size(i);
       for (std::size_t j = 0; j <= i; ++j) to[j] += own * loss.beyond[static_cast<Index>(j)];
       if (bridge.rows[i].after != 0.0) to[i] += square * loss.mean_square_beyond;
     }
   }
-  return work.density(work.difference, work.noise, work.bridge);
 }
+
+/// The cases of one scene, two at a time.
+struct SceneCases {
+  const UnknownBridge& bridge;
+  const SceneLoss& loss;
+  std::span<const CaseTerms> cases;
+  Work& work;
+  std::span<ScatterLogs> logs;
+  std::span<const std::uint8_t> wanted{};
+  double least = kImpossible;
+  const MatrixXd* rise = nullptr;
+  std::vector<double> bounds{};
+
+  void work_out() {
+    bounds.assign(cases.size(), std::numeric_limits<double>::infinity());
+    const std::size_t none = cases.size();
+    std::size_t first = none;  // of two
+    for (std::size_t k = 0; k < cases.size(); ++k) {
+      if ((!wanted.empty() && wanted[k] == 0) || bounds[k] < least) continue;
+      store_noise(bridge, loss, cases[k], work, first == none ? work.noise : work.other);
+      if (first == none) {
+        first = k;
+        continue;
+      }
+      const auto both = work.density(work.difference, work.noise, work.other, work.bridge);
+      store(first, both[0]);
+      store(k, both[1]);
+      first = none;
+    }
+    if (first != none) store(first, work.density(work.difference, work.noise, work.bridge));
+  }
+  void store(std::size_t k, const ScatterLogs& found) {
+    logs[k] = found;
+    if (rise == nullptr) return;
+    const double log = over_scatter(found);
+    for (std::size_t later = k + 1; later < cases.size(); ++later)
+      bounds[later] =
+          std::min(bounds[later], log + (*rise)(static_cast<Index>(k), static_cast<Index>(later)));
+  }
+};
 
 }  // namespace
 
@@ -101,29 +146,25 @@ SceneLikelihoods::SceneLikelihoods(const UnknownBridge& bridge, const Observatio
       intact_(intact_triangle(bridge)),
       losses_(bridge.losses.size()) {}
 
-/// A is c A_intact + a D in rows of y, c of what is the same in both epochs and a of what is after; so
-/// a D (a D)^T + a D (c A_intact)^T + c A_intact (a D)^T = X Y^T + Y X^T with X = a B and Y = c H + a B / 2.
-/// What the leading columns of several losses have in common, L M^T + M L^T of any two, is
-/// (L + M + ..) (L + M + ..)^T - L L^T - M M^T - ..
+/// A is c A_intact + a D in rows of y, c of what is the same in both epochs and a of what is after; so what a
+/// loss adds is a D (a D)^T + a D (c A_intact)^T + c A_intact (a D)^T = X X^T + X Y^T + Y X^T with X = a B
+/// and Y = c H. What the leading columns of several losses have in common, L M^T + M L^T of any two, is (L +
+/// M + ..) (L + M + ..)^T - L L^T - M M^T - ..
 SceneLikelihoods::Products SceneLikelihoods::products_of(const Loss& loss) const {
   const std::size_t n = bridge_.rows.size();
   Products result;
-  std::vector<double> columns, others;
-  const MatrixXd own = rows_after(bridge_, loss.factors->signal.own),
-                 intact = rows_of_bridge(bridge_, loss.factors->signal.intact);
+  const MatrixXd own = weighted_rows(bridge_, loss.factors->signal.own, weight_after);
   result.alone.assign(lower_size(n), 0.0);
-  store_rows(own, columns);
-  if (intact.isZero(0.0)) {
-    add_outer_product(columns, n, result.alone);
-  } else {
-    store_rows(intact + 0.5 * own, others);
-    add_symmetric_product(columns, others, n, result.alone);
+  add_lower_product(own, own, n, 1.0, result.alone);
+  const auto counts = [](const ReadingRow& row) { return row.of_bridge() != 0.0; };
+  if (std::any_of(bridge_.rows.begin(), bridge_.rows.end(), counts)) {
+    const MatrixXd intact = weighted_rows(bridge_, loss.factors->signal.intact, weight_of_bridge);
+    add_lower_product(own, intact, n, 1.0, result.alone);
+    add_lower_product(intact, own, n, 1.0, result.alone);
   }
-  store_rows(rows_after(bridge_, loss.factors->lead), result.lead);
-  LowerTriangle leading(lower_size(n), 0.0);
-  add_outer_product(result.lead, n, leading);
+  result.lead = weighted_rows(bridge_, loss.factors->lead, weight_after);
   result.beside = result.alone;
-  for (std::size_t i = 0; i < leading.size(); ++i) result.beside[i] -= leading[i];
+  add_lower_product(result.lead, result.lead, n, -1.0, result.beside);
   return result;
 }
 
@@ -137,9 +178,21 @@ void SceneLikelihoods::prepare(std::span<const std::size_t> rows, int threads) {
   }
   std::sort(missing.begin(), missing.end());
   missing.erase(std::unique(missing.begin(), missing.end()), missing.end());
-  for_each_index_on_threads(missing.size(), threads, [&](std::size_t i) {
+  for_each_index_on_threads(missing.size(), threads_for(missing.size(), threads), [&](std::size_t i) {
     losses_[missing[i]] = products_of(bridge_.losses[missing[i]]);
   });
+}
+
+/// A A^T of a scene.
+void SceneLikelihoods::store_bridge(std::size_t row, LowerTriangle& sum) const {
+  sum = intact_;
+  const KnownLosses known = known_losses(bridge_, table_, row);
+  for (const std::size_t place : std::span(known.place).first(known.count))
+    add_to(sum, known.count == 1 ? losses_[place].alone : losses_[place].beside);
+  if (known.count < 2) return;
+  MatrixXd lead = losses_[known.place[0]].lead;
+  for (std::size_t more = 1; more < known.count; ++more) lead += losses_[known.place[more]].lead;
+  add_lower_product(lead, lead, bridge_.rows.size(), 1.0, sum);
 }
 
 std::vector<ScatterLogs> SceneLikelihoods::operator()(std::span<const CaseTerms> cases,
@@ -150,34 +203,16 @@ std::vector<ScatterLogs> SceneLikelihoods::operator()(std::span<const CaseTerms>
   ScatterLogs impossible;
   impossible.fill(kImpossible);
   std::vector<ScatterLogs> result(rows.size() * cases.size(), impossible);
-  for_each_index_on_threads(rows.size(), threads, [&](std::size_t i) {
+  for_each_index_on_threads(rows.size(), threads_for(rows.size(), threads), [&](std::size_t i) {
     thread_local Work work;
     const auto loss = scene_loss(bridge_, observation_, table_, rows[i]);
     if (!loss) return;
     store_scene(bridge_, *loss, work);
-    work.bridge = intact_;
-    const KnownLosses known = known_losses(bridge_, table_, rows[i]);
-    for (const std::size_t place : std::span(known.place).first(known.count))
-      add_to(work.bridge, known.count == 1 ? losses_[place].alone : losses_[place].beside);
-    if (known.count > 1) {
-      work.columns = losses_[known.place[0]].lead;
-      for (std::size_t more = 1; more < known.count; ++more)
-        for (std::size_t k = 0; k < work.columns.size(); ++k)
-          work.columns[k] += losses_[known.place[more]].lead[k];
-      add_outer_product(work.columns, bridge_.rows.size(), work.bridge);
-    }
-    std::vector<double> bounds(cases.size(), std::numeric_limits<double>::infinity());
-    for (std::size_t k = 0; k < cases.size(); ++k) {
-      const std::size_t at = i * cases.size() + k;
-      if (!wanted.empty() && wanted[at] == 0) continue;
-      if (pruning != nullptr && bounds[k] < pruning->least[i]) continue;
-      result[at] = logs_of(bridge_, *loss, cases[k], work);
-      if (pruning == nullptr) continue;
-      const double log = over_scatter(result[at]);
-      for (std::size_t later = k + 1; later < cases.size(); ++later)
-        bounds[later] =
-            std::min(bounds[later], log + pruning->rise(static_cast<Index>(k), static_cast<Index>(later)));
-    }
+    store_bridge(rows[i], work.bridge);
+    SceneCases scene{bridge_, *loss, cases, work, std::span(result).subspan(i * cases.size(), cases.size())};
+    if (!wanted.empty()) scene.wanted = wanted.subspan(i * cases.size(), cases.size());
+    if (pruning != nullptr) scene.least = pruning->least[i], scene.rise = &pruning->rise;
+    scene.work_out();
   });
   return result;
 }

@@ -44,10 +44,11 @@ class SceneLikelihoods {
   /// columns of both together come on top.
   struct Products {
     LowerTriangle alone, beside;
-    std::vector<double> lead;  // rows of y x leading columns, filled up for lanes
+    Eigen::MatrixXd lead;  // rows of y, filled up (add_lower_product), x leading columns
   };
   void prepare(std::span<const std::size_t> rows, int threads);
   Products products_of(const Loss& loss) const;
+  void store_bridge(std::size_t row, LowerTriangle& sum) const;
 
   const UnknownBridge& bridge_;
   const Observation& observation_;

@@ -9,6 +9,9 @@
 #include <numeric>
 
 #include "core/threads.h"
+#include "lookup/evidence/column_products.h"
+#include "lookup/evidence/leading_directions.h"
+#include "lookup/evidence/scene_evidence.h"
 
 namespace voussoir {
 namespace {
@@ -19,7 +22,6 @@ using Eigen::VectorXd;
 
 constexpr auto kAllDirections = static_cast<Index>(kDirections);
 constexpr auto kEpochs = static_cast<Index>(kEpochColumns);
-constexpr int kIterations = 2;  // of the leading directions, which need not be exact
 
 /// A A^T of the intact bridge in rows of y.
 MatrixXd intact_product(const UnknownBridge& bridge) {
@@ -57,22 +59,6 @@ MatrixXd losses_product(const UnknownBridge& bridge) {
   return product;
 }
 
-/// The leading eigenvectors of a covariance, nearly: orthonormal columns, the largest first.
-MatrixXd leading_directions(const MatrixXd& covariance, Index count) {
-  const VectorXd sizes = covariance.diagonal();
-  std::vector<Index> order(static_cast<std::size_t>(sizes.size()));
-  std::iota(order.begin(), order.end(), Index{0});
-  std::stable_sort(order.begin(), order.end(), [&](Index a, Index b) { return sizes[a] > sizes[b]; });
-  MatrixXd basis(covariance.rows(), count);
-  for (Index k = 0; k < count; ++k) basis.col(k) = covariance.col(order[static_cast<std::size_t>(k)]);
-  const MatrixXd identity = MatrixXd::Identity(covariance.rows(), count);
-  for (int i = 0; i < kIterations; ++i)
-    basis = covariance * (Eigen::HouseholderQR<MatrixXd>(basis).householderQ() * identity);
-  const MatrixXd orthonormal = Eigen::HouseholderQR<MatrixXd>(basis).householderQ() * identity;
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> within(orthonormal.transpose() * covariance * orthonormal);
-  return orthonormal * within.eigenvectors().rowwise().reverse();
-}
-
 void store(const VectorXd& vector, DirectionVector& to) {
   std::copy(vector.begin(), vector.end(), to.begin());
 }
@@ -87,6 +73,13 @@ void store_lower(const MatrixXd& matrix, DirectionTriangle& lower) {
   for (Index i = 0; i < kAllDirections; ++i)
     for (Index j = 0; j <= i; ++j)
       lower[lower_size(static_cast<std::size_t>(i)) + static_cast<std::size_t>(j)] = matrix(i, j);
+}
+
+/// Adds the lower triangle of factor a b^T.
+void add_lower(const DirectionColumns& a, const DirectionColumns& b, double factor,
+               DirectionTriangle& lower) {
+  add_lower_product(a.data(), b.data(), kDirections, static_cast<std::size_t>(b.cols()), kDirections, factor,
+                    lower.data());
 }
 
 /// log density of no difference at all.
@@ -123,28 +116,24 @@ UnknownScreen::UnknownScreen(UnknownBridge& bridge, const Observation& observati
     cases_.push_back({bridge.conditions * bridge.conditions, bridge.spread * bridge.spread});
   }
   choose_directions(others, product);
-  choose_epoch_columns();
   epoch_after_ = directions_.transpose() * epoch.rightCols(bridge.factors->of_epoch());
-  store_lower(directions_.transpose() * (product * directions_), bridge_of_intact_);
-  for (std::size_t k = 0; k < cases.size(); ++k) add_intact(others[k], product, cases_[k]);
-  nothing_.assign(bridge.rows.size(), 0.0);
-  none_.signal_of_rows = nothing_.data();
-  losses_.resize(bridge.losses.size());
-  for_each_index_on_threads(losses_.size(), threads, [&](std::size_t place) {
-    if (bridge_.losses[place].known()) losses_[place] = reduced(bridge_.losses[place]);
-  });
+  const MatrixXd reduced_product = directions_.transpose() * (product * directions_);
+  store_lower(reduced_product, bridge_of_intact_);
+  for (std::size_t k = 0; k < cases.size(); ++k) add_intact(others[k], product, reduced_product, cases_[k]);
+  none_.signal_of_channels.assign(intact_.size(), 0.0);
+  reduce_losses(threads);
 }
 
-void UnknownScreen::add_intact(const MatrixXd& others, const MatrixXd& bridge, ReducedCase& to) const {
+void UnknownScreen::add_intact(const MatrixXd& others, const MatrixXd& bridge, const MatrixXd& reduced_bridge,
+                               ReducedCase& to) const {
   to.peaks = log_peak(others, bridge);
   to.peak = over_scatter(to.peaks);
   const Index used = std::min(kAllDirections, directions_.rows());
   const auto few = directions_.leftCols(used);
-  const MatrixXd reduced_bridge = few.transpose() * (bridge * few),
-                 reduced_others = few.transpose() * (others * few);
-  to.outside_few = log_outside(to.peaks, reduced_others, reduced_bridge, kFirstDirections);
-  to.outside_more = log_outside(to.peaks, reduced_others, reduced_bridge, kMoreDirections);
-  to.outside_all = log_outside(to.peaks, reduced_others, reduced_bridge, kDirections);
+  const MatrixXd reduced_others = few.transpose() * (others * few);
+  for (std::size_t k = 0; k < kScreenDirections.size(); ++k)
+    to.outside[k] =
+        log_outside(to.peaks, reduced_others, reduced_bridge, static_cast<std::size_t>(kScreenDirections[k]));
   MatrixXd all = MatrixXd::Identity(kAllDirections, kAllDirections);  // beyond those that there are
   all.topLeftCorner(used, used) = reduced_others;
   store_lower(all, to.others);
@@ -182,105 +171,179 @@ void UnknownScreen::choose_directions(std::span<const MatrixXd> others, const Ma
   directions_ = MatrixXd::Zero(n, kAllDirections);
   directions_.leftCols(used) = white.matrixU().solve(chosen);
   const auto channels = static_cast<Index>(observation_.reading.size());
-  of_loss_ = of_bridge_ = MatrixXd::Zero(channels, kAllDirections);
+  intact_ = observation_.intact;
+  intact_.resize(padded(intact_.size()));
+  is_read_.assign(intact_.size(), 0.0);
+  MatrixXd of_loss = MatrixXd::Zero(channels, kAllDirections), of_bridge = of_loss;
   MatrixXd changed = directions_;
   for (std::size_t k = 0; k < bridge_.rows.size(); ++k) {
     const ReadingRow& row = bridge_.rows[k];
     const auto from = static_cast<Index>(k), to = static_cast<Index>(row.channel);
-    of_loss_.row(to) += row.after * directions_.row(from);
-    of_bridge_.row(to) += row.of_bridge() * directions_.row(from);
+    of_loss.row(to) += row.after * directions_.row(from);
+    of_bridge.row(to) += row.of_bridge() * directions_.row(from);
     if (row.after == 0.0) changed.row(from).setZero();
-    channels_.push_back(row.channel);
-    after_.push_back(row.after);
+    if (row.after != 0.0) is_read_[row.channel] = 1.0;
   }
-  directions_by_row_ = directions_;
   store_lower(changed.transpose() * changed, points_);
   store(directions_.transpose() * bridge_.reading, reading_);
+  directions_by_channel_.resize(intact_.size() * kDirections);
+  store_rows(of_loss, kAllDirections, directions_by_channel_.data());
+  if (of_bridge.isZero(0.0)) return;
+  of_bridge_by_channel_.resize(directions_by_channel_.size());
+  store_rows(of_bridge, kAllDirections, of_bridge_by_channel_.data());
 }
 
-/// The combinations of an epoch's parameters in which losses change most.
-void UnknownScreen::choose_epoch_columns() {
+/// The combinations of an epoch's parameters in which losses change most; how each changes the parameters.
+MatrixXd UnknownScreen::epoch_columns_of(std::span<const DirectionColumns> changes) const {
   const Index parameters = bridge_.factors->of_epoch();
-  epoch_columns_ = MatrixXd(parameters, 0);
-  if (parameters == 0) return;
   MatrixXd product = MatrixXd::Zero(parameters, parameters);
-  for (const Loss& loss : bridge_.losses) {
-    if (!loss.known()) continue;
-    const MatrixXd reduced = of_loss_.transpose() * loss.factors->epoch;
-    product.noalias() += reduced.transpose() * reduced;
-  }
+  for (const DirectionColumns& change : changes)
+    if (change.size() > 0) product.noalias() += change.transpose() * change;
+  if (parameters == 0) return product;
   const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(product);
-  epoch_columns_ = solver.eigenvectors().rightCols(std::min(parameters, kEpochs));
+  return solver.eigenvectors().rightCols(std::min(parameters, kEpochs));
+}
+
+void UnknownScreen::reduce_losses(int threads) {
+  losses_.resize(bridge_.losses.size());
+  std::vector<DirectionColumns> changes(losses_.size());  // of E, conditions being as the file states
+  const auto for_each_known = [&](const auto& work) {
+    for_each_index_on_threads(losses_.size(), threads, [&](std::size_t place) {
+      if (bridge_.losses[place].known()) work(bridge_.losses[place], place);
+    });
+  };
+  for_each_known([&](const Loss& loss, std::size_t place) {
+    reduce(loss, losses_[place]);
+    changes[place] = projected(loss.factors->epoch, loss.factors->epoch.cols(), directions_by_channel_);
+  });
+  const MatrixXd columns = epoch_columns_of(changes);
+  for_each_known([&](const Loss&, std::size_t place) {
+    reduce_epoch(changes[place], changes[place] * columns, losses_[place]);
+  });
+}
+
+DirectionColumns UnknownScreen::projected(const MatrixXd& columns, Index count,
+                                          const std::vector<double>& by_channel) const {
+  DirectionColumns result(kAllDirections, count);
+  if (count > 0)
+    project_columns(by_channel.data(), static_cast<std::size_t>(columns.rows()), columns.data(),
+                    static_cast<std::size_t>(count), kDirections, result.data());
+  return result;
 }
 
 /// What a loss adds to A A^T, of which the first columns show what it has in common with others.
 void UnknownScreen::reduce_bridge(const LossFactors& factors, ReducedLoss& to) const {
-  const Index width = std::min(kFirstColumns, factors.lead.cols());
-  const MatrixXd first = of_loss_.transpose() * factors.lead.leftCols(width);
+  const DirectionColumns first =
+      projected(factors.lead, std::min(kFirstColumns, factors.lead.cols()), directions_by_channel_);
   store_rows(first, kFirstColumns, to.first.data());
-  const MatrixXd own = of_loss_.transpose() * factors.signal.own;
-  store_lower(own * own.transpose() - first * first.transpose(), to.of_bridge.own);
-  if (of_bridge_.isZero(0.0)) return;
-  const MatrixXd cross = (of_bridge_.transpose() * factors.signal.intact) * own.transpose();
-  store_lower(cross + cross.transpose(), to.of_bridge.crossed);
+  const Index count = columns_that_show(factors.signal.own);
+  const DirectionColumns own = projected(factors.signal.own, count, directions_by_channel_);
+  add_lower(own, own, 1.0, to.of_bridge.own);
+  add_lower(first, first, -1.0, to.of_bridge.own);
+  if (of_bridge_by_channel_.empty()) return;
+  const DirectionColumns intact = projected(factors.signal.intact, count, of_bridge_by_channel_);
+  add_lower(own, intact, 1.0, to.of_bridge.crossed);
+  add_lower(intact, own, 1.0, to.of_bridge.crossed);
 }
 
-/// The same of E E^T, conditions being as the file states.
-void UnknownScreen::reduce_epoch(const LossFactors& factors, ReducedLoss& to) const {
-  const MatrixXd change = of_loss_.transpose() * factors.epoch;
-  const MatrixXd first = change * epoch_columns_;
+/// Of a loss's own columns those without which no reading's variance would be a ten-thousandth less.
+Index UnknownScreen::columns_that_show(const MatrixXd& own) const {
+  constexpr double kShare = 1e-4;
+  Index count = own.cols();
+  double left = 0.0;
+  while (count > 0 && left + own.col(count - 1).squaredNorm() < kShare * bridge_.least_variance)
+    left += own.col(--count).squaredNorm();
+  return count;
+}
+
+/// The same of E E^T.
+void UnknownScreen::reduce_epoch(const DirectionColumns& change, const DirectionColumns& first,
+                                 ReducedLoss& to) const {
   store_rows(first, kEpochs, to.epoch.data());
-  store_lower(change * change.transpose() - first * first.transpose(), to.of_epoch.own);
-  const MatrixXd cross = epoch_after_ * change.transpose();
-  store_lower(cross + cross.transpose(), to.of_epoch.crossed);
+  add_lower(change, change, 1.0, to.of_epoch.own);
+  add_lower(first, first, -1.0, to.of_epoch.own);
+  add_lower(epoch_after_, change, 1.0, to.of_epoch.crossed);
+  add_lower(change, epoch_after_, 1.0, to.of_epoch.crossed);
 }
 
-ReducedLoss UnknownScreen::reduced(const Loss& loss) const {
-  ReducedLoss result;
-  result.signal_of_rows = loss.signal.data();
-  const VectorXd counted = loss.signal.array().isNaN().select(0.0, loss.signal);
-  const VectorXd signal = directions_.transpose() * counted;
-  store(signal, result.signal);
-  reduce_bridge(*loss.factors, result);
-  reduce_epoch(*loss.factors, result);
-  store_lower(bridge_.model_error * bridge_.model_error * signal * signal.transpose(), result.model_error);
-  return result;
+void UnknownScreen::reduce(const Loss& loss, ReducedLoss& to) const {
+  to.signal_of_channels.assign(intact_.size(), 0.0);
+  MatrixXd counted = MatrixXd::Zero(static_cast<Index>(intact_.size()), 1);
+  for (std::size_t k = 0; k < bridge_.rows.size(); ++k) {
+    const ReadingRow& row = bridge_.rows[k];
+    const double signal = loss.signal[static_cast<Index>(k)];
+    if (row.after == 0.0) continue;
+    to.signal_of_channels[row.channel] = signal / row.after;
+    if (!std::isnan(signal)) counted(static_cast<Index>(row.channel), 0) = signal / row.after;
+  }
+  const DirectionColumns signal = projected(counted, 1, directions_by_channel_);
+  store(signal, to.signal);
+  reduce_bridge(*loss.factors, to);
+  add_lower(signal, signal, bridge_.model_error * bridge_.model_error, to.model_error);
 }
 
 ReducedQuestion UnknownScreen::question() const {
-  const std::size_t rows = bridge_.rows.size();
   return {reading_.data(),
           points_.data(),
           bridge_of_intact_.data(),
           cases_,
-          rows,
-          channels_.data(),
-          after_.data(),
-          observation_.intact.data(),
-          directions_by_row_.data(),
-          static_cast<double>(bridge_.has_first_epoch() ? rows / 2 : rows)};
+          observation_.intact.size(),
+          intact_.data(),
+          is_read_.data(),
+          directions_by_channel_.data(),
+          std::accumulate(is_read_.begin(), is_read_.end(), 0.0)};
 }
 
-UnknownScreen::Lost UnknownScreen::lost(std::size_t row) const {
-  const KnownLosses known = known_losses(bridge_, table_, row);
-  Lost result{{&none_}};
+ScenePrediction UnknownScreen::scene(const ScreenedRow& row, const KnownLosses& known) const {
+  ScenePrediction result{table_.row(row.row).data(), {&none_}, row.least, row.logs};
   for (std::size_t k = 0; k < known.count; ++k) result.losses[k] = &losses_[known.place[k]];
-  result.count = std::max(known.count, std::size_t{1});
   return result;
 }
 
-void UnknownScreen::estimate(std::size_t row, double least, const MatrixXd& rises,
-                             std::span<double> logs) const {
-  const Lost losses = lost(row);
-  estimate_log_densities(question(), {table_.row(row).data(), std::span(losses.losses).first(losses.count)},
-                         least, rises, logs);
+/// Calls work(scenes, count) for as many scenes as there are lanes, all with so many losses. Where scenes are
+/// fewer the last one counts several times.
+template <class Work>
+void UnknownScreen::for_rows_together(std::span<const ScreenedRow> rows, Work work) const {
+  struct Together {
+    std::array<ScenePrediction, kLanes> scenes;
+    std::size_t count = 0;
+  };
+  std::array<Together, kMostLosses + 1> by_losses;
+  for (const ScreenedRow& row : rows) {
+    const KnownLosses known = known_losses(bridge_, table_, row.row);
+    const std::size_t losses = std::max(known.count, std::size_t{1});
+    Together& together = by_losses[losses];
+    together.scenes[together.count++] = scene(row, known);
+    if (together.count < kLanes) continue;
+    work(together.scenes, losses);
+    together.count = 0;
+  }
+  for (std::size_t losses = 1; losses < by_losses.size(); ++losses) {
+    auto& [scenes, count] = by_losses[losses];
+    if (count == 0) continue;
+    std::fill(scenes.begin() + static_cast<std::ptrdiff_t>(count), scenes.end(), scenes[count - 1]);
+    work(scenes, losses);
+  }
 }
 
-void UnknownScreen::refine(std::size_t row, ScreenDirections directions, double least,
-                           std::span<double> logs) const {
-  const Lost losses = lost(row);
-  refine_log_densities(question(), {table_.row(row).data(), std::span(losses.losses).first(losses.count)},
-                       directions, least, logs);
+void UnknownScreen::estimate(std::span<const ScreenedRow> rows, const MatrixXd& rises,
+                             std::size_t before) const {
+  const ReducedQuestion all = question();
+  for_rows_together(rows, [&](const auto& scenes, std::size_t losses) {
+    estimate_log_densities(all, scenes, losses, rises, before);
+  });
+}
+
+void UnknownScreen::refine(std::span<const ScreenedRow> rows, ScreenDirections directions) const {
+  const ReducedQuestion all = question();
+  std::vector<ScreenedRow> likely;
+  for (const ScreenedRow& row : rows)
+    if (std::any_of(row.logs, row.logs + cases_.size(),
+                    [&](double log) { return !(log < row.least) && log != kImpossible; }))
+      likely.push_back(row);
+  for_rows_together(likely, [&](const auto& scenes, std::size_t losses) {
+    refine_log_densities(all, scenes, losses, directions);
+  });
 }
 
 }  // namespace voussoir

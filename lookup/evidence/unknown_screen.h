@@ -22,18 +22,28 @@
 
 namespace voussoir {
 
+/// Columns in the directions.
+using DirectionColumns = Eigen::Matrix<double, static_cast<int>(kDirections), Eigen::Dynamic>;
+
+/// A row of a table, what its log densities have to be to matter, and where they are kept.
+struct ScreenedRow {
+  std::size_t row;
+  double least;
+  double* logs;
+};
+
 class UnknownScreen {
  public:
   /// All of them outlive the screen; the bridge's case is changed. `cases` differ in conditions only.
   UnknownScreen(UnknownBridge& bridge, const Observation& observation, const SceneTable& table,
                 std::span<const UnknownCase> cases, int threads);
 
-  /// log p(readings | scene, case) of a row of the table in the first few directions; see
-  /// estimate_log_densities. NaN where the estimate fails.
-  void estimate(std::size_t row, double least, const Eigen::MatrixXd& rises, std::span<double> logs) const;
+  /// log p(readings | scene, case) of rows of the table in the first directions; see estimate_log_densities.
+  /// NaN where the estimate fails.
+  void estimate(std::span<const ScreenedRow> rows, const Eigen::MatrixXd& rises, std::size_t before) const;
 
   /// The same in more directions; see refine_log_densities. `logs` are those of the screen's cases.
-  void refine(std::size_t row, ScreenDirections directions, double least, std::span<double> logs) const;
+  void refine(std::span<const ScreenedRow> rows, ScreenDirections directions) const;
 
   const std::vector<ReducedCase>& cases() const { return cases_; }
 
@@ -41,35 +51,32 @@ class UnknownScreen {
   void choose_directions(std::span<const Eigen::MatrixXd> others, const Eigen::MatrixXd& product);
   Eigen::MatrixXd reading_directions(std::span<const Eigen::MatrixXd> others, const Eigen::MatrixXd& product,
                                      const Eigen::LLT<Eigen::MatrixXd>& white) const;
-  void choose_epoch_columns();
-  ReducedLoss reduced(const Loss& loss) const;
-  void add_intact(const Eigen::MatrixXd& others, const Eigen::MatrixXd& bridge, ReducedCase& to) const;
+  void add_intact(const Eigen::MatrixXd& others, const Eigen::MatrixXd& bridge,
+                  const Eigen::MatrixXd& reduced_bridge, ReducedCase& to) const;
+  void reduce_losses(int threads);
+  void reduce(const Loss& loss, ReducedLoss& to) const;
+  DirectionColumns projected(const Eigen::MatrixXd& columns, Eigen::Index count,
+                             const std::vector<double>& by_channel) const;
+  Eigen::Index columns_that_show(const Eigen::MatrixXd& own) const;
+  Eigen::MatrixXd epoch_columns_of(std::span<const DirectionColumns> changes) const;
   void reduce_bridge(const LossFactors& factors, ReducedLoss& to) const;
-  void reduce_epoch(const LossFactors& factors, ReducedLoss& to) const;
+  void reduce_epoch(const DirectionColumns& change, const DirectionColumns& first, ReducedLoss& to) const;
 
-  /// A scene's losses in the directions; that of nothing if there are none.
-  struct Lost {
-    std::array<const ReducedLoss*, kMostLosses> losses{};
-    std::size_t count = 1;
-  };
-  Lost lost(std::size_t row) const;
+  ScenePrediction scene(const ScreenedRow& row, const KnownLosses& known) const;
+  template <class Work>
+  void for_rows_together(std::span<const ScreenedRow> rows, Work work) const;
   ReducedQuestion question() const;
 
   const UnknownBridge& bridge_;
   const Observation& observation_;
   const SceneTable& table_;
-  Eigen::MatrixXd directions_;           // rows of y x directions: T^T
-  Eigen::MatrixXd of_loss_, of_bridge_;  // the same by channel, as losses and the bridge count
-  Eigen::MatrixXd epoch_after_;          // directions x columns of E of the second epoch
-  Eigen::MatrixXd epoch_columns_;        // parameters of an epoch x kEpochColumns
-  std::vector<ReducedLoss> losses_;      // of UnknownBridge::losses
-  ReducedLoss none_;                     // of scenes without known losses
-  std::vector<double> nothing_;
+  Eigen::MatrixXd directions_;       // rows of y x directions: T^T
+  DirectionColumns epoch_after_;     // columns of E of the second epoch
+  std::vector<ReducedLoss> losses_;  // of UnknownBridge::losses
+  ReducedLoss none_;                 // of scenes without known losses
   std::vector<ReducedCase> cases_;
-  // What question() refers to.
-  std::vector<std::size_t> channels_;
-  std::vector<double> after_;
-  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> directions_by_row_;
+  // By channel, filled up for lanes; the directions as losses and, unless that is none, as the bridge count.
+  std::vector<double> intact_, is_read_, directions_by_channel_, of_bridge_by_channel_;
   DirectionVector reading_{};
   DirectionTriangle points_{};  // what a unit variance at each changed point adds
   DirectionTriangle bridge_of_intact_{};

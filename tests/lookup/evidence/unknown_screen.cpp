@@ -47,7 +47,7 @@ TEST_CASE("In as many directions as there are readings a single's estimate in ea
       const bool is_known = row == 0 || known_losses(bridge, library.table, row).count == 1;
       if (evidence == -kInfinity || !is_known) continue;
       std::vector<double> logs(cases.size(), kInfinity);
-      screen.refine(row, ScreenDirections::all, -kInfinity, logs);
+      screen.refine(std::array{ScreenedRow{row, -kInfinity, logs.data()}}, ScreenDirections::all);
       CAPTURE(row, k);
       REQUIRE(logs[k] == Approx(evidence).epsilon(1e-8));
       ++compared;

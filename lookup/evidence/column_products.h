@@ -1,0 +1,33 @@
+#pragma once
+/// @file Products of columns of numbers, in plain arithmetic: the same bits on every processor.
+
+#include <Eigen/Core>
+#include <cstddef>
+
+#include "lookup/evidence/scatter_density.h"
+
+namespace voussoir {
+
+/// Columns of products are `stride` numbers long, a multiple of this, and read to their ends.
+inline constexpr std::size_t kColumnUnit = 8;
+
+/// Sums over channels: `by_channel` has `stride` numbers for each channel, a column of the result as many,
+/// and `columns` one for each channel, one column after the other.
+void project_columns(const double* by_channel, std::size_t channels, const double* columns, std::size_t count,
+                     std::size_t stride, double* projected);
+
+/// Adds factor A B^T to the lower triangle (LowerTriangle) of so many rows; `count` columns in A and B.
+void add_lower_product(const double* a, const double* b, std::size_t stride, std::size_t count,
+                       std::size_t rows, double factor, double* lower);
+
+/// Columns filled up with zeros to a multiple of kColumnUnit.
+Eigen::MatrixXd filled_up(const Eigen::MatrixXd& columns);
+
+/// Adds factor A B^T of the first rows of filled up columns.
+void add_lower_product(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b, std::size_t rows, double factor,
+                       LowerTriangle& lower);
+
+/// A A^T.
+LowerTriangle outer_product(const Eigen::MatrixXd& columns);
+
+}  // namespace voussoir

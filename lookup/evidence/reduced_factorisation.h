@@ -1,0 +1,95 @@
+#pragma once
+/// @file The factorisation of a few rows and columns of four scenes' covariances side by side.
+
+#include <limits>
+
+#include "core/simd/lane_math.h"
+#include "lookup/evidence/scatter_density.h"
+
+namespace voussoir {
+
+/// noise + kappa bridge = L D L^T with a unit diagonal in L, four rows of L D at a time.
+template <std::size_t N>
+struct Factorisation {
+  static constexpr std::size_t kTogether = 4;  // rows and columns whose sums are in registers
+  const DoubleLanes *noise, *bridge;
+  double kappa;
+  DoubleLanes factor[lower_size(N)];  // L left of its diagonal
+  DoubleLanes inverse[N];             // of D
+  DoubleLanes rows[kTogether][N];     // of L D
+  DoubleLanes log_determinant;
+
+  VOUSSOIR_INLINE DoubleLanes entry(std::size_t i, std::size_t j) const {
+    return noise[lower_size(i) + j] + kappa * bridge[lower_size(i) + j];
+  }
+
+  /// Columns j to j + 3 of a row of L D, which begin with its entries.
+  VOUSSOIR_INLINE void solve_columns(DoubleLanes* row, std::size_t j) const {
+    const DoubleLanes *const r0 = factor + lower_size(j), *const r1 = factor + lower_size(j + 1),
+                             *const r2 = factor + lower_size(j + 2), *const r3 = factor + lower_size(j + 3);
+    DoubleLanes s0 = row[j], s1 = row[j + 1], s2 = row[j + 2], s3 = row[j + 3];
+    for (std::size_t p = 0; p < j; ++p) {
+      const DoubleLanes own = row[p];
+      s0 -= own * r0[p];
+      s1 -= own * r1[p];
+      s2 -= own * r2[p];
+      s3 -= own * r3[p];
+    }
+    s1 -= s0 * r1[j];
+    s2 -= s0 * r2[j] + s1 * r2[j + 1];
+    s3 -= s0 * r3[j] + s1 * r3[j + 1] + s2 * r3[j + 2];
+    row[j] = s0;
+    row[j + 1] = s1;
+    row[j + 2] = s2;
+    row[j + 3] = s3;
+  }
+
+  /// The block on the diagonal, where rows left of it are known.
+  VOUSSOIR_INLINE void factorise_block(std::size_t first) {
+    DoubleLanes sums[kTogether][kTogether], product = DoubleLanes{} + 1.0;
+    for (std::size_t i = 0; i < kTogether; ++i)
+      for (std::size_t j = 0; j <= i; ++j) sums[i][j] = entry(first + i, first + j);
+    for (std::size_t p = 0; p < first; ++p)
+      for (std::size_t j = 0; j < kTogether; ++j) {
+        const DoubleLanes own = factor[lower_size(first + j) + p];
+        for (std::size_t i = j; i < kTogether; ++i) sums[i][j] -= rows[i][p] * own;
+      }
+    for (std::size_t j = 0; j < kTogether; ++j) {
+      const DoubleLanes pivot = sums[j][j];
+      inverse[first + j] =
+          1.0 / (pivot > 0.0 ? pivot : DoubleLanes{} + std::numeric_limits<double>::quiet_NaN());
+      product *= pivot;
+      for (std::size_t i = j + 1; i < kTogether; ++i) {
+        const DoubleLanes own = sums[i][j] * inverse[first + j];
+        factor[lower_size(first + i) + first + j] = own;
+        for (std::size_t k = j + 1; k <= i; ++k) sums[i][k] -= own * sums[k][j];
+      }
+    }
+    make_logarithm(product);
+    log_determinant += product;
+  }
+
+  VOUSSOIR_INLINE void factorise() {
+    log_determinant = DoubleLanes{};
+    for (std::size_t first = 0; first < N; first += kTogether) {
+      for (std::size_t i = 0; i < kTogether; ++i) {
+        for (std::size_t j = 0; j < first; ++j) rows[i][j] = entry(first + i, j);
+        for (std::size_t j = 0; j < first; j += kTogether) solve_columns(rows[i], j);
+        for (std::size_t j = 0; j < first; ++j) factor[lower_size(first + i) + j] = rows[i][j] * inverse[j];
+      }
+      factorise_block(first);
+    }
+  }
+
+  /// What a difference is in the inverse's quadratic form.
+  VOUSSOIR_INLINE DoubleLanes square_of(const DoubleLanes* difference) {
+    DoubleLanes* const row = rows[0];
+    for (std::size_t j = 0; j < N; ++j) row[j] = difference[j];
+    for (std::size_t j = 0; j < N; j += kTogether) solve_columns(row, j);
+    DoubleLanes square{};
+    for (std::size_t j = 0; j < N; ++j) square += row[j] * (row[j] * inverse[j]);
+    return square;
+  }
+};
+
+}  // namespace voussoir
