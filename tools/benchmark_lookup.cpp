@@ -43,40 +43,49 @@ struct Query {
   Measurements measured;
 };
 
-std::vector<Query> make_queries(const SceneTable& table, int count, std::uint64_t seed) {
+std::vector<Query> make_queries(const SceneTable& table, const LookupQueries& asked) {
   std::vector<Eligible> by_missing;
   for (const int missing : numbers_of_missing(table)) by_missing.push_back(eligible_rows(table, {missing}));
-  Random random(seed);
+  Random random(asked.seed);
   std::vector<Query> queries;
-  for (int i = 0; i < count; ++i) {
+  for (int i = 0; i < asked.count; ++i) {
     const std::size_t truth =
         random_truth(table, by_missing[static_cast<std::size_t>(i) % by_missing.size()], random);
-    NoiseModel noise{NoiseShape::uniform, kLowestLevel + (kHighestLevel - kLowestLevel) * random.uniform()};
+    const double even = kLowestLevel + (kHighestLevel - kLowestLevel) * random.uniform();
+    NoiseModel noise{NoiseShape::uniform, asked.level.value_or(even)};
     noise.silence = 0.0;
     queries.push_back({truth, *noise.relative, simulate_readings(table.row(truth), noise, random)});
   }
   return queries;
 }
 
-void time_searches(const Library& library, const std::vector<Query>& queries, const Eligible& eligible,
-                   LookupTimings& timings) {
+using Found = std::vector<std::vector<ScoredRow>>;  // of each query
+
+/// Of a scan, which says what the others have to find, and of the search index.
+Found time_exact_searches(const Library& library, const std::vector<Query>& queries, const Eligible& eligible,
+                          LookupTimings& timings) {
   const SceneTable& table = library.table;
   const IndexedSearch indexed(table, library.index, library.points, eligible);
-  std::vector<std::vector<ScoredRow>> scan(queries.size());
+  Found scan(queries.size());
   timings.searches.push_back(timed("scan of all rows, vectorised", queries.size(), [&](std::size_t i) {
     scan[i] = exhaustive_search(queries[i].measured.displacement, table, eligible.rows, kTop);
   }));
   timings.searches.push_back(timed("search index, exact", queries.size(), [&](std::size_t i) {
     if (indexed.search(queries[i].measured.displacement, kTop).best != scan[i]) ++timings.disagreements;
   }));
-  // FLANN's index covers the points with readings, which are fewer where the scene lacks a block with points.
+  return scan;
+}
+
+/// FLANN's index covers the points with readings, which are fewer where the scene lacks a block with points.
+void time_flann(const Library& library, const std::vector<Query>& queries, const Eligible& eligible,
+                const Found& scan, LookupTimings& timings) {
   std::unique_ptr<LinearIndex> linear;
   std::vector<bool> covered;
   const auto cover = [&](std::size_t i) {
     std::vector<bool> points;
     for (const double value : queries[i].measured.displacement) points.push_back(!std::isnan(value));
     if (points == covered) return;
-    linear = std::make_unique<LinearIndex>(table, eligible.rows, queries[i].measured.displacement);
+    linear = std::make_unique<LinearIndex>(library.table, eligible.rows, queries[i].measured.displacement);
     linear->search(queries[i].measured.displacement, kTop);  // with its rows in the cache, as far as they fit
     covered = points;
   };
@@ -85,31 +94,46 @@ void time_searches(const Library& library, const std::vector<Query>& queries, co
   }));
 }
 
+Observation observed(const Library& library, const Query& query, bool stated) {
+  return observe(absolute_readings(library, query.measured),
+                 stated ? NoiseModel{NoiseShape::uniform, query.level} : NoiseModel{});
+}
+std::string noise_of(bool stated) {
+  return stated ? "uniform noise, stated" : "noise unknown (default)";
+}
+
 void time_posteriors(const Library& library, const std::vector<Query>& queries, const Eligible& eligible,
                      LookupTimings& timings) {
   const SceneTable& table = library.table;
   const Prior prior = stated_prior({}, table, true);
   const EvidenceScreen screen(table, library.index, eligible, prior);
+  const auto posterior_of = [&](const RowValues& evidence) {
+    return posterior(table, eligible, evidence, prior, library.layout.size());
+  };
   for (const bool stated : {true, false}) {
-    const auto observed = [&](std::size_t i) {
-      return observe(absolute_readings(library, queries[i].measured),
-                     stated ? NoiseModel{NoiseShape::uniform, queries[i].level} : NoiseModel{});
-    };
-    const std::string noise = stated ? "uniform noise, stated" : "noise unknown (default)";
-    std::vector<Posterior> exact(queries.size());
-    timings.posteriors.push_back(timed("every row, " + noise, queries.size(), [&](std::size_t i) {
-      exact[i] = posterior(table, eligible, log_evidence_of_rows(observed(i), table, eligible.rows), prior,
-                           library.layout.size());
+    std::vector<Posterior> exact(queries.size()), screened(queries.size());
+    timings.posteriors.push_back(timed("every row, " + noise_of(stated), queries.size(), [&](std::size_t i) {
+      exact[i] =
+          posterior_of(log_evidence_of_rows(observed(library, queries[i], stated), table, eligible.rows));
     }));
-    std::vector<Posterior> screened(queries.size());
-    timings.posteriors.push_back(timed("screened, " + noise, queries.size(), [&](std::size_t i) {
-      screened[i] = posterior(table, eligible, screen(observed(i)), prior, library.layout.size());
+    timings.posteriors.push_back(timed("screened, " + noise_of(stated), queries.size(), [&](std::size_t i) {
+      screened[i] = posterior_of(screen(observed(library, queries[i], stated)));
     }));
     for (std::size_t i = 0; i < queries.size(); ++i)
       for (std::size_t row = 0; row < table.rows; ++row)
         timings.largest_difference = std::max(
             timings.largest_difference, std::abs(screened[i].probability[row] - exact[i].probability[row]));
   }
+}
+
+void time_screened_posteriors(const Library& library, const std::vector<Query>& queries,
+                              const Eligible& eligible, LookupTimings& timings) {
+  const Prior prior = stated_prior({}, library.table, true);
+  const EvidenceScreen screen(library.table, library.index, eligible, prior);
+  timings.posteriors.push_back(timed("screened, " + noise_of(true), queries.size(), [&](std::size_t i) {
+    posterior(library.table, eligible, screen(observed(library, queries[i], true)), prior,
+              library.layout.size());
+  }));
 }
 
 void time_genetic(const Library& library, const std::vector<Query>& queries, LookupTimings& timings) {
@@ -126,13 +150,23 @@ void time_genetic(const Library& library, const std::vector<Query>& queries, Loo
 
 }  // namespace
 
-LookupTimings time_lookups(const Library& library, int count, std::uint64_t seed) {
-  const std::vector<Query> queries = make_queries(library.table, count, seed);
+LookupTimings time_lookups(const Library& library, const LookupQueries& asked) {
+  const std::vector<Query> queries = make_queries(library.table, asked);
   const Eligible eligible = eligible_rows(library.table, numbers_of_missing(library.table));
   LookupTimings timings;
-  time_searches(library, queries, eligible, timings);
+  const Found scan = time_exact_searches(library, queries, eligible, timings);
+  time_flann(library, queries, eligible, scan, timings);
   time_posteriors(library, queries, eligible, timings);
   time_genetic(library, queries, timings);
+  return timings;
+}
+
+LookupTimings time_lookups_of_triples(const Library& library, const LookupQueries& asked) {
+  const std::vector<Query> queries = make_queries(library.table, asked);
+  const Eligible eligible = eligible_rows(library.table, numbers_of_missing(library.table));
+  LookupTimings timings;
+  time_exact_searches(library, queries, eligible, timings);
+  time_screened_posteriors(library, queries, eligible, timings);
   return timings;
 }
 

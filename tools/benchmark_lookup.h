@@ -1,6 +1,7 @@
 #pragma once
 /// @file How fast lookups are, in process, on one core.
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,8 +19,18 @@ struct LookupTimings {
   double largest_difference = 0.0;  ///< of a screened probability from the exact one
 };
 
-/// The same queries for every method: random scenes (0, 1 or 2 missing blocks equally often) with uniform
-/// noise, levels even in 1..10 %.
-LookupTimings time_lookups(const Library& library, int queries, std::uint64_t seed);
+struct LookupQueries {
+  int count = 150;
+  std::uint64_t seed = 1;
+  std::optional<double> level{};  ///< of the noise; nothing: even in 1..10 %
+};
+
+/// The same queries for every method: random scenes (with 0, 1, 2.. missing blocks equally often) with
+/// uniform noise.
+LookupTimings time_lookups(const Library& library, const LookupQueries& queries);
+
+/// The same of as many rows as triples are: no FLANN and no evidence of every row, whose memory grows with
+/// rows and queries, and no genetic search.
+LookupTimings time_lookups_of_triples(const Library& library, const LookupQueries& queries);
 
 }  // namespace voussoir

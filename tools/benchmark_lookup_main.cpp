@@ -5,14 +5,15 @@
 #include "tools/benchmark_lookup.h"
 #include "tools/benchmark_process.h"
 #include "tools/benchmark_questions.h"
+#include "tools/triples_library.h"
 
 namespace {
 
 struct Options {
   std::optional<std::string> database;
-  int queries = 150;
+  voussoir::LookupQueries queries;
   int runs = 41;
-  std::uint64_t seed = 1;
+  bool triples = false;
   std::string only;
 };
 
@@ -23,18 +24,50 @@ std::string table(const std::string& title, const std::vector<voussoir::Timing>&
   return text + "\n";
 }
 
+std::string questions(const Options& options, const voussoir::Database& database,
+                      const voussoir::Library& library) {
+  const voussoir::LookupQueries& asked = options.queries;
+  std::string text =
+      fmt::format("{:<50} {:>12} {:>10} {:>16} {:>10}\n", "Whole answers, with the model's own error",
+                  "median [ms]", "p95 [ms]", "processors [ms]", "p95 [ms]");
+  for (const auto& [wall, processors] :
+       voussoir::time_questions(database, library, asked.count, asked.seed, options.only))
+    text += fmt::format("  {:<48} {:>12.3f} {:>10.3f} {:>16.3f} {:>10.3f}\n", wall.name, wall.median,
+                        wall.p95, processors.median, processors.p95);
+  return text + "\n";
+}
+
+std::string head(const Options& options, const voussoir::SceneTable& table) {
+  return fmt::format("{} queries, {} scenes, {} points\n\n", options.queries.count, table.rows, table.points);
+}
+
+std::string differences(const voussoir::LookupTimings& timings) {
+  return fmt::format("Fast searches that differ from the scan: {}\n", timings.disagreements);
+}
+
+std::string benchmark_triples(const Options& options, const voussoir::Database& database) {
+  const voussoir::TriplesLibrary triples(voussoir::library_of(database));
+  const voussoir::Library& library = triples.library();
+  std::string text = head(options, library.table);
+  text += fmt::format("Search index: {:.1f} s of processor time\n\n", triples.seconds_of_index());
+  if (options.only.empty()) {
+    const auto timings = voussoir::time_lookups_of_triples(library, options.queries);
+    text += table("Ten best under Eq. 1", timings.searches);
+    text += table("Posterior over all scenes", timings.posteriors) + differences(timings) + "\n";
+  }
+  return text + questions(options, database, library);
+}
+
 std::string benchmark(const Options& options) {
   const auto database = voussoir::Database::open(voussoir::find_database(options.database));
-  const std::string questions = "Whole answers, with the model's own error";
-  if (!options.only.empty())
-    return table(questions, voussoir::time_questions(database, options.queries, options.seed, options.only));
+  if (options.triples) return benchmark_triples(options, database);
   const voussoir::Library library = voussoir::library_of(database);
-  const auto timings = voussoir::time_lookups(library, options.queries, options.seed);
-  std::string text = fmt::format("{} queries, {} scenes, {} points\n\n", options.queries,
-                                 database.table().rows, database.table().points);
+  if (!options.only.empty()) return questions(options, database, library);
+  const auto timings = voussoir::time_lookups(library, options.queries);
+  std::string text = head(options, library.table);
   text += table("Ten best under Eq. 1", timings.searches);
   text += table("Posterior over all scenes", timings.posteriors);
-  text += table(questions, voussoir::time_questions(database, options.queries, options.seed));
+  text += questions(options, database, library);
   text += table("Genetic search, the paper's settings", timings.genetic);
   const auto own_folder = std::filesystem::read_symlink("/proc/self/exe").parent_path();
   text +=
@@ -43,10 +76,8 @@ std::string benchmark(const Options& options) {
   for (const auto& timing : timings.searches)
     text += fmt::format("{:<30} {:>6.1f} times the search index's median\n", timing.name,
                         timing.median / timings.searches[1].median);
-  return text + fmt::format(
-                    "\nFast searches that differ from the scan: {}\nLargest difference of a screened "
-                    "probability: {:.1e}\n",
-                    timings.disagreements, timings.largest_difference);
+  return text + "\n" + differences(timings) +
+         fmt::format("Largest difference of a screened probability: {:.1e}\n", timings.largest_difference);
 }
 
 }  // namespace
@@ -57,9 +88,16 @@ int main(int argc, char** argv) {
   app.footer("Example: benchmark-lookup -d bridge.h5");
   Options options;
   app.add_option("-d,--database", options.database, "default: $VOUSSOIR_DATABASE, else ./bridge.h5");
-  app.add_option("--queries", options.queries, "default 150")->check(CLI::Range(3, 1000000));
+  app.add_option("--queries", options.queries.count, "default 150")->check(CLI::Range(3, 1000000));
   app.add_option("--runs", options.runs, "of whole processes, default 41")->check(CLI::Range(1, 100000));
   app.add_option("--only", options.only, "whole answers to questions whose name contains this, and no more");
-  app.add_option("--seed", options.seed, "default 1");
+  app.add_option("--level", options.queries.level,
+                 "of the noise of all queries; default: even from 0.01 to 0.1")
+      ->check(CLI::Range(1e-4, 1.0));
+  app.add_option("--seed", options.queries.seed, "default 1");
+  app.add_flag(
+      "--triples", options.triples,
+      "of all scenes with up to three missing blocks, made up from the database's singles and pairs (3 GB "
+      "of memory)");
   return voussoir::run_program(app, argc, argv, [&] { return benchmark(options); });
 }

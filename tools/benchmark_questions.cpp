@@ -88,11 +88,11 @@ Comparison readings_of(const Library& library, const ModelError& error, const Fa
   return comparison;
 }
 
-Timing time_question(const Library& library, const ModelError& error, const Factors& factors,
-                     const Question& question, int queries, std::uint64_t seed) {
+QuestionTiming time_question(const Library& library, const ModelError& error, const Factors& factors,
+                             const Question& question, int queries, std::uint64_t seed) {
   Random random(seed);
   Preparations preparations;
-  std::vector<double> milliseconds;
+  std::vector<double> milliseconds, of_processors;
   const std::vector<int> numbers =
       question.missing.empty() ? numbers_of_missing(library.table) : question.missing;
   for (std::size_t i = 0; i < static_cast<std::size_t>(queries); ++i) {
@@ -100,21 +100,23 @@ Timing time_question(const Library& library, const ModelError& error, const Fact
     const std::size_t truth = random_truth(library.table, rows, random);
     const Comparison comparison = readings_of(library, error, factors, truth, question, random);
     const LookupSettings settings{.prior = {numbers}, .noise = question.told, .nuisance = question.nuisance};
+    const double used = processor_seconds();
     const auto start = std::chrono::steady_clock::now();
     preparations.ask(comparison, settings);
     milliseconds.push_back(
         std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
+    of_processors.push_back(1e3 * (processor_seconds() - used));
   }
-  return timing_of(question.name, std::move(milliseconds));
+  return {timing_of(question.name, std::move(milliseconds)),
+          timing_of(question.name, std::move(of_processors))};
 }
 
 }  // namespace
 
-std::vector<Timing> time_questions(const Database& database, int queries, std::uint64_t seed,
-                                   const std::string& only) {
-  const Library library = library_of(database);
+std::vector<QuestionTiming> time_questions(const Database& database, const Library& library, int queries,
+                                           std::uint64_t seed, const std::string& only) {
   const Factors factors = factors_of(database);
-  std::vector<Timing> timings;
+  std::vector<QuestionTiming> timings;
   for (const Question& question : questions())
     if (question.name.find(only) != std::string::npos && (question.known_bridge || factors != nullptr))
       timings.push_back(

@@ -96,7 +96,7 @@ struct UnknownBridge {
   // Of one case.
   double conditions = 1.0;
   double least_variance = 0.0;  ///< [m2] of any reading, by itself: of its instrument
-  Eigen::MatrixXd noise;  ///< [m2] of all scenes
+  Eigen::MatrixXd noise;        ///< [m2] of all scenes
   double spread = 0.0;  ///< [-] standard deviation of a signal as a share of it, where it is not known better
 
   bool has_first_epoch() const { return rows.front().after == 0.0; }  ///< before the rows of changes
