@@ -15,12 +15,13 @@ namespace voussoir {
 /// x = 2^e f with f in [sqrt(1/2), sqrt(2)); log f = 2 atanh(s) with s = (f - 1) / (f + 1), |s| < 0.1716, by
 /// its odd series up to s^19 (the next term is below 1e-17).
 VOUSSOIR_INLINE void make_logarithm(DoubleLanes& x) {
-  constexpr std::int64_t kRootHalfBits = 0x3FE6A09E667F3BCD;
-  constexpr std::int64_t kExponentMask = static_cast<std::int64_t>(0xFFF0000000000000);
-  const DoubleMask bits = reinterpret_cast<DoubleMask>(x);
-  const DoubleMask shifted = (bits - kRootHalfBits) & kExponentMask;
+  using Bits = LanesOf<std::uint64_t, kLanes>::Type;  // of negative numbers, signed ones would overflow
+  constexpr std::uint64_t kRootHalfBits = 0x3FE6A09E667F3BCD;
+  constexpr std::uint64_t kExponentMask = 0xFFF0000000000000;
+  const Bits bits = reinterpret_cast<Bits>(x);
+  const Bits shifted = (bits - kRootHalfBits) & kExponentMask;
   const DoubleLanes f = reinterpret_cast<DoubleLanes>(bits - shifted);
-  const DoubleLanes e = __builtin_convertvector(shifted >> 52, DoubleLanes);
+  const DoubleLanes e = __builtin_convertvector(reinterpret_cast<DoubleMask>(shifted) >> 52, DoubleLanes);
   const DoubleLanes s = (f - 1.0) / (f + 1.0);
   const DoubleLanes q = s * s;
   DoubleLanes series = DoubleLanes{} + 1.0 / 19.0;

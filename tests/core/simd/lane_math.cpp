@@ -36,6 +36,7 @@ TEST_CASE("The lane logarithm is the library's in extended precision to two unit
   CHECK(lane_log(1.0) == 0.0);
   CHECK(lane_log(0.0) == -kInfinity);
   CHECK(lane_log(-1.0) == -kInfinity);
+  CHECK(lane_log(-0.25) == -kInfinity);
   CHECK(lane_log(kInfinity) == kInfinity);
   CHECK(std::isnan(lane_log(std::nan(""))));
 }
