@@ -59,15 +59,6 @@ SceneGaussian scene_gaussian(const UnknownBridge& bridge, const Observation& obs
   return scene;
 }
 
-/// Its lower triangle; nothing reads the other.
-MatrixXd matrix_of(const LowerTriangle& lower, Index rows) {
-  MatrixXd matrix = MatrixXd::Zero(rows, rows);
-  const double* from = lower.data();
-  for (Index i = 0; i < rows; ++i)
-    for (Index j = 0; j <= i; ++j) matrix(i, j) = *from++;
-  return matrix;
-}
-
 /// What all others let expect of reading i is off by (C^-1 r)_i / (C^-1)_ii, which has the variance
 /// 1 / (C^-1)_ii. The epochs' parameters have the mean E^T C^-1 r and the covariance I - E^T C^-1 E.
 void add_part(const SceneGaussian& scene, const MatrixXd& scatter, double kappa, double weight,

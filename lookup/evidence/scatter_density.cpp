@@ -79,6 +79,14 @@ LowerTriangle lower_of(const Eigen::MatrixXd& matrix) {
   return lower;
 }
 
+Eigen::MatrixXd matrix_of(const LowerTriangle& lower, Eigen::Index rows) {
+  Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(rows, rows);
+  const double* from = lower.data();
+  for (Eigen::Index i = 0; i < rows; ++i)
+    for (Eigen::Index j = 0; j <= i; ++j) matrix(i, j) = *from++;
+  return matrix;
+}
+
 template <class Lanes, class Work>
 std::array<ScatterLogs, 2> ScatterDensity::work_out_with(Work work, const std::vector<double>& difference,
                                                          std::array<const double*, 2> noise,

@@ -19,6 +19,8 @@ constexpr std::size_t lower_size(std::size_t n) {
 }
 
 LowerTriangle lower_of(const Eigen::MatrixXd& matrix);
+/// The other way; above the diagonal are zeros.
+Eigen::MatrixXd matrix_of(const LowerTriangle& lower, Eigen::Index rows);
 
 /// A logarithm for each of kScatterFactors.
 using ScatterLogs = std::array<double, kScatterFactors.size()>;

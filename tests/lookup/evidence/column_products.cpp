@@ -12,14 +12,6 @@ namespace {
 
 constexpr double kRounding = 1e-13;  // of sums of a hundred numbers near one
 
-MatrixXd matrix_of(const LowerTriangle& lower, Index rows) {
-  MatrixXd matrix = MatrixXd::Zero(rows, rows);
-  const double* from = lower.data();
-  for (Index i = 0; i < rows; ++i)
-    for (Index j = 0; j <= i; ++j) matrix(i, j) = *from++;
-  return matrix;
-}
-
 bool lower_agrees(const LowerTriangle& lower, const MatrixXd& wanted) {
   const MatrixXd all = wanted.triangularView<Eigen::Lower>();
   return (matrix_of(lower, wanted.rows()) - all).cwiseAbs().maxCoeff() < kRounding;
