@@ -13,10 +13,11 @@ find_package(nlohmann_json REQUIRED)
 find_package(tomlplusplus REQUIRED)
 
 find_path(AMD_INCLUDE amd.h PATH_SUFFIXES suitesparse REQUIRED)
-find_library(AMD_LIBRARY amd REQUIRED)
+find_library(AMD_LIBRARY libamd.a REQUIRED)
+find_library(SUITESPARSE_CONFIG_LIBRARY libsuitesparseconfig.a REQUIRED)
 add_library(SuiteSparse::AMD INTERFACE IMPORTED)
 target_include_directories(SuiteSparse::AMD SYSTEM INTERFACE ${AMD_INCLUDE})
-target_link_libraries(SuiteSparse::AMD INTERFACE ${AMD_LIBRARY})
+target_link_libraries(SuiteSparse::AMD INTERFACE ${AMD_LIBRARY} ${SUITESPARSE_CONFIG_LIBRARY})
 
 find_path(HDF5_INCLUDE hdf5.h PATH_SUFFIXES hdf5/serial REQUIRED)
 # Static: the shared library brings some thirty others along (for reading over the network), 5 ms at every start.

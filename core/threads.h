@@ -6,9 +6,9 @@
 #include <atomic>
 #include <cstddef>
 #include <exception>
+#include <functional>
 #include <mutex>
 #include <thread>
-#include <vector>
 
 namespace voussoir {
 
@@ -16,6 +16,11 @@ namespace voussoir {
 inline int hardware_threads() {
   return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
 }
+
+/// Calls the work on this thread and, unless it ends before they begin, on up to so many others at once,
+/// which wait for work from then on: to start a thread takes as long as to work out a scene. Returns when
+/// nobody is at work any more. The work does not throw; it may itself ask for help.
+void run_with_help(int helpers, const std::function<void()>& work);
 
 /// Calls work(0) to work(count - 1) on so many threads, in any order. An exception ends the others' work soon
 /// and is thrown on.
@@ -33,11 +38,7 @@ void for_each_index_on_threads(std::size_t count, int threads, const Work& work)
       next = count;
     }
   };
-  {
-    std::vector<std::jthread> others;
-    for (int thread = 1; thread < threads; ++thread) others.emplace_back(run);
-    run();
-  }
+  run_with_help(std::min(threads, static_cast<int>(count)) - 1, run);
   if (failure) std::rethrow_exception(failure);
 }
 

@@ -113,9 +113,8 @@ void check_factors(const Sensitivities& sensitivities, VerifyReport& report) {
     report.problems.push_back(fmt::format("datasets '{}' and '{}': a scene without sensitivities has some",
                                           dataset::kBridgeFactors, dataset::kEpochFactors));
   else if (sensitivities.signals && !are_signals_right(sensitivities))
-    report.problems.push_back(fmt::format("datasets '{}' and '{}': are not what '{}' gives",
-                                          dataset::kSignalOwn, dataset::kSignalIntact,
-                                          dataset::kBridgeFactors));
+    report.problems.push_back(fmt::format("group '{}': is not what '{}' and '{}' give", dataset::kSignals,
+                                          dataset::kBridgeFactors, dataset::kEpochFactors));
 }
 
 struct Recomputed {

@@ -27,8 +27,8 @@ int complain(const CLI::App& app, const std::exception& error, int code) {
 }
 
 /// A short-lived program gains nothing from giving pages back to the system only to ask for them again, and
-/// little from getting them one by one: the heap grows at once to what a lookup needs, in large pages where
-/// there are any.
+/// little from getting them one by one: the heap begins where a large page may begin and grows at once to
+/// what a lookup needs, in large pages where there are any.
 void prepare_heap() {
 #ifdef __GLIBC__
   constexpr int kNever = 1 << 30;
@@ -37,11 +37,17 @@ void prepare_heap() {
   mallopt(M_TOP_PAD, 1 << 20);
 #ifdef MADV_HUGEPAGE
   constexpr std::size_t kRoom = 64 << 20;
-  const auto page = static_cast<std::uintptr_t>(::sysconf(_SC_PAGESIZE));
-  void* const room = std::malloc(kRoom);
-  const std::uintptr_t first = reinterpret_cast<std::uintptr_t>(room) / page * page + page;
-  if (room != nullptr)
-    static_cast<void>(::madvise(reinterpret_cast<void*>(first), kRoom - 2 * page, MADV_HUGEPAGE));
+  constexpr std::uintptr_t kLargePage = 2 << 20, kSmallPage = 4 << 10;
+  const auto so_far = reinterpret_cast<std::uintptr_t>(::sbrk(0));
+  const std::uintptr_t to_large = kLargePage - (so_far + kSmallPage) % kLargePage;
+  static_cast<void>(::sbrk(static_cast<std::intptr_t>(to_large)));
+  char* const room = static_cast<char*>(std::malloc(kRoom));
+  if (room != nullptr) {
+    // What malloc notes before the room is in a small page, and would make small ones of the first large
+    // page.
+    char* const large = room + (kLargePage - reinterpret_cast<std::uintptr_t>(room) % kLargePage);
+    static_cast<void>(::madvise(large, kRoom - kLargePage, MADV_HUGEPAGE));
+  }
   std::free(room);
 #endif
 #endif
@@ -82,6 +88,12 @@ CLI::Validator number_in_range(double least, double most, const std::string& nam
               fmt::format("{} given, expected a number from {:g} to {:g}", in_quotes(text), least, most));
       },
       name);
+}
+
+void share_heap() {
+#ifdef __GLIBC__
+  mallopt(M_ARENA_MAX, 1);
+#endif
 }
 
 int run_program(CLI::App& app, int argc, char** argv, const std::function<ProgramOutput()>& program) {

@@ -84,6 +84,7 @@ voussoir::ProgramOutput report_all(Desk& desk) {
 }
 
 voussoir::ProgramOutput locate(const voussoir::LocateDamageOptions& options) {
+  if (options.measurements.size() == 1) voussoir::share_heap();
   Desk desk{
       options, finish(options), voussoir::Database::open(voussoir::find_database(options.database)), {}};
   if (const auto& part = desk.database.shard())

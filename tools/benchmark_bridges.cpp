@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/motion/dynamic_solver.h"
 #include "core/random.h"
 #include "core/solve/outcomes_only.h"
 #include "core/solve/state_plan.h"
@@ -89,7 +90,24 @@ SolverSettings default_settings(const Model& model) {
                          model);
 }
 
-BridgeRow measure(const BridgeDescription& description, int scenes_drawn, std::uint64_t seed) {
+/// The independent answer, whose steps are hundreds of times shorter.
+void follow(const Model& model, std::span<const Scene> scenes, std::span<const Outcome> outcomes,
+            BridgeRow& row) {
+  DynamicSettings plain;
+  plain.integrator = Integrator::central_differences;
+  const std::vector<DynamicSolution> followed =
+      DynamicSolver(model, plain).solve(scenes, patient(plain.decision));
+  row.followed = static_cast<int>(followed.size());
+  for (std::size_t i = 0; i < followed.size(); ++i) {
+    const Outcome there = followed[i].solution.outcome;
+    if (there != outcomes[i])
+      row.otherwise.push_back(fmt::format("{}: {}, in motion {}", to_string(scenes[i], model.layout),
+                                          to_string(outcomes[i]), to_string(there)));
+  }
+}
+
+BridgeRow measure(const BridgeDescription& description, const BridgeOptions& options, int scenes_drawn,
+                  std::uint64_t seed) {
   const Model model = make_model(description);
   CombinedSolver solver(model, default_settings(model));
   const std::vector<Scene> scenes = drawn_scenes(model, scenes_drawn, seed);
@@ -98,6 +116,7 @@ BridgeRow measure(const BridgeDescription& description, int scenes_drawn, std::u
   std::span<const Scene> slowest;
   double longest = -1.0;
   StartingFields starts;
+  std::vector<Outcome> outcomes;
   for (std::size_t first = 0; first < scenes.size();) {
     const std::size_t size = first == 0 ? 1 : std::min(kTogether, scenes.size() - first);
     const auto group = std::span(scenes).subspan(first, size);
@@ -106,6 +125,7 @@ BridgeRow measure(const BridgeDescription& description, int scenes_drawn, std::u
     const double seconds = processor_seconds() - begin;
     row.seconds += seconds;
     count(solutions, group, model.layout, row);
+    for (const Solution& solution : solutions) outcomes.push_back(solution.outcome);
     if (first == 0) starts.add(scenes.front(), kBuilt, solutions.front());
     first += size;
     if (seconds > longest) {
@@ -114,6 +134,7 @@ BridgeRow measure(const BridgeDescription& description, int scenes_drawn, std::u
     }
   }
   find_worst(solver, slowest, starts, model.layout, row);
+  if (row.blocks <= options.most_followed) follow(model, scenes, outcomes, row);
   return row;
 }
 
@@ -133,6 +154,22 @@ std::string summary(std::span<const BridgeRow> rows) {
       "\nOf {} bridges {} are within 4 times the reference's time a scene and block, {} within 10 times; "
       "median {:.2f}, most {:.1f}. Unresolved: {} of {} scenes.\n",
       times.size(), within(4.0), within(10.0), times[times.size() / 2], times.back(), unresolved, scenes);
+}
+
+/// Nothing if no bridge was followed.
+std::string in_motion(std::span<const BridgeRow> rows) {
+  int followed = 0, bridges = 0;
+  std::vector<std::string> otherwise;
+  for (const BridgeRow& row : rows) {
+    followed += row.followed;
+    bridges += row.followed > 0 ? 1 : 0;
+    for (const std::string& scene : row.otherwise)
+      otherwise.push_back(fmt::format("- {}, {}\n", row.name, scene));
+  }
+  if (followed == 0) return "";
+  return fmt::format("\nIn plain explicit motion {} of {} scenes of {} bridges end as they were solved{}\n{}",
+                     followed - static_cast<int>(otherwise.size()), followed, bridges,
+                     otherwise.empty() ? "." : "; not:", fmt::join(otherwise, ""));
 }
 
 }  // namespace
@@ -181,7 +218,7 @@ std::vector<BridgeRow> measure_bridges(const BridgeOptions& options,
     progress(rows.back());
   };
   const auto measure_reference = [&] {
-    BridgeRow row = measure(BridgeDescription{}, 0, options.seed);
+    BridgeRow row = measure(BridgeDescription{}, {}, 0, options.seed);
     beside = row.per_scene_and_block();
     return row;
   };
@@ -189,7 +226,7 @@ std::vector<BridgeRow> measure_bridges(const BridgeOptions& options,
   for (int i = 0; i < options.bridges; ++i) {
     if (i > 0 && i % kBeside == 0) measure_reference();
     const std::uint64_t seed = options.seed + static_cast<std::uint64_t>(i);
-    add(measure(random_bridge(seed), options.scenes, seed));
+    add(measure(random_bridge(seed), options, options.scenes, seed));
   }
   return rows;
 }
@@ -210,7 +247,7 @@ std::string to_markdown(const std::vector<BridgeRow>& rows) {
                         1e3 * row.seconds / row.scenes, 1e6 * row.per_scene_and_block(),
                         row.times_the_reference(), row.worst_scene, 1e3 * row.worst, fmt::join(named, " "));
   }
-  return text + summary(std::span(rows).subspan(1));
+  return text + summary(std::span(rows).subspan(1)) + in_motion(rows);
 }
 
 }  // namespace voussoir

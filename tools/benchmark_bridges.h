@@ -19,7 +19,8 @@ BridgeDescription random_bridge(std::uint64_t seed);
 struct BridgeOptions {
   int bridges = 10;
   std::uint64_t seed = 1;
-  int scenes = 40;  ///< singles drawn of each bridge, with the intact bridge; 0: all singles
+  int scenes = 40;        ///< singles drawn of each bridge, with the intact bridge; 0: all singles
+  int most_followed = 0;  ///< blocks of bridges whose scenes are followed in plain explicit motion, too
 };
 
 /// What a bridge's scenes took, in processor time of one thread.
@@ -33,6 +34,9 @@ struct BridgeRow {
   double worst = 0.0;    ///< [s] of one scene, solved alone
   std::string worst_scene{};
   std::vector<std::string> unresolved_scenes{};
+  int followed = 0;                      ///< scenes in plain explicit motion: central differences of all
+                                         ///< nodes, as patiently as motion decides anything
+  std::vector<std::string> otherwise{};  ///< those of them that end otherwise there
 
   double per_scene_and_block() const { return seconds / (scenes * static_cast<double>(blocks)); }
   double times_the_reference() const { return per_scene_and_block() / beside; }

@@ -16,6 +16,11 @@ int main(int argc, char** argv) {
   app.add_option("--seed", options.seed, "of the first bridge, the next has the next one; default 1");
   app.add_option("--scenes", options.scenes, "singles drawn of each bridge, 0: all; default 40")
       ->check(CLI::Range(0, 100000));
+  app.add_option(
+         "--follow", options.most_followed,
+         "scenes of bridges of at most so many blocks are followed in plain explicit motion, too, which "
+         "takes minutes a bridge; default 0")
+      ->check(CLI::Range(0, 100000));
   return voussoir::run_program(app, argc, argv, [&] {
     const auto tell = [](const voussoir::BridgeRow& row) {
       std::cerr << fmt::format("{}: {} blocks, {:.1f} s\n", row.name, row.blocks, row.seconds);

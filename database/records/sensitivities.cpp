@@ -212,7 +212,9 @@ void read_factors(const Hdf5File& file, const SensitivitySizes& sizes, Sensitivi
       into.bridge.columns() == into.basis.cols() && into.epoch.columns() == into.of_epoch(),
       fmt::format("datasets '{}' and '{}' have not the columns of '{}' and '{}'", dataset::kBridgeFactors,
                   dataset::kEpochFactors, dataset::kSensitivityBasis, dataset::kUncertainName));
-  into.signals = read_signals(file, sizes.states * scenes, sizes.points);
+  into.signals = read_signals(file, sizes.states * scenes, sizes.points,
+                              static_cast<std::size_t>(into.leading_columns()),
+                              static_cast<std::size_t>(into.of_epoch()));
 }
 
 }  // namespace
@@ -240,11 +242,10 @@ std::optional<std::size_t> Sensitivities::place_of(std::size_t state, const Scen
   return known[place] != 0 ? std::optional(place) : std::nullopt;
 }
 
-std::optional<FactorsView> Sensitivities::find(std::size_t state, const Scene& scene,
-                                               Eigen::Index columns) const {
+std::optional<FactorsView> Sensitivities::find(std::size_t state, const Scene& scene) const {
   const auto place = place_of(state, scene);
   if (!place) return std::nullopt;
-  return FactorsView{bridge.leading(*place, columns), epoch[*place]};
+  return FactorsView{bridge[*place], epoch[*place]};
 }
 
 bool are_factors_sound(const Sensitivities& sensitivities) {

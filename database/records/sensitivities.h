@@ -10,7 +10,7 @@
 /// the bridge's parameters, too: theta = V z and what V leaves out, of which they say nothing.
 
 #include <Eigen/Core>
-#include <limits>
+#include <algorithm>
 #include <optional>
 #include <vector>
 
@@ -68,6 +68,7 @@ struct Sensitivities {
 
   Eigen::Index of_bridge() const { return basis.rows(); }  ///< parameters of the bridge
   Eigen::Index of_epoch() const { return static_cast<Eigen::Index>(parameters.size()) - basis.rows(); }
+  Eigen::Index leading_columns() const { return std::min(kLeadingColumns, basis.cols()); }
 
   /// Room for factors of all scenes at so many points, of which nothing is known yet, and for residuals.
   void make_room(std::size_t states, Eigen::Index points);
@@ -77,10 +78,9 @@ struct Sensitivities {
   /// The scene's place in `known`, `bridge` and `epoch`; nothing if nothing is known of it. Precondition: the
   /// state exists.
   std::optional<std::size_t> place_of(std::size_t state, const Scene& scene) const;
-  /// What is known of a scene in a state: E, and the leading columns of A. Throws InputError if the file has
-  /// a number there that is not finite.
-  std::optional<FactorsView> find(std::size_t state, const Scene& scene,
-                                  Eigen::Index columns = std::numeric_limits<Eigen::Index>::max()) const;
+  /// What is known of a scene in a state. Throws InputError if the file has a number there that is not
+  /// finite.
+  std::optional<FactorsView> find(std::size_t state, const Scene& scene) const;
 };
 
 /// The datasets of sensitivities, which outlive them; datasets that would have no elements are left out.

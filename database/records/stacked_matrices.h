@@ -2,7 +2,6 @@
 /// @file Many matrices of one size, one after the other and each row by row, as they stand in a file.
 
 #include <Eigen/Core>
-#include <algorithm>
 #include <vector>
 
 #include "database/records/stored_numbers.h"
@@ -13,7 +12,7 @@ namespace voussoir {
 class StackedMatrices {
  public:
   using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-  using View = Eigen::Map<const RowMajor, 0, Eigen::OuterStride<>>;
+  using View = Eigen::Map<const RowMajor>;
 
   StackedMatrices() = default;
   /// Its own: zeros.
@@ -27,24 +26,19 @@ class StackedMatrices {
   Eigen::Index columns() const { return columns_; }
   std::span<const double> numbers() const { return own_.empty() ? stored_.all() : std::span(own_); }
 
-  /// The leading columns of one, at most all. Throws InputError if the file has a number there that is not
-  /// finite. Precondition: it exists.
-  View leading(std::size_t i, Eigen::Index columns) const {
-    const View whole(place(i), rows_, columns_, Eigen::OuterStride<>(columns_));
-    const Eigen::Index used = std::min(columns, columns_);
-    for (Eigen::Index row = 0; row < rows_ && own_.empty(); ++row)
-      stored_.require_finite({whole.data() + row * columns_, static_cast<std::size_t>(used)});
-    return View(whole.data(), rows_, used, Eigen::OuterStride<>(columns_));
+  /// One of them. Throws InputError if the file has a number there that is not finite. Precondition: it
+  /// exists.
+  View operator[](std::size_t i) const {
+    const auto one = numbers().subspan(i * size(), size());
+    if (own_.empty()) stored_.require_finite(one);
+    return {one.data(), rows_, columns_};
   }
-  View operator[](std::size_t i) const { return leading(i, columns_); }
 
   /// One of its own.
-  Eigen::Map<RowMajor> own(std::size_t i) { return {const_cast<double*>(place(i)), rows_, columns_}; }
+  Eigen::Map<RowMajor> own(std::size_t i) { return {own_.data() + i * size(), rows_, columns_}; }
 
  private:
-  const double* place(std::size_t i) const {
-    return numbers().data() + i * static_cast<std::size_t>(rows_ * columns_);
-  }
+  std::size_t size() const { return static_cast<std::size_t>(rows_ * columns_); }
 
   Eigen::Index rows_ = 0;
   Eigen::Index columns_ = 0;

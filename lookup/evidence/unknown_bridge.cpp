@@ -126,7 +126,7 @@ Loss loss_of(const UnknownBridge& bridge, const Observation& observation, const 
              std::span<const double> prediction) {
   Loss loss{&factors, signal_of(bridge, observation, prediction)};
   if (!factors.known()) return loss;
-  const VectorXd of_bridge = squares_of_rows(factors.signal.own);
+  const VectorXd of_bridge = squares_of_rows(factors.own.leading(kFirstOwnColumns));
   const VectorXd of_epoch = squares_of_rows(factors.epoch);
   for (const ReadingRow& row : bridge.rows) {
     const auto channel = static_cast<Index>(row.channel);

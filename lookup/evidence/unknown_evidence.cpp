@@ -153,16 +153,16 @@ SceneLikelihoods::SceneLikelihoods(const UnknownBridge& bridge, const Observatio
 SceneLikelihoods::Products SceneLikelihoods::products_of(const Loss& loss) const {
   const std::size_t n = bridge_.rows.size();
   Products result;
-  const MatrixXd own = weighted_rows(bridge_, loss.factors->signal.own, weight_after);
+  const MatrixXd own = weighted_rows(bridge_, loss.factors->own.all(), weight_after);
   result.alone.assign(lower_size(n), 0.0);
   add_lower_product(own, own, n, 1.0, result.alone);
   const auto counts = [](const ReadingRow& row) { return row.of_bridge() != 0.0; };
   if (std::any_of(bridge_.rows.begin(), bridge_.rows.end(), counts)) {
-    const MatrixXd intact = weighted_rows(bridge_, loss.factors->signal.intact, weight_of_bridge);
+    const MatrixXd intact = weighted_rows(bridge_, loss.factors->intact.all(), weight_of_bridge);
     add_lower_product(own, intact, n, 1.0, result.alone);
     add_lower_product(intact, own, n, 1.0, result.alone);
   }
-  result.lead = weighted_rows(bridge_, loss.factors->lead, weight_after);
+  result.lead = weighted_rows(bridge_, loss.factors->lead.all(), weight_after);
   result.beside = result.alone;
   add_lower_product(result.lead, result.lead, n, -1.0, result.beside);
   return result;

@@ -22,6 +22,8 @@ using Eigen::VectorXd;
 
 constexpr auto kAllDirections = static_cast<Index>(kDirections);
 constexpr auto kEpochs = static_cast<Index>(kEpochColumns);
+/// Columns count if without them and all that follow some reading's variance could be so much less.
+constexpr double kTooSmall = 1e-4;
 
 /// A A^T of the intact bridge in rows of y.
 MatrixXd intact_product(const UnknownBridge& bridge) {
@@ -214,7 +216,7 @@ void UnknownScreen::reduce_losses(int threads) {
   };
   for_each_known([&](const Loss& loss, std::size_t place) {
     reduce(loss, losses_[place]);
-    changes[place] = projected(loss.factors->epoch, loss.factors->epoch.cols(), directions_by_channel_);
+    changes[place] = projected(loss.factors->epoch, directions_by_channel_);
   });
   const MatrixXd columns = epoch_columns_of(changes);
   for_each_known([&](const Loss&, std::size_t place) {
@@ -222,38 +224,27 @@ void UnknownScreen::reduce_losses(int threads) {
   });
 }
 
-DirectionColumns UnknownScreen::projected(const MatrixXd& columns, Index count,
+DirectionColumns UnknownScreen::projected(const MatrixXd& columns,
                                           const std::vector<double>& by_channel) const {
-  DirectionColumns result(kAllDirections, count);
-  if (count > 0)
+  DirectionColumns result(kAllDirections, columns.cols());
+  if (columns.cols() > 0)
     project_columns(by_channel.data(), static_cast<std::size_t>(columns.rows()), columns.data(),
-                    static_cast<std::size_t>(count), kDirections, result.data());
+                    static_cast<std::size_t>(columns.cols()), kDirections, result.data());
   return result;
 }
 
 /// What a loss adds to A A^T, of which the first columns show what it has in common with others.
 void UnknownScreen::reduce_bridge(const LossFactors& factors, ReducedLoss& to) const {
-  const DirectionColumns first =
-      projected(factors.lead, std::min(kFirstColumns, factors.lead.cols()), directions_by_channel_);
+  const DirectionColumns first = projected(factors.lead.leading(kFirstColumns), directions_by_channel_);
   store_rows(first, kFirstColumns, to.first.data());
-  const Index count = columns_that_show(factors.signal.own);
-  const DirectionColumns own = projected(factors.signal.own, count, directions_by_channel_);
+  const Index shown = factors.own.that_show(kTooSmall * bridge_.least_variance);
+  const DirectionColumns own = projected(factors.own.leading(shown), directions_by_channel_);
   add_lower(own, own, 1.0, to.of_bridge.own);
   add_lower(first, first, -1.0, to.of_bridge.own);
   if (of_bridge_by_channel_.empty()) return;
-  const DirectionColumns intact = projected(factors.signal.intact, count, of_bridge_by_channel_);
+  const DirectionColumns intact = projected(factors.intact.leading(shown), of_bridge_by_channel_);
   add_lower(own, intact, 1.0, to.of_bridge.crossed);
   add_lower(intact, own, 1.0, to.of_bridge.crossed);
-}
-
-/// Of a loss's own columns those without which no reading's variance would be a ten-thousandth less.
-Index UnknownScreen::columns_that_show(const MatrixXd& own) const {
-  constexpr double kShare = 1e-4;
-  Index count = own.cols();
-  double left = 0.0;
-  while (count > 0 && left + own.col(count - 1).squaredNorm() < kShare * bridge_.least_variance)
-    left += own.col(--count).squaredNorm();
-  return count;
 }
 
 /// The same of E E^T.
@@ -276,7 +267,7 @@ void UnknownScreen::reduce(const Loss& loss, ReducedLoss& to) const {
     to.signal_of_channels[row.channel] = signal / row.after;
     if (!std::isnan(signal)) counted(static_cast<Index>(row.channel), 0) = signal / row.after;
   }
-  const DirectionColumns signal = projected(counted, 1, directions_by_channel_);
+  const DirectionColumns signal = projected(counted, directions_by_channel_);
   store(signal, to.signal);
   reduce_bridge(*loss.factors, to);
   add_lower(signal, signal, bridge_.model_error * bridge_.model_error, to.model_error);

@@ -55,9 +55,7 @@ class UnknownScreen {
                   const Eigen::MatrixXd& reduced_bridge, ReducedCase& to) const;
   void reduce_losses(int threads);
   void reduce(const Loss& loss, ReducedLoss& to) const;
-  DirectionColumns projected(const Eigen::MatrixXd& columns, Eigen::Index count,
-                             const std::vector<double>& by_channel) const;
-  Eigen::Index columns_that_show(const Eigen::MatrixXd& own) const;
+  DirectionColumns projected(const Eigen::MatrixXd& columns, const std::vector<double>& by_channel) const;
   Eigen::MatrixXd epoch_columns_of(std::span<const DirectionColumns> changes) const;
   void reduce_bridge(const LossFactors& factors, ReducedLoss& to) const;
   void reduce_epoch(const DirectionColumns& change, const DirectionColumns& first, ReducedLoss& to) const;

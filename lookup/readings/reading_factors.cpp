@@ -1,7 +1,6 @@
 #include "lookup/readings/reading_factors.h"
 
 #include <algorithm>
-#include <limits>
 
 #include "core/threads.h"
 #include "database/records/scene_change.h"
@@ -11,8 +10,6 @@ namespace {
 
 using Eigen::Index;
 using Eigen::MatrixXd;
-
-constexpr Index kAll = std::numeric_limits<Index>::max();  // columns
 
 /// The channels' points of a matrix whose rows are points.
 template <class Points>
@@ -24,18 +21,17 @@ MatrixXd rows_of(const Points& points, const std::vector<Channel>& channels) {
   return rows;
 }
 
-/// The scene's factors by channel, and of the basis the leading columns; not known if they are unknown in one
-/// of the states.
-SceneFactors factors_of(const ReadingFactors& factors, const Scene& scene, Index columns = kAll) {
+/// The scene's factors by channel; not known if they are unknown in one of the states.
+SceneFactors factors_of(const ReadingFactors& factors, const Scene& scene) {
   const Sensitivities& from = *factors.sensitivities;
-  const auto unloaded = from.find(factors.base, scene, columns);
+  const auto unloaded = from.find(factors.base, scene);
   if (!unloaded) return {};
   SceneFactors result{rows_of(unloaded->bridge, factors.channels),
                       rows_of(unloaded->epoch, factors.channels)};
   for (std::size_t k = 0; k < factors.channels.size(); ++k) {
     const Channel& channel = factors.channels[k];
     if (!channel.loaded) continue;
-    const auto loaded = from.find(*channel.loaded, scene, columns);
+    const auto loaded = from.find(*channel.loaded, scene);
     if (!loaded) return {};
     const auto i = static_cast<Index>(k), point = static_cast<Index>(channel.point);
     result.bridge.row(i) = loaded->bridge.row(point) - result.bridge.row(i);
@@ -44,62 +40,64 @@ SceneFactors factors_of(const ReadingFactors& factors, const Scene& scene, Index
   return result;
 }
 
-/// Makes what losses change in the channels' factors.
+/// What losses change in the channels' factors.
 class Losses {
  public:
   explicit Losses(const ReadingFactors& factors)
       : factors_(factors),
         of_bridge_(widening(factors.residual.share, factors.residual.common)),
-        of_epoch_(widening(factors.residual.epoch_share, factors.residual.epoch_common)),
-        lead_(std::min(kLeadingColumns, factors.of_bridge())),
-        leading_intact_{factors.intact.bridge.leftCols(lead_), factors.intact.epoch} {
+        of_epoch_(widening(factors.residual.epoch_share, factors.residual.epoch_common)) {
     const bool loaded =
         std::ranges::any_of(factors.channels, [](const Channel& c) { return c.loaded.has_value(); });
-    if (!loaded && factors.sensitivities->signals) stored_ = &*factors.sensitivities->signals;
+    if (loaded || !factors.sensitivities->signals) return;
+    stored_ = &*factors.sensitivities->signals;
+    std::vector<Index> points;
+    for (const Channel& channel : factors.channels) points.push_back(static_cast<Index>(channel.point));
+    points_ = std::make_shared<const std::vector<Index>>(std::move(points));
   }
 
   /// Not known if the scene's factors are not.
-  LossFactors operator()(const Scene& scene) const {
-    SceneFactors own = factors_of(factors_, scene, stored_ ? lead_ : kAll);
-    if (!own.known()) return {};
-    SceneFactors change = change_of(std::move(own), stored_ ? leading_intact_ : factors_.intact);
-    change.bridge *= of_bridge_;
-    change.epoch *= of_epoch_;
-    if (stored_) return {std::move(change.bridge), std::move(change.epoch), stored_signal(scene)};
-    return {change.bridge.leftCols(lead_), std::move(change.epoch),
-            signal_factors(factors_.intact.bridge, change.bridge)};
-  }
+  LossFactors operator()(const Scene& scene) const { return stored_ ? stored(scene) : made(scene); }
 
  private:
-  /// Those of all points are those of some, but with more columns than some need.
-  SignalFactors stored_signal(const Scene& scene) const {
-    const auto stored = (*stored_)[factors_.sensitivities->place_of(factors_.base, scene).value()];
-    SignalFactors signal{rows_of(stored.own, factors_.channels), rows_of(stored.intact, factors_.channels)};
-    signal.own *= of_bridge_;
-    if (signal.own.rows() < stored.own.rows()) return signal_factors(signal.intact, signal.own);
-    return signal;
+  LossFactors stored(const Scene& scene) const {
+    const auto place = factors_.sensitivities->place_of(factors_.base, scene);
+    if (!place) return {};
+    const StoredSignals::Columns loss = (*stored_)[*place];
+    return {ChannelColumns(loss.epoch, points_, of_epoch_).all(),
+            {loss.lead, points_, of_bridge_},
+            {loss.own, points_, of_bridge_},
+            {loss.intact, points_, 1.0}};
+  }
+
+  LossFactors made(const Scene& scene) const {
+    SceneFactors own = factors_of(factors_, scene);
+    if (!own.known()) return {};
+    SceneFactors change = change_of(std::move(own), factors_.intact);
+    change.bridge *= of_bridge_;
+    change.epoch *= of_epoch_;
+    SignalFactors signal = signal_factors(factors_.intact.bridge, change.bridge);
+    return {std::move(change.epoch),
+            ChannelColumns(change.bridge.leftCols(factors_.sensitivities->leading_columns())),
+            ChannelColumns(std::move(signal.own)), ChannelColumns(std::move(signal.intact))};
   }
 
   const ReadingFactors& factors_;
   double of_bridge_, of_epoch_;
-  Index lead_;
-  SceneFactors leading_intact_;
   const StoredSignals* stored_ = nullptr;  // where they are those of the channels
+  std::shared_ptr<const std::vector<Index>> points_;
 };
 
 MatrixXd signal_product(const std::vector<LossFactors>& losses, Index channels) {
-  Index columns = 0;
-  const auto counted = [](const LossFactors& loss) {
-    return loss.signal.own.leftCols(std::min(kFirstOwnColumns, loss.signal.own.cols()));
-  };
-  for (const LossFactors& loss : losses) columns += counted(loss).cols();
-  MatrixXd all(channels, columns);
-  for (columns = 0; const LossFactors& loss : losses) {
+  MatrixXd all(channels, static_cast<Index>(losses.size()) * kFirstOwnColumns);
+  Index end = 0;
+  for (const LossFactors& loss : losses) {
+    const MatrixXd first = loss.own.leading(kFirstOwnColumns);
     if (!loss.known()) continue;
-    all.middleCols(columns, counted(loss).cols()) = counted(loss);
-    columns += counted(loss).cols();
+    all.middleCols(end, first.cols()) = first;
+    end += first.cols();
   }
-  return product_with_itself(all);
+  return product_with_itself(all.leftCols(end));
 }
 
 /// Of what a load adds the errors in both states count: nothing says how far they cancel.

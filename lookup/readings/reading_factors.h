@@ -6,27 +6,25 @@
 
 #include "database/records/sensitivities.h"
 #include "database/records/signal_factors.h"
+#include "lookup/readings/channel_columns.h"
 #include "lookup/readings/library.h"
 
 namespace voussoir {
 
-/// Columns of the basis that count as they are when two blocks are gone. What the others give one block's
-/// signal and another's counts as independent: measured on 300 pairs of the reference bridge, that leaves out
-/// 0.2 % of what the signals have in common (median; at most 7 %, of neighbours).
-inline constexpr Eigen::Index kLeadingColumns = 64;
-
-/// The first of them, which leave out 1 % (median; at most 17 %): enough to estimate with. And so many
-/// columns of a loss's own, which leave out a ten-thousandth of its variance.
+/// Leading columns of a loss that are enough to estimate with: of D (kLeadingColumns), they leave out 1 % of
+/// what the signals of two losses have in common (median of 300 pairs of the reference bridge; at most 17 %).
 inline constexpr Eigen::Index kFirstColumns = 8;
+/// And of a loss's own, B: they leave out a ten-thousandth of its variance.
 inline constexpr Eigen::Index kFirstOwnColumns = 24;
 
 /// What one loss changes in the channels' factors, widened by what the first order leaves of it, in a form
-/// whose size does not grow with the basis. Rows are channels; zero where the loss leaves no reading.
+/// whose size does not grow with the basis. Zero where the loss leaves no reading.
 struct LossFactors {
-  Eigen::MatrixXd lead;   ///< of the basis's leading columns
-  Eigen::MatrixXd epoch;  ///< of the parameters of an epoch
-  SignalFactors signal;   ///< of all columns
-  bool known() const { return lead.rows() > 0; }
+  Eigen::MatrixXd epoch;  ///< of the parameters of an epoch: channels x parameters
+  ChannelColumns lead;    ///< the leading columns of D
+  ChannelColumns own;     ///< of all columns of D: B and H (SignalFactors)
+  ChannelColumns intact;
+  bool known() const { return epoch.rows() > 0; }
 };
 
 /// The factors of a comparison's channels (Sensitivities: those of control points). A scene's factors are

@@ -74,10 +74,12 @@ struct ManySizes {
                {"U1", 3},
                {"U2", 2},
                {"F", 2},
+               {"F1", 2},
                {"G", content.sensitivities->scenes.size()},
                {"M1", 1},
                {"H1", 4},
                {"H2", 5},
+               {"Q G", kStates * 39},
                {"Q G + 1", kStates * 39 + 1},
                {"L", 2 * (kStates * 38 - 7)}};  // seven singles are unknown in the last state
   }
