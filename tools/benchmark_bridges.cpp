@@ -20,6 +20,7 @@ namespace {
 constexpr std::size_t kTogether = 16;  // scenes handed over at a time
 constexpr std::size_t kMostNamed = 5;  // unresolved scenes in the table
 constexpr int kBeside = 5;             // bridges between two measurements of the reference
+constexpr double kLongest = 10.0;      // [s] of a bridge's own time in which that shows
 
 /// Uniform numbers from a seed.
 class Draw {
@@ -90,13 +91,21 @@ SolverSettings default_settings(const Model& model) {
                          model);
 }
 
+/// Until what moves rests or is far away.
+DecisionRules until_it_rests_or_is_gone() {
+  DecisionRules rules = when_gone(patient(DecisionRules{}));
+  rules.latest_decision = kLongest;
+  rules.freer_until = rules.freer_from;  // what friction holds is not to be shaken loose
+  return rules;
+}
+
 /// The independent answer, whose steps are hundreds of times shorter.
 void follow(const Model& model, std::span<const Scene> scenes, std::span<const Outcome> outcomes,
             BridgeRow& row) {
   DynamicSettings plain;
   plain.integrator = Integrator::central_differences;
   const std::vector<DynamicSolution> followed =
-      DynamicSolver(model, plain).solve(scenes, patient(plain.decision));
+      DynamicSolver(model, plain).solve(scenes, until_it_rests_or_is_gone());
   row.followed = static_cast<int>(followed.size());
   for (std::size_t i = 0; i < followed.size(); ++i) {
     const Outcome there = followed[i].solution.outcome;

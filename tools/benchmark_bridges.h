@@ -34,8 +34,8 @@ struct BridgeRow {
   double worst = 0.0;    ///< [s] of one scene, solved alone
   std::string worst_scene{};
   std::vector<std::string> unresolved_scenes{};
-  int followed = 0;                      ///< scenes in plain explicit motion: central differences of all
-                                         ///< nodes, as patiently as motion decides anything
+  int followed = 0;  ///< scenes in plain explicit motion: central differences of all nodes, until they rest
+                     ///< or blocks are far away
   std::vector<std::string> otherwise{};  ///< those of them that end otherwise there
 
   double per_scene_and_block() const { return seconds / (scenes * static_cast<double>(blocks)); }

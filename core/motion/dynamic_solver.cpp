@@ -238,6 +238,11 @@ DecisionRules patient(DecisionRules rules) {
   return rules;
 }
 
+DecisionRules when_gone(DecisionRules rules) {
+  rules.moving_sags = 30.0;
+  return rules;
+}
+
 DynamicSettings acting_settings(DynamicSettings settings, const Model& model) {
   if (!has_mortar(model.parameters)) return settings;
   settings.most_parts = 1;

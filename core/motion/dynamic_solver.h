@@ -37,6 +37,10 @@ struct DecisionRules {
 /// Rules that follow a motion until friction that nearly holds has let go, or the bridge is really at rest.
 DecisionRules patient(DecisionRules rules);
 
+/// Rules by which something falls only when it is far away: bridges with soft joints come to rest after they
+/// have sagged fifteen times as far as bonded.
+DecisionRules when_gone(DecisionRules rules);
+
 /// Times in seconds of the bridge's own time.
 struct DynamicSettings {
   Integrator integrator = Integrator::implicit_blocks;

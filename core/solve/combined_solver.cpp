@@ -1,5 +1,7 @@
 #include "core/solve/combined_solver.h"
 
+#include <cmath>
+
 namespace voussoir {
 namespace {
 
@@ -15,6 +17,12 @@ std::vector<StageTask> tasks_at(std::span<const StageTask> tasks, std::span<cons
   std::vector<StageTask> result;
   for (const std::size_t place : places) result.push_back(tasks[place]);
   return result;
+}
+
+/// Of a node [m]; where nothing is known it has none.
+double largest_way(const Field& displacement) {
+  const Eigen::RowVectorXd squares = displacement.colwise().squaredNorm();
+  return std::sqrt(squares.array().isNaN().select(0.0, squares).maxCoeff());
 }
 
 /// Has the scene no answer yet? Later stages are left to the first search.
@@ -69,14 +77,33 @@ void CombinedSolver::insist(std::span<const StageTask> tasks, std::vector<Soluti
     if (stands(found[k])) solutions[places[k]] = std::move(found[k]);
 }
 
+/// Whether a scene falls only when something is far away: the intact bridge, as nobody builds what falls at
+/// once and all other scenes start from it, and where already the start would count as moved away.
+bool CombinedSolver::falls_late(const StageTask& task, const DecisionRules& rules) const {
+  if (task.stage.scene.removed.empty()) return true;
+  return task.start != nullptr && largest_way(*task.start) > rules.moving_sags * motion_.sag();
+}
+
+std::vector<DynamicSolution> CombinedSolver::move(std::span<const StageTask> tasks,
+                                                  const DecisionRules& rules) {
+  std::vector<DynamicSolution> solutions(tasks.size());
+  for (const bool late : {false, true}) {
+    const auto places =
+        places_where(tasks.size(), [&](std::size_t i) { return falls_late(tasks[i], rules) == late; });
+    std::vector<Scene> scenes;
+    for (const std::size_t place : places) scenes.push_back(tasks[place].stage.scene);
+    std::vector<DynamicSolution> found = motion_.solve(scenes, late ? when_gone(rules) : rules);
+    for (std::size_t k = 0; k < places.size(); ++k) solutions[places[k]] = std::move(found[k]);
+  }
+  return solutions;
+}
+
 /// Sets the scenes that are still open in motion, which begins with nothing slipped: takes the collapses,
 /// polishes what rests; with all patience what rests for certain.
 void CombinedSolver::follow(const DecisionRules& rules, std::span<const StageTask> tasks, bool patiently,
                             std::vector<Solution>& solutions) {
   const std::vector<std::size_t> open = open_places(tasks, solutions, patiently);
-  std::vector<Scene> moving;
-  for (const std::size_t place : open) moving.push_back(tasks[place].stage.scene);
-  std::vector<DynamicSolution> motions = motion_.solve(moving, rules);
+  std::vector<DynamicSolution> motions = move(tasks_at(tasks, open), rules);
 
   std::vector<StageTask> resting;
   std::vector<std::size_t> resting_at;

@@ -99,10 +99,17 @@ VOUSSOIR_INLINE void add_products(const DoubleLanes* columns, std::size_t rows, 
         *lower += columns[i * kColumns + p] * columns[j * kColumns + p];
 }
 
+/// Adds the products of columns of each scene, the sums of its losses'.
+template <std::size_t N, std::size_t kCount, std::size_t kColumns, class Numbers>
+VOUSSOIR_INLINE void add_columns(Scenes scenes, Numbers numbers, DoubleLanes* lower) {
+  DoubleLanes columns[N * kColumns];
+  add_up<kCount>(scenes, N * kColumns, numbers, columns);
+  add_products<kColumns>(columns, N, lower);
+}
+
 /// The triangles of the first N directions.
 template <std::size_t N, std::size_t kCount>
 VOUSSOIR_INLINE void fill(const ReducedQuestion& q, Scenes scenes, ReducedScenes& to) {
-  DoubleLanes columns[N * kFirstWidth];
   const auto part = [](ReducedPart ReducedLoss::*of) VOUSSOIR_INLINE_WORK {
     return [of](const ReducedLoss& loss, std::size_t at) VOUSSOIR_INLINE_WORK {
       return load<DoubleLanes>((loss.*of).crossed.data() + at) +
@@ -112,19 +119,17 @@ VOUSSOIR_INLINE void fill(const ReducedQuestion& q, Scenes scenes, ReducedScenes
   constexpr std::size_t kSize = lower_size(N);
   add_up<kCount>(scenes, kSize, part(&ReducedLoss::of_bridge), to.bridge);
   for (std::size_t at = 0; at < kSize; ++at) to.bridge[at] += q.bridge[at];
-  add_up<kCount>(
-      scenes, N * kFirstWidth,
+  add_columns<N, kCount, kFirstWidth>(
+      scenes,
       [](const ReducedLoss& loss, std::size_t at)
           VOUSSOIR_INLINE_WORK { return load<DoubleLanes>(loss.first.data() + at); },
-      columns);
-  add_products<kFirstWidth>(columns, N, to.bridge);
+      to.bridge);
   add_up<kCount>(scenes, kSize, part(&ReducedLoss::of_epoch), to.epoch);
-  add_up<kCount>(
-      scenes, N * kEpochColumns,
+  add_columns<N, kCount, kEpochColumns>(
+      scenes,
       [](const ReducedLoss& loss, std::size_t at)
           VOUSSOIR_INLINE_WORK { return load<DoubleLanes>(loss.epoch.data() + at); },
-      columns);
-  add_products<kEpochColumns>(columns, N, to.epoch);
+      to.epoch);
   add_up<kCount>(
       scenes, kSize,
       [](const ReducedLoss& loss, std::size_t at)

@@ -55,17 +55,24 @@ double instrument_variance(const Observation& observation, std::size_t channel, 
 /// Each of two epochs has half the change's variance, and the first one's error is in the change.
 void add_instruments(const Observation& observation, double level, UnknownBridge& bridge) {
   MatrixXd& noise = bridge.noise;
-  bridge.least_variance = std::numeric_limits<double>::infinity();
   for (std::size_t k = 0; k < bridge.rows.size(); ++k) {
     const double variance = instrument_variance(observation, bridge.rows[k].channel, level);
     const auto at = static_cast<Index>(k);
     noise(at, at) += (bridge.rows[k].after == 0.0 ? 0.5 : 1.0) * variance;
-    bridge.least_variance = std::min(bridge.least_variance, 0.5 * variance);
     if (bridge.rows[k].after != 0.0) continue;
     const auto change = at + noise.rows() / 2;  // the same channels in the same order
     noise(at, change) -= 0.5 * variance;
     noise(change, at) -= 0.5 * variance;
   }
+}
+
+/// Of an epoch.
+double least_instrument_variance(const std::vector<ReadingRow>& rows, const Observation& observation,
+                                 double level) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const ReadingRow& row : rows)
+    least = std::min(least, 0.5 * instrument_variance(observation, row.channel, level));
+  return least;
 }
 
 /// What is the same in all scenes and cases. What the intact bridge has in both epochs cancels in changes.
@@ -191,6 +198,7 @@ void set_case(const Observation& observation, const UnknownCase& one, UnknownBri
   const double left = one.conditions * std::max(1.0, kHeavyTails * one.conditions);
   bridge.noise = bridge.fixed_noise + left * left * bridge.epoch_noise;
   add_instruments(observation, one.level, bridge);
+  bridge.least_variance = least_instrument_variance(bridge.rows, observation, one.level);
   bridge.spread = typical_spread(bridge);
 }
 
