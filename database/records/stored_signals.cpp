@@ -137,9 +137,11 @@ bool are_signals_right(const Sensitivities& sensitivities) {
       sensitivities,
       [&](std::size_t loss, const SceneFactors& change, const Eigen::MatrixXd& of_intact) {
         const StoredSignals::Columns columns = stored[loss];
+        SignalFactors factors;  // named: g++ 12 destroys a temporary here twice if a number is not finite
+        factors.own = columns.own.all();
+        factors.intact = columns.intact.all();
         right = right && columns.lead.all() == change.bridge.leftCols(columns.lead.columns()) &&
-                columns.epoch.all() == change.epoch &&
-                are_signal_factors({columns.own.all(), columns.intact.all()}, of_intact, change.bridge);
+                columns.epoch.all() == change.epoch && are_signal_factors(factors, of_intact, change.bridge);
       },
       [&](std::size_t loss) {
         const StoredSignals::Columns columns = stored[loss];
