@@ -22,8 +22,8 @@ inline int hardware_threads() {
 /// nobody is at work any more. The work does not throw; it may itself ask for help.
 void run_with_help(int helpers, const std::function<void()>& work);
 
-/// Calls work(0) to work(count - 1) on so many threads, in any order. An exception ends the others' work soon
-/// and is thrown on.
+/// Calls work(0) to work(count - 1) on so many threads, but no more than there is work for, in any order. An
+/// exception ends the others' work soon and is thrown on.
 template <class Work>
 void for_each_index_on_threads(std::size_t count, int threads, const Work& work) {
   std::atomic<std::size_t> next = 0;

@@ -20,7 +20,7 @@ namespace {
 constexpr std::size_t kTogether = 16;  // scenes handed over at a time
 constexpr std::size_t kMostNamed = 5;  // unresolved scenes in the table
 constexpr int kBeside = 5;             // bridges between two measurements of the reference
-constexpr double kLongest = 10.0;      // [s] of a bridge's own time in which that shows
+constexpr double kLongest = 10.0;      // [s] of a bridge's own time that a scene is followed
 
 /// Uniform numbers from a seed.
 class Draw {
@@ -115,11 +115,10 @@ void follow(const Model& model, std::span<const Scene> scenes, std::span<const O
   }
 }
 
-BridgeRow measure(const BridgeDescription& description, const BridgeOptions& options, int scenes_drawn,
-                  std::uint64_t seed) {
+BridgeRow measure(const BridgeDescription& description, const BridgeOptions& options, std::uint64_t seed) {
   const Model model = make_model(description);
   CombinedSolver solver(model, default_settings(model));
-  const std::vector<Scene> scenes = drawn_scenes(model, scenes_drawn, seed);
+  const std::vector<Scene> scenes = drawn_scenes(model, options.scenes, seed);
   BridgeRow row{
       .name = description.name, .blocks = model.block_count(), .scenes = static_cast<int>(scenes.size())};
   std::span<const Scene> slowest;
@@ -227,7 +226,7 @@ std::vector<BridgeRow> measure_bridges(const BridgeOptions& options,
     progress(rows.back());
   };
   const auto measure_reference = [&] {
-    BridgeRow row = measure(BridgeDescription{}, {}, 0, options.seed);
+    BridgeRow row = measure(BridgeDescription{}, {.scenes = 0}, options.seed);
     beside = row.per_scene_and_block();
     return row;
   };
@@ -235,7 +234,7 @@ std::vector<BridgeRow> measure_bridges(const BridgeOptions& options,
   for (int i = 0; i < options.bridges; ++i) {
     if (i > 0 && i % kBeside == 0) measure_reference();
     const std::uint64_t seed = options.seed + static_cast<std::uint64_t>(i);
-    add(measure(random_bridge(seed), options, options.scenes, seed));
+    add(measure(random_bridge(seed), options, seed));
   }
   return rows;
 }

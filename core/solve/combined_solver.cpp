@@ -1,6 +1,6 @@
 #include "core/solve/combined_solver.h"
 
-#include <cmath>
+#include "core/structure/collapse.h"
 
 namespace voussoir {
 namespace {
@@ -17,12 +17,6 @@ std::vector<StageTask> tasks_at(std::span<const StageTask> tasks, std::span<cons
   std::vector<StageTask> result;
   for (const std::size_t place : places) result.push_back(tasks[place]);
   return result;
-}
-
-/// Of a node [m]; where nothing is known it has none.
-double largest_way(const Field& displacement) {
-  const Eigen::RowVectorXd squares = displacement.colwise().squaredNorm();
-  return std::sqrt(squares.array().isNaN().select(0.0, squares).maxCoeff());
 }
 
 /// Has the scene no answer yet? Later stages are left to the first search.
@@ -81,15 +75,18 @@ void CombinedSolver::insist(std::span<const StageTask> tasks, std::vector<Soluti
 /// once and all other scenes start from it, and where already the start would count as moved away.
 bool CombinedSolver::falls_late(const StageTask& task, const DecisionRules& rules) const {
   if (task.stage.scene.removed.empty()) return true;
-  return task.start != nullptr && largest_way(*task.start) > rules.moving_sags * motion_.sag();
+  const double moved_away = rules.moving_sags * motion_.sag();
+  return task.start != nullptr &&
+         !blocks_moved_beyond(moved_away, newton_.system().structure->mesh, *task.start).empty();
 }
 
 std::vector<DynamicSolution> CombinedSolver::move(std::span<const StageTask> tasks,
                                                   const DecisionRules& rules) {
+  std::vector<bool> fall_late;
+  for (const StageTask& task : tasks) fall_late.push_back(falls_late(task, rules));
   std::vector<DynamicSolution> solutions(tasks.size());
   for (const bool late : {false, true}) {
-    const auto places =
-        places_where(tasks.size(), [&](std::size_t i) { return falls_late(tasks[i], rules) == late; });
+    const auto places = places_where(tasks.size(), [&](std::size_t i) { return fall_late[i] == late; });
     std::vector<Scene> scenes;
     for (const std::size_t place : places) scenes.push_back(tasks[place].stage.scene);
     std::vector<DynamicSolution> found = motion_.solve(scenes, late ? when_gone(rules) : rules);

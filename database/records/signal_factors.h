@@ -29,8 +29,6 @@ bool are_signal_factors(const SignalFactors& factors, const Eigen::MatrixXd& int
                         const Eigen::MatrixXd& change);
 
 /// By Cholesky's factorisation of D D^T, the largest diagonal first, until 1e-10 m are left at each point.
-/// The factors of other factors, {H, B} for {A_intact, D}, are as good and made faster: what some of the
-/// points need of those of all.
 SignalFactors signal_factors(const Eigen::MatrixXd& intact, const Eigen::MatrixXd& change);
 
 }  // namespace voussoir

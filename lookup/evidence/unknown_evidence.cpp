@@ -41,11 +41,6 @@ double weight_of_bridge(const ReadingRow& row) {
   return row.of_bridge();
 }
 
-/// Not more threads than there is work for: a thread takes as long to begin as a scene to be worked out.
-int threads_for(std::size_t count, int threads) {
-  return std::min(threads, static_cast<int>(count));
-}
-
 LowerTriangle intact_triangle(const UnknownBridge& bridge) {
   LowerTriangle lower(lower_size(bridge.rows.size()));
   double* to = lower.data();
@@ -178,7 +173,7 @@ void SceneLikelihoods::prepare(std::span<const std::size_t> rows, int threads) {
   }
   std::sort(missing.begin(), missing.end());
   missing.erase(std::unique(missing.begin(), missing.end()), missing.end());
-  for_each_index_on_threads(missing.size(), threads_for(missing.size(), threads), [&](std::size_t i) {
+  for_each_index_on_threads(missing.size(), threads, [&](std::size_t i) {
     losses_[missing[i]] = products_of(bridge_.losses[missing[i]]);
   });
 }
@@ -203,7 +198,7 @@ std::vector<ScatterLogs> SceneLikelihoods::operator()(std::span<const CaseTerms>
   ScatterLogs impossible;
   impossible.fill(kImpossible);
   std::vector<ScatterLogs> result(rows.size() * cases.size(), impossible);
-  for_each_index_on_threads(rows.size(), threads_for(rows.size(), threads), [&](std::size_t i) {
+  for_each_index_on_threads(rows.size(), threads, [&](std::size_t i) {
     thread_local Work work;
     const auto loss = scene_loss(bridge_, observation_, table_, rows[i]);
     if (!loss) return;

@@ -4,6 +4,7 @@
 
 #include "core/threads.h"
 #include "database/records/scene_change.h"
+#include "database/records/signal_factors.h"
 
 namespace voussoir {
 namespace {
@@ -11,14 +12,11 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-/// The channels' points of a matrix whose rows are points.
-template <class Points>
-MatrixXd rows_of(const Points& points, const std::vector<Channel>& channels) {
-  MatrixXd rows(static_cast<Index>(channels.size()), points.cols());
-  for (Index j = 0; j < rows.cols(); ++j)
-    for (std::size_t i = 0; i < channels.size(); ++i)
-      rows(static_cast<Index>(i), j) = points(static_cast<Index>(channels[i].point), j);
-  return rows;
+/// Rows, by channel, of matrices whose rows are points.
+std::vector<Index> points_of(const std::vector<Channel>& channels) {
+  std::vector<Index> points;
+  for (const Channel& channel : channels) points.push_back(static_cast<Index>(channel.point));
+  return points;
 }
 
 /// The scene's factors by channel; not known if they are unknown in one of the states.
@@ -26,14 +24,15 @@ SceneFactors factors_of(const ReadingFactors& factors, const Scene& scene) {
   const Sensitivities& from = *factors.sensitivities;
   const auto unloaded = from.find(factors.base, scene);
   if (!unloaded) return {};
-  SceneFactors result{rows_of(unloaded->bridge, factors.channels),
-                      rows_of(unloaded->epoch, factors.channels)};
+  const std::vector<Index> points = points_of(factors.channels);
+  SceneFactors result{unloaded->bridge(points, Eigen::all), unloaded->epoch(points, Eigen::all)};
   for (std::size_t k = 0; k < factors.channels.size(); ++k) {
     const Channel& channel = factors.channels[k];
     if (!channel.loaded) continue;
     const auto loaded = from.find(*channel.loaded, scene);
     if (!loaded) return {};
-    const auto i = static_cast<Index>(k), point = static_cast<Index>(channel.point);
+    const auto i = static_cast<Index>(k);
+    const Index point = points[k];
     result.bridge.row(i) = loaded->bridge.row(point) - result.bridge.row(i);
     result.epoch.row(i) = loaded->epoch.row(point) - result.epoch.row(i);
   }
@@ -51,9 +50,7 @@ class Losses {
         std::ranges::any_of(factors.channels, [](const Channel& c) { return c.loaded.has_value(); });
     if (loaded || !factors.sensitivities->signals) return;
     stored_ = &*factors.sensitivities->signals;
-    std::vector<Index> points;
-    for (const Channel& channel : factors.channels) points.push_back(static_cast<Index>(channel.point));
-    points_ = std::make_shared<const std::vector<Index>>(std::move(points));
+    points_ = std::make_shared<const std::vector<Index>>(points_of(factors.channels));
   }
 
   /// Not known if the scene's factors are not.

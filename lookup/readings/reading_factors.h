@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "database/records/sensitivities.h"
-#include "database/records/signal_factors.h"
 #include "lookup/readings/channel_columns.h"
 #include "lookup/readings/library.h"
 

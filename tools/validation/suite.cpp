@@ -1,13 +1,12 @@
 #include "tools/validation/suite.h"
 
 #include <algorithm>
-#include <atomic>
 #include <chrono>
 #include <iterator>
 #include <mutex>
-#include <thread>
 
 #include "core/error.h"
+#include "core/threads.h"
 #include "tools/validation/studies.h"
 
 namespace voussoir::validation {
@@ -64,20 +63,12 @@ std::vector<Study> chosen_studies(const std::vector<std::string>& words, bool qu
 std::vector<StudyResult> run_studies(const std::vector<Study>& studies, int threads,
                                      const std::function<void(const StudyResult&)>& finished) {
   std::vector<StudyResult> results(studies.size());
-  std::atomic<std::size_t> next = 0;
   std::mutex reporting;
-  const auto work = [&] {
-    for (std::size_t i = next++; i < studies.size(); i = next++) {
-      results[i] = run_study(studies[i]);
-      const std::lock_guard lock(reporting);
-      finished(results[i]);
-    }
-  };
-  {
-    std::vector<std::jthread> others;
-    for (int t = 1; t < threads; ++t) others.emplace_back(work);
-    work();
-  }
+  for_each_index_on_threads(studies.size(), threads, [&](std::size_t i) {
+    results[i] = run_study(studies[i]);
+    const std::lock_guard lock(reporting);
+    finished(results[i]);
+  });
   return results;
 }
 
