@@ -14,8 +14,8 @@
 namespace voussoir {
 namespace {
 
-/// Scenes of a viaduct: enough to fill the lanes some times.
-constexpr int kViaductScenes = 24;
+/// Scenes of a viaduct: enough that how many of them take twenty linear systems is not left to chance.
+constexpr int kViaductScenes = 96;
 
 double megabytes_in_use() {
   const struct mallinfo2 info = mallinfo2();

@@ -4,6 +4,7 @@
 #include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace voussoir {
 namespace {
@@ -11,6 +12,7 @@ namespace {
 constexpr int kPowerIterations = 200;
 constexpr int kInverseIterations = 30;
 constexpr int kStepIterations = 4;
+constexpr double kStays = 0.01;  ///< of a step, which stays if it changes by no more
 
 /// A bonded joint as a spring between eight displacement components.
 struct JointSpring {
@@ -45,12 +47,14 @@ void add_spring_forces(const std::vector<JointSpring>& springs, const Eigen::Vec
   }
 }
 
-/// Per block: what a step makes of forces [1/kg].
+/// Per block: what a step makes of forces that change their sign with every step [1/kg]. Where x turns into
+/// -x, (M + dt^2 K) x_new - 2 M x + M x_old = -dt^2 K_joints x  says  4 M + dt^2 K = dt^2 K_joints: the
+/// fastest mode that an implicit step can follow feels the elasticity of half a step.
 std::vector<Eigen::MatrixXd> mobilities(const std::vector<BlockBody>& bodies, Integrator integrator,
                                         double step) {
   std::vector<Eigen::MatrixXd> result;
   for (const BlockBody& body : bodies)
-    result.push_back(integrator == Integrator::implicit_blocks ? motion_response(body, step)
+    result.push_back(integrator == Integrator::implicit_blocks ? motion_response(body, 0.5 * step)
                                                                : step_response(body, 0.0));
   return result;
 }
@@ -121,7 +125,12 @@ double critical_step(const Model& model, const std::vector<BlockBody>& bodies, I
       const double half_period = 2.0 / highest_frequency(model, bodies, integrator, step, 1.0, still);
       return std::hypot(contact_damping, half_period) - contact_damping;
     };
-    return stable(stable(1.0));  // elasticity as soft as a long step makes it, then as the step itself does
+    // Elasticity as soft as a long step makes it, then as the step found makes it: from above, until it
+    // stays.
+    double step = stable(1.0);
+    for (double before = 0.0; std::abs(step - before) > kStays * step;)
+      before = std::exchange(step, stable(step));
+    return step;
   }
   double step = 2.0 / highest_frequency(model, bodies, integrator, 0.0, 1.0, still);
   for (int i = 0; i < kStepIterations; ++i)  // the joints add little to the blocks' own frequencies
@@ -147,7 +156,7 @@ std::vector<double> block_frequencies(const Model& model, const std::vector<Bloc
     }
   std::vector<double> frequencies;
   for (std::size_t b = 0; b < bodies.size(); ++b) {
-    const Eigen::MatrixXd rates = motion_response(bodies[b], step) * stiffness[b];
+    const Eigen::MatrixXd rates = motion_response(bodies[b], 0.5 * step) * stiffness[b];
     frequencies.push_back(std::sqrt(rates.eigenvalues().cwiseAbs().maxCoeff()));
   }
   return frequencies;
