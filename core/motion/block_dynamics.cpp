@@ -138,8 +138,8 @@ Eigen::MatrixXd deformation_response(const BlockBody& body, double step) {
   return response - rigid_response(body, lumped_moment_of_inertia(body));
 }
 
-Eigen::MatrixXd motion_response(const BlockBody& body, double step) {
-  const Eigen::MatrixXd response = deformation_response(body, step);
+Eigen::MatrixXd alternating_response(const BlockBody& body, double step) {
+  const Eigen::MatrixXd response = deformation_response(body, 0.5 * step);
   if (body.held) return response;
   return response + rigid_response(body, body.inertia);
 }

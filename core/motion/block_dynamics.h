@@ -57,8 +57,10 @@ Eigen::MatrixXd step_response(const BlockBody& body, double step);
 /// deformation takes.
 Eigen::MatrixXd deformation_response(const BlockBody& body, double step);
 
-/// What frame and deformation take together: the acceleration that a force gives the nodes of a block in
-/// motion [1/kg].
-Eigen::MatrixXd motion_response(const BlockBody& body, double step);
+/// The acceleration that forces that turn round in every step give the nodes of a block in motion, frame and
+/// deformation together [1/kg]: what stability is judged by. Where x turns into -x,
+/// (M + dt^2 K) x_new - 2 M x + M x_old = dt^2 f  says  (4 M + dt^2 K) x = -dt^2 f: the deformation responds
+/// with the elasticity of half a step.
+Eigen::MatrixXd alternating_response(const BlockBody& body, double step);
 
 }  // namespace voussoir

@@ -4,7 +4,6 @@
 #include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 namespace voussoir {
 namespace {
@@ -47,14 +46,12 @@ void add_spring_forces(const std::vector<JointSpring>& springs, const Eigen::Vec
   }
 }
 
-/// Per block: what a step makes of forces that change their sign with every step [1/kg]. Where x turns into
-/// -x, (M + dt^2 K) x_new - 2 M x + M x_old = -dt^2 K_joints x  says  4 M + dt^2 K = dt^2 K_joints: the
-/// fastest mode that an implicit step can follow feels the elasticity of half a step.
+/// Per block: what a step makes of forces that turn round in every step [1/kg].
 std::vector<Eigen::MatrixXd> mobilities(const std::vector<BlockBody>& bodies, Integrator integrator,
                                         double step) {
   std::vector<Eigen::MatrixXd> result;
   for (const BlockBody& body : bodies)
-    result.push_back(integrator == Integrator::implicit_blocks ? motion_response(body, 0.5 * step)
+    result.push_back(integrator == Integrator::implicit_blocks ? alternating_response(body, step)
                                                                : step_response(body, 0.0));
   return result;
 }
@@ -125,11 +122,14 @@ double critical_step(const Model& model, const std::vector<BlockBody>& bodies, I
       const double half_period = 2.0 / highest_frequency(model, bodies, integrator, step, 1.0, still);
       return std::hypot(contact_damping, half_period) - contact_damping;
     };
-    // Elasticity as soft as a long step makes it, then as the step found makes it: from above, until it
-    // stays.
+    // Elasticity as soft as a long step makes it, then as the step found makes it, until that one stays. The
+    // steps only fall, as blocks seem softer in shorter ones.
+    double before = 0.0;
     double step = stable(1.0);
-    for (double before = 0.0; std::abs(step - before) > kStays * step;)
-      before = std::exchange(step, stable(step));
+    do {
+      before = step;
+      step = stable(before);
+    } while (before - step > kStays * step);
     return step;
   }
   double step = 2.0 / highest_frequency(model, bodies, integrator, 0.0, 1.0, still);
@@ -156,7 +156,7 @@ std::vector<double> block_frequencies(const Model& model, const std::vector<Bloc
     }
   std::vector<double> frequencies;
   for (std::size_t b = 0; b < bodies.size(); ++b) {
-    const Eigen::MatrixXd rates = motion_response(bodies[b], 0.5 * step) * stiffness[b];
+    const Eigen::MatrixXd rates = alternating_response(bodies[b], step) * stiffness[b];
     frequencies.push_back(std::sqrt(rates.eigenvalues().cwiseAbs().maxCoeff()));
   }
   return frequencies;

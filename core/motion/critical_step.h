@@ -21,8 +21,7 @@ double critical_step(const Model& model, const std::vector<BlockBody>& bodies, I
                      double contact_damping, const std::vector<bool>& still = {});
 
 /// The highest frequency of each block alone [rad/s], its joints closed and sticking and its neighbours
-/// standing still; block elasticity as implicit steps of this length [s] make it for what changes its sign
-/// with every step.
+/// standing still; blocks respond as in implicit steps of this length [s] (alternating_response).
 std::vector<double> block_frequencies(const Model& model, const std::vector<BlockBody>& bodies, double step);
 
 /// The linear bridge, all joints closed and sticking, under its weight.

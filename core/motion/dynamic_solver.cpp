@@ -31,7 +31,7 @@ Pace acting_pace(const Model& model, const std::vector<BlockBody>& bodies, const
   }
   Pace pace{.step = kOfCritical * critical};
   if (settings.integrator == Integrator::implicit_blocks)
-    pace = best_pace(model, bodies, settings.contact_damping, pace.step, settings.most_parts);
+    pace = best_pace(model, bodies, settings.contact_damping, critical, kOfCritical, settings.most_parts);
   pace.step = step_between_looks(pace.step);
   return pace;
 }

@@ -21,7 +21,8 @@ double share_of_joints(const Model& model, const std::vector<bool>& quick) {
 }  // namespace
 
 Pace best_pace(const Model& model, const std::vector<BlockBody>& bodies, double contact_damping,
-               double quick_step, int most_parts) {
+               double critical, double share, int most_parts) {
+  const double quick_step = share * critical;
   const std::vector<double> frequencies = block_frequencies(model, bodies, most_parts * quick_step);
   const double highest = *std::ranges::max_element(frequencies);
   Pace best{.step = quick_step};
@@ -36,10 +37,9 @@ Pace best_pace(const Model& model, const std::vector<BlockBody>& bodies, double 
     best = {.step = parts * quick_step, .parts = parts, .quick = std::move(quick)};
   }
   if (best.parts == 1) return best;
-  const double all = critical_step(model, bodies, Integrator::implicit_blocks, contact_damping);
   const double others =
       critical_step(model, bodies, Integrator::implicit_blocks, contact_damping, best.quick);
-  best.step = std::min(best.step, others * quick_step / all);
+  best.step = std::min(best.step, share * others);
   return best;
 }
 

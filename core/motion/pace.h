@@ -22,8 +22,9 @@ struct Pace {
 };
 
 /// The pace of implicit steps at which contacts are looked at least often per time, with at most so many
-/// parts. `quick_step` [s]: which all blocks allow, stable by some margin; the others' step has the same one.
+/// parts. `critical` [s]: the critical step of all blocks; quick ones take at most this share of it, and
+/// the others at most the same share of theirs.
 Pace best_pace(const Model& model, const std::vector<BlockBody>& bodies, double contact_damping,
-               double quick_step, int most_parts);
+               double critical, double share, int most_parts);
 
 }  // namespace voussoir

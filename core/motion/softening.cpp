@@ -8,7 +8,7 @@ namespace voussoir {
 
 std::vector<double> softening(const Model& model, const std::vector<BlockBody>& bodies,
                               double contact_damping, double step) {
-  // stable_step solved for the square of the frequency.
+  // critical_step's condition, solved for the square of the frequency.
   const double allowed = 4.0 / (step * (step + 2.0 * contact_damping));
   std::vector<double> shares;
   for (const double frequency : block_frequencies(model, bodies, step))
