@@ -63,7 +63,7 @@ TEST_CASE("The digest is the same for 1, 2 and 5 threads", "[threads]") {
   }
 }
 
-TEST_CASE("The digest of real scenes is the same for 1 and for 4 threads", "[threads]") {
+TEST_CASE("The digest of real scenes is the same for 1 and for 4 threads") {
   std::string expected;
   for (const int threads : {1, 4}) {
     Site site;

@@ -63,7 +63,8 @@ void check_same(Record record, const Record& alone) {
 
 }  // namespace
 
-TEST_CASE("Two variants in one file are verified, and each is what is built of its bridge alone") {
+TEST_CASE("Two variants in one file are verified, and each is what is built of its bridge alone",
+          "[many-solutions]") {
   Site both({1.2});
   both.request.scenes = "intact;4,1..3;0,5;4,1+4,2";
   CHECK(both.build(quasi_static()).outcomes.scenes == 12);
@@ -153,7 +154,8 @@ TEST_CASE("The digest of variants is the same for 1, 2 and 5 threads") {
   CHECK(digests.size() == 1);
 }
 
-TEST_CASE("A scene of a variant whose field is not that variant's is found by solving it anew") {
+TEST_CASE("A scene of a variant whose field is not that variant's is found by solving it anew",
+          "[many-solutions]") {
   Site site({1.2});
   site.request.scenes = "intact;4,1..3";
   site.build(quasi_static());

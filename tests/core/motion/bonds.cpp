@@ -132,7 +132,7 @@ TEST_CASE("Scenes with mortar have the same bits alone and side by side (the sca
 
 TEST_CASE(
     "Blocks let go slowly out of mortar change the bridge as the history lost does (independent solver)",
-    "[mortar]") {
+    "[mortar][many-solutions]") {
   const Model bridge = bridge_with_mortar();
   const LoadedBridge loaded(bridge);
   REQUIRE(loaded.intact().solution.outcome == Outcome::standing);

@@ -160,7 +160,8 @@ TEST_CASE("Where gravity acts at once, the half blocks slide down and the arch f
   }
 }
 
-TEST_CASE("Collapses of mirrored scenes have mirrored fields to round-off at the stated moment (symmetry)") {
+TEST_CASE("Collapses of mirrored scenes have mirrored fields to round-off at the stated moment (symmetry)",
+          "[many-solutions]") {
   // Round-off of 1e-16 grows on the way through a thousand steps. Of 1,983 mirrored pairs of collapses of the
   // reference bridge half agree to 2e-12 of their largest displacement, 99 of 100 to 4e-10; the worst, the
   // last one here, to 1.4e-8.
@@ -318,7 +319,8 @@ TEST_CASE("A step above the critical one is refused with the reason") {
                     Catch::Contains("not stable") && Catch::Contains("allows steps up to"));
 }
 
-TEST_CASE("Steps just below the critical one are stable, and give the answer of shorter steps (refinement)") {
+TEST_CASE("Steps just below the critical one are stable, and give the answer of shorter steps (refinement)",
+          "[many-solutions]") {
   const Scene scene{{BlockId{25}}};
   DynamicSettings settings;
   settings.decision.standing_unbalance = 1e-6;

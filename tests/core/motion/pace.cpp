@@ -40,7 +40,7 @@ TEST_CASE("Equal blocks take equal steps", "[motion]") {
 }
 
 TEST_CASE("What falls when few blocks take short steps falls as when all do (motion in steps of 0.05 ms)",
-          "[motion]") {
+          "[motion][many-solutions]") {
   const Model bridge = test::reference_bridge();
   std::vector<Scene> scenes;
   for (const char* text : {"0,5", "0,10+10,11", "0,9+10,12", "0,3"})

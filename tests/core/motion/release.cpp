@@ -75,7 +75,8 @@ TEST_CASE("Where nothing slips a bridge is as if built so, however its block wen
   }
 }
 
-TEST_CASE("Where joints slip, blocks that go suddenly leave another bridge than those let go slowly") {
+TEST_CASE("Where joints slip, blocks that go suddenly leave another bridge than those let go slowly",
+          "[many-solutions]") {
   const Model bridge = test::reference_bridge();
   const LoadedBridge loaded(bridge);
   const Scene scene = parse_scene("10,4", bridge.layout);

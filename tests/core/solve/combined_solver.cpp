@@ -80,7 +80,7 @@ TEST_CASE("Every scene of the small bridge with up to one block missing has an o
 }
 
 TEST_CASE("Joints as stiff along as across, or stiffer: no scene is left open (equilibrium from the field)",
-          "[combined]") {
+          "[combined][many-solutions]") {
   BridgeDescription description = test::small_description();
   for (const double ratio : {1.0, 3.0}) {
     description.joints.tangential_stiffness = ratio * description.joints.normal_stiffness;
@@ -97,7 +97,7 @@ TEST_CASE("Joints as stiff along as across, or stiffer: no scene is left open (e
 }
 
 TEST_CASE("A patient search finds the equilibrium that rising p_t leads to step by step (continuation)",
-          "[combined]") {
+          "[combined][many-solutions]") {
   BridgeDescription description = reference_bridge_file().description;
   description.joints.normal_stiffness = description.joints.tangential_stiffness = 1e8;
   const Model bridge = make_model(description);
@@ -117,7 +117,8 @@ TEST_CASE("A patient search finds the equilibrium that rising p_t leads to step 
   CHECK((followed.displacement - patient.displacement).cwiseAbs().maxCoeff() < 1e-9);
 }
 
-TEST_CASE("Scenes that Newton alone leaves open stand or creep away in motion", "[combined]") {
+TEST_CASE("Scenes that Newton alone leaves open stand or creep away in motion",
+          "[combined][many-solutions]") {
   const Model bridge = test::reference_bridge();
   const std::vector<std::pair<const char*, Outcome>> expected =
       {
@@ -136,7 +137,7 @@ TEST_CASE("Scenes that Newton alone leaves open stand or creep away in motion", 
 }
 
 TEST_CASE("Scenes that are said to fall have the same answers, whether they do or not (Newton first)",
-          "[combined]") {
+          "[combined][many-solutions]") {
   const Model bridge = test::reference_bridge();
   std::vector<StageTask> tasks;
   for (const char* text : {"0,15", "0,15+7,10", "8,1+9,1", "10,4", "1,6+10,1"})
@@ -155,7 +156,7 @@ TEST_CASE("Scenes that are said to fall have the same answers, whether they do o
 }
 
 TEST_CASE("Scenes that are said to have no answer get what is found without patience (Newton, one motion)",
-          "[combined]") {
+          "[combined][many-solutions]") {
   const Model bridge = test::reference_bridge();
   std::vector<StageTask> tasks;
   for (const char* text : {"10,4", "0,15", "10,1+11,9"})  // stands, falls, creeps: only patience sees it move

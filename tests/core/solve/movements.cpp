@@ -72,7 +72,7 @@ TEST_CASE("A wall is pressed as told, then slides at c + mu p at most (closed fo
 }
 
 TEST_CASE("Before it cracks the Eindhoven wall is as stiff as theorems of least energy allow (closed forms)",
-          "[mortar][path]") {
+          "[mortar][path][many-solutions]") {
   BridgeDescription wall = read_bridge_file(test::example_bridge("eindhoven-wall")).description;
   wall.movements.back().x = 5e-5;
   wall.movements.back().steps = 1;

@@ -50,7 +50,7 @@ TEST_CASE("With mortar times stay as they are, however fast the bridge swings", 
 }
 
 TEST_CASE("The same singles of a stiff bridge fall in the same way, in a fraction of the steps (as they are)",
-          "[combined]") {
+          "[combined][many-solutions]") {
   const Model bridge = stiff_bridge(100.0);
   REQUIRE(softens_joints(kPlain.motion, bridge));
   const std::vector<Scene> scenes = all_scenes(bridge.layout.size(), 1);

@@ -193,7 +193,7 @@ TEST_CASE("Kept factors change no field of a later stage (the tangent factorised
 }
 
 TEST_CASE("What a loss's steps leave unbalanced is let go in the next (all steps as balanced as the last)",
-          "[solver]") {
+          "[solver][many-solutions]") {
   const Model bridge = test::reference_bridge();
   QuasiStaticSettings settings;
   QuasiStaticSolver usual(bridge, settings);
