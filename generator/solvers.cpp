@@ -23,15 +23,22 @@ SceneSolver dynamic_solver(const SolverSettings& settings, const Model& model) {
   };
 }
 
+SceneSolver acting_solver(const SolverSettings& settings, const Model& model) {
+  return settings.kind == SolverKind::dynamic ? dynamic_solver(settings, model)
+                                              : combined_solver(settings, model);
+}
+
 }  // namespace
 
 SceneSolver stated_solver(const Model& model, const std::string& settings) {
-  const SolverSettings acting = parse_settings(settings);
-  return acting.kind == SolverKind::dynamic ? dynamic_solver(acting, model) : combined_solver(acting, model);
+  return acting_solver(parse_settings(settings), model);
 }
 
 SolverChoice solver_with(const SolverSettings& settings) {
-  return {[settings](const Model& model) { return to_text(acting_settings(settings, model)); }, stated_solver,
+  return {[settings](const Model& model) { return to_text(acting_settings(settings, model)); },
+          [settings](const Model& model, const std::string& stated) {
+            return acting_solver(parse_settings(stated, settings), model);
+          },
           [settings](const Model& model) {
             const auto solver =
                 std::make_shared<QuasiStaticSolver>(model, acting_settings(settings, model).newton);

@@ -22,8 +22,8 @@ struct SkipRow {
 /// NaN is an infinite change.
 double largest_change(std::span<const double> with, std::span<const double> without);
 
-/// Builds the database of some scenes (as --scenes takes them) once with all skips and once without each. The
-/// builds with all skips frame the others, and their mean is what the others are compared with.
+/// Builds the database of some scenes (as --scenes takes them), of a bridge taken as known, without each
+/// skip, and with all of them before each: processors are not always as fast.
 std::vector<SkipRow> measure_skips(const BridgeFile& bridge, const std::string& scenes);
 
 /// As a table in Markdown.

@@ -206,9 +206,9 @@ std::string to_text(const SolverSettings& settings) {
   return text;
 }
 
-SolverSettings parse_settings(std::string_view text) {
+SolverSettings parse_settings(std::string_view text, const SolverSettings& unstated) {
   const auto lines = lines_by_key(text);
-  SolverSettings settings;
+  SolverSettings settings = unstated;
   visit_settings(settings, [&](const std::string& key, auto& value) {
     const auto line = lines.find(key);
     if (line == lines.end())

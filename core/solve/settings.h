@@ -33,8 +33,9 @@ SolverSettings acting_settings(SolverSettings settings, const Model& model);
 /// "motion.ramp_s".
 std::string to_text(const SolverSettings& settings);
 
-/// The inverse; lines with other keys are passed over. Throws Failure naming the line if a key of a solver is
-/// missing or its value cannot be read: another version wrote it.
-SolverSettings parse_settings(std::string_view text);
+/// The inverse; lines with other keys are passed over, and settings that no text states, as they change no
+/// answer, are as in `unstated`. Throws Failure naming the line if a key of a solver is missing or its value
+/// cannot be read: another version wrote it.
+SolverSettings parse_settings(std::string_view text, const SolverSettings& unstated = {});
 
 }  // namespace voussoir

@@ -40,6 +40,20 @@ TEST_CASE("Settings survive their text form, every value changed (round trip)", 
   CHECK(parse_settings("other = 1\n" + text + "storage = 2\n").patient.moving_sags == 9.0);
 }
 
+TEST_CASE("What changes no answer is in no text, and stays as it is when one is read", "[settings]") {
+  DynamicSettings motion;
+  motion.skips.shared_analysis = motion.skips.lane_refill = motion.skips.settled_contacts = false;
+  motion.side_by_side = 1;
+  const SolverSettings settings = SolverSettings::of(SolverKind::quasi_static, motion);
+  const std::string text = to_text(settings);
+  CHECK(text == to_text(SolverSettings::of(SolverKind::quasi_static)));
+  const SolverSettings read = parse_settings(text, settings);
+  for (const Skips& skips : {read.newton.skips, read.motion.skips})
+    CHECK_FALSE((skips.shared_analysis || skips.lane_refill || skips.settled_contacts));
+  CHECK(read.motion.side_by_side == 1);
+  CHECK(parse_settings(text).motion.skips.settled_contacts);
+}
+
 TEST_CASE("Settings state what acts, for each phase", "[settings]") {
   const SolverSettings settings = SolverSettings::of(SolverKind::quasi_static);
   const std::string soft = to_text(acting_settings(settings, test::reference_bridge()));
