@@ -154,8 +154,7 @@ TEST_CASE("The digest of variants is the same for 1, 2 and 5 threads") {
   CHECK(digests.size() == 1);
 }
 
-TEST_CASE("A scene of a variant whose field is not that variant's is found by solving it anew",
-          "[many-solutions]") {
+TEST_CASE("A scene of a variant whose field is not that variant's is found by solving it anew") {
   Site site({1.2});
   site.request.scenes = "intact;4,1..3";
   site.build(quasi_static());

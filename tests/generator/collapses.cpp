@@ -53,8 +53,7 @@ void check_same_outcomes(const Built& fields, const Built& outcomes) {
 
 }  // namespace
 
-TEST_CASE("With outcomes only, the same scenes fall as in motion, and those that stand have the same bits",
-          "[many-solutions]") {
+TEST_CASE("With outcomes only, the same scenes fall as in motion, and those that stand have the same bits") {
   const test::TemporaryFolder folder;
   const BridgeFile bridge = read_bridge_file(test::example_bridge("small"));
   const std::string scenes = "singles;0,*+4,1..3;0,*+0,*";

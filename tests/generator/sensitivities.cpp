@@ -95,7 +95,7 @@ TEST_CASE("Sensitivities and digest are the same for all numbers of threads",
 }
 
 TEST_CASE("A bridge that is said to be known has no sensitivities; without that word it gets them",
-          "[sensitivity][many-solutions]") {
+          "[sensitivity]") {
   const test::TemporaryFolder folder;
   build(folder / "small.h5", 2, true);
   CHECK(Database::open(folder / "small.h5").sensitivities() == nullptr);

@@ -319,8 +319,7 @@ TEST_CASE("A step above the critical one is refused with the reason") {
                     Catch::Contains("not stable") && Catch::Contains("allows steps up to"));
 }
 
-TEST_CASE("Steps just below the critical one are stable, and give the answer of shorter steps (refinement)",
-          "[many-solutions]") {
+TEST_CASE("Steps just below the critical one are stable, and give the answer of shorter steps (refinement)") {
   const Scene scene{{BlockId{25}}};
   DynamicSettings settings;
   settings.decision.standing_unbalance = 1e-6;
@@ -334,7 +333,8 @@ TEST_CASE("Steps just below the critical one are stable, and give the answer of 
                             readings(small(), shorter.solution.displacement)) < 2e-5);
 }
 
-TEST_CASE("Steps just below the critical one leave joints stiffer than their blocks at rest (von Neumann)") {
+TEST_CASE("Steps just below the critical one leave joints stiffer than their blocks at rest (von Neumann)",
+          "[many-solutions]") {
   BridgeDescription description;
   description.joints.normal_stiffness = 1e11;
   description.joints.tangential_stiffness = 1e10;

@@ -65,7 +65,7 @@ TEST_CASE("The reference bridge's joints are soft enough for every step (bit by 
 }
 
 TEST_CASE("What falls from softened joints falls as from the joints as they are (motion in short steps)",
-          "[motion][many-solutions]") {
+          "[motion]") {
   BridgeDescription description = read_bridge_file(test::example_bridge("small")).description;
   description.joints.normal_stiffness *= 30.0;
   description.joints.tangential_stiffness *= 30.0;
