@@ -2,6 +2,7 @@
 
 #include <iostream>
 
+#include "core/heap.h"
 #include "core/text_file.h"
 #include "generator/bridge_drawing.h"
 #include "generator/build_options.h"
@@ -45,6 +46,7 @@ int run(BuildOptions& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  keep_freed_memory();
   BuildOptions options;
   return run_writer("build-database", options.json, [&] {
     parse_build_options(argc, argv, options);

@@ -2,9 +2,9 @@
 
 #include <oneapi/tbb/enumerable_thread_specific.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 
+#include "core/simd/column_products.h"
 #include "database/records/order_of_sums.h"
 #include "generator/first_order_residual.h"
 #include "generator/parallel.h"
@@ -58,53 +58,17 @@ Derivatives derivatives_of(const SensitivityStudy& study, const SensitivityEquat
   return derivatives;
 }
 
-using Directions = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>;
-
-/// The directions of largest eigenvalues, largest first, until `enough` holds of what is left: the sum of the
-/// other eigenvalues and the next one.
-template <class Enough>
-Eigen::MatrixXd leading_directions(const Eigen::MatrixXd& gram, const Enough& enough) {
-  const Directions directions(gram);
-  double left = directions.eigenvalues().cwiseMax(0.0).sum();
-  Eigen::Index count = 0;
-  const Eigen::Index size = gram.rows();
-  while (count < size && !enough(left, directions.eigenvalues()[size - 1 - count])) {
-    left -= std::max(0.0, directions.eigenvalues()[size - 1 - count]);
-    ++count;
-  }
-  return directions.eigenvectors().rightCols(count).rowwise().reverse();
+/// A scene's derivatives by the directions of the basis: points x directions.
+Eigen::MatrixXd projected(const Eigen::MatrixXd& scene, const Eigen::MatrixXd& basis) {
+  const Eigen::MatrixXd filled = filled_up(scene.leftCols(basis.rows()));
+  Eigen::MatrixXd result(filled.rows(), basis.cols());
+  project_columns(filled.data(), static_cast<std::size_t>(filled.cols()), basis.data(),
+                  static_cast<std::size_t>(basis.cols()), static_cast<std::size_t>(filled.rows()),
+                  result.data());
+  return result.topRows(scene.rows());
 }
 
 }  // namespace
-
-Eigen::MatrixXd sensitivity_basis(const Derivatives& derivatives, Eigen::Index of_bridge) {
-  Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(of_bridge, of_bridge);
-  for (const auto& state : derivatives)
-    if (state.front().size() > 0)
-      gram += state.front().leftCols(of_bridge).transpose() * state.front().leftCols(of_bridge);
-  const Eigen::MatrixXd of_intact =
-      leading_directions(gram, [](double, double next) { return next < kLeastDeviation * kLeastDeviation; });
-
-  gram.setZero();
-  double count = 0.0;
-  for (const auto& state : derivatives)
-    for (std::size_t i = 1; i < state.size(); ++i) {
-      if (state[i].size() == 0 || state.front().size() == 0) continue;
-      const Eigen::MatrixXd signal = (state[i] - state.front()).leftCols(of_bridge);
-      if (signal.squaredNorm() == 0.0) continue;
-      gram.selfadjointView<Eigen::Lower>().rankUpdate(signal.transpose(), 1.0 / signal.squaredNorm());
-      count += 1.0;
-    }
-  gram.triangularView<Eigen::StrictlyUpper>() = gram.transpose();
-  const Eigen::MatrixXd not_of_intact =
-      Eigen::MatrixXd::Identity(of_bridge, of_bridge) - of_intact * of_intact.transpose();
-  gram = (not_of_intact * gram * not_of_intact).eval();
-  const Eigen::MatrixXd of_signals =
-      leading_directions(gram, [&](double left, double) { return left <= kLeftOfSignals * count; });
-  Eigen::MatrixXd basis(of_bridge, of_intact.cols() + of_signals.cols());
-  basis << of_intact, of_signals;
-  return basis;
-}
 
 std::optional<Sensitivities> find_sensitivities(const SensitivityStudy& study,
                                                 const std::vector<Scene>& scenes, const KnownRecords& known) {
@@ -119,18 +83,18 @@ std::optional<Sensitivities> find_sensitivities(const SensitivityStudy& study,
   if (!intact || !stands(*intact)) return std::nullopt;
   auto derivatives = derivatives_of(study, equations, result.scenes, states);
   const auto of_bridge = static_cast<Eigen::Index>(equations.uncertain.of_bridge.size());
-  result.basis = sensitivity_basis(derivatives, of_bridge);
+  result.basis = sensitivity_basis(derivatives, of_bridge, study.threads);
   const auto residuals =
       first_order_residuals(study, equations.uncertain, {result.scenes, states, derivatives});
   result.make_room(derivatives.size(), static_cast<Eigen::Index>(study.bridge.control_points.size()));
   result.residuals = residuals;
-  for (std::size_t state = 0; state < derivatives.size(); ++state)
-    for (std::size_t i = 0; i < derivatives[state].size(); ++i) {
+  Crew(study.threads).for_each_index(result.scenes.size(), [&](std::size_t i) {
+    for (std::size_t state = 0; state < derivatives.size(); ++state) {
       const Eigen::MatrixXd scene = std::move(derivatives[state][i]);
       if (scene.size() > 0)
-        result.set(state, i,
-                   {scene.leftCols(of_bridge) * result.basis, scene.rightCols(scene.cols() - of_bridge)});
+        result.set(state, i, {projected(scene, result.basis), scene.rightCols(scene.cols() - of_bridge)});
     }
+  });
   return result;
 }
 

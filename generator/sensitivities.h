@@ -6,15 +6,9 @@
 #include "database/records/sensitivities.h"
 #include "generator/known_records.h"
 #include "generator/scene_solving.h"
+#include "generator/sensitivity_basis.h"
 
 namespace voussoir {
-
-/// The basis holds what the intact bridge's displacements depend on, down to this standard deviation [m]: a
-/// hundredth of what good gauges read.
-inline constexpr double kLeastDeviation = 1e-7;
-
-/// And of the variance of every signal, taken on average over scenes and states, all but this share.
-inline constexpr double kLeftOfSignals = 1e-3;
 
 /// What is found for which bridge with what.
 struct SensitivityStudy {
@@ -26,10 +20,6 @@ struct SensitivityStudy {
   int threads = 0;
 };
 
-/// Of each kept state and each scene: points x parameters (the bridge's first) [m per standard deviation];
-/// those of the intact bridge come first. Empty ones are not known.
-using Derivatives = std::vector<std::vector<Eigen::MatrixXd>>;
-
 /// Sensitivities of the intact bridge and of those of the scenes that lack one block, where they stand; in
 /// `known` are their states as far as they have been solved. Nothing if nothing is uncertain or the intact
 /// bridge does not stand.
@@ -38,9 +28,5 @@ using Derivatives = std::vector<std::vector<Eigen::MatrixXd>>;
 /// this step; of others the loss is solved again in all its steps.
 std::optional<Sensitivities> find_sensitivities(const SensitivityStudy& study,
                                                 const std::vector<Scene>& scenes, const KnownRecords& known);
-
-/// Orthonormal directions of the bridge's parameters, `of_bridge` of them: see kLeastDeviation and
-/// kLeftOfSignals.
-Eigen::MatrixXd sensitivity_basis(const Derivatives& derivatives, Eigen::Index of_bridge);
 
 }  // namespace voussoir

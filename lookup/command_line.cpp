@@ -12,6 +12,7 @@
 #include <cstdlib>
 
 #include "core/error.h"
+#include "core/heap.h"
 #include "core/text.h"
 
 namespace voussoir {
@@ -26,16 +27,11 @@ int complain(const CLI::App& app, const std::exception& error, int code) {
   return code;
 }
 
-/// A short-lived program gains nothing from giving pages back to the system only to ask for them again, and
-/// little from getting them one by one: the heap begins where a large page may begin and grows at once to
-/// what a lookup needs, in large pages where there are any.
+/// A short-lived program gains little from getting pages one by one: the heap begins where a large page may
+/// begin and grows at once to what a lookup needs, in large pages where there are any.
 void prepare_heap() {
-#ifdef __GLIBC__
-  constexpr int kNever = 1 << 30;
-  mallopt(M_MMAP_THRESHOLD, kNever);
-  mallopt(M_TRIM_THRESHOLD, kNever);
-  mallopt(M_TOP_PAD, 1 << 20);
-#ifdef MADV_HUGEPAGE
+  keep_freed_memory();
+#if defined(__GLIBC__) && defined(MADV_HUGEPAGE)
   constexpr std::size_t kRoom = 64 << 20;
   constexpr std::uintptr_t kLargePage = 2 << 20, kSmallPage = 4 << 10;
   const auto so_far = reinterpret_cast<std::uintptr_t>(::sbrk(0));
@@ -49,7 +45,6 @@ void prepare_heap() {
     static_cast<void>(::madvise(large, kRoom - kLargePage, MADV_HUGEPAGE));
   }
   std::free(room);
-#endif
 #endif
 }
 

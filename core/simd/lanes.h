@@ -178,14 +178,19 @@ struct alignas(sizeof(T)) Cell {
   T value;
 };
 
-/// Values of several scenes: entry i of scene l is `[i].value[l]`.
-using LaneVector = std::vector<Cell<DoubleLanes>>;
+template <class T>
+using Cells = std::vector<Cell<T>>;
 
-inline DoubleLanes* registers_of(LaneVector& values) {
-  return reinterpret_cast<DoubleLanes*>(values.data());
+/// Values of several scenes: entry i of scene l is `[i].value[l]`.
+using LaneVector = Cells<DoubleLanes>;
+
+template <class T>
+T* registers_of(std::vector<Cell<T>>& values) {
+  return reinterpret_cast<T*>(values.data());
 }
-inline const DoubleLanes* registers_of(const LaneVector& values) {
-  return reinterpret_cast<const DoubleLanes*>(values.data());
+template <class T>
+const T* registers_of(const std::vector<Cell<T>>& values) {
+  return reinterpret_cast<const T*>(values.data());
 }
 
 }  // namespace voussoir

@@ -21,12 +21,23 @@ Eigen::MatrixXd movements_of(const EquilibriumSystem& system, const UncertainPar
   return movements;
 }
 
+/// What the forces that are unbalanced at a step's place do to the readings, by this place.
+ComponentRows unbalanced_by_place(const SolvedStep& step, const ComponentRows& lambda) {
+  const EquilibriumSystem& system = *step.equations.system;
+  Eigen::SparseMatrix<double> tangent = system.pattern;
+  assemble(step.equations, step.place, 0.0, {tangent.valuePtr()});
+  const ComponentRows by_free = tangent.transpose() * ComponentRows(lambda(system.component, Eigen::all));
+  ComponentRows by_place = ComponentRows::Zero(lambda.rows(), lambda.cols());
+  by_place(system.component, Eigen::all) = by_free;
+  return by_place;
+}
+
 }  // namespace
 
 /// Derivatives of the readings, on the way from the last step to the first.
 struct SensitivitySolver::Adjoint {
   ComponentRows by_displacement;  ///< of the step's end: components x readings
-  ComponentRows by_memory;        ///< of the step's end: (2 joints) x readings
+  ComponentRows by_memory;        ///< of the step's end: (2 joints) x readings; empty: zero
   ComponentRows by_parameters;    ///< so far: parameters x readings
 
   bool is_zero() const { return by_displacement.isZero(0.0) && by_memory.isZero(0.0); }
@@ -61,11 +72,12 @@ SensitivitySolver::SensitivitySolver(const EquilibriumSystem& system, const Unce
     : system_(system),
       uncertain_(uncertain),
       movements_(movements_of(system, uncertain)),
+      sparse_movements_(movements_.sparseView()),
       transposed_(system) {}
 
 /// From the derivatives by what a step ends with to those by what it begins with; adds what it does to the
-/// parameters' own.
-bool SensitivitySolver::step_back(const SolvedStep& step, Adjoint& adjoint) {
+/// parameters' own. The first step begins with nothing that depends on anything.
+bool SensitivitySolver::step_back(const SolvedStep& step, bool is_first, Adjoint& adjoint) {
   if (!adjoint.by_memory.isZero(0.0)) {
     const MemoryJacobian jacobian = memory_jacobian(step.equations, step.displacement, uncertain_);
     adjoint.by_displacement.noalias() += jacobian.by_displacement.transpose() * adjoint.by_memory;
@@ -74,7 +86,7 @@ bool SensitivitySolver::step_back(const SolvedStep& step, Adjoint& adjoint) {
     adjoint.by_memory = by_memory;
   }
   adjoint.by_parameters.bottomRows(movements_.cols()).noalias() +=
-      movements_.transpose() * adjoint.by_displacement;
+      sparse_movements_.transpose() * adjoint.by_displacement;
   for (std::size_t block = 0; block < step.equations.removed.size(); ++block) {
     const IndexRange& nodes = system_.structure->mesh.block_nodes[block];
     if (step.equations.removed[block])
@@ -82,26 +94,21 @@ bool SensitivitySolver::step_back(const SolvedStep& step, Adjoint& adjoint) {
   }
   if (adjoint.by_displacement.isZero(0.0)) return true;
   ComponentRows lambda = std::move(adjoint.by_displacement);
-  adjoint.by_displacement = ComponentRows::Zero(lambda.rows(), lambda.cols());
   if (!transposed_.solve(step.equations, step.displacement, lambda)) return false;
   ColumnMatrix by_parameters =
       forces_by_parameters(step.equations, step.displacement, uncertain_, movements_);
-  ColumnMatrix by_memory = forces_by_memory(step.equations, step.displacement);
-  if (step.held_share > 0.0) {
+  if (step.held_share > 0.0)
     by_parameters -=
         step.held_share * forces_by_parameters(step.equations, step.place, uncertain_, movements_);
-    by_memory -= step.held_share * forces_by_memory(step.equations, step.place);
-    Eigen::SparseMatrix<double> tangent = system_.pattern;
-    assemble(step.equations, step.place, 0.0, {tangent.valuePtr()});
-    ComponentRows free(system_.unknown_count(), lambda.cols());
-    for (Eigen::Index i = 0; i < free.rows(); ++i)
-      free.row(i) = lambda.row(system_.component[static_cast<std::size_t>(i)]);
-    ComponentRows held_back = ComponentRows::Zero(free.rows(), free.cols());
-    held_back.noalias() += step.held_share * (tangent.transpose() * free);
-    for (Eigen::Index i = 0; i < free.rows(); ++i)
-      adjoint.by_displacement.row(system_.component[static_cast<std::size_t>(i)]) = held_back.row(i);
-  }
   adjoint.by_parameters.noalias() += by_parameters.transpose() * lambda;
+  if (is_first) return true;
+  ColumnMatrix by_memory = forces_by_memory(step.equations, step.displacement);
+  adjoint.by_displacement.setZero(lambda.rows(), lambda.cols());
+  if (step.held_share > 0.0) {
+    by_memory -= step.held_share * forces_by_memory(step.equations, step.place);
+    adjoint.by_displacement = step.held_share * unbalanced_by_place(step, lambda);
+  }
+  if (adjoint.by_memory.size() == 0) adjoint.by_memory.setZero(by_memory.cols(), lambda.cols());
   adjoint.by_memory.noalias() += by_memory.transpose() * lambda;
   return true;
 }
@@ -109,11 +116,9 @@ bool SensitivitySolver::step_back(const SolvedStep& step, Adjoint& adjoint) {
 std::optional<Eigen::MatrixXd> SensitivitySolver::solve(const SolvedHistory& history,
                                                         const Eigen::MatrixXd& readings) {
   const auto parameters = static_cast<Eigen::Index>(uncertain_.of_bridge.size() + uncertain_.of_epoch.size());
-  Adjoint adjoint{
-      readings, Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(2 * system_.joints.size()), readings.cols()),
-      Eigen::MatrixXd::Zero(parameters, readings.cols())};
+  Adjoint adjoint{readings, {}, Eigen::MatrixXd::Zero(parameters, readings.cols())};
   for (auto step = history.rbegin(); step != history.rend() && !adjoint.is_zero(); ++step)
-    if (!step_back(*step, adjoint)) return std::nullopt;
+    if (!step_back(*step, std::next(step) == history.rend(), adjoint)) return std::nullopt;
   return adjoint.by_parameters.transpose();
 }
 

@@ -55,11 +55,12 @@ class SensitivitySolver {
 
  private:
   struct Adjoint;
-  bool step_back(const SolvedStep& step, Adjoint& adjoint);
+  bool step_back(const SolvedStep& step, bool is_first, Adjoint& adjoint);
 
   const EquilibriumSystem& system_;
   const UncertainParameters& uncertain_;
   Eigen::MatrixXd movements_;  ///< components x parameters of an epoch, per standard deviation
+  Eigen::SparseMatrix<double> sparse_movements_;  ///< the same
   TransposedSolver transposed_;
 };
 

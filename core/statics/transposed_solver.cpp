@@ -24,29 +24,27 @@ TransposedSolver::TransposedSolver(const EquilibriumSystem& system)
       transposed_slot_(transposed_slots(system.pattern)),
       linear_(system.pattern),
       tangent_(static_cast<std::size_t>(system.pattern.nonZeros())),
-      lanes_(tangent_.size()),
+      transposed_(tangent_.size()),
       right_(static_cast<std::size_t>(system.unknown_count())) {}
 
 bool TransposedSolver::solve(const StageEquations& equations, const Field& displacement,
                              ComponentRows& right_hand_sides) {
   assemble(equations, displacement, 0.0, {tangent_.data()});
   for (std::size_t i = 0; i < tangent_.size(); ++i)
-    for (std::size_t lane = 0; lane < kLanes; ++lane)
-      lanes_[i].value[lane] = tangent_[static_cast<std::size_t>(transposed_slot_[i])];
-  if (!linear_.factorise(lanes_).front()) return false;
-  const ComponentRows given = right_hand_sides;
-  right_hand_sides.setZero();
-  for (Eigen::Index first = 0; first < given.cols(); first += kLanes) {
-    const std::size_t count = std::min<std::size_t>(kLanes, static_cast<std::size_t>(given.cols() - first));
+    transposed_[i].value = tangent_[static_cast<std::size_t>(transposed_slot_[i])];
+  if (!linear_.factorise(transposed_).front()) return false;
+  for (Eigen::Index component = 0; component < right_hand_sides.rows(); ++component)
+    if (system_.unknown[static_cast<std::size_t>(component)] < 0) right_hand_sides.row(component).setZero();
+  const auto sides = static_cast<std::size_t>(right_hand_sides.cols());
+  for (std::size_t first = 0; first < sides; first += kLanes) {
+    const std::size_t count = std::min(kLanes, sides - first);
+    const auto place = [&](std::size_t i) {
+      return right_hand_sides.data() + static_cast<std::size_t>(system_.component[i]) * sides + first;
+    };
     for (std::size_t i = 0; i < right_.size(); ++i)
-      for (std::size_t lane = 0; lane < kLanes; ++lane)
-        right_[i].value[lane] =
-            lane < count ? given(system_.component[i], first + static_cast<Eigen::Index>(lane)) : 0.0;
+      right_[i].value = load_some<DoubleLanes>(place(i), count, 0.0);
     linear_.solve(right_);
-    for (std::size_t i = 0; i < right_.size(); ++i)
-      for (std::size_t lane = 0; lane < count; ++lane)
-        right_hand_sides(system_.component[i], first + static_cast<Eigen::Index>(lane)) =
-            right_[i].value[lane];
+    for (std::size_t i = 0; i < right_.size(); ++i) store_some(right_[i].value, count, place(i));
   }
   return right_hand_sides.allFinite();
 }

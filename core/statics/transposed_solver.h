@@ -24,9 +24,10 @@ class TransposedSolver {
  private:
   const EquilibriumSystem& system_;
   std::vector<int> transposed_slot_;  ///< of each entry of the pattern: the place of its mirror entry
-  LaneFactorisation linear_;
+  SharedFactorisation linear_;
   std::vector<double> tangent_;
-  LaneVector lanes_, right_;
+  Cells<double> transposed_;
+  LaneVector right_;
 };
 
 }  // namespace voussoir

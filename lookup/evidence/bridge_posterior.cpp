@@ -5,7 +5,7 @@
 #include <cmath>
 #include <optional>
 
-#include "lookup/evidence/column_products.h"
+#include "core/simd/column_products.h"
 
 namespace voussoir {
 namespace {

@@ -1,26 +1,15 @@
 #pragma once
 /// @file The density of readings under a covariance that is known but for the scatter of the bridge.
 
-#include <Eigen/Core>
 #include <array>
 #include <cstddef>
 #include <vector>
 
 #include "core/simd/lanes.h"
+#include "core/simd/lower_triangle.h"
 #include "lookup/evidence/scatter_factor.h"
 
 namespace voussoir {
-
-/// A symmetric matrix: row i of its lower triangle begins at place i (i + 1) / 2.
-using LowerTriangle = std::vector<double>;
-
-constexpr std::size_t lower_size(std::size_t n) {
-  return n * (n + 1) / 2;
-}
-
-LowerTriangle lower_of(const Eigen::MatrixXd& matrix);
-/// The other way; above the diagonal are zeros.
-Eigen::MatrixXd matrix_of(const LowerTriangle& lower, Eigen::Index rows);
 
 /// A logarithm for each of kScatterFactors.
 using ScatterLogs = std::array<double, kScatterFactors.size()>;

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "core/simd/column_products.h"
 #include "core/threads.h"
-#include "lookup/evidence/column_products.h"
 #include "lookup/evidence/scene_evidence.h"
 
 namespace voussoir {

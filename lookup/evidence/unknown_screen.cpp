@@ -8,8 +8,8 @@
 #include <numbers>
 #include <numeric>
 
+#include "core/simd/column_products.h"
 #include "core/threads.h"
-#include "lookup/evidence/column_products.h"
 #include "lookup/evidence/leading_directions.h"
 #include "lookup/evidence/scene_evidence.h"
 
@@ -80,8 +80,8 @@ void store_lower(const MatrixXd& matrix, DirectionTriangle& lower) {
 /// Adds the lower triangle of factor a b^T.
 void add_lower(const DirectionColumns& a, const DirectionColumns& b, double factor,
                DirectionTriangle& lower) {
-  add_lower_product(a.data(), b.data(), kDirections, static_cast<std::size_t>(b.cols()), kDirections, factor,
-                    lower.data());
+  add_lower_product(a.data(), b.data(), kDirections, static_cast<std::size_t>(b.cols()), {0, kDirections},
+                    factor, lower.data());
 }
 
 /// log density of no difference at all.

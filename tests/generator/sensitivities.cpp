@@ -129,6 +129,13 @@ TEST_CASE("The basis is orthonormal and leaves little of every kind (definition)
     share += left(signal).squaredNorm() / signal.leftCols(10).squaredNorm() / 4.0;
   }
   CHECK(share <= kLeftOfSignals * (1.0 + 1e-9));
+  CHECK(sensitivity_basis(derivatives, 10, 1) == sensitivity_basis(derivatives, 10, 3));
+}
+
+TEST_CASE("The basis of a bridge that does not depend on its parameters has no directions", "[sensitivity]") {
+  const Eigen::MatrixXd nothing = Eigen::MatrixXd::Zero(6, 12);
+  CHECK(sensitivity_basis({{nothing, nothing}}, 10).cols() == 0);
+  CHECK(sensitivity_basis({{Eigen::MatrixXd(), nothing}}, 10).cols() == 0);
 }
 
 TEST_CASE("Stored sensitivities are those of the fields, and changed ones are found",

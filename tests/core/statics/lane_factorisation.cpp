@@ -68,6 +68,43 @@ TEST_CASE("A lane's solution does not depend on its neighbours, to the last bit"
   CHECK(solution_beside(100) == solution_beside(200));
 }
 
+TEST_CASE("One matrix's solutions for four sides are those of independent sparse LU, with the bits of lanes",
+          "[lanes]") {
+  const Model bridge = test::small_bridge();
+  const EquilibriumSystem system(bridge);
+  const Eigen::SparseMatrix<double> matrix = random_matrix(system.pattern, 11);
+  SharedFactorisation shared(system.pattern);
+  LaneFactorisation lanes(system.pattern);
+  Cells<double> values;
+  LaneVector in_lanes(static_cast<std::size_t>(matrix.nonZeros()));
+  for (Eigen::Index i = 0; i < matrix.nonZeros(); ++i) values.push_back({matrix.valuePtr()[i]});
+  for (std::size_t lane = 0; lane < kLanes; ++lane) put(matrix, lane, in_lanes);
+  // One side is zero but for one place, so that whatever it does not reach is skipped; one is zero
+  // altogether.
+  Eigen::MatrixXd sides = Eigen::MatrixXd::Zero(matrix.rows(), kLanes);
+  sides(matrix.rows() / 2, 0) = 1.0;
+  SECTION("Most of all sides is zero") {}
+  SECTION("One side is full") {
+    sides.col(2).setLinSpaced(-1.0, 2.0);
+  }
+  LaneVector x(static_cast<std::size_t>(matrix.rows()));
+  for (std::size_t i = 0; i < x.size(); ++i)
+    for (std::size_t lane = 0; lane < kLanes; ++lane)
+      x[i].value[lane] = sides(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(lane));
+  LaneVector y = x;
+  CHECK(shared.factorise(values).front());
+  shared.solve(x);
+  lanes.factorise(in_lanes);
+  lanes.solve(y);
+  const Eigen::MatrixXd expected = Eigen::SparseLU<Eigen::SparseMatrix<double>>(matrix).solve(sides);
+  for (std::size_t i = 0; i < x.size(); ++i)
+    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+      CHECK(x[i].value[lane] ==
+            Approx(expected(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(lane))).margin(1e-12));
+      CHECK(x[i].value[lane] == y[i].value[lane]);
+    }
+}
+
 TEST_CASE("A singular matrix is reported in its lane and in no other", "[lanes]") {
   const Model bridge = test::small_bridge();
   const EquilibriumSystem system(bridge);

@@ -1,6 +1,6 @@
 /// @file Products of columns. Oracle: Eigen's products of whole matrices.
 
-#include "lookup/evidence/column_products.h"
+#include "core/simd/column_products.h"
 
 #include <catch2/catch.hpp>
 

@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <cstddef>
 
-#include "lookup/evidence/scatter_density.h"
+#include "core/simd/lower_triangle.h"
 
 namespace voussoir {
 
@@ -16,9 +16,14 @@ inline constexpr std::size_t kColumnUnit = 8;
 void project_columns(const double* by_channel, std::size_t channels, const double* columns, std::size_t count,
                      std::size_t stride, double* projected);
 
-/// Adds factor A B^T to the lower triangle (LowerTriangle) of so many rows; `count` columns in A and B.
+/// Of a lower triangle.
+struct LowerRows {
+  std::size_t begin, end;
+};
+
+/// Adds factor A B^T to these rows of a lower triangle (LowerTriangle); `count` columns in A and B.
 void add_lower_product(const double* a, const double* b, std::size_t stride, std::size_t count,
-                       std::size_t rows, double factor, double* lower);
+                       LowerRows rows, double factor, double* lower);
 
 /// Columns filled up with zeros to a multiple of kColumnUnit.
 Eigen::MatrixXd filled_up(const Eigen::MatrixXd& columns);

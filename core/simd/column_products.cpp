@@ -1,4 +1,4 @@
-#include "lookup/evidence/column_products.h"
+#include "core/simd/column_products.h"
 
 #include "core/simd/lanes.h"
 
@@ -71,9 +71,9 @@ void project_columns(const double* by_channel, std::size_t channels, const doubl
 }
 
 void add_lower_product(const double* a, const double* b, std::size_t stride, std::size_t count,
-                       std::size_t rows, double factor, double* lower) {
-  for (std::size_t i = 0; i < rows; i += kTogether)
-    add_rows(a, b, stride, count, i, smaller(kTogether, rows - i), factor, lower);
+                       LowerRows rows, double factor, double* lower) {
+  for (std::size_t i = rows.begin; i < rows.end; i += kTogether)
+    add_rows(a, b, stride, count, i, smaller(kTogether, rows.end - i), factor, lower);
 }
 
 Eigen::MatrixXd filled_up(const Eigen::MatrixXd& columns) {
@@ -87,7 +87,7 @@ Eigen::MatrixXd filled_up(const Eigen::MatrixXd& columns) {
 void add_lower_product(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b, std::size_t rows, double factor,
                        LowerTriangle& lower) {
   add_lower_product(a.data(), b.data(), static_cast<std::size_t>(a.rows()),
-                    static_cast<std::size_t>(a.cols()), rows, factor, lower.data());
+                    static_cast<std::size_t>(a.cols()), {0, rows}, factor, lower.data());
 }
 
 LowerTriangle outer_product(const Eigen::MatrixXd& columns) {
