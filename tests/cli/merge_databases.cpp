@@ -12,7 +12,7 @@
 namespace voussoir {
 namespace {
 
-struct Site {
+struct MergeSite {
   test::TemporaryFolder folder;
 
   std::string file(const std::string& name) const { return (folder / name).string(); }
@@ -40,7 +40,7 @@ struct Site {
 }  // namespace
 
 TEST_CASE("Parts that the programs build and merge give the database of one build", "[many-solutions]") {
-  const Site site;
+  const MergeSite site;
   const std::string whole = site.build("whole.h5", {});
   for (const char* part : {"2/3", "3/3", "1/3"})
     site.build(fmt::format("part{}.h5", part[0]), {"--shard", part});
@@ -54,7 +54,7 @@ TEST_CASE("Parts that the programs build and merge give the database of one buil
 }
 
 TEST_CASE("A part is verified like a database, but answers no readings") {
-  const Site site;
+  const MergeSite site;
   site.build("part2.h5", {"--shard", "2/3"});
   CHECK(test::run("verify-database", {site.file("part2.h5"), "--recompute", "3"}).exit_code == 0);
   std::ofstream(site.file("readings.csv")) << "point,uy_mm\nT1,-0.1\n";

@@ -17,12 +17,12 @@ namespace voussoir {
 namespace {
 
 /// The small bridge with a lorry that passes in two steps.
-struct Site {
+struct LoadedSite {
   test::TemporaryFolder folder;
   std::string bridge = (folder / "loaded.toml").string();
   std::string database = (folder / "loaded.h5").string();
 
-  Site() {
+  LoadedSite() {
     std::ofstream(bridge)
         << test::text_of(test::example_bridge("small"))
         << "[[loads]]\nname = \"lorry\"\naxles = [{at_m = 0, force_N = 1e4}]\nfrom_m = 2\nto_m = "
@@ -38,7 +38,7 @@ struct Site {
 
 TEST_CASE("Programs build, verify and show states, and Python finds their checksums right by itself",
           "[many-solutions]") {
-  const Site site;
+  const LoadedSite site;
   const test::ProgramResult built =
       site.build({"--history", "built,lost", "--loads", "all", "--format", "json"});
   REQUIRE(built.exit_code == 0);
@@ -62,7 +62,7 @@ TEST_CASE("Programs build, verify and show states, and Python finds their checks
 
 TEST_CASE("query-field shows the field of the state that is asked for (compared with the file)",
           "[many-solutions]") {
-  const Site site;
+  const LoadedSite site;
   REQUIRE(site.build({"--history", "lost,built", "--loads", "lorry"}).exit_code == 0);
   const Database database = Database::open(site.database);
   const auto crown = [&](const std::vector<std::string>& options) {
@@ -88,7 +88,7 @@ TEST_CASE("query-field shows the field of the state that is asked for (compared 
 }
 
 TEST_CASE("query-field shows joints as the solver leaves them that remembers every step") {
-  const Site site;
+  const LoadedSite site;
   REQUIRE(site.build({"--history", "lost", "--loads", "lorry"}).exit_code == 0);
   const BridgeDescription description = read_bridge_file(site.bridge).description;
   const Model bridge = make_model(description);
@@ -123,7 +123,7 @@ TEST_CASE("query-field shows joints as the solver leaves them that remembers eve
 }
 
 TEST_CASE("query-field shows stresses, joints and thrust lines in every format, of scenes that stand") {
-  const Site site;
+  const LoadedSite site;
   REQUIRE(site.build({"--history", "built,lost"}).exit_code == 0);
   const auto show = [&](const char* what, const char* format, const char* scene = "4,2") {
     return test::run("query-field",
@@ -147,7 +147,7 @@ TEST_CASE("query-field shows stresses, joints and thrust lines in every format, 
 }
 
 TEST_CASE("Of scenes that fall a database may keep only that: nothing is shown or measured of them") {
-  const Site site;
+  const LoadedSite site;
   REQUIRE(site.build({"--collapses", "outcome"}).exit_code == 0);
   for (const std::string option : {"--at=control", "--format=svg"}) {
     const test::ProgramResult field = test::run("query-field", {"-d", site.database, "0,4", option});
@@ -195,7 +195,7 @@ TEST_CASE("Fields of what falls are kept by default where motion follows the joi
 }
 
 TEST_CASE("States and numbers that cannot be are bad usage") {
-  const Site site;
+  const LoadedSite site;
   const auto refused = [&](const std::vector<std::string>& options, const char* why) {
     const test::ProgramResult result = site.build(options);
     INFO(result.err);

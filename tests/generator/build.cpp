@@ -8,6 +8,7 @@
 #include "generator/start_field.h"
 #include "tests/support/file_text.h"
 #include "tests/support/made_up_solver.h"
+#include "tests/support/same_bits.h"
 #include "tests/support/temporary_folder.h"
 
 namespace voussoir {
@@ -33,11 +34,6 @@ struct Site {
 std::string digest_of_reference() {
   static const std::string digest = Site().build().digest;
   return digest;
-}
-
-bool same_bits(const Field& first, const Field& second) {
-  return std::memcmp(first.data(), second.data(), static_cast<std::size_t>(first.size()) * sizeof(double)) ==
-         0;
 }
 
 }  // namespace
@@ -112,7 +108,7 @@ TEST_CASE("Mirror images are recorded with mirrored fields, bit by bit") {
     own_images += image == scene ? 1 : 0;
     if (image == scene) continue;
     const Field expected = to_storage_precision(mirrored(database.field(row), *bridge.symmetry));
-    REQUIRE(same_bits(database.field(*database.find(image)), expected));
+    REQUIRE(test::same_bits(database.field(*database.find(image)), expected));
   }
   CHECK(own_images < database.table().rows / 10);
 }
@@ -130,7 +126,7 @@ TEST_CASE("Without mirror images every scene is solved and the digest says so") 
     starts.add(Scene{{block}}, 0, database.solution(*database.find(Scene{{block}})));
   const Field expected =
       to_storage_precision(test::answer_from(bridge, last, starts.start_for(last)).displacement);
-  CHECK(same_bits(database.field(database.table().rows - 1), expected));
+  CHECK(test::same_bits(database.field(database.table().rows - 1), expected));
 }
 
 TEST_CASE("A scene's record does not depend on which other scenes are built") {
@@ -145,7 +141,7 @@ TEST_CASE("A scene's record does not depend on which other scenes are built") {
     for (std::size_t row = 0; row < some.table().rows; ++row) {
       const Record expected = all.record(*all.find(some.table().scene(row)));
       CHECK(some.record(row).checksum == expected.checksum);
-      CHECK(same_bits(some.field(row), all.field(*all.find(some.table().scene(row)))));
+      CHECK(test::same_bits(some.field(row), all.field(*all.find(some.table().scene(row)))));
     }
   }
 }

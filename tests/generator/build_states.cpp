@@ -8,6 +8,7 @@
 #include "generator/build.h"
 #include "generator/verify.h"
 #include "tests/support/made_up_solver.h"
+#include "tests/support/same_bits.h"
 #include "tests/support/temporary_folder.h"
 
 namespace voussoir {
@@ -18,11 +19,11 @@ const std::vector<std::string> kAllNames = {
     "built:crown", "lost:lorry@1", "lost:lorry@2",  "lost:lorry@off", "lost:crown"};
 
 /// A folder to build in and the request for the small bridge with two load cases, one of them one-sided.
-struct Site {
+struct StatesSite {
   test::TemporaryFolder folder;
   BuildRequest request;
 
-  explicit Site(const std::string& histories = "built,lost", const std::string& loads = "all") {
+  explicit StatesSite(const std::string& histories = "built,lost", const std::string& loads = "all") {
     request.bridge = test::small_bridge_file();
     request.bridge = parse_bridge_file(
         request.bridge.text +
@@ -44,13 +45,8 @@ struct Site {
 };
 
 /// Also what is NaN where there is no block.
-bool same_bits(const Field& first, const Field& second) {
-  return std::memcmp(first.data(), second.data(), static_cast<std::size_t>(first.size()) * sizeof(double)) ==
-         0;
-}
-
 std::string digest_of_all() {
-  static const std::string digest = Site().build().digest;
+  static const std::string digest = StatesSite().build().digest;
   return digest;
 }
 
@@ -68,7 +64,7 @@ void check_same_state(const RecordedState& first, const RecordedState& second) {
 TEST_CASE(
     "Histories and loads of real scenes are verified, each state with its own equations, and solved anew") {
   for (const char* histories : {"built,lost", "lost"}) {
-    Site site(histories);
+    StatesSite site(histories);
     site.request.scenes = "intact;4,1..3;0,5;4,1+4,2;4,1+5,3";
     const BuildSummary summary = site.build(quasi_static());
     const Database database = site.open();
@@ -83,14 +79,14 @@ TEST_CASE(
       CHECK(outcomes.standing + outcomes.collapsed + outcomes.unresolved.size() == database.rows());
     const std::size_t standing = *database.find(parse_scene("4,2", database.layout()));
     for (std::size_t state = 1; state < database.states().size(); ++state)  // each is another one
-      CHECK_FALSE(same_bits(database.field(standing, state), database.field(standing, 0)));
+      CHECK_FALSE(test::same_bits(database.field(standing, state), database.field(standing, 0)));
   }
 }
 
 TEST_CASE("Lost alone holds the records that built and lost together hold, without fields, too",
           "[many-solutions]") {
   for (const KeepField fields : {KeepField::yes, KeepField::no}) {
-    Site both, alone("lost");
+    StatesSite both, alone("lost");
     both.request.fields = alone.request.fields = fields;
     both.build();
     alone.build();
@@ -109,7 +105,7 @@ TEST_CASE("Lost alone holds the records that built and lost together hold, witho
 
 TEST_CASE("The digest of histories and loads does not depend on threads", "[threads]") {
   for (const int threads : {1, 3}) {
-    Site site;
+    StatesSite site;
     site.request.threads = threads;
     CHECK(site.build().digest == digest_of_all());
   }
@@ -117,7 +113,7 @@ TEST_CASE("The digest of histories and loads does not depend on threads", "[thre
 
 TEST_CASE("The digest of histories and loads does not depend on interruptions") {
   for (const int answers : {1, 12, 300, 2000}) {
-    const Site site;
+    const StatesSite site;
     REQUIRE_THROWS_AS(site.build(test::failing_solver(answers)), Failure);
     const BuildSummary summary = site.build();
     CHECK(summary.resumed + summary.computed == summary.outcomes.scenes);
@@ -127,8 +123,8 @@ TEST_CASE("The digest of histories and loads does not depend on interruptions") 
 
 TEST_CASE("Real histories and loads come out the same on one thread and, interrupted, on three",
           "[threads]") {
-  Site once, often;
-  for (Site* site : {&once, &often}) site->request.scenes = "4,*;4,1..2+5,1..2";
+  StatesSite once, often;
+  for (StatesSite* site : {&once, &often}) site->request.scenes = "4,*;4,1..2+5,1..2";
   once.request.threads = 1;
   often.request.threads = 3;
   const std::string expected = once.build(quasi_static()).digest;
@@ -150,7 +146,7 @@ TEST_CASE("Real histories and loads come out the same on one thread and, interru
 TEST_CASE(
     "Mirror images are mirrored as built, as lost and under symmetric loads, bit by bit, and solved under "
     "others") {
-  const Site site;
+  const StatesSite site;
   site.build();
   const Database database = site.open();
   const Model bridge = make_model(site.request.bridge.description);
@@ -161,8 +157,8 @@ TEST_CASE(
     for (std::size_t state = 0; state < database.states().size(); ++state) {
       INFO(text << " " << database.states()[state]);
       const bool is_mirrored =
-          same_bits(database.field(image, state),
-                    to_storage_precision(mirrored(database.field(row, state), *bridge.symmetry)));
+          test::same_bits(database.field(image, state),
+                          to_storage_precision(mirrored(database.field(row, state), *bridge.symmetry)));
       const bool stands = database.record(row).states[0].outcome == Outcome::standing;
       const bool one_sided = database.states()[state].find("lorry") != std::string::npos;
       CHECK(is_mirrored == (!one_sided || !stands));
@@ -171,7 +167,7 @@ TEST_CASE(
 }
 
 TEST_CASE("Of a database of built only, built is taken over when lost and loads are wanted") {
-  Site site("built", "none");
+  StatesSite site("built", "none");
   site.build();
   site.request.histories = "built,lost";
   site.request.loads = "all";
@@ -194,31 +190,31 @@ TEST_CASE("Of a database of built only, built is taken over when lost and loads 
 }
 
 TEST_CASE("States that are no longer wanted are left out without solving anything") {
-  Site site;
+  StatesSite site;
   site.build();
   site.request.histories = "lost";
   site.request.loads = "crown";
   const BuildSummary summary = site.build(test::failing_solver(1));
   CHECK(summary.reused == summary.outcomes.scenes);
-  CHECK(summary.digest == Site("lost", "crown").build().digest);
+  CHECK(summary.digest == StatesSite("lost", "crown").build().digest);
   CHECK(site.build(test::failing_solver(1)).up_to_date);
 }
 
 TEST_CASE("When a load case changes its states are solved again and the others are kept",
           "[many-solutions]") {
-  Site site;
+  StatesSite site;
   site.build();
   site.request.bridge.description.loads[1].points[0].force = 2e4;
   site.request.bridge.text += "# crown is heavier\n";
   CHECK(site.build().reused == 0);
-  Site direct;
+  StatesSite direct;
   direct.request.bridge = site.request.bridge;
   CHECK(site.open().digest() == direct.build().digest);
   CHECK(site.open().digest() != digest_of_all());
 }
 
 TEST_CASE("The records of an interrupted build with other states are not mixed in") {
-  Site site;
+  StatesSite site;
   REQUIRE_THROWS_AS(site.build(test::failing_solver(900)), Failure);
   site.request.loads = "crown";
   CHECK(site.build().resumed == 0);
@@ -227,7 +223,7 @@ TEST_CASE("The records of an interrupted build with other states are not mixed i
 TEST_CASE(
     "A state that is not what its history makes of it is found, though checksums and other states are "
     "right") {
-  Site site;
+  StatesSite site;
   site.request.scenes = "intact;4,1..2";
   site.build(quasi_static());
   const Database right = site.open();

@@ -26,11 +26,11 @@ VariantParameters stiffer(double factor) {
       make_model(with_stiffness(test::small_bridge_file(), factor).description).parameters);
 }
 
-struct Site {
+struct VariantsSite {
   test::TemporaryFolder folder;
   BuildRequest request;
 
-  explicit Site(const std::vector<double>& other_variants) {
+  explicit VariantsSite(const std::vector<double>& other_variants) {
     request.bridge = test::small_bridge_file();
     request.output = folder / "small.h5";
     request.threads = 2;
@@ -43,7 +43,7 @@ struct Site {
   Database open() const { return Database::open(request.output); }
 };
 
-bool same_bits(ByteView first, ByteView second) {
+bool same_bytes(ByteView first, ByteView second) {
   return std::equal(first.begin(), first.end(), second.begin(), second.end());
 }
 
@@ -57,7 +57,7 @@ void check_same(Record record, const Record& alone) {
   CHECK(state.residual == expected.residual);
   CHECK(state.iterations == expected.iterations);
   CHECK(state.moving == expected.moving);
-  CHECK(same_bits(view_bytes(state.vertical), view_bytes(expected.vertical)));
+  CHECK(same_bytes(view_bytes(state.vertical), view_bytes(expected.vertical)));
   CHECK(state.packed_field == expected.packed_field);
 }
 
@@ -65,7 +65,7 @@ void check_same(Record record, const Record& alone) {
 
 TEST_CASE("Two variants in one file are verified, and each is what is built of its bridge alone",
           "[many-solutions]") {
-  Site both({1.2});
+  VariantsSite both({1.2});
   both.request.scenes = "intact;4,1..3;0,5;4,1+4,2";
   CHECK(both.build(quasi_static()).outcomes.scenes == 12);
   const VerifyReport report = verify_database({both.request.output, 12});
@@ -78,7 +78,7 @@ TEST_CASE("Two variants in one file are verified, and each is what is built of i
   CHECK(database.variants()[1] == stiffer(1.2));
   CHECK(database.table(1, 0).vertical[0] != database.table(0, 0).vertical[0]);
   for (const std::int32_t variant : {0, 1}) {
-    Site alone({});
+    VariantsSite alone({});
     alone.request.scenes = both.request.scenes;
     if (variant == 1) alone.request.bridge = with_stiffness(alone.request.bridge, 1.2);
     alone.build(quasi_static());
@@ -91,9 +91,9 @@ TEST_CASE("Two variants in one file are verified, and each is what is built of i
 }
 
 TEST_CASE("A build of variants that is interrupted goes on and ends with the same digest", "[threads]") {
-  const std::string expected = Site({1.2, 0.5}).build().digest;
+  const std::string expected = VariantsSite({1.2, 0.5}).build().digest;
   for (const int scenes : {1, 3, 50, 400, 1000}) {
-    const Site site({1.2, 0.5});
+    const VariantsSite site({1.2, 0.5});
     REQUIRE_THROWS_AS(site.build(test::failing_solver(scenes)), Failure);
     const BuildSummary summary = site.build();
     CHECK(summary.resumed + summary.computed == summary.outcomes.scenes);
@@ -102,15 +102,15 @@ TEST_CASE("A build of variants that is interrupted goes on and ends with the sam
 }
 
 TEST_CASE("The records of an interrupted build with other variants are not mixed in") {
-  Site site({1.2});
+  VariantsSite site({1.2});
   REQUIRE_THROWS_AS(site.build(test::failing_solver(500)), Failure);
   site.request.other_variants = {stiffer(1.3)};
   CHECK(site.build().resumed == 0);
-  CHECK(site.open().digest() == Site({1.3}).build().digest);
+  CHECK(site.open().digest() == VariantsSite({1.3}).build().digest);
 }
 
 TEST_CASE("Variants that the old file has are taken over, whatever their number was") {
-  Site site({1.2, 0.5});
+  VariantsSite site({1.2, 0.5});
   const std::size_t scenes = site.build().outcomes.scenes / 3;
   CHECK(site.build(test::failing_solver(1)).up_to_date);
   site.request.other_variants = {stiffer(0.5), stiffer(2.0), stiffer(1.2)};
@@ -119,19 +119,19 @@ TEST_CASE("Variants that the old file has are taken over, whatever their number 
   CHECK(summary.changes[0] == "other variants of the bridge are wanted (4, was 3)");
   CHECK(summary.reused == 3 * scenes);
   CHECK(summary.computed == scenes);
-  CHECK(summary.digest == Site({0.5, 2.0, 1.2}).build().digest);
+  CHECK(summary.digest == VariantsSite({0.5, 2.0, 1.2}).build().digest);
 }
 
 TEST_CASE("Variants may have fewer scenes than the nominal bridge; each is what it is alone",
           "[many-solutions]") {
-  Site site({1.2, 0.5});
+  VariantsSite site({1.2, 0.5});
   site.request.scenes = "singles;4,1+4,2";
   site.request.scenes_of_variants = "intact;4,2..3";
   CHECK(site.build(quasi_static()).outcomes.scenes == 40 + 2 * 3);
   const Database database = site.open();
   CHECK(database.table(0, 0).rows == 40);
   for (const std::int32_t variant : {1, 2}) REQUIRE(database.table(variant, 0).rows == 3);
-  Site alone({});
+  VariantsSite alone({});
   alone.request.scenes = site.request.scenes_of_variants;
   alone.request.bridge = with_stiffness(alone.request.bridge, 0.5);
   alone.build(quasi_static());
@@ -145,7 +145,7 @@ TEST_CASE("Variants may have fewer scenes than the nominal bridge; each is what 
 TEST_CASE("The digest of variants is the same for 1, 2 and 5 threads") {
   std::set<std::string> digests;
   for (const int threads : {1, 2, 5}) {
-    Site site({1.2, 0.5, 0.7});
+    VariantsSite site({1.2, 0.5, 0.7});
     site.request.scenes_of_variants = "singles";
     site.request.histories = "built,lost";
     site.request.threads = threads;
@@ -155,7 +155,7 @@ TEST_CASE("The digest of variants is the same for 1, 2 and 5 threads") {
 }
 
 TEST_CASE("A scene of a variant whose field is not that variant's is found by solving it anew") {
-  Site site({1.2});
+  VariantsSite site({1.2});
   site.request.scenes = "intact;4,1..3";
   site.build(quasi_static());
   const Database right = site.open();

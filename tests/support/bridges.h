@@ -38,4 +38,9 @@ inline Field without_nan(const Field& field) {
   return field.array().isNaN().select(0.0, field);
 }
 
+/// What the bridge's control points read [m].
+inline Eigen::VectorXd readings(const Model& bridge, const Field& field) {
+  return vertical_displacements(field, bridge.control_points);
+}
+
 }  // namespace voussoir::test

@@ -51,10 +51,6 @@ std::vector<Scene> some_scenes(const Model& bridge) {
   return scenes;
 }
 
-Eigen::VectorXd readings(const Model& bridge, const Field& field) {
-  return vertical_displacements(field, bridge.control_points);
-}
-
 }  // namespace
 
 TEST_CASE("A block hangs on mortar as strong as its weight, and falls from weaker (statics)", "[mortar]") {
@@ -108,8 +104,8 @@ TEST_CASE("What comes to rest with mortar is where Newton's method says, dry it 
     if (expected.outcome != Outcome::standing || found.solution.outcome != Outcome::standing) continue;
     ++standing;
     // Set beforehand: the steps of growing gravity wear a little where one implicit step does not.
-    CHECK(validation::relative_difference(readings(bridge, found.solution.displacement),
-                                          readings(bridge, expected.displacement)) < 0.01);
+    CHECK(validation::relative_difference(test::readings(bridge, found.solution.displacement),
+                                          test::readings(bridge, expected.displacement)) < 0.01);
   }
   CHECK(standing >= 3);
   const Scene scene = parse_scene("0,4", bridge.layout);
@@ -146,7 +142,7 @@ TEST_CASE(
     REQUIRE(states[1].outcome == Outcome::standing);
     REQUIRE(without.solution.outcome == Outcome::standing);
     const auto change = [&](const Field& after, const Field& before) -> Eigen::VectorXd {
-      return readings(bridge, after) - readings(bridge, before);
+      return test::readings(bridge, after) - test::readings(bridge, before);
     };
     CHECK(validation::relative_difference(
               change(without.solution.displacement, loaded.intact().solution.displacement),

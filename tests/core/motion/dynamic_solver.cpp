@@ -24,10 +24,6 @@ const Model& small() {
   return bridge;
 }
 
-Eigen::VectorXd readings(const Model& bridge, const Field& field) {
-  return vertical_displacements(field, bridge.control_points);
-}
-
 /// A ring so thick that joints next but one lie side by side behind each other, under a wall block that the
 /// ring cuts from below.
 Model thick_ring() {
@@ -89,8 +85,8 @@ TEST_CASE(
   for (std::size_t i = 0; i < scenes.size(); ++i) {
     INFO(to_string(scenes[i], bridge.layout));
     REQUIRE(moved[i].solution.outcome == Outcome::standing);
-    const Eigen::VectorXd d = readings(bridge, moved[i].solution.displacement);
-    const Eigen::VectorXd expected = readings(bridge, quasi_static.solve(scenes[i]).displacement);
+    const Eigen::VectorXd d = test::readings(bridge, moved[i].solution.displacement);
+    const Eigen::VectorXd expected = test::readings(bridge, quasi_static.solve(scenes[i]).displacement);
     CHECK(relative_difference(d, expected) < 0.003);
     if (i == 0) {
       moved_intact = d;
@@ -240,8 +236,8 @@ TEST_CASE("Implicit blocks and plain central differences agree within 0.01 % (in
   const DynamicSolution plain = DynamicSolver(bridge, settings).solve(scene);
   REQUIRE(fast.solution.outcome == Outcome::standing);
   REQUIRE(plain.solution.outcome == Outcome::standing);
-  CHECK(relative_difference(readings(bridge, fast.solution.displacement),
-                            readings(bridge, plain.solution.displacement)) < 1e-4);
+  CHECK(relative_difference(test::readings(bridge, fast.solution.displacement),
+                            test::readings(bridge, plain.solution.displacement)) < 1e-4);
   CHECK(plain.solution.iterations > 50 * fast.solution.iterations);
 }
 
@@ -251,10 +247,10 @@ TEST_CASE("The two integrators agree within 0.01 % on the reference bridge, too 
   settings.decision.standing_unbalance = 1e-6;
   const Scene scene = parse_scene("10,4", reference().layout);
   const Eigen::VectorXd fast =
-      readings(reference(), DynamicSolver(reference(), settings).solve(scene).solution.displacement);
+      test::readings(reference(), DynamicSolver(reference(), settings).solve(scene).solution.displacement);
   settings.integrator = Integrator::central_differences;
   const Eigen::VectorXd plain =
-      readings(reference(), DynamicSolver(reference(), settings).solve(scene).solution.displacement);
+      test::readings(reference(), DynamicSolver(reference(), settings).solve(scene).solution.displacement);
   CHECK(relative_difference(fast, plain) < 1e-4);
 }
 
@@ -329,8 +325,8 @@ TEST_CASE("Steps just below the critical one are stable, and give the answer of 
   const DynamicSolution shorter = DynamicSolver(small(), settings).solve(scene);
   REQUIRE(longest.solution.outcome == Outcome::standing);
   // Both are followed until a millionth of the weight is unbalanced.
-  CHECK(relative_difference(readings(small(), longest.solution.displacement),
-                            readings(small(), shorter.solution.displacement)) < 2e-5);
+  CHECK(relative_difference(test::readings(small(), longest.solution.displacement),
+                            test::readings(small(), shorter.solution.displacement)) < 2e-5);
 }
 
 TEST_CASE("Steps just below the critical one leave joints stiffer than their blocks at rest (von Neumann)",

@@ -10,24 +10,20 @@
 namespace voussoir {
 namespace {
 
-Eigen::VectorXd readings(const Model& bridge, const Field& field) {
-  return vertical_displacements(field, bridge.control_points);
-}
-
 /// Signal of the scene as the history `lost` has it.
 Eigen::VectorXd lost_signal(const Model& bridge, QuasiStaticSolver& solver, const Scene& scene) {
   const std::vector<Solution> states = solve_history(solver, lost(scene));
   REQUIRE(states.back().outcome == Outcome::standing);
   REQUIRE(states.size() == 2);
-  return readings(bridge, states[1].displacement) - readings(bridge, states[0].displacement);
+  return test::readings(bridge, states[1].displacement) - test::readings(bridge, states[0].displacement);
 }
 
 Eigen::VectorXd released_signal(const Model& bridge, const LoadedBridge& loaded, const Scene& scene,
                                 const Release& release = {}) {
   const DynamicSolution at_rest = loaded.without(scene, release);
   REQUIRE(at_rest.solution.outcome == Outcome::standing);
-  return readings(bridge, at_rest.solution.displacement) -
-         readings(bridge, loaded.intact().solution.displacement);
+  return test::readings(bridge, at_rest.solution.displacement) -
+         test::readings(bridge, loaded.intact().solution.displacement);
 }
 
 /// A slab of 3 m on three piers, which nothing slips on.

@@ -4,6 +4,7 @@
 #include <random>
 
 #include "database/format/field_codec.h"
+#include "tests/support/same_bits.h"
 
 namespace voussoir {
 namespace {
@@ -14,19 +15,13 @@ Field random_field(Eigen::Index nodes) {
   return Field::NullaryExpr(2, nodes, [&] { return millimetres(random); });
 }
 
-bool same_bits(const Field& first, const Field& second) {
-  return first.cols() == second.cols() &&
-         std::memcmp(first.data(), second.data(), static_cast<std::size_t>(first.size()) * sizeof(double)) ==
-             0;
-}
-
 }  // namespace
 
 TEST_CASE("Rounding to the storage precision moves no displacement by more than half a step") {
   const Field field = random_field(1000);
   const Field rounded = to_storage_precision(field);
   CHECK((rounded - field).cwiseAbs().maxCoeff() <= 0.5 * kStorageStep);
-  CHECK(same_bits(to_storage_precision(rounded), rounded));
+  CHECK(test::same_bits(to_storage_precision(rounded), rounded));
 }
 
 TEST_CASE("Rounding leaves one bit pattern each for zero and for what is no number") {
@@ -44,7 +39,7 @@ TEST_CASE("A packed field comes back bit by bit and takes less room than before"
   const Bytes packed = pack_field(field);
   const auto unpacked = unpack_field(packed, field.cols());
   REQUIRE(unpacked.has_value());
-  CHECK(same_bits(*unpacked, field));
+  CHECK(test::same_bits(*unpacked, field));
   CHECK(packed.size() < 0.75 * static_cast<double>(field.size()) * sizeof(double));
 }
 

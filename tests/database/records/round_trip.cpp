@@ -7,16 +7,11 @@
 #include "database/records/schema.h"
 #include "database/search/stored_index.h"
 #include "tests/support/made_up_database.h"
+#include "tests/support/same_bits.h"
 #include "tests/support/temporary_folder.h"
 
 namespace voussoir {
 namespace {
-
-bool same_bits(const Field& first, const Field& second) {
-  return first.cols() == second.cols() &&
-         std::memcmp(first.data(), second.data(), static_cast<std::size_t>(first.size()) * sizeof(double)) ==
-             0;
-}
 
 bool same_bytes(ByteView first, ByteView second) {
   return std::equal(first.begin(), first.end(), second.begin(), second.end());
@@ -70,7 +65,7 @@ TEST_CASE("What is written of each record is read back bit by bit, for every var
     for (std::size_t state = 0; state < 2; ++state) {
       check_same(stored.states[state], expected.states[state]);
       const auto field = unpack_field(expected.states[state].packed_field, bridge.mesh.node_count());
-      REQUIRE(same_bits(database.field(row, state), *field));
+      REQUIRE(test::same_bits(database.field(row, state), *field));
       moving += expected.states[state].moving.empty() ? 0 : 1;
     }
   }

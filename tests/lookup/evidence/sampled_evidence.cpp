@@ -8,6 +8,7 @@
 #include "core/error.h"
 #include "lookup/evidence/scatter_factor.h"
 #include "lookup/lookup.h"
+#include "tests/lookup/evidence/dense_normal.h"
 #include "tests/lookup/readings/sampled_site.h"
 
 using namespace voussoir;
@@ -19,7 +20,7 @@ using Eigen::VectorXd;
 
 namespace {
 
-constexpr double kSigma = 1e-5;  // [m]
+constexpr double kGauge = 1e-5;  // [m]
 
 /// Readings of every control point, as the nominal bridge without a block shows them, and an error.
 ReadingsFile readings_of(const Database& database, ReadingKind kind, bool two_epochs, int block) {
@@ -30,7 +31,7 @@ ReadingsFile readings_of(const Database& database, ReadingKind kind, bool two_ep
   for (std::size_t i = 0; i < database.control_points().size(); ++i) {
     const auto at = static_cast<Index>(i);
     const double error = 2e-5 * number_of(7, i, 7, 7), first = before[at] + 1e-5 * number_of(8, i, 8, 8);
-    Reading reading{.sensor = i, .sigma = kSigma};
+    Reading reading{.sensor = i, .sigma = kGauge};
     reading.silent = database.control_points()[i].block == BlockId{block};
     reading.before = first;
     reading.after = reading.silent ? std::nan("") : first + after[at] - before[at] + error;
@@ -41,27 +42,21 @@ ReadingsFile readings_of(const Database& database, ReadingKind kind, bool two_ep
   return file;
 }
 
-struct Asked {
+struct Answered {
   Comparison comparison;
   Answer answer;
 };
 
-Asked ask(const Database& database, const ReadingsFile& file, Epochs epochs, ScatterEvidence evidence,
-          Conditions conditions = Conditions::known) {
+Answered ask(const Database& database, const ReadingsFile& file, Epochs epochs, ScatterEvidence evidence,
+             Conditions conditions = Conditions::known) {
   const SensorList list = control_point_sensors(database.control_points());
-  Asked asked{compare(file, list, database, {.sampled = sampled_bridges(database, evidence)}), {}};
+  Answered asked{compare(file, list, database, {.sampled = sampled_bridges(database, evidence)}), {}};
   LookupSettings settings;
   settings.noise = {NoiseShape::gaussian, 0.0};
   settings.epochs = epochs;
   settings.conditions = conditions;
   asked.answer = locate_damage(asked.comparison, settings);
   return asked;
-}
-
-double log_normal(const VectorXd& difference, const MatrixXd& covariance) {
-  const Eigen::LDLT<MatrixXd> factorised(covariance);
-  return -0.5 * (static_cast<double>(difference.size()) * std::log(2.0 * std::numbers::pi) +
-                 factorised.vectorD().array().log().sum() + difference.dot(factorised.solve(difference)));
 }
 
 /// log p(readings | scene) of the sampled bridges' normal, for the changes alone.
@@ -81,7 +76,7 @@ double log_of_change(const Database& database, const Comparison& comparison, con
     all += x * x.transpose() / static_cast<double>(variants);
   }
   const MatrixXd covariance = all(points, points);
-  const MatrixXd noise = kSigma * kSigma * MatrixXd::Identity(covariance.rows(), covariance.cols());
+  const MatrixXd noise = kGauge * kGauge * MatrixXd::Identity(covariance.rows(), covariance.cols());
   double sum = 0.0;
   for (std::size_t k = 0; k < kScatterFactors.size(); ++k)
     sum += kScatterPrior[k] *
@@ -95,8 +90,8 @@ TEST_CASE("Sampled bridges alone answer as their dense normal density does") {
   const Site site({.variants = 24, .difference = scattered});
   const Database& database = site.database();
   const int truth = 12;
-  const Asked asked = ask(database, readings_of(database, ReadingKind::change, false, truth), Epochs::change,
-                          ScatterEvidence::variants);
+  const Answered asked = ask(database, readings_of(database, ReadingKind::change, false, truth),
+                             Epochs::change, ScatterEvidence::variants);
   REQUIRE(asked.answer.posterior);
   // Of all possible singles, whose weights beforehand are the same.
   const SceneTable& table = asked.comparison.library.table;
@@ -132,8 +127,8 @@ TEST_CASE("Bridges that are as the first order says give its answer") {
         std::pair(ReadingKind::absolute, Epochs::change)})
     for (const Conditions conditions : {Conditions::known, Conditions::uncertain}) {
       const ReadingsFile file = readings_of(database, kind, is_change(kind), 12);
-      const Asked order = ask(database, file, epochs, ScatterEvidence::first_order, conditions),
-                  variants = ask(database, file, epochs, ScatterEvidence::variants, conditions);
+      const Answered order = ask(database, file, epochs, ScatterEvidence::first_order, conditions),
+                     variants = ask(database, file, epochs, ScatterEvidence::variants, conditions);
       const auto &expected = order.answer.posterior->probability,
                  &found = variants.answer.posterior->probability;
       for (std::size_t row = 0; row < order.comparison.library.table.rows; ++row)

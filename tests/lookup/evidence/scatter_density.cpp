@@ -2,6 +2,7 @@
 /// matrix.
 
 #include "lookup/evidence/scatter_density.h"
+#include "tests/lookup/evidence/dense_normal.h"
 
 #include <Eigen/Cholesky>
 #include <catch2/catch.hpp>
@@ -21,12 +22,6 @@ MatrixXd covariance(Index rows, double size, double own) {
   return columns * columns.transpose() + own * MatrixXd::Identity(rows, rows);
 }
 
-double log_normal(const VectorXd& difference, const MatrixXd& matrix) {
-  const Eigen::LDLT<MatrixXd> factorised(matrix);
-  return -0.5 * (static_cast<double>(difference.size()) * std::log(2.0 * std::numbers::pi) +
-                 factorised.vectorD().array().log().sum() + difference.dot(factorised.solve(difference)));
-}
-
 }  // namespace
 
 TEST_CASE("The density for each kappa is that of Eigen's factorisation, of one noise and of two") {
@@ -39,7 +34,8 @@ TEST_CASE("The density for each kappa is that of Eigen's factorisation, of one n
   const auto both = density(difference, lower_of(noises[0]), lower_of(noises[1]), lower_of(bridge));
   for (std::size_t i = 0; i < 2; ++i) {
     for (std::size_t k = 0; k < kScatterFactors.size(); ++k)
-      CHECK(both[i][k] == Approx(log_normal(shown, noises[i] + kScatterFactors[k] * bridge)).epsilon(1e-10));
+      CHECK(both[i][k] ==
+            Approx(test::log_normal(shown, noises[i] + kScatterFactors[k] * bridge)).epsilon(1e-10));
     CHECK(density(difference, lower_of(noises[i]), lower_of(bridge)) == both[i]);  // to the last bit
   }
 }

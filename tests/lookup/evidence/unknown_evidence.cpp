@@ -8,6 +8,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "tests/lookup/evidence/dense_normal.h"
 #include "tests/lookup/evidence/made_up_factors.h"
 
 using namespace voussoir;
@@ -18,13 +19,7 @@ using Eigen::VectorXd;
 
 namespace {
 
-constexpr double kSigma = 2e-5;  // [m]
-
-double log_normal(const VectorXd& difference, const MatrixXd& covariance) {
-  const Eigen::LDLT<MatrixXd> factorised(covariance);
-  return -0.5 * (static_cast<double>(difference.size()) * std::log(2.0 * std::numbers::pi) +
-                 factorised.vectorD().array().log().sum() + difference.dot(factorised.solve(difference)));
-}
+constexpr double kInstrument = 2e-5;  // [m]
 
 /// Readings of one row with a little of everything, at every point but one.
 struct Question {
@@ -43,7 +38,7 @@ struct Question {
       const double wave = 4e-5 * std::sin(static_cast<double>(7 * i));
       const double shown = library.table.row(truth)[i] + wave;
       comparison.measured.displacement[i] = shown;
-      comparison.measured.sigma[i] = kSigma * (i % 3 == 0 ? 2.0 : 1.0);
+      comparison.measured.sigma[i] = kInstrument * (i % 3 == 0 ? 2.0 : 1.0);
       if (!is_change(kind)) continue;
       comparison.before[i] = intact[i] + 0.7 * wave;
       comparison.after[i] = comparison.before[i] + shown - intact[i];

@@ -7,11 +7,12 @@ using namespace voussoir;
 
 namespace {
 
-const std::vector<StoredPoint> kPoints = {{"T1", Point(0, 6), BlockId{0}}, {"T2", Point(1, 6), BlockId{0}}};
+const std::vector<StoredPoint> kTwoPoints = {{"T1", Point(0, 6), BlockId{0}},
+                                             {"T2", Point(1, 6), BlockId{0}}};
 
 /// The control points, and a sensor whose name needs quotation marks.
 SensorList sensors() {
-  SensorList list = control_point_sensors(kPoints);
+  SensorList list = control_point_sensors(kTwoPoints);
   list.sensors.push_back(
       {"N \"a\", b", Quantity::tilt, Point(1, 1), {BlockId{0}}, {{NodeId{0}, Point(0, 1)}}});
   return list;
@@ -55,6 +56,6 @@ TEST_CASE("What is written is read again, whatever the kind (inverse functions)"
 
 TEST_CASE(
     "Absolute readings are written in millimetres to a tenth of a micrometre, silent ones without value") {
-  CHECK(to_csv(as_measurements(std::vector<double>{-1.23456e-3, std::nan("")}), kPoints) ==
+  CHECK(to_csv(as_measurements(std::vector<double>{-1.23456e-3, std::nan("")}), kTwoPoints) ==
         "point,uy_mm\nT1,-1.2346\nT2,\n");
 }

@@ -14,10 +14,10 @@ using namespace voussoir;
 
 namespace {
 
-const std::vector<StoredPoint> kPoints = {{"T1", Point(0, 6), BlockId{0}},
-                                          {"T2", Point(1, 6), BlockId{0}},
-                                          {"T3", Point(1, 6), BlockId{1}},
-                                          {"A1", Point(1, 2), BlockId{2}}};
+const std::vector<StoredPoint> kFuzzedPoints = {{"T1", Point(0, 6), BlockId{0}},
+                                                {"T2", Point(1, 6), BlockId{0}},
+                                                {"T3", Point(1, 6), BlockId{1}},
+                                                {"A1", Point(1, 2), BlockId{2}}};
 
 /// Pieces that parsers stumble over.
 const std::vector<std::string> kNasty = {"nan",
@@ -63,8 +63,8 @@ const std::vector<std::string> kNasty = {"nan",
 bool is_sound(const ReadingsFile& file) {
   bool sound = !file.readings.empty();
   for (const Reading& reading : file.readings) {
-    sound =
-        sound && reading.sensor < kPoints.size() && !(std::abs(reading.value) > 2.0 * kLargestDisplacement);
+    sound = sound && reading.sensor < kFuzzedPoints.size() &&
+            !(std::abs(reading.value) > 2.0 * kLargestDisplacement);
     sound = sound && (std::isnan(reading.sigma) || (reading.sigma > 0.0 && std::isfinite(reading.sigma)));
     sound = sound &&
             reading.load.empty() == (file.kind == ReadingKind::absolute || file.kind == ReadingKind::change);
@@ -98,7 +98,7 @@ test::Verdict verdict_of(const std::string& text, const Read& read) {
 
 test::Tally feed_readings(int inputs, std::uint64_t seed) {
   const std::vector<std::string> good = test::corpus("measurements");
-  const SensorList sensors = control_point_sensors(kPoints);
+  const SensorList sensors = control_point_sensors(kFuzzedPoints);
   test::Chance chance(seed);
   return test::feed(inputs, [&] {
     const std::string text = test::damaged_text(good, kNasty, chance);

@@ -9,19 +9,19 @@ using namespace voussoir;
 
 namespace {
 
-const std::vector<StoredPoint> kPoints = {
+const std::vector<StoredPoint> kThreePoints = {
     {"T1", Point(0, 6), BlockId{0}}, {"T2", Point(1, 6), BlockId{0}}, {"A1", Point(1, 2), BlockId{2}}};
 
 /// The control points, and a tilt meter.
-SensorList sensors() {
-  SensorList list = control_point_sensors(kPoints);
+SensorList with_tilt_meter() {
+  SensorList list = control_point_sensors(kThreePoints);
   list.sensors.push_back({"N1", Quantity::tilt, Point(1, 1), {BlockId{1}}, {{NodeId{0}, Point(0, 1)}}});
   return list;
 }
 
-std::string error_of(const std::string& text) {
+std::string refusal_of(const std::string& text) {
   try {
-    parse_readings(text, "m.csv", sensors());
+    parse_readings(text, "m.csv", with_tilt_meter());
   } catch (const InputError& error) {
     return error.what();
   }
@@ -58,7 +58,7 @@ const std::vector<Wrong> kHeaders = {
      "column 'change_mm' beside 'before_mm' and 'after_mm'"}};
 
 const std::string kNumber = " is no finite number, expected a displacement or nothing";
-const std::string kSigma = " is no sigma, expected a positive number of millimetres or nothing";
+const std::string kNoSigma = " is no sigma, expected a positive number of millimetres or nothing";
 
 const std::vector<Wrong> kRows = {
     {"# x\npoint,uy_mm\nT1,1\nT99,1\n",
@@ -82,10 +82,10 @@ const std::vector<Wrong> kRows = {
      "m.csv:3: '2.5' has a decimal point, expected a decimal comma as in line 2"},
     {"x_m,y_m,uy_mm\n1,high,1\n", "m.csv:2: 'high' is no coordinate, expected a number in metres"},
     {"x_m,y_m,uy_mm\nnan,1,1\n", "m.csv:2: 'nan' is no coordinate, expected a number in metres"},
-    {"point,uy_mm,sigma_mm\nT1,-1,0\n", "m.csv:2: '0'" + kSigma},
-    {"point,change_mm,sigma_mm\nT1,-1,0\n", "m.csv:2: '0'" + kSigma},
-    {"point,uy_mm,sigma_mm\nT1,-1,-0.1\n", "m.csv:2: '-0.1'" + kSigma},
-    {"point,uy_mm,sigma_mm\nT1,-1,inf\n", "m.csv:2: 'inf'" + kSigma},
+    {"point,uy_mm,sigma_mm\nT1,-1,0\n", "m.csv:2: '0'" + kNoSigma},
+    {"point,change_mm,sigma_mm\nT1,-1,0\n", "m.csv:2: '0'" + kNoSigma},
+    {"point,uy_mm,sigma_mm\nT1,-1,-0.1\n", "m.csv:2: '-0.1'" + kNoSigma},
+    {"point,uy_mm,sigma_mm\nT1,-1,inf\n", "m.csv:2: 'inf'" + kNoSigma},
     {"point,load,uy_mm\nT1,axle,1\nT2,,1\n",
      "m.csv:3: no load in this row, expected one, as all readings of a file are of one kind"},
     {"point,uy_mm\nT1,1\nN1,1\n",
@@ -103,13 +103,14 @@ const std::vector<Wrong> kFiles = {
 }  // namespace
 
 TEST_CASE("Headers that leave open what was read are refused with what a header may have") {
-  for (const Wrong& wrong : kHeaders) CHECK(error_of(wrong.text) == "m.csv:1: " + wrong.message + kExpected);
+  for (const Wrong& wrong : kHeaders)
+    CHECK(refusal_of(wrong.text) == "m.csv:1: " + wrong.message + kExpected);
 }
 
 TEST_CASE("Wrong rows are refused with the file, the line, the value and what was expected") {
-  for (const Wrong& wrong : kRows) CHECK(error_of(wrong.text) == wrong.message);
+  for (const Wrong& wrong : kRows) CHECK(refusal_of(wrong.text) == wrong.message);
 }
 
 TEST_CASE("Files without any reading are refused") {
-  for (const Wrong& wrong : kFiles) CHECK(error_of(wrong.text) == "m.csv: " + wrong.message);
+  for (const Wrong& wrong : kFiles) CHECK(refusal_of(wrong.text) == "m.csv: " + wrong.message);
 }
