@@ -68,7 +68,7 @@ VOUSSOIR_INLINE void substitute_back(const Number* __restrict u, const int* __re
   }
 }
 
-bool is_zero(const DoubleLanes* x, int count) {
+VOUSSOIR_INLINE bool is_zero(const DoubleLanes* x, int count) {
   DoubleMask other = {};
   for (int i = 0; i < count; ++i) other |= x[i] != DoubleLanes{};
   return !any(other);
@@ -94,8 +94,7 @@ struct Parts {
 };
 
 template <class Number>
-Parts<Number> parts_of(const SymbolicFactorisation& symbolic, Cells<Number>& l, Cells<Number>& u,
-                       Cells<Number>& pivot, Cells<Number>& diagonal, Cells<Number>& work) {
+Parts<Number> parts_of(const SymbolicFactorisation& symbolic, Factors<Number>& factors) {
   return {symbolic.n,
           symbolic.a_begin.data(),
           symbolic.a_row.data(),
@@ -105,11 +104,11 @@ Parts<Number> parts_of(const SymbolicFactorisation& symbolic, Cells<Number>& l, 
           symbolic.row.data(),
           symbolic.upper_begin.data(),
           symbolic.upper.data(),
-          registers_of(l),
-          registers_of(u),
-          registers_of(pivot),
-          registers_of(diagonal),
-          registers_of(work)};
+          registers_of(factors.l),
+          registers_of(factors.u),
+          registers_of(factors.pivot),
+          registers_of(factors.diagonal),
+          registers_of(factors.work)};
 }
 
 /// Left-looking: column k of A minus the earlier columns of L times column k of U.
@@ -204,22 +203,23 @@ template <class Number>
 PatternFactorisation<Number>::PatternFactorisation(const Eigen::SparseMatrix<double>& pattern)
     : symbolic_(symbolic_factorisation(pattern)) {
   const auto n = static_cast<std::size_t>(symbolic_.n), values = static_cast<std::size_t>(symbolic_.values);
-  l_.resize(values);
-  u_.resize(values);
-  pivot_.resize(n);
-  diagonal_.resize(n);
-  work_.resize(n);
+  factors_.l.resize(values);
+  factors_.u.resize(values);
+  factors_.pivot.resize(n);
+  factors_.diagonal.resize(n);
+  factors_.work.resize(n);
   sides_.resize(n);
 }
 
 template <class Number>
 std::array<bool, kLaneCount<Number>> PatternFactorisation<Number>::factorise(const Cells<Number>& values) {
-  factorise_on(parts_of(symbolic_, l_, u_, pivot_, diagonal_, work_), registers_of(values));
+  factorise_on(parts_of(symbolic_, factors_), registers_of(values));
   std::array<bool, kLaneCount<Number>> regular;
   regular.fill(true);
-  for (std::size_t k = 0; k < pivot_.size(); ++k)
+  for (std::size_t k = 0; k < factors_.pivot.size(); ++k)
     for (int i = 0; i < kLaneCount<Number>; ++i)
-      if (!(std::abs(lane(pivot_[k].value, i)) > kLostDigits * std::abs(lane(diagonal_[k].value, i))))
+      if (!(std::abs(lane(factors_.pivot[k].value, i)) >
+            kLostDigits * std::abs(lane(factors_.diagonal[k].value, i))))
         regular[static_cast<std::size_t>(i)] = false;
   return regular;
 }
@@ -228,7 +228,7 @@ template <class Number>
 void PatternFactorisation<Number>::solve(LaneVector& right_hand_sides) {
   for (std::size_t k = 0; k < symbolic_.permutation.size(); ++k)
     sides_[k] = right_hand_sides[static_cast<std::size_t>(symbolic_.permutation[k])];
-  substitute(parts_of(symbolic_, l_, u_, pivot_, diagonal_, work_), registers_of(sides_));
+  substitute(parts_of(symbolic_, factors_), registers_of(sides_));
   for (std::size_t k = 0; k < symbolic_.permutation.size(); ++k)
     right_hand_sides[static_cast<std::size_t>(symbolic_.permutation[k])] = sides_[k];
 }

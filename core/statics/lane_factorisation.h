@@ -10,6 +10,12 @@
 
 namespace voussoir {
 
+/// L without its unit diagonal, U transposed and its pivots; the matrix's own diagonal; a column at work.
+template <class Number>
+struct Factors {
+  Cells<Number> l, u, pivot, diagonal, work;
+};
+
 /// LU factorisation without pivoting of matrices with one structurally symmetric pattern (stiffness matrices
 /// with friction: symmetric in structure, not in value). All scenes of a bridge share the pattern, so the
 /// index arithmetic is done once for all lanes; neighbouring columns of equal structure form supernodes, so
@@ -29,7 +35,7 @@ class PatternFactorisation {
 
  private:
   SymbolicFactorisation symbolic_;
-  Cells<Number> l_, u_, pivot_, diagonal_, work_;
+  Factors<Number> factors_;
   LaneVector sides_;  ///< in the order of elimination
 };
 

@@ -140,7 +140,7 @@ std::array<int, 2> memory_of(std::size_t joint) {
 }  // namespace
 
 ColumnMatrix forces_by_parameters(const StageEquations& equations, const Field& displacement,
-                                  const UncertainParameters& uncertain, const Eigen::MatrixXd& movements) {
+                                  const UncertainParameters& uncertain, const ColumnMatrix& movements) {
   const EquilibriumSystem& system = *equations.system;
   const std::vector<CornerForces> joints = forces_of_joints(equations, displacement);
   Entries entries;
@@ -157,12 +157,13 @@ ColumnMatrix forces_by_parameters(const StageEquations& equations, const Field& 
   }
   for (std::size_t i = 0; i < uncertain.of_epoch.size(); ++i) {
     const UncertainAction& action = uncertain.of_epoch[i];
-    const double* movement = movements.col(static_cast<Eigen::Index>(i)).data();
     if (action.quantity == UncertainQuantity::temperature)
       add_temperature(equations, displacement, action.parameter.sigma, column, entries);
     else
-      add_movement(equations, displacement, Eigen::Map<const Field>(movement, 2, movements.rows() / 2),
-                   column, entries);
+      add_movement(
+          equations, displacement,
+          Eigen::VectorXd(movements.col(static_cast<Eigen::Index>(i))).reshaped(2, movements.rows() / 2),
+          column, entries);
     ++column;
   }
   return matrix_of(displacement.size(), column, entries);

@@ -15,7 +15,7 @@ using ColumnMatrix = Eigen::SparseMatrix<double>;
 /// d unbalanced forces / d parameters: components x parameters [N]. `movements`: components x parameters of
 /// an epoch, the displacements of held components per standard deviation.
 ColumnMatrix forces_by_parameters(const StageEquations& equations, const Field& displacement,
-                                  const UncertainParameters& uncertain, const Eigen::MatrixXd& movements);
+                                  const UncertainParameters& uncertain, const ColumnMatrix& movements);
 
 /// d unbalanced forces / d memory: components x (2 joints) [N/m].
 ColumnMatrix forces_by_memory(const StageEquations& equations, const Field& displacement);

@@ -10,7 +10,7 @@ Field without_nan(const Field& field) {
 }
 
 /// Per standard deviation: components x parameters of an epoch.
-Eigen::MatrixXd movements_of(const EquilibriumSystem& system, const UncertainParameters& uncertain) {
+ColumnMatrix movements_of(const EquilibriumSystem& system, const UncertainParameters& uncertain) {
   Eigen::MatrixXd movements(static_cast<Eigen::Index>(system.unknown.size()),
                             static_cast<Eigen::Index>(uncertain.of_epoch.size()));
   for (std::size_t i = 0; i < uncertain.of_epoch.size(); ++i) {
@@ -18,17 +18,17 @@ Eigen::MatrixXd movements_of(const EquilibriumSystem& system, const UncertainPar
     movements.col(static_cast<Eigen::Index>(i)) =
         movement_of(*system.structure, action, action.parameter.sigma).reshaped();
   }
-  return movements;
+  return movements.sparseView();
 }
 
-/// What the forces that are unbalanced at a step's place do to the readings, by this place.
-ComponentRows unbalanced_by_place(const SolvedStep& step, const ComponentRows& lambda) {
+/// What the share of the forces that is still held back does to the readings, by a step's place.
+ComponentRows held_back_by_place(const SolvedStep& step, const ComponentRows& lambda) {
   const EquilibriumSystem& system = *step.equations.system;
   Eigen::SparseMatrix<double> tangent = system.pattern;
   assemble(step.equations, step.place, 0.0, {tangent.valuePtr()});
   const ComponentRows by_free = tangent.transpose() * ComponentRows(lambda(system.component, Eigen::all));
   ComponentRows by_place = ComponentRows::Zero(lambda.rows(), lambda.cols());
-  by_place(system.component, Eigen::all) = by_free;
+  by_place(system.component, Eigen::all) = step.held_share * by_free;
   return by_place;
 }
 
@@ -72,7 +72,6 @@ SensitivitySolver::SensitivitySolver(const EquilibriumSystem& system, const Unce
     : system_(system),
       uncertain_(uncertain),
       movements_(movements_of(system, uncertain)),
-      sparse_movements_(movements_.sparseView()),
       transposed_(system) {}
 
 /// From the derivatives by what a step ends with to those by what it begins with; adds what it does to the
@@ -86,7 +85,7 @@ bool SensitivitySolver::step_back(const SolvedStep& step, bool is_first, Adjoint
     adjoint.by_memory = by_memory;
   }
   adjoint.by_parameters.bottomRows(movements_.cols()).noalias() +=
-      sparse_movements_.transpose() * adjoint.by_displacement;
+      movements_.transpose() * adjoint.by_displacement;
   for (std::size_t block = 0; block < step.equations.removed.size(); ++block) {
     const IndexRange& nodes = system_.structure->mesh.block_nodes[block];
     if (step.equations.removed[block])
@@ -103,10 +102,11 @@ bool SensitivitySolver::step_back(const SolvedStep& step, bool is_first, Adjoint
   adjoint.by_parameters.noalias() += by_parameters.transpose() * lambda;
   if (is_first) return true;
   ColumnMatrix by_memory = forces_by_memory(step.equations, step.displacement);
-  adjoint.by_displacement.setZero(lambda.rows(), lambda.cols());
   if (step.held_share > 0.0) {
     by_memory -= step.held_share * forces_by_memory(step.equations, step.place);
-    adjoint.by_displacement = step.held_share * unbalanced_by_place(step, lambda);
+    adjoint.by_displacement = held_back_by_place(step, lambda);
+  } else {
+    adjoint.by_displacement.setZero(lambda.rows(), lambda.cols());
   }
   if (adjoint.by_memory.size() == 0) adjoint.by_memory.setZero(by_memory.cols(), lambda.cols());
   adjoint.by_memory.noalias() += by_memory.transpose() * lambda;

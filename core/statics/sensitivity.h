@@ -59,8 +59,7 @@ class SensitivitySolver {
 
   const EquilibriumSystem& system_;
   const UncertainParameters& uncertain_;
-  Eigen::MatrixXd movements_;  ///< components x parameters of an epoch, per standard deviation
-  Eigen::SparseMatrix<double> sparse_movements_;  ///< the same
+  Eigen::SparseMatrix<double> movements_;  ///< components x parameters of an epoch, per standard deviation
   TransposedSolver transposed_;
 };
 

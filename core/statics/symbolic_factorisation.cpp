@@ -14,12 +14,17 @@ constexpr int kWidest = 8;
 
 void order(const Eigen::SparseMatrix<double>& pattern, SymbolicFactorisation& f) {
   f.permutation.resize(static_cast<std::size_t>(f.n));
-  f.position.resize(static_cast<std::size_t>(f.n));
   if (amd_order(f.n, pattern.outerIndexPtr(), pattern.innerIndexPtr(), f.permutation.data(), nullptr,
                 nullptr) < AMD_OK)
     throw Failure("the ordering of the stiffness matrix failed: out of memory");
-  for (int k = 0; k < f.n; ++k)
-    f.position[static_cast<std::size_t>(f.permutation[static_cast<std::size_t>(k)])] = k;
+}
+
+/// Old position -> new.
+std::vector<int> inverse(const std::vector<int>& permutation) {
+  std::vector<int> position(permutation.size());
+  for (std::size_t k = 0; k < permutation.size(); ++k)
+    position[static_cast<std::size_t>(permutation[k])] = static_cast<int>(k);
+  return position;
 }
 
 /// Column k of L holds the lower part of column k of A and whatever its children in the elimination tree hold
@@ -29,11 +34,12 @@ std::vector<std::vector<int>> find_fill(const Eigen::SparseMatrix<double>& patte
   const auto n = static_cast<std::size_t>(f.n);
   std::vector<std::vector<int>> lower(n);
   std::vector<std::vector<int>> children(n);
+  const std::vector<int> position = inverse(f.permutation);
   f.a_begin = {0};
   for (std::size_t k = 0; k < n; ++k) {
     const int old = f.permutation[k];
     for (int p = pattern.outerIndexPtr()[old]; p < pattern.outerIndexPtr()[old + 1]; ++p) {
-      const int row = f.position[static_cast<std::size_t>(pattern.innerIndexPtr()[p])];
+      const int row = position[static_cast<std::size_t>(pattern.innerIndexPtr()[p])];
       f.a_row.push_back(row);
       f.a_slot.push_back(p);
       if (row > static_cast<int>(k)) lower[k].push_back(row);

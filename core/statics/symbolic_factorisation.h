@@ -27,7 +27,6 @@ struct SymbolicFactorisation {
   int n = 0;
   int values = 0;                ///< how many L and U have
   std::vector<int> permutation;  ///< new position -> old
-  std::vector<int> position;     ///< old -> new position
   std::vector<int> a_begin;      ///< per permuted column: its entries of the matrix ..
   std::vector<int> a_row;        ///< .. permuted row
   std::vector<int> a_slot;       ///< .. and place in the value array

@@ -1,4 +1,5 @@
 #include <catch2/catch.hpp>
+#include <cstring>
 #include <fstream>
 
 #include "core/structure/mirror_symmetry.h"

@@ -44,7 +44,6 @@ struct StatesSite {
   Database open() const { return Database::open(request.output); }
 };
 
-/// Also what is NaN where there is no block.
 std::string digest_of_all() {
   static const std::string digest = StatesSite().build().digest;
   return digest;

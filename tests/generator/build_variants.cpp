@@ -1,5 +1,6 @@
 /// @file Databases of several variants of a bridge.
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <set>
 
@@ -43,10 +44,6 @@ struct VariantsSite {
   Database open() const { return Database::open(request.output); }
 };
 
-bool same_bytes(ByteView first, ByteView second) {
-  return std::equal(first.begin(), first.end(), second.begin(), second.end());
-}
-
 /// Everything but the variant's number and the checksum, which covers it.
 void check_same(Record record, const Record& alone) {
   REQUIRE(record.key.scene == alone.key.scene);
@@ -57,7 +54,7 @@ void check_same(Record record, const Record& alone) {
   CHECK(state.residual == expected.residual);
   CHECK(state.iterations == expected.iterations);
   CHECK(state.moving == expected.moving);
-  CHECK(same_bytes(view_bytes(state.vertical), view_bytes(expected.vertical)));
+  CHECK(std::ranges::equal(view_bytes(state.vertical), view_bytes(expected.vertical)));
   CHECK(state.packed_field == expected.packed_field);
 }
 

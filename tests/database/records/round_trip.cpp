@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <catch2/catch.hpp>
+#include <cstring>
 #include <fstream>
 
 #include "core/error.h"
@@ -13,17 +15,13 @@
 namespace voussoir {
 namespace {
 
-bool same_bytes(ByteView first, ByteView second) {
-  return std::equal(first.begin(), first.end(), second.begin(), second.end());
-}
-
 void check_same(const RecordedState& stored, const RecordedState& expected) {
   REQUIRE(stored.outcome == expected.outcome);
   REQUIRE(stored.residual == expected.residual);
   REQUIRE(stored.iterations == expected.iterations);
   REQUIRE(stored.extent == expected.extent);
   REQUIRE(stored.moving == expected.moving);
-  REQUIRE(same_bytes(view_bytes(stored.vertical), view_bytes(expected.vertical)));
+  REQUIRE(std::ranges::equal(view_bytes(stored.vertical), view_bytes(expected.vertical)));
   REQUIRE(stored.packed_field == expected.packed_field);
   REQUIRE(stored.field_crc == expected.field_crc);
 }
@@ -89,7 +87,7 @@ TEST_CASE("The table of a variant in a state lies in the file in one piece and i
       for (std::size_t row = 0; row < table.rows; ++row) {
         const Record record = database.record(table.first_record + row);
         REQUIRE(record.key == RecordKey{variant, table.scene(row)});
-        REQUIRE(same_bytes(view_bytes(record.states[state].vertical), std::as_bytes(table.row(row))));
+        REQUIRE(std::ranges::equal(view_bytes(record.states[state].vertical), std::as_bytes(table.row(row))));
         REQUIRE(static_cast<std::uint8_t>(record.states[state].outcome) == table.outcome[row]);
         REQUIRE(static_cast<std::uint8_t>(record.states[state].extent) == table.collapse[row]);
       }

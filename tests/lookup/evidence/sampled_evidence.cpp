@@ -1,9 +1,7 @@
 /// @file Answers from sampled bridges. Oracle: the dense normal density (LDLT) of samples, summed up from its
 /// definition; and the first order, where bridges are as it says.
 
-#include <Eigen/Cholesky>
 #include <catch2/catch.hpp>
-#include <numbers>
 
 #include "core/error.h"
 #include "lookup/evidence/scatter_factor.h"

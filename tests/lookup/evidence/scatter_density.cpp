@@ -4,10 +4,8 @@
 #include "lookup/evidence/scatter_density.h"
 #include "tests/lookup/evidence/dense_normal.h"
 
-#include <Eigen/Cholesky>
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <numbers>
 
 using namespace voussoir;
 using Eigen::Index;

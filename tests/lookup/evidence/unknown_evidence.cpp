@@ -3,10 +3,8 @@
 
 #include "lookup/evidence/unknown_evidence.h"
 
-#include <Eigen/Cholesky>
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <numbers>
 
 #include "tests/lookup/evidence/dense_normal.h"
 #include "tests/lookup/evidence/made_up_factors.h"
