@@ -29,6 +29,12 @@ target_include_directories(HDF5::hdf5 SYSTEM INTERFACE ${HDF5_INCLUDE})
 target_link_libraries(HDF5::hdf5 INTERFACE ${HDF5_LIBRARY} ${SZIP_LIBRARY} ${AEC_LIBRARY}
                       ZLIB::ZLIB ${CMAKE_DL_LIBS} m)
 
+find_path(DEFLATE_INCLUDE libdeflate.h REQUIRED)
+find_library(DEFLATE_LIBRARY libdeflate.a REQUIRED)
+add_library(Deflate::deflate INTERFACE IMPORTED)
+target_include_directories(Deflate::deflate SYSTEM INTERFACE ${DEFLATE_INCLUDE})
+target_link_libraries(Deflate::deflate INTERFACE ${DEFLATE_LIBRARY})
+
 find_path(FLANN_INCLUDE flann/flann.hpp REQUIRED)
 find_library(LZ4_LIBRARY liblz4.a REQUIRED)
 add_library(FLANN::flann INTERFACE IMPORTED)

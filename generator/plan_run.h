@@ -9,7 +9,7 @@ namespace voussoir {
 
 /// The most scenes that one thread solves before it keeps their records: what a killed build can lose a
 /// thread.
-inline constexpr std::size_t kLargestBatch = 32;
+inline constexpr std::size_t kLargestBatch = 128;
 
 /// What a plan is carried out with.
 struct PlanRun {

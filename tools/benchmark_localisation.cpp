@@ -67,10 +67,21 @@ std::size_t place_of(std::size_t truth, const Posterior& posterior) {
       std::ranges::count_if(posterior.probability.values, [&](double one) { return one > of_truth; }));
 }
 
+double held_by_exact_set(std::size_t truth, const Posterior& posterior) {
+  double share = 0.0;
+  for (const std::size_t row : posterior.credible) {
+    const double probability = posterior.probability[row];
+    if (row == truth) return std::min(1.0, (kCredibleShare - share) / probability);
+    share += probability;
+  }
+  return 0.0;
+}
+
 void count_posterior(std::size_t truth, const Posterior& posterior, Success& success) {
   count_place(place_of(truth, posterior), success);
   const auto& set = posterior.credible;
   success.in_credible += std::find(set.begin(), set.end(), truth) != set.end() ? 1 : 0;
+  success.in_exact += held_by_exact_set(truth, posterior);
 }
 
 std::vector<ScoredRow> best_by_misfit(const Library& library, const Measurements& measured,

@@ -16,6 +16,7 @@ struct Success {
   int first = 0;        ///< truth at the head of the list
   int in_five = 0;      ///< truth among the first five
   int in_credible = 0;  ///< truth in the 95 % set (posterior only)
+  double in_exact = 0;  ///< sum of held_by_exact_set (posterior only)
 };
 
 struct CaseResult {
@@ -39,6 +40,12 @@ Posterior posterior_of(const Library& library, const Measurements& measured, con
 /// The place of the truth in the order of probabilities, from 0: scenes that are likelier come before it.
 /// That of all rows if the truth is impossible.
 std::size_t place_of(std::size_t truth, const Posterior& posterior);
+
+/// The chance that a set of exactly 95 % of the probability holds the truth, which takes the least likely
+/// scene of the credible set by lot, as often as it takes to hold no more. Scenes are whole, so a credible
+/// set holds the truth more often than in 95 % even if all probabilities are right, and at least as often as
+/// its first scene is the truth; this is 95 % on average then, and says whether they are.
+double held_by_exact_set(std::size_t truth, const Posterior& posterior);
 
 /// Counts where the truth comes in the order of probabilities and whether it is in the credible set.
 void count_posterior(std::size_t truth, const Posterior& posterior, Success& success);

@@ -22,8 +22,8 @@ struct Options {
   voussoir::IrregularOptions bridges;
 };
 
-double share(int count, const Success& success) {
-  return static_cast<double>(count) / success.trials;
+double share(double count, const Success& success) {
+  return count / success.trials;
 }
 
 std::string generations(const CaseResult& result) {
@@ -64,9 +64,11 @@ void print_calibration(const Library& library, const std::string& title, NoiseSh
                        bool stated, const Options& options) {
   const Calibration c = voussoir::calibrate(library, drawn, assumed, stated, options.scenes, options.seed);
   fmt::print("Calibration, {}: {} random scenes, noise 1..20 %\n", title, options.scenes);
-  fmt::print("  truth first {:.3f}, in the first five {:.3f}, in the 95 % set {:.3f} (mean size {:.0f})\n",
-             share(c.success.first, c.success), share(c.success.in_five, c.success),
-             share(c.success.in_credible, c.success), c.mean_set_size);
+  fmt::print(
+      "  truth first {:.3f}, in the first five {:.3f}, in the 95 % set {:.3f} (of exactly 95 %: {:.3f}; mean "
+      "size {:.0f})\n",
+      share(c.success.first, c.success), share(c.success.in_five, c.success),
+      share(c.success.in_credible, c.success), share(c.success.in_exact, c.success), c.mean_set_size);
   fmt::print("  {:>9} {:>8} {:>10} {:>10} {:>16}\n", "stated p", "scenes", "mean p", "frequency",
              "standard errors");
   for (std::size_t i = 0; i < c.bins.size(); ++i) {

@@ -9,6 +9,7 @@
 
 #include "lookup/evidence/evidence_screen.h"
 #include "lookup/readings/simulate.h"
+#include "tools/benchmark_localisation.h"
 
 namespace voussoir {
 namespace {
@@ -54,6 +55,7 @@ void count(const Posterior& posterior, std::size_t truth, Rates& rates) {
   ++rates.trials;
   rates.first += !posterior.credible.empty() && posterior.credible.front() == truth ? 1 : 0;
   rates.in_credible += std::ranges::count(posterior.credible, truth) > 0 ? 1 : 0;
+  rates.in_exact += held_by_exact_set(truth, posterior);
   rates.damaged += posterior.missing_probability.front() < 1.0 - kCalledDamaged ? 1 : 0;
 }
 
@@ -97,6 +99,7 @@ Rates find_again(const TwoBridges& bridges, const std::vector<Scene>& scenes, co
     sum.trials += part.trials;
     sum.first += part.first;
     sum.in_credible += part.in_credible;
+    sum.in_exact += part.in_exact;
     sum.damaged += part.damaged;
     sum.chances.insert(sum.chances.end(), part.chances.begin(), part.chances.end());
   }

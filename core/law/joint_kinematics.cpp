@@ -1,7 +1,5 @@
 #include "core/law/joint_kinematics.h"
 
-#include <cmath>
-
 namespace voussoir {
 namespace {
 
@@ -20,8 +18,14 @@ CurrentEdges current_edges(const JointFrame& frame, const Vector8d& q) {
           frame.second_along + q.segment<2>(4) - q.segment<2>(6)};
 }
 
-double angle_between(const Point& from, const Point& to) {
-  return std::atan2(cross(from, to), from.dot(to));
+/// The vector turned by an angle, (cos, sin).
+Point turned(const Point& v, const Point& by) {
+  return {v.x() * by.x() - v.y() * by.y(), v.x() * by.y() + v.y() * by.x()};
+}
+
+/// (cos, sin) of the angle from one unit vector to another.
+Point angle_between(const Point& from, const Point& to) {
+  return {from.dot(to), cross(from, to)};
 }
 
 /// d angle / d vector of a vector's direction angle.
@@ -52,7 +56,9 @@ JointFrame make_joint_frame(const Joint& joint, const Mesh& mesh) {
   JointFrame frame;
   frame.first_along = x[1] - x[0];
   frame.second_along = x[2] - x[3];
-  frame.direction = (frame.first_along.normalized() + frame.second_along.normalized()).normalized();
+  const Point first = frame.first_along.normalized(), second = frame.second_along.normalized();
+  frame.direction = (first + second).normalized();
+  frame.from_edge = {angle_between(first, frame.direction), angle_between(second, frame.direction)};
   for (std::size_t end = 0; end < 2; ++end) {
     const double a = joint.first_at[end];
     const double b = joint.second_at[end];
@@ -64,24 +70,49 @@ JointFrame make_joint_frame(const Joint& joint, const Mesh& mesh) {
   return frame;
 }
 
-JointKinematics joint_kinematics(const JointFrame& frame, const Vector8d& q) {
+JointPose joint_pose(const JointFrame& frame, const Vector8d& q) {
   const CurrentEdges edges = current_edges(frame, q);
-  const double theta =
-      0.5 * (angle_between(frame.first_along, edges.first) + angle_between(frame.second_along, edges.second));
-  const Point t(std::cos(theta) * frame.direction.x() - std::sin(theta) * frame.direction.y(),
-                std::sin(theta) * frame.direction.x() + std::cos(theta) * frame.direction.y());
-  const Point n = clockwise(t);
-
-  JointKinematics result;
-  const Point first = 0.5 * angle_gradient(edges.first);
-  const Point second = 0.5 * angle_gradient(edges.second);
-  result.rotation_gradient << -first, first, second, -second;
+  JointPose pose;
+  pose.turn = {0.5 * angle_gradient(edges.first), 0.5 * angle_gradient(edges.second)};
+  // The joint's direction as either edge has turned it; both have the same length.
+  const Point by_first = edges.second.norm() * turned(edges.first, frame.from_edge[0]);
+  const Point by_second = edges.first.norm() * turned(edges.second, frame.from_edge[1]);
+  pose.along = (by_first + by_second) / (by_first + by_second).norm();
+  const Point n = clockwise(pose.along);
   for (std::size_t end = 0; end < 2; ++end) {
     const Point j = jump(frame, q, end);
     const int gap = 2 * static_cast<int>(end);
+    pose.state[gap] = n.dot(j);
+    pose.state[gap + 1] = pose.along.dot(j);
+  }
+  return pose;
+}
+
+Vector8d corner_forces(const JointFrame& frame, const JointPose& pose, const Eigen::Vector4d& force) {
+  const Point n = clockwise(pose.along);
+  Vector8d forces;
+  double moment = 0.0;  // conjugate to theta: dn/dtheta = t, dt/dtheta = -n
+  std::array<Point, 2> on_end;
+  for (int end = 0; end < 2; ++end) {
+    const int gap = 2 * end, slip = gap + 1;
+    moment += force[gap] * pose.state[slip] - force[slip] * pose.state[gap];
+    on_end[static_cast<std::size_t>(end)] = force[gap] * n + force[slip] * pose.along;
+  }
+  forces << -moment * pose.turn[0], moment * pose.turn[0], moment * pose.turn[1], -moment * pose.turn[1];
+  for (int corner = 0; corner < 4; ++corner)
+    forces.segment<2>(2 * corner) +=
+        frame.weights[0][corner] * on_end[0] + frame.weights[1][corner] * on_end[1];
+  return forces;
+}
+
+JointKinematics joint_kinematics(const JointFrame& frame, const Vector8d& q) {
+  JointKinematics result{joint_pose(frame, q), {}, {}};
+  const Point& t = result.along;
+  const Point n = clockwise(t);
+  result.rotation_gradient << -result.turn[0], result.turn[0], result.turn[1], -result.turn[1];
+  for (std::size_t end = 0; end < 2; ++end) {
+    const int gap = 2 * static_cast<int>(end);
     const int slip = gap + 1;
-    result.state[gap] = n.dot(j);
-    result.state[slip] = t.dot(j);
     // dn/dtheta = t, dt/dtheta = -n
     result.gradient.row(gap) = result.state[slip] * result.rotation_gradient.transpose();
     result.gradient.row(slip) = -result.state[gap] * result.rotation_gradient.transpose();

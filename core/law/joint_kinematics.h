@@ -7,6 +7,9 @@
 /// turned by theta; n is t turned clockwise, from the first block to the second. At the stretch's end k the
 /// faces are apart by j_k = x_second - x_first (material points that face each other in the reference
 /// configuration), and gap_k = n . j_k, slip_k = t . j_k.
+///
+/// t is found without angles: it halves the angle between the joint's direction turned as the first edge is
+/// and as the second is.
 
 #include <Eigen/Core>
 #include <array>
@@ -24,15 +27,28 @@ struct JointFrame {
   Point direction;                         ///< unit vector t at rest
   Point first_along;                       ///< first edge, from -> to [m]
   Point second_along;                      ///< second edge, to -> from [m], so that both run along t
+  std::array<Point, 2> from_edge;          ///< (cos, sin) of the angle from each edge to t, at rest
   std::array<Eigen::Vector4d, 2> weights;  ///< of the four corners in j_k
   std::array<Point, 2> offset;             ///< j_k at rest [m]: zero but for gaps and overlaps in the input
 };
 
 JointFrame make_joint_frame(const Joint& joint, const Mesh& mesh);
 
-struct JointKinematics {
+/// Where the joint is.
+struct JointPose {
   JointState state;
-  Eigen::Matrix<double, 4, 8> gradient;  ///< d state / d q
+  Point along;                ///< t
+  std::array<Point, 2> turn;  ///< d theta / d vector of each edge [1/m]
+};
+
+/// Not defined where one edge has turned by half a turn against the other.
+JointPose joint_pose(const JointFrame& frame, const Vector8d& displacement);
+
+/// Forces on the corners that are work-conjugate to the displacements as `force` is to the state.
+Vector8d corner_forces(const JointFrame& frame, const JointPose& pose, const Eigen::Vector4d& force);
+
+struct JointKinematics : JointPose {
+  Eigen::Matrix<double, 4, 8> gradient;  ///< d state / d q; corner_forces are gradient^T force
   Vector8d rotation_gradient;            ///< d theta / d q
 };
 

@@ -1,5 +1,7 @@
 #include "core/law/joint_law.h"
 
+#include <array>
+
 #include "core/law/stretch_mass.h"
 
 namespace voussoir {
@@ -30,9 +32,49 @@ StretchContact contact_of(const JointStiffness& joint, const JointState& state) 
   return contact;
 }
 
-StretchMass mass_of(const StretchContact& contact, const PositivePart<double>& part) {
-  const double begin = contact.closed.begin + part.begin;
-  return mass_of_part(begin, begin + part.length);
+/// Over what parts of a stretch stresses go with which state.
+struct StretchMasses {
+  StretchMass closed, sticking;
+  StretchMass slipping;  ///< where it slips in the negative direction less where in the positive
+};
+
+/// Is the whole stretch closed, and does it stick? As most are.
+bool sticks(const JointStiffness& joint, const JointState& state) {
+  const auto holds = [&](double gap, double slip) {
+    return gap < 0.0 && joint.tangential * magnitude(slip) <= -joint.cap * gap;
+  };
+  return holds(state[0], state[1]) && holds(state[2], state[3]);
+}
+
+/// `state` holds elastic slips.
+StretchMasses masses_of(const JointStiffness& joint, const JointState& state) {
+  if (sticks(joint, state)) return {kWholeStretch, kWholeStretch, {}};
+  const StretchContact contact = contact_of(joint, state);
+  const auto of_part = [&](const PositivePart<double>& part) {
+    const double begin = contact.closed.begin + part.begin;
+    return mass_of_part(begin, begin + part.length);
+  };
+  const StretchMass closed = mass_of_part(contact.closed.begin, contact.end());
+  const StretchMass above = of_part(contact.excess.above), below = of_part(contact.excess.below);
+  return {closed, closed - above - below, below - above};
+}
+
+/// Stresses are homogeneous in gap and elastic slip. `state` holds elastic slips.
+JointForceParts parts_of(const JointStiffness& joint, const StretchMasses& masses, const JointState& state) {
+  const auto product = [&](const StretchMass& mass, int column, double coefficient) {
+    const double at_0 = coefficient * state[column], at_1 = coefficient * state[column + 2];
+    return std::array{mass.m00 * at_0 + mass.m01 * at_1, mass.m01 * at_0 + mass.m11 * at_1};
+  };
+  const auto normal = product(masses.closed, 0, joint.normal);
+  const auto sticking = product(masses.sticking, 1, joint.tangential);
+  const auto slipping = product(masses.slipping, 0, joint.cap);
+  return {.normal = {normal[0], 0.0, normal[1], 0.0},
+          .sticking = {0.0, sticking[0], 0.0, sticking[1]},
+          .slipping = {0.0, slipping[0], 0.0, slipping[1]}};
+}
+
+bool is_open(const JointState& state) {
+  return state[0] >= 0.0 && state[2] >= 0.0;
 }
 
 }  // namespace
@@ -45,42 +87,32 @@ JointStiffness joint_stiffness(const JointMaterial& material, double area) {
 
 JointResponse integrate_joint(const JointStiffness& joint, const JointMemory& memory,
                               const JointState& state) {
-  const JointState elastic_state = elastic(state, memory);
   JointResponse response{Eigen::Vector4d::Zero(), Eigen::Matrix4d::Zero()};
-  if (state[0] >= 0.0 && state[2] >= 0.0) return response;
-  const StretchContact contact = contact_of(joint, elastic_state);
-  const StretchMass closed = mass_of_part(contact.closed.begin, contact.end());
-  const StretchMass above = mass_of(contact, contact.excess.above);
-  const StretchMass below = mass_of(contact, contact.excess.below);
-  add_mass(response.tangent, closed, 0, 0, joint.normal);
-  add_mass(response.tangent, closed - above - below, 1, 1, joint.tangential);
-  add_mass(response.tangent, below - above, 1, 0, joint.cap);
-  response.force = response.tangent * elastic_state;  // stresses are homogeneous in gap and elastic slip
+  if (is_open(state)) return response;
+  const JointState elastic_state = elastic(state, memory);
+  const StretchMasses masses = masses_of(joint, elastic_state);
+  add_mass(response.tangent, masses.closed, 0, 0, joint.normal);
+  add_mass(response.tangent, masses.sticking, 1, 1, joint.tangential);
+  add_mass(response.tangent, masses.slipping, 1, 0, joint.cap);
+  response.force = parts_of(joint, masses, elastic_state).sum();
   return response;
 }
 
+Eigen::Vector4d joint_force(const JointStiffness& joint, const JointMemory& memory, const JointState& state) {
+  return joint_force_parts(joint, memory, state).sum();
+}
+
 JointMemory updated_memory(const JointStiffness& joint, const JointMemory& memory, const JointState& state) {
-  if (state[0] >= 0.0 && state[2] >= 0.0) return {state[1], state[3]};
+  if (is_open(state)) return {state[1], state[3]};
   const double plastic = contact_of(joint, elastic(state, memory)).excess.common / joint.tangential;
   return {memory.slip_0 + plastic, memory.slip_1 + plastic};
 }
 
 JointForceParts joint_force_parts(const JointStiffness& joint, const JointMemory& memory,
                                   const JointState& state) {
+  if (is_open(state)) return {Eigen::Vector4d::Zero(), Eigen::Vector4d::Zero(), Eigen::Vector4d::Zero()};
   const JointState elastic_state = elastic(state, memory);
-  JointForceParts parts{Eigen::Vector4d::Zero(), Eigen::Vector4d::Zero(), Eigen::Vector4d::Zero()};
-  if (state[0] >= 0.0 && state[2] >= 0.0) return parts;
-  const StretchContact contact = contact_of(joint, elastic_state);
-  const StretchMass closed = mass_of_part(contact.closed.begin, contact.end());
-  const StretchMass above = mass_of(contact, contact.excess.above);
-  const StretchMass below = mass_of(contact, contact.excess.below);
-  const auto force = [&](const StretchMass& mass, int row, int column, double coefficient) {
-    Eigen::Matrix4d matrix = Eigen::Matrix4d::Zero();
-    add_mass(matrix, mass, row, column, coefficient);
-    return Eigen::Vector4d(matrix * elastic_state);
-  };
-  return {force(closed, 0, 0, joint.normal), force(closed - above - below, 1, 1, joint.tangential),
-          force(below - above, 1, 0, joint.cap)};
+  return parts_of(joint, masses_of(joint, elastic_state), elastic_state);
 }
 
 JointContact joint_contact(const JointStiffness& joint, const JointMemory& memory, const JointState& state) {
@@ -91,7 +123,7 @@ JointContact joint_contact(const JointStiffness& joint, const JointMemory& memor
 MemoryDerivatives memory_derivatives(const JointStiffness& joint, const JointMemory& memory,
                                      const JointState& state) {
   MemoryDerivatives result;
-  if (state[0] >= 0.0 && state[2] >= 0.0) {
+  if (is_open(state)) {
     result.by_state(0, 1) = result.by_state(1, 3) = 1.0;
     result.by_memory.setZero();
     return result;

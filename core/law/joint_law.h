@@ -105,12 +105,17 @@ struct JointResponse {
 JointResponse integrate_joint(const JointStiffness& joint, const JointMemory& memory,
                               const JointState& state);
 
+/// Its force alone.
+Eigen::Vector4d joint_force(const JointStiffness& joint, const JointMemory& memory, const JointState& state);
+
 /// The force by what it comes from; each part is proportional to its own stiffness, so these are derivatives,
 /// too: `normal` of ln p_n, `sticking` of ln p_t, `slipping` of ln mu and of ln p_n.
 struct JointForceParts {
   Eigen::Vector4d normal;    ///< pressure [N]
   Eigen::Vector4d sticking;  ///< shear where the joint sticks [N]
   Eigen::Vector4d slipping;  ///< shear where it slips [N]
+
+  Eigen::Vector4d sum() const { return normal + sticking + slipping; }
 };
 
 JointForceParts joint_force_parts(const JointStiffness& joint, const JointMemory& memory,

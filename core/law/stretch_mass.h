@@ -10,6 +10,8 @@ struct StretchMass {
   double m00 = 0.0, m01 = 0.0, m11 = 0.0;
 };
 
+inline constexpr StretchMass kWholeStretch = {1.0 / 3.0, 1.0 / 6.0, 1.0 / 3.0};
+
 inline StretchMass mass_of_part(double a, double b) {
   const double squares = b * b - a * a;
   const double cubes = b * b * b - a * a * a;

@@ -35,11 +35,11 @@ std::vector<BondedJoint> bonded_joints(const Model& model, const ContactSearch& 
 }
 
 Vector8d follow_bond(const BondedJoint& joint, const Vector8d& displacement, MortarBond& bond) {
-  const JointKinematics kinematics = joint_kinematics(joint.frame, displacement);
-  BondStep step = bond_step(joint.law, bond.memory, kinematics.state);
+  const JointPose pose = joint_pose(joint.frame, displacement);
+  BondStep step = bond_step(joint.law, bond.memory, pose.state);
   bond.memory = std::move(step.memory);
   bond.holds = !is_gone(joint.law, bond.memory);
-  return -(kinematics.gradient.transpose() * step.force);
+  return -corner_forces(joint.frame, pose, step.force);
 }
 
 }  // namespace voussoir

@@ -81,7 +81,8 @@ void add_local(const std::array<int, N>& slots, const Matrix& local, TangentTarg
     if (slots[k] >= 0) tangent.first[static_cast<std::size_t>(slots[k]) * tangent.stride] += local.data()[k];
 }
 
-/// Gives the unknowns of removed blocks an equation of their own: 1 * change = 0.
+/// Gives the unknowns of removed blocks an equation of their own: 1 * change = 0. Nothing else than a block's
+/// own triangles may have been added to their columns.
 void pin_removed(const StageEquations& equations, TangentTarget tangent) {
   const EquilibriumSystem& system = *equations.system;
   const Mesh& mesh = system.structure->mesh;
@@ -89,9 +90,12 @@ void pin_removed(const StageEquations& equations, TangentTarget tangent) {
     if (!equations.removed[block]) continue;
     for (int c = 2 * mesh.block_nodes[block].begin; c < 2 * mesh.block_nodes[block].end; ++c) {
       const int i = system.unknown[static_cast<std::size_t>(c)];
-      if (i >= 0)
-        tangent.first[static_cast<std::size_t>(system.diagonal_slots[static_cast<std::size_t>(i)]) *
-                      tangent.stride] = 1.0;
+      if (i < 0) continue;
+      const int* const column = system.pattern.outerIndexPtr() + i;
+      for (int at = column[0]; at < column[1]; ++at)
+        tangent.first[static_cast<std::size_t>(at) * tangent.stride] = 0.0;
+      tangent.first[static_cast<std::size_t>(system.diagonal_slots[static_cast<std::size_t>(i)]) *
+                    tangent.stride] = 1.0;
     }
   }
 }
@@ -101,22 +105,34 @@ void clear_held(const EquilibriumSystem& system, Field& forces) {
     if (system.unknown[c] < 0) forces.data()[c] = 0.0;
 }
 
-/// Unbalanced forces, at held components, too.
-Field all_forces(const StageEquations& equations, const Field& displacement) {
+void subtract_triangle_forces(const StageEquations& equations, const Field& displacement, Field& forces) {
   const EquilibriumSystem& system = *equations.system;
   const Coefficients& with = *equations.coefficients;
-  Field forces = equations.load;
   for_present_triangles(equations, [&](std::size_t t, std::size_t block) {
     const auto& nodes = system.structure->mesh.triangles[t].nodes;
     subtract_at(forces, nodes,
                 triangle_force(system.triangles[t], with.moduli[block], with.thickness[block],
                                gathered(displacement, nodes), equations.temperature * with.thermal[block]));
   });
+}
+
+/// The force of joint_response alone.
+Eigen::Vector4d force_in(const StageEquations& equations, std::size_t joint, const JointState& state) {
+  const Coefficients& with = *equations.coefficients;
+  if (with.mortar_of(joint) != nullptr || equations.system->joint_rule != JointRule::exact)
+    return joint_response(equations, joint, state).force;
+  return joint_force(with.joints[joint], equations.memory[joint], state);
+}
+
+/// Unbalanced forces, at held components, too.
+Field all_forces(const StageEquations& equations, const Field& displacement) {
+  const EquilibriumSystem& system = *equations.system;
+  Field forces = equations.load;
+  subtract_triangle_forces(equations, displacement, forces);
   for_present_joints(equations, [&](const Joint& joint, std::size_t j) {
-    const JointKinematics kinematics =
-        joint_kinematics(system.joints[j], gathered(displacement, corners(joint)));
-    const JointResponse response = joint_response(equations, j, kinematics.state);
-    subtract_at(forces, corners(joint), kinematics.gradient.transpose().lazyProduct(response.force).eval());
+    const JointPose pose = joint_pose(system.joints[j], gathered(displacement, corners(joint)));
+    subtract_at(forces, corners(joint),
+                corner_forces(system.joints[j], pose, force_in(equations, j, pose.state)));
   });
   return forces;
 }
@@ -137,6 +153,7 @@ EquilibriumSystem::EquilibriumSystem(const Structure& structure_, JointRule rule
 Coefficients::Coefficients(const EquilibriumSystem& system, const Parameters& parameters) {
   const Structure& structure = *system.structure;
   weight.setZero(structure.mesh.node_count());
+  elastic.assign(static_cast<std::size_t>(system.pattern.nonZeros()), 0.0);
   for (std::size_t block = 0; block < structure.layout.size(); ++block) {
     const Material& material = parameters.blocks[block];
     moduli.push_back(plane_moduli(material));
@@ -144,9 +161,13 @@ Coefficients::Coefficients(const EquilibriumSystem& system, const Parameters& pa
     thermal.push_back(thermal_pressure(material));
     const double specific = material.density * parameters.gravity * material.thickness;
     const IndexRange& range = structure.mesh.block_triangles[block];
-    for (auto t = static_cast<std::size_t>(range.begin); t < static_cast<std::size_t>(range.end); ++t)
+    for (auto t = static_cast<std::size_t>(range.begin); t < static_cast<std::size_t>(range.end); ++t) {
       for (const NodeId node : structure.mesh.triangles[t].nodes)
         weight[value(node)] += specific * system.triangles[t].area / 3.0;
+      const TriangleResponse at_rest =
+          triangle_response(system.triangles[t], moduli.back(), thickness.back(), Vector6d::Zero(), 0.0);
+      add_local(system.triangle_slots[t], at_rest.tangent, {elastic.data()});
+    }
   }
   if (parameters.laid_mass.size() > 0) weight += parameters.gravity * parameters.laid_mass;
   for (std::size_t j = 0; j < structure.joints.size(); ++j) {
@@ -190,25 +211,29 @@ Field support_forces(const StageEquations& equations, const Field& displacement)
 }
 
 Field assemble(const StageEquations& equations, const Field& displacement, double bonding,
-               TangentTarget tangent) {
+               TangentTarget tangent, ElasticPart elastic) {
   const EquilibriumSystem& system = *equations.system;
   const Coefficients& with = *equations.coefficients;
+  const bool at_rest = elastic == ElasticPart::at_rest;
   Field forces = equations.load;
   for (std::size_t i = 0; i < static_cast<std::size_t>(system.pattern.nonZeros()); ++i)
-    tangent.first[i * tangent.stride] = 0.0;
-  for_present_triangles(equations, [&](std::size_t t, std::size_t block) {
-    const auto& nodes = system.structure->mesh.triangles[t].nodes;
-    const TriangleResponse response =
-        triangle_response(system.triangles[t], with.moduli[block], with.thickness[block],
-                          gathered(displacement, nodes), equations.temperature * with.thermal[block]);
-    subtract_at(forces, nodes, response.force);
-    add_local(system.triangle_slots[t], response.tangent, tangent);
-  });
+    tangent.first[i * tangent.stride] = at_rest ? with.elastic[i] : 0.0;
+  if (at_rest)
+    subtract_triangle_forces(equations, displacement, forces);
+  else
+    for_present_triangles(equations, [&](std::size_t t, std::size_t block) {
+      const auto& nodes = system.structure->mesh.triangles[t].nodes;
+      const TriangleResponse response =
+          triangle_response(system.triangles[t], with.moduli[block], with.thickness[block],
+                            gathered(displacement, nodes), equations.temperature * with.thermal[block]);
+      subtract_at(forces, nodes, response.force);
+      add_local(system.triangle_slots[t], response.tangent, tangent);
+    });
   for_present_joints(equations, [&](const Joint& joint, std::size_t j) {
     const Vector8d q = gathered(displacement, corners(joint));
     const JointKinematics kinematics = joint_kinematics(system.joints[j], q);
     JointResponse response = joint_response(equations, j, kinematics.state);
-    subtract_at(forces, corners(joint), kinematics.gradient.transpose().lazyProduct(response.force).eval());
+    subtract_at(forces, corners(joint), corner_forces(system.joints[j], kinematics, response.force));
     if (bonding > 0.0)
       response.tangent = (1.0 - bonding) * response.tangent + bonding * bonded_joint_tangent(with.joints[j]);
     Matrix8d stiffness = joint_geometric_stiffness(system.joints[j], q, kinematics, response.force);
@@ -232,12 +257,11 @@ std::vector<JointMemory> updated_memory(const StageEquations& equations, const F
   const EquilibriumSystem& system = *equations.system;
   std::vector<JointMemory> memory = equations.memory;
   for_present_joints(equations, [&](const Joint& joint, std::size_t j) {
-    const JointKinematics kinematics =
-        joint_kinematics(system.joints[j], gathered(displacement, corners(joint)));
+    const JointState state = joint_pose(system.joints[j], gathered(displacement, corners(joint))).state;
     if (const CohesiveStiffness* mortar = equations.coefficients->mortar_of(j))
-      memory[j] = updated_bond(*mortar, memory[j], kinematics.state);
+      memory[j] = updated_bond(*mortar, memory[j], state);
     else
-      memory[j] = updated_memory(equations.coefficients->joints[j], memory[j], kinematics.state);
+      memory[j] = updated_memory(equations.coefficients->joints[j], memory[j], state);
   });
   return memory;
 }

@@ -50,6 +50,7 @@ struct Coefficients {
   std::vector<JointStiffness> joints;                    ///< of each joint
   std::vector<std::optional<CohesiveStiffness>> mortar;  ///< of each joint; empty if all are dry
   Eigen::VectorXd weight;                                ///< of each node under full gravity [N], positive
+  std::vector<double> elastic;  ///< the triangles' part of the tangent at rest, in the order of the pattern
 
   /// Null if the joint is dry.
   const CohesiveStiffness* mortar_of(std::size_t joint) const {
@@ -93,12 +94,19 @@ struct TangentTarget {
   std::size_t stride = 1;
 };
 
+/// How an assembly has the triangles' part of the tangent.
+enum class ElasticPart {
+  exact,
+  at_rest  ///< no triangle's tangent is worked out: off by the blocks' rotations and strains, which are small
+           ///< where a bridge stands, but not the exact derivative
+};
+
 /// The same, and the tangent's values in the order of `system.pattern`. `bonding` in [0,1] mixes the tangent
 /// of bonded (closed and sticking) joints into the exact one: 0 is the exact derivative, 1 the linear bridge
 /// without openings; in between, loose blocks are held just enough to make the matrix regular. Forces are
 /// exact always.
 Field assemble(const StageEquations& equations, const Field& displacement, double bonding,
-               TangentTarget tangent);
+               TangentTarget tangent, ElasticPart elastic = ElasticPart::exact);
 
 /// What the joints remember when the stage ends with this displacement.
 std::vector<JointMemory> updated_memory(const StageEquations& equations, const Field& displacement);

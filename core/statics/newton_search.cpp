@@ -148,17 +148,20 @@ void NewtonSearch::begin_next_phase() {
 }
 
 void NewtonSearch::evaluate() {
-  unbalanced_ = assemble(equations_, displacement_, bonding_, tangent_);
+  unbalanced_ = assemble(equations_, displacement_, bonding_, tangent_,
+                         may_keep_matrix() ? ElasticPart::at_rest : ElasticPart::exact);
   matrix_is_new_ = true;
   secants_.clear();
+  note_norm();
 }
 
 void NewtonSearch::evaluate_forces() {
   unbalanced_ = unbalanced_forces(equations_, displacement_);
+  note_norm();
 }
 
-double NewtonSearch::norm() const {
-  return (unbalanced_ / equations_.largest_load).norm();  // squares of tiny loads would vanish
+void NewtonSearch::note_norm() {
+  norm_ = (unbalanced_ / equations_.largest_load).norm();  // squares of tiny loads would vanish
 }
 
 /// Near the answer only. Mortar softens, which an old matrix knows nothing of; a bonded one is far from the
@@ -206,11 +209,11 @@ void NewtonSearch::move(const Field& from, double factor, const Eigen::VectorXd&
 void NewtonSearch::note_step(double length) {
   last_step_ = length;
   std::rotate(recent_.begin(), recent_.begin() + 1, recent_.end());
-  recent_.back() = norm();
+  recent_.back() = norm_;
 }
 
 void NewtonSearch::note_progress() {
-  const double now = norm();
+  const double now = norm_;
   const bool progresses = now < kProgress * least_norm_;
   if (progresses) least_norm_ = now;
   stalled_ = progresses ? 0 : stalled_ + 1;
@@ -220,7 +223,7 @@ void NewtonSearch::note_progress() {
 /// tries again with joints bonded a little; where that fails, too, it leaves the kink by a short step.
 void NewtonSearch::take_step(const Eigen::VectorXd& step) {
   const PhaseRules& rules = rules_of(phase_);
-  const double norm_before = norm();
+  const double norm_before = norm_;
   const bool descends = rules.descends && steps_ > 0;
   const double bound =
       descends ? norm_before : rules.rise * *std::max_element(recent_.begin(), recent_.end());
@@ -233,9 +236,9 @@ void NewtonSearch::take_step(const Eigen::VectorXd& step) {
   for (int halving = 0; halving <= kMostHalvings; ++halving, factor *= 0.5) {
     move(before, factor, step);
     may_keep ? evaluate_forces() : evaluate();
-    if (norm() < bound) break;
+    if (norm_ < bound) break;
   }
-  if (descends && !(norm() < bound)) {
+  if (descends && !(norm_ < bound)) {
     const bool may_bond = bonding_before == 0.0;
     if (may_bond) bonding_ = kLeastBonding;
     factor = may_bond ? 0.0 : kEscape;
@@ -247,7 +250,7 @@ void NewtonSearch::take_step(const Eigen::VectorXd& step) {
   if (bonded_from_rest) bonded_sag_ = last_step_;
   if (steps_++ == 0) first_norm_ = recent_.back();
   if (!may_keep || in_equilibrium()) return;
-  if (factor == 1.0 && norm() <= kLittleProgress * norm_before)
+  if (factor == 1.0 && norm_ <= kLittleProgress * norm_before)
     secants_.add(step);
   else
     evaluate();
@@ -255,21 +258,21 @@ void NewtonSearch::take_step(const Eigen::VectorXd& step) {
 
 /// Takes the step if it leaves less unbalance than there is.
 void NewtonSearch::try_step_with_old_matrix(const Eigen::VectorXd& step) {
-  const double norm_before = norm();
+  const double norm_before = norm_;
   const Field before = displacement_;
   const bool within = within_bounds(true, step);
   if (within) {
     move(before, 1.0, step);
     evaluate_forces();
   }
-  if (!within || !(norm() < norm_before)) {
+  if (!within || !(norm_ < norm_before)) {
     displacement_ = before;
     evaluate();
     return;
   }
   note_step(step.cwiseAbs().maxCoeff());
   if (in_equilibrium()) return;
-  if (norm() <= kLittleProgress * norm_before && secants_.size() < kMostSecants)
+  if (norm_ <= kLittleProgress * norm_before && secants_.size() < kMostSecants)
     secants_.add(step);
   else
     evaluate();

@@ -57,7 +57,7 @@ class NewtonSearch {
   void evaluate();
   void evaluate_forces();
   bool may_keep_matrix() const;
-  double norm() const;
+  void note_norm();
   bool within_bounds(bool regular, const Eigen::VectorXd& step) const;
   bool exhausted() const;
   bool in_equilibrium() const;
@@ -84,6 +84,7 @@ class NewtonSearch {
   std::array<double, kRecent>
       recent_{};             ///< the last norms of `unbalanced_`: a step may rise to the worst of them
   double bonded_sag_ = 0.0;  ///< largest displacement after the bonded first step from rest [m]; 0 before
+  double norm_ = 0.0;        ///< of `unbalanced_`, in units of the largest load
   double first_norm_ = 0.0;  ///< after the start's first step
   double least_norm_ = 0.0;  ///< that counted as progress
   int stalled_ = 0;          ///< steps since

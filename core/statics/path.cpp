@@ -43,9 +43,8 @@ double dissipated_by_mortar(const StageEquations& equations, const Field& displa
   for_present_joints(equations, [&](const Joint& joint, std::size_t j) {
     const CohesiveStiffness* mortar = equations.coefficients->mortar_of(j);
     if (mortar == nullptr) return;
-    const JointKinematics kinematics =
-        joint_kinematics(equations.system->joints[j], gathered(displacement, corners(joint)));
-    sum += dissipated_energy(*mortar, equations.memory[j], kinematics.state);
+    const JointPose pose = joint_pose(equations.system->joints[j], gathered(displacement, corners(joint)));
+    sum += dissipated_energy(*mortar, equations.memory[j], pose.state);
   });
   return sum;
 }

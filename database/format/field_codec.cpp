@@ -1,25 +1,19 @@
 #include "database/format/field_codec.h"
 
-#include <zlib.h>
+#include <libdeflate.h>
 
 #include <cmath>
 #include <limits>
+#include <memory>
+#include <new>
 
 #include "core/error.h"
 
 namespace voussoir {
 namespace {
 
-constexpr int kDeflateLevel = 1;  // higher levels gain a few per cent for several times the time
+constexpr int kDeflateLevel = 1;  // higher ones gain at most 2 %
 constexpr std::size_t kWidth = sizeof(double);
-
-const Bytef* zlib_bytes(const std::byte* bytes) {
-  return reinterpret_cast<const Bytef*>(bytes);
-}
-
-Bytef* zlib_bytes(std::byte* bytes) {
-  return reinterpret_cast<Bytef*>(bytes);
-}
 
 std::size_t raw_bytes(Eigen::Index nodes) {
   return static_cast<std::size_t>(nodes) * 2 * kWidth;
@@ -46,6 +40,25 @@ void unshuffle(ByteView shuffled, std::span<std::byte> bytes) {
     for (std::size_t byte = 0; byte < kWidth; ++byte) bytes[i * kWidth + byte] = shuffled[byte * count + i];
 }
 
+/// What libdeflate allocates; one of each a thread.
+template <class State>
+State* allocated(State* state) {
+  if (state == nullptr) throw std::bad_alloc();
+  return state;
+}
+
+libdeflate_compressor* compressor() {
+  thread_local const std::unique_ptr<libdeflate_compressor, decltype(&libdeflate_free_compressor)> own(
+      allocated(libdeflate_alloc_compressor(kDeflateLevel)), &libdeflate_free_compressor);
+  return own.get();
+}
+
+libdeflate_decompressor* decompressor() {
+  thread_local const std::unique_ptr<libdeflate_decompressor, decltype(&libdeflate_free_decompressor)> own(
+      allocated(libdeflate_alloc_decompressor()), &libdeflate_free_decompressor);
+  return own.get();
+}
+
 }  // namespace
 
 Field to_storage_precision(const Field& field) {
@@ -55,21 +68,20 @@ Field to_storage_precision(const Field& field) {
 Bytes pack_field(const Field& field) {
   const Bytes shuffled =
       shuffle(std::as_bytes(std::span(field.data(), static_cast<std::size_t>(field.size()))));
-  Bytes packed(compressBound(shuffled.size()));
-  uLongf size = packed.size();
-  if (compress2(zlib_bytes(packed.data()), &size, zlib_bytes(shuffled.data()), shuffled.size(),
-                kDeflateLevel) != Z_OK)
-    throw Failure("zlib could not compress a field");
+  Bytes packed(libdeflate_zlib_compress_bound(compressor(), shuffled.size()));
+  const std::size_t size =
+      libdeflate_zlib_compress(compressor(), shuffled.data(), shuffled.size(), packed.data(), packed.size());
+  if (size == 0) throw Failure("a field could not be compressed");
   packed.resize(size);
   return packed;
 }
 
 std::optional<Field> unpack_field(ByteView packed, Eigen::Index nodes) {
   Bytes shuffled(raw_bytes(nodes));
-  uLongf size = shuffled.size();
-  uLong used = packed.size();
-  const int status = uncompress2(zlib_bytes(shuffled.data()), &size, zlib_bytes(packed.data()), &used);
-  if (status != Z_OK || size != shuffled.size() || used != packed.size()) return std::nullopt;
+  std::size_t used = 0;  // null in the place of the size: exactly as many bytes as there is room for
+  const auto result = libdeflate_zlib_decompress_ex(decompressor(), packed.data(), packed.size(),
+                                                    shuffled.data(), shuffled.size(), &used, nullptr);
+  if (result != LIBDEFLATE_SUCCESS || used != packed.size()) return std::nullopt;
   Field field(2, nodes);
   unshuffle(shuffled,
             std::as_writable_bytes(std::span(field.data(), static_cast<std::size_t>(field.size()))));
@@ -77,11 +89,11 @@ std::optional<Field> unpack_field(ByteView packed, Eigen::Index nodes) {
 }
 
 std::size_t most_packed_bytes(Eigen::Index nodes) {
-  return compressBound(raw_bytes(nodes));
+  return libdeflate_zlib_compress_bound(nullptr, raw_bytes(nodes));
 }
 
 std::uint32_t crc32_of(ByteView bytes) {
-  return static_cast<std::uint32_t>(crc32_z(0, zlib_bytes(bytes.data()), bytes.size()));
+  return libdeflate_crc32(0, bytes.data(), bytes.size());
 }
 
 }  // namespace voussoir

@@ -21,7 +21,7 @@ inline constexpr double kStorageStep = 0x1p-42;
 /// from it comes out the same whether the field was just solved or was read from a file.
 Field to_storage_precision(const Field& field);
 
-/// The bytes of one chunk of fields/displacement: byte shuffle, then zlib at level 1.
+/// The bytes of one chunk of fields/displacement: byte shuffle, then deflated at level 1, in zlib's format.
 Bytes pack_field(const Field& field);
 
 /// The inverse of pack_field for a field of `nodes` nodes; nothing if the bytes are no packed field of that

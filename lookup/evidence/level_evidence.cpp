@@ -15,10 +15,9 @@
 namespace voussoir {
 namespace {
 
-constexpr double kNegligiblePart = 25.0;  // parts of an integrand below exp(-this) of its peak are left out
-constexpr double kCommonLevel = 0.05;     // from which the likeliest rows are looked for
-constexpr std::size_t kLikely = 8;        // rows with which all levels are tried
-constexpr int kLevelsPerOctave = 4;       // of the search for the likeliest level
+constexpr double kCommonLevel = 0.05;  // from which the likeliest rows are looked for
+constexpr std::size_t kLikely = 8;     // rows with which all levels are tried
+constexpr int kLevelsPerOctave = 4;    // of the search for the likeliest level
 constexpr double kPanel =
     3.0;  // widest panel of Gauss's rule, in the same deviations, and narrowest, in 1 / count
 constexpr double kWidening = 1.4;  // of the steps below the peaks, where likelihoods level out
@@ -31,7 +30,7 @@ struct GridRule {
   double negligible;  // parts of an integrand below exp(-this) of its peak are left out
   double far;         // rows less likely than the best by exp(this) need not be exact
 };
-constexpr GridRule kFine = {1.1, kNegligiblePart, 30.0};
+constexpr GridRule kFine = {1.1, 18.0, 30.0};
 constexpr GridRule kCoarse = {1.3, 12.0, 20.0};
 
 /// Logarithms of levels, ascending, with the weights of a rule of integration.

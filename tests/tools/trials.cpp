@@ -138,6 +138,23 @@ TEST_CASE("One trial a bridge has the standard error of independent trials (bino
   CHECK(first.standard_error == Approx(std::sqrt(0.25 * 0.75 / 199.0)));
 }
 
+TEST_CASE("A set of exactly 95 % holds truths drawn by their probabilities in exactly 95 % (closed form)") {
+  Posterior posterior;
+  posterior.probability = {0.0, {1, 3, 5, 7}, {0.3, 0.6, 0.02, 0.08}};
+  posterior.credible = {3, 1, 7};
+  CHECK(held_by_exact_set(3, posterior) == 1.0);
+  CHECK(held_by_exact_set(1, posterior) == 1.0);
+  CHECK(held_by_exact_set(7, posterior) == Approx(0.05 / 0.08));
+  CHECK(held_by_exact_set(5, posterior) == 0.0);
+  double held = 0.0;
+  for (const std::size_t row : posterior.probability.rows)
+    held += posterior.probability[row] * held_by_exact_set(row, posterior);
+  CHECK(held == Approx(kCredibleShare));
+  posterior.probability.values = {0.01, 0.99, 0.0, 0.0};
+  posterior.credible = {3};
+  CHECK(held_by_exact_set(3, posterior) == Approx(kCredibleShare / 0.99));
+}
+
 TEST_CASE("Bins of several series joined are those of all answers at once") {
   Posterior answer;
   answer.probability = {0.0, {0, 1, 2}, {0.05, 0.15, 0.8}};

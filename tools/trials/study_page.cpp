@@ -86,8 +86,8 @@ Figure success_figure(const std::vector<StudyRow>& rows, ReadingsTaken taken) {
 
 Table table_of(const std::vector<StudyRow>& rows) {
   Table table{{"truth", "looked for", "readings", "sigma [mm]", "bridge", "trials", "first [%]", "+-",
-               "in the 95 % set [%]", "+-", "scenes in it", "wrong, over 90 % [%]", "+-",
-               "called damaged [%]", "+-", "Brier"},
+               "in the 95 % set [%]", "+-", "in a set of exactly 95 % [%]", "+-", "scenes in it",
+               "wrong, over 90 % [%]", "+-", "called damaged [%]", "+-", "Brier"},
               {}};
   for (const Verdict verdict : all_verdicts()) table.columns.emplace_back(to_string(verdict));
   for (const StudyRow& row : rows) {
@@ -98,7 +98,7 @@ Table table_of(const std::vector<StudyRow>& rows) {
                                     kMillimetres * row.sigma,
                                     bridge_word(row),
                                     static_cast<double>(rates.trials)};
-    for (const Share& share : {rates.first, rates.in_credible}) {
+    for (const Share& share : {rates.first, rates.in_credible, rates.in_exact}) {
       cells.emplace_back(kPerCent * share.value);
       cells.emplace_back(kPerCent * share.standard_error);
     }

@@ -24,13 +24,14 @@ struct OfBridge {
   double counting = 0.0;
 };
 
-Share share_of(const std::vector<Trial>& trials, const std::function<bool(const Trial&)>& counts) {
+Share share_of(const std::vector<Trial>& trials, const std::function<double(const Trial&)>& counts) {
   std::map<std::size_t, OfBridge> bridges;
   double counting = 0.0;
   for (const Trial& trial : trials) {
     OfBridge& bridge = bridges[trial.bridge];
     ++bridge.trials;
-    if (counts(trial)) ++bridge.counting, ++counting;
+    bridge.counting += counts(trial);
+    counting += counts(trial);
   }
   const auto n = static_cast<double>(trials.size()), b = static_cast<double>(bridges.size());
   const double value = counting / n;
@@ -74,6 +75,7 @@ Trial ask(const Asking& asking, const ReadingsFile& readings, std::size_t truth)
   Trial trial;
   trial.first = place_of(truth, posterior) == 0;
   trial.in_credible = std::ranges::find(set, truth) != set.end();
+  trial.in_exact = held_by_exact_set(truth, posterior);
   trial.set_size = set.size();
   for (const std::size_t row : set) trial.in_set += posterior.probability[row];
   trial.likeliest = set.empty() ? 0.0 : posterior.probability[set.front()];
@@ -88,6 +90,7 @@ TrialRates rates_of(const std::vector<Trial>& trials) {
   TrialRates rates{.trials = trials.size(),
                    .first = share_of(trials, [](const Trial& trial) { return trial.first; }),
                    .in_credible = share_of(trials, [](const Trial& trial) { return trial.in_credible; }),
+                   .in_exact = share_of(trials, [](const Trial& trial) { return trial.in_exact; }),
                    .wrong_and_sure = share_of(
                        trials, [](const Trial& trial) { return !trial.first && trial.likeliest > kCertain; }),
                    .alarm = share_of(trials, [](const Trial& trial) { return is_alarm(trial.verdict); }),

@@ -24,6 +24,7 @@ struct Trial {
   std::size_t bridge = 0;    ///< that the readings come from
   bool first = false;        ///< no other scene is as likely as the truth
   bool in_credible = false;  ///< the truth is in the 95 % set
+  double in_exact = 0.0;     ///< held_by_exact_set
   std::size_t set_size = 0;  ///< scenes in it
   double in_set = 0.0;       ///< probability that it holds: at least 95 %, as scenes are whole
   double likeliest = 0.0;    ///< probability of the likeliest scene
@@ -51,6 +52,7 @@ struct TrialRates {
   std::size_t trials = 0;
   std::size_t bridges = 0;
   Share first, in_credible;
+  Share in_exact;        ///< 95 % if all probabilities are right
   Share wrong_and_sure;  ///< the likeliest scene is not the truth and has more than kCertain
   Share alarm;           ///< the verdict says that blocks are missing
   double mean_set_size = 0.0;

@@ -1,5 +1,8 @@
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <catch2/catch.hpp>
+#include <cmath>
+#include <limits>
 #include <random>
 
 #include "core/law/joint_kinematics.h"
@@ -156,6 +159,30 @@ TEST_CASE("Gap and slip do not change under a rigid motion of both blocks", "[jo
   CHECK((joint_kinematics(frame, q).state - joint_kinematics(frame, moved).state).norm() < 1e-14);
 }
 
+TEST_CASE("A joint's direction turns by the mean of its edges' turns, far or not (closed form)", "[joint]") {
+  const SkewJoint s = skew_joint();
+  const JointFrame frame = make_joint_frame(s.joint, s.mesh);
+  for (const auto& [first, second] :
+       {std::pair{1e-9, -3e-9}, {0.3, 0.1}, {-2.0, -1.5}, {3.0, 3.1}, {1.4, -1.4}}) {
+    Vector8d q;
+    q << 0.0, 0.0, Eigen::Rotation2Dd(first) * frame.first_along - frame.first_along,
+        Eigen::Rotation2Dd(second) * frame.second_along - frame.second_along, 0.0, 0.0;
+    const Point expected = Eigen::Rotation2Dd(0.5 * (first + second)) * frame.direction;
+    CHECK((joint_pose(frame, q).along - expected).norm() < 1e-15 * 4.0);
+  }
+}
+
+TEST_CASE("Forces on a joint's corners do the work of its forces (virtual work)", "[joint]") {
+  const SkewJoint s = skew_joint();
+  const JointFrame frame = make_joint_frame(s.joint, s.mesh);
+  std::mt19937 generator(8);
+  const Eigen::Vector4d force(-3.0, 1.0, -2.0, 0.5);
+  for (int trial = 0; trial < 20; ++trial) {
+    const JointKinematics at = joint_kinematics(frame, random_displacement(generator, 0.05));
+    CHECK((corner_forces(frame, at, force) - at.gradient.transpose() * force).norm() < 1e-13);
+  }
+}
+
 TEST_CASE("Joint forces balance in force and moment at large displacements", "[joint]") {
   const SkewJoint s = skew_joint();
   const JointFrame frame = make_joint_frame(s.joint, s.mesh);
@@ -229,4 +256,43 @@ TEST_CASE("The bridge's tangent is the derivative of its unbalanced forces", "[e
     ++checked;
   }
   CHECK(checked > 300);
+}
+
+namespace {
+
+/// Of all triangles [m].
+double smallest_height(const Mesh& mesh) {
+  double smallest = std::numeric_limits<double>::infinity();
+  for (const Triangle& triangle : mesh.triangles)
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Point a = mesh.position(triangle.nodes[i]), b = mesh.position(triangle.nodes[(i + 1) % 3]),
+                  c = mesh.position(triangle.nodes[(i + 2) % 3]);
+      smallest = std::min(smallest, std::abs(cross(b - a, c - a)) / (b - a).norm());
+    }
+  return smallest;
+}
+
+}  // namespace
+
+TEST_CASE("With triangles at rest the tangent is exact at rest, and near it off by their turns alone",
+          "[equilibrium]") {
+  const Model bridge = test::small_bridge();
+  const EquilibriumSystem system(bridge);
+  const Coefficients coefficients(system, bridge.parameters);
+  const StageEquations equations(system, coefficients, {.scene = parse_scene("4,2", bridge.layout)});
+  std::mt19937 generator(9);
+  std::normal_distribution<double> normal(0.0, 1.0);
+  for (const double size : {0.0, 1e-6, 1e-4}) {
+    Field u = Field::Zero(2, bridge.mesh.node_count());
+    for (const int c : system.component) u.data()[c] = size * normal(generator);
+    Eigen::SparseMatrix<double> exact = system.pattern, near = system.pattern;
+    const Field forces = assemble(equations, u, 0.0, {exact.valuePtr()});
+    const Field same = assemble(equations, u, 0.0, {near.valuePtr()}, ElasticPart::at_rest);
+    CHECK((same - forces).cwiseAbs().maxCoeff() <= 1e-12 * forces.cwiseAbs().maxCoeff());
+    // The displacement gradient H of a triangle is at most two displacements over its height; to first order
+    // its tangent B^T C B + stress changes by no more than four times that.
+    const double steepest = 2.0 * u.colwise().norm().maxCoeff() / smallest_height(bridge.mesh);
+    CHECK((exact - near).norm() <= (1e-14 + 4.0 * steepest) * exact.norm());
+    if (size > 0.0) CHECK((exact - near).norm() > 0.1 * size * exact.norm());
+  }
 }

@@ -63,7 +63,7 @@ TEST_CASE(
     "Where friction hardly carries a load, a search goes on from where it got (equilibrium from the field)",
     "[history]") {
   const Model bridge = test::reference_bridge();
-  const Scene scene = parse_scene("4,5+11,10", bridge.layout);
+  const Scene scene = parse_scene("5,7+11,10", bridge.layout);
   QuasiStaticSettings settings;
   settings.follow_falls = false;
   QuasiStaticSolver solver(bridge, settings);
