@@ -61,7 +61,7 @@ void changes(const TwoBridges& bridges, const Options& options) {
   const int times = std::max(1, 1000 / static_cast<int>(std::max<std::size_t>(1, singles.size())) + 1);
   for (const double sigma : {1e-5, 3e-5, 1e-4, 2e-4}) {
     const Instrument gauge{ReadingKind::change, {voussoir::NoiseShape::gaussian, std::nullopt, sigma}};
-    const std::string name = fmt::format("change, {} mm,", 1e3 * sigma);
+    const std::string name = fmt::format("change, {:g} mm,", 1e3 * sigma);
     print_rates(name + " among singles", find_again(bridges, singles, {{1}, {}}, gauge, times, 1));
     print_rates(name + " among all", find_again(bridges, singles, options.prior, gauge, times, 2));
     print_rates(name + " intact, among all",
