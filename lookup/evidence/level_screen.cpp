@@ -16,9 +16,9 @@ namespace {
 constexpr std::size_t kFirstRows = 32;     // rows that are worked out first, under the first shapes
 constexpr double kTooLow = 2.0;            // what an estimate's logarithm may be too low by at least
 constexpr double kCountsForTooLow = 25.0;  // rows so far behind the best say nothing of that
-constexpr double kBin = 0.25;              // of logarithms, for sums over rows in the order of estimates
-constexpr std::size_t kBins = 400;
-constexpr double kCoarseShare = 3e-4;  // of the probability, of rows that are worked out less precisely
+constexpr double kBin = 0.05;              // of logarithms, for sums over rows in the order of estimates
+constexpr std::size_t kBins = 2000;
+constexpr double kCoarseShare = 1e-3;  // of the probability, of rows that are worked out less precisely
 
 /// What is known of each row under one group of shapes.
 struct Group {
@@ -120,15 +120,18 @@ class LevelScreen {
     std::erase(values, kImpossible);
     if (values.empty()) return kImpossible;
     const double all = std::accumulate(values.begin(), values.end(), kImpossible, log_sum);
-    std::vector<double> held(kBins, 0.0);  // by what is estimated to lie between best - i kBin and the next
+    std::vector<std::size_t> held(kBins, 0);  // what is estimated to lie between all - i kBin and the next
     for (const Group& group : groups_)
       for (std::size_t i = 0; i < rows_.size(); ++i) {
         if (group.is_worked_out[i]) continue;
         const double most = group.estimate[i] + group.too_low, below = std::max(0.0, (all - most) / kBin);
-        if (below < static_cast<double>(kBins)) held[static_cast<std::size_t>(below)] += std::exp(most - all);
+        if (below < static_cast<double>(kBins)) ++held[static_cast<std::size_t>(below)];
       }
     std::size_t bin = kBins;
-    for (double sum = 0.0; bin > 0 && sum + held[bin - 1] <= share; --bin) sum += held[bin - 1];
+    const auto most_of = [&](std::size_t i) {
+      return static_cast<double>(held[i]) * std::exp(-static_cast<double>(i) * kBin);
+    };
+    for (double sum = 0.0; bin > 0 && sum + most_of(bin - 1) <= share; --bin) sum += most_of(bin - 1);
     count = std::min(count, values.size());
     std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(count - 1), values.end(),
                      std::greater<>());
