@@ -77,7 +77,7 @@ std::map<std::int32_t, StartingFields> read_starts(const PlanRun& run, Tasks tas
 /// Large enough to keep the solver's lanes busy, small enough to share a stage among the threads, and never
 /// so large that much is lost when the program is killed.
 std::size_t batch_size(std::size_t tasks, int threads) {
-  constexpr std::size_t kBatchesPerThread = 4;
+  constexpr std::size_t kBatchesPerThread = 4, kLargestBatch = 128;
   return std::clamp<std::size_t>(tasks / (kBatchesPerThread * static_cast<std::size_t>(threads)), 1,
                                  kLargestBatch);
 }

@@ -7,10 +7,6 @@
 
 namespace voussoir {
 
-/// The most scenes that one thread solves before it keeps their records: what a killed build can lose a
-/// thread.
-inline constexpr std::size_t kLargestBatch = 128;
-
 /// What a plan is carried out with.
 struct PlanRun {
   std::span<const Model> bridges;  ///< the variants

@@ -28,6 +28,13 @@ Point angle_between(const Point& from, const Point& to) {
   return {from.dot(to), cross(from, to)};
 }
 
+/// d theta / d q.
+Vector8d rotation_gradient(const JointPose& pose) {
+  Vector8d gradient;
+  gradient << -pose.turn[0], pose.turn[0], pose.turn[1], -pose.turn[1];
+  return gradient;
+}
+
 /// d angle / d vector of a vector's direction angle.
 Point angle_gradient(const Point& v) {
   return Point(-v.y(), v.x()) / v.squaredNorm();
@@ -90,7 +97,6 @@ JointPose joint_pose(const JointFrame& frame, const Vector8d& q) {
 
 Vector8d corner_forces(const JointFrame& frame, const JointPose& pose, const Eigen::Vector4d& force) {
   const Point n = clockwise(pose.along);
-  Vector8d forces;
   double moment = 0.0;  // conjugate to theta: dn/dtheta = t, dt/dtheta = -n
   std::array<Point, 2> on_end;
   for (int end = 0; end < 2; ++end) {
@@ -98,7 +104,7 @@ Vector8d corner_forces(const JointFrame& frame, const JointPose& pose, const Eig
     moment += force[gap] * pose.state[slip] - force[slip] * pose.state[gap];
     on_end[static_cast<std::size_t>(end)] = force[gap] * n + force[slip] * pose.along;
   }
-  forces << -moment * pose.turn[0], moment * pose.turn[0], moment * pose.turn[1], -moment * pose.turn[1];
+  Vector8d forces = moment * rotation_gradient(pose);
   for (int corner = 0; corner < 4; ++corner)
     forces.segment<2>(2 * corner) +=
         frame.weights[0][corner] * on_end[0] + frame.weights[1][corner] * on_end[1];
@@ -106,16 +112,16 @@ Vector8d corner_forces(const JointFrame& frame, const JointPose& pose, const Eig
 }
 
 JointKinematics joint_kinematics(const JointFrame& frame, const Vector8d& q) {
-  JointKinematics result{joint_pose(frame, q), {}, {}};
+  JointKinematics result{joint_pose(frame, q), {}};
   const Point& t = result.along;
   const Point n = clockwise(t);
-  result.rotation_gradient << -result.turn[0], result.turn[0], result.turn[1], -result.turn[1];
+  const Vector8d turn = rotation_gradient(result);
   for (std::size_t end = 0; end < 2; ++end) {
     const int gap = 2 * static_cast<int>(end);
     const int slip = gap + 1;
     // dn/dtheta = t, dt/dtheta = -n
-    result.gradient.row(gap) = result.state[slip] * result.rotation_gradient.transpose();
-    result.gradient.row(slip) = -result.state[gap] * result.rotation_gradient.transpose();
+    result.gradient.row(gap) = result.state[slip] * turn.transpose();
+    result.gradient.row(slip) = -result.state[gap] * turn.transpose();
     for (int corner = 0; corner < 4; ++corner) {
       result.gradient.block<1, 2>(gap, 2 * corner) += frame.weights[end][corner] * n.transpose();
       result.gradient.block<1, 2>(slip, 2 * corner) += frame.weights[end][corner] * t.transpose();
@@ -129,7 +135,7 @@ Matrix8d joint_geometric_stiffness(const JointFrame& frame, const Vector8d& q,
   // With total gradients, and dgap/dtheta = slip, dslip/dtheta = -gap:
   //   d2 gap  =  dslip (x) dtheta + dtheta (x) dslip + gap  dtheta (x) dtheta + slip d2theta
   //   d2 slip = -dgap (x) dtheta - dtheta (x) dgap  + slip dtheta (x) dtheta - gap  d2theta
-  const Vector8d& turn = kinematics.rotation_gradient;
+  const Vector8d turn = rotation_gradient(kinematics);
   Vector8d mixed = Vector8d::Zero();
   double turning = 0.0;  // coefficient of dtheta (x) dtheta
   double bending = 0.0;  // coefficient of d2theta

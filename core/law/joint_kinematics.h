@@ -49,7 +49,6 @@ Vector8d corner_forces(const JointFrame& frame, const JointPose& pose, const Eig
 
 struct JointKinematics : JointPose {
   Eigen::Matrix<double, 4, 8> gradient;  ///< d state / d q; corner_forces are gradient^T force
-  Vector8d rotation_gradient;            ///< d theta / d q
 };
 
 /// Objective: a rigid motion of both blocks leaves the state unchanged, so forces gradient^T F are in

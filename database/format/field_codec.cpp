@@ -68,7 +68,7 @@ Field to_storage_precision(const Field& field) {
 Bytes pack_field(const Field& field) {
   const Bytes shuffled =
       shuffle(std::as_bytes(std::span(field.data(), static_cast<std::size_t>(field.size()))));
-  Bytes packed(libdeflate_zlib_compress_bound(compressor(), shuffled.size()));
+  Bytes packed(most_packed_bytes(field.cols()));
   const std::size_t size =
       libdeflate_zlib_compress(compressor(), shuffled.data(), shuffled.size(), packed.data(), packed.size());
   if (size == 0) throw Failure("a field could not be compressed");

@@ -80,7 +80,9 @@ TEST_CASE("A build interrupted at any scene goes on where it stopped and ends wi
     CHECK_FALSE(std::filesystem::exists(site.request.output));
     const BuildSummary summary = site.build();
     CHECK(summary.resumed + summary.computed == summary.outcomes.scenes);
-    CHECK(summary.resumed + 2 * 2 * kLargestBatch >= static_cast<std::size_t>(scenes));
+    // Both threads lose no more than their batches, a quarter of the pairs' solutions; these are half as many
+    // as pairs, but for a few pairs that are their own images.
+    CHECK(summary.resumed + 38 * 37 / 2 / 2 / 4 + 10 >= static_cast<std::size_t>(scenes));
     CHECK(summary.digest == digest_of_reference());
   }
 }

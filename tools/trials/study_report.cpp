@@ -73,9 +73,7 @@ std::string to_text(const StudyRow& row) {
   const TrialRates& rates = row.rates;
   return fmt::format(
       "{:<22} {:<21} {:<10} {:>5.2g} {:>7} {:>6} {:>13} {:>13} {:>13} {:>6.3f} {:>7.1f} {:>13} {:>13} "
-      "{:>6.3f} "
-      "{:>6.1f}  "
-      "{}\n",
+      "{:>6.3f} {:>6.1f}  {}\n",
       row.truth, row.looked_for, to_string(row.taken), kMillimetres * row.sigma,
       row.known_bridge ? "known" : "unknown", rates.trials, share_text(rates.first),
       share_text(rates.in_credible), share_text(rates.in_exact), rates.mean_in_set, rates.mean_set_size,

@@ -30,8 +30,9 @@ Share share_of(const std::vector<Trial>& trials, const std::function<double(cons
   for (const Trial& trial : trials) {
     OfBridge& bridge = bridges[trial.bridge];
     ++bridge.trials;
-    bridge.counting += counts(trial);
-    counting += counts(trial);
+    const double count = counts(trial);
+    bridge.counting += count;
+    counting += count;
   }
   const auto n = static_cast<double>(trials.size()), b = static_cast<double>(bridges.size());
   const double value = counting / n;

@@ -56,6 +56,35 @@ Vector8d random_displacement(std::mt19937& generator, double size) {
   return Vector8d::NullaryExpr([&] { return normal(generator); });
 }
 
+/// Of all triangles [m].
+double smallest_height(const Mesh& mesh) {
+  double smallest = std::numeric_limits<double>::infinity();
+  for (const Triangle& triangle : mesh.triangles)
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Point a = mesh.position(triangle.nodes[i]), b = mesh.position(triangle.nodes[(i + 1) % 3]),
+                  c = mesh.position(triangle.nodes[(i + 2) % 3]);
+      smallest = std::min(smallest, std::abs(cross(b - a, c - a)) / (b - a).norm());
+    }
+  return smallest;
+}
+
+/// The small bridge without a block of its wall.
+struct DamagedBridge {
+  Model bridge = test::small_bridge();
+  EquilibriumSystem system{bridge};
+  Coefficients coefficients{system, bridge.parameters};
+  Scene scene = parse_scene("4,2", bridge.layout);
+  StageEquations equations{system, coefficients, {.scene = scene}};
+
+  /// Where nothing holds it, each component by itself.
+  Field random_field(std::mt19937& generator, double size) const {
+    std::normal_distribution<double> normal(0.0, 1.0);
+    Field field = Field::Zero(2, bridge.mesh.node_count());
+    for (const int c : system.component) field.data()[c] = size * normal(generator);
+    return field;
+  }
+};
+
 }  // namespace
 
 TEST_CASE("A constant strain gives the stress of Hooke's law in any direction", "[element]") {
@@ -223,18 +252,10 @@ TEST_CASE("Gradient and geometric stiffness of a joint are derivatives of its st
 }
 
 TEST_CASE("The bridge's tangent is the derivative of its unbalanced forces", "[equilibrium]") {
-  const Model bridge = test::small_bridge();
-  const EquilibriumSystem system(bridge);
-  const Coefficients coefficients(system, bridge.parameters);
-  const StageEquations equations(system, coefficients, {.scene = parse_scene("4,2", bridge.layout)});
+  const DamagedBridge damaged;
+  const auto& [bridge, system, coefficients, scene, equations] = damaged;
   std::mt19937 generator(7);
-  std::normal_distribution<double> normal(0.0, 1.0);
-  Field u = Field::Zero(2, bridge.mesh.node_count());
-  Field direction = u;
-  for (const int c : system.component) {
-    u.data()[c] = 1e-4 * normal(generator);
-    direction.data()[c] = normal(generator);
-  }
+  const Field u = damaged.random_field(generator, 1e-4), direction = damaged.random_field(generator, 1.0);
   Eigen::SparseMatrix<double> tangent = system.pattern;
   assemble(equations, u, 0.0, {tangent.valuePtr()});
   const double h = 1e-9;
@@ -248,9 +269,7 @@ TEST_CASE("The bridge's tangent is the derivative of its unbalanced forces", "[e
   int checked = 0;
   for (int i = 0; i < along.size(); ++i) {
     const int c = system.component[static_cast<std::size_t>(i)];
-    const IndexRange gone =
-        bridge.mesh
-            .block_nodes[static_cast<std::size_t>(value(parse_scene("4,2", bridge.layout).removed[0]))];
+    const IndexRange gone = bridge.mesh.block_nodes[static_cast<std::size_t>(value(scene.removed.front()))];
     if (c / 2 >= gone.begin && c / 2 < gone.end) continue;
     CHECK(std::abs(difference.data()[c] - predicted[i]) < 1e-8 * predicted.cwiseAbs().maxCoeff());
     ++checked;
@@ -258,33 +277,13 @@ TEST_CASE("The bridge's tangent is the derivative of its unbalanced forces", "[e
   CHECK(checked > 300);
 }
 
-namespace {
-
-/// Of all triangles [m].
-double smallest_height(const Mesh& mesh) {
-  double smallest = std::numeric_limits<double>::infinity();
-  for (const Triangle& triangle : mesh.triangles)
-    for (std::size_t i = 0; i < 3; ++i) {
-      const Point a = mesh.position(triangle.nodes[i]), b = mesh.position(triangle.nodes[(i + 1) % 3]),
-                  c = mesh.position(triangle.nodes[(i + 2) % 3]);
-      smallest = std::min(smallest, std::abs(cross(b - a, c - a)) / (b - a).norm());
-    }
-  return smallest;
-}
-
-}  // namespace
-
 TEST_CASE("With triangles at rest the tangent is exact at rest, and near it off by their turns alone",
           "[equilibrium]") {
-  const Model bridge = test::small_bridge();
-  const EquilibriumSystem system(bridge);
-  const Coefficients coefficients(system, bridge.parameters);
-  const StageEquations equations(system, coefficients, {.scene = parse_scene("4,2", bridge.layout)});
+  const DamagedBridge damaged;
+  const auto& [bridge, system, coefficients, scene, equations] = damaged;
   std::mt19937 generator(9);
-  std::normal_distribution<double> normal(0.0, 1.0);
   for (const double size : {0.0, 1e-6, 1e-4}) {
-    Field u = Field::Zero(2, bridge.mesh.node_count());
-    for (const int c : system.component) u.data()[c] = size * normal(generator);
+    const Field u = damaged.random_field(generator, size);
     Eigen::SparseMatrix<double> exact = system.pattern, near = system.pattern;
     const Field forces = assemble(equations, u, 0.0, {exact.valuePtr()});
     const Field same = assemble(equations, u, 0.0, {near.valuePtr()}, ElasticPart::at_rest);
