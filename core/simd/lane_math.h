@@ -60,6 +60,44 @@ VOUSSOIR_INLINE void make_exponential(DoubleLanes& x) {
   x = x > kLowest ? result : special;
 }
 
+/// x = log(x) for normal positive floats, within 2 units in the last place of the larger of result and 1;
+/// what other numbers become is not said. The series goes up to s^7 (the next term is below 4e-8).
+VOUSSOIR_INLINE void make_logarithm(FloatLanes& x) {
+  using Bits = LanesOf<std::uint32_t, kFloatLanes>::Type;
+  constexpr std::uint32_t kRootHalfBits = 0x3F3504F3;
+  constexpr std::uint32_t kExponentMask = 0xFF800000;
+  const Bits bits = reinterpret_cast<Bits>(x);
+  const Bits shifted = (bits - kRootHalfBits) & kExponentMask;
+  const FloatLanes f = reinterpret_cast<FloatLanes>(bits - shifted);
+  const FloatLanes e = __builtin_convertvector(reinterpret_cast<FloatMask>(shifted) >> 23, FloatLanes);
+  const FloatLanes s = (f - 1.0f) / (f + 1.0f);
+  const FloatLanes q = s * s;
+  const FloatLanes series = (1.0f / 7.0f * q + 1.0f / 5.0f) * q + 1.0f / 3.0f;
+  constexpr float kLn2High = 0.693359375f;  // nine bits: e times it is exact
+  constexpr float kLn2Low = -2.12194440e-4f;
+  x = e * kLn2High + (2.0f * s + (2.0f * (s * q * series) + e * kLn2Low));
+}
+
+/// x = exp(x) for floats x <= 0, within 3 units in the last place; zero below -87, NaN stays. The polynomial
+/// is of degree 7 (remainder below 6e-9).
+VOUSSOIR_INLINE void make_exponential(FloatLanes& x) {
+  constexpr float kLowest = -87.0f;
+  constexpr float kRound = 0x1.8p23f;
+  constexpr float kLn2High = 0.693359375f;
+  constexpr float kLn2Low = -2.12194440e-4f;
+  const FloatLanes bounded = x > kLowest ? x : FloatLanes{} + kLowest;
+  const FloatLanes rounded = bounded * 0x1.715476p0f + kRound;
+  const FloatLanes k = rounded - kRound;
+  const FloatLanes r = (bounded - k * kLn2High) - k * kLn2Low;
+  FloatLanes series = FloatLanes{} + 1.0f / 5040.0f;
+  for (const float factorial : {720.0f, 120.0f, 24.0f, 6.0f, 2.0f, 1.0f, 1.0f})
+    series = series * r + 1.0f / factorial;
+  const FloatMask scale = (__builtin_convertvector(k, FloatMask) + 127) << 23;
+  const FloatLanes result = series * reinterpret_cast<FloatLanes>(scale);
+  const FloatLanes special = x <= kLowest ? FloatLanes{} : x;
+  x = x > kLowest ? result : special;
+}
+
 /// Of doubles, for arrays: each value becomes its logarithm, its exponential.
 void make_logarithms(std::span<double> values);
 void make_exponentials(std::span<double> values);

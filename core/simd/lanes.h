@@ -43,6 +43,7 @@ using DoubleMask = LanesOf<std::int64_t, kLanes>::Type;
 
 inline constexpr std::size_t kFloatLanes = 8;
 using FloatLanes = LanesOf<float, kFloatLanes>::Type;
+using FloatMask = LanesOf<std::int32_t, kFloatLanes>::Type;
 
 template <class Lanes>
 using ElementOf = std::remove_cvref_t<decltype(Lanes{}[0])>;
@@ -149,8 +150,10 @@ VOUSSOIR_INLINE bool any(const Mask& mask) {
   if constexpr (sizeof(Mask) <= sizeof(int)) {
     return static_cast<bool>(mask);
   } else {
+    constexpr std::size_t kWords = sizeof(Mask) / sizeof(std::int64_t);
+    const auto words = reinterpret_cast<typename LanesOf<std::int64_t, kWords>::Type>(mask);
     std::int64_t either = 0;
-    for (std::size_t i = 0; i < sizeof(Mask) / sizeof(std::int64_t); ++i) either |= mask[i];
+    for (std::size_t i = 0; i < kWords; ++i) either |= words[i];
     return either != 0;
   }
 }

@@ -12,14 +12,14 @@ namespace voussoir {
 namespace {
 
 /// An estimate that failed counts as likely: the scene is worked out.
-double usable(double estimate) {
-  return std::isnan(estimate) ? std::numeric_limits<double>::infinity() : estimate;
+float usable(float estimate) {
+  return std::isnan(estimate) ? std::numeric_limits<float>::infinity() : estimate;
 }
 
 /// Calls work(block) for blocks of all places, on all threads.
 template <class Work>
 void for_blocks(std::span<const std::size_t> places, Work work) {
-  constexpr std::size_t kPlaces = 128;  // of which those that matter still fill lanes
+  constexpr std::size_t kPlaces = 1024;  // of which those that matter still fill lanes
   const auto blocks = row_blocks(places, kPlaces);
   const int threads = std::min(hardware_threads(), static_cast<int>(blocks.size()));
   for_each_index_on_threads(blocks.size(), threads, [&](std::size_t i) { work(blocks[i]); });
@@ -44,23 +44,27 @@ CaseEstimates::CaseEstimates(UnknownBridge& bridge, const Observation& observati
       cases_(cases),
       rows_(rows),
       beforehand_(beforehand),
-      logs_(rows.size() * cases.size(), kImpossible),
+      logs_(rows.size() * cases.size(), static_cast<float>(kImpossible)),
       sums_(rows.size(), kImpossible) {
   const auto count = static_cast<Eigen::Index>(cases.size());
   rises_ = Eigen::MatrixXd::Constant(count, count, std::numeric_limits<double>::infinity());
 }
 
-std::size_t CaseEstimates::look_at_next() {
+std::pair<std::size_t, std::size_t> CaseEstimates::next_level() const {
   const std::size_t first = looked_at();
-  const auto same_level = [&](const UnknownCase& one) { return one.level == cases_[first].level; };
-  const auto others = cases_.subspan(first);
-  const auto end = std::find_if_not(others.begin(), others.end(), same_level);
-  screens_.emplace_back(bridge_, observation_, table_, std::span(others.begin(), end), hardware_threads());
+  std::size_t end = first;
+  while (end < cases_.size() && cases_[end].level == cases_[first].level) ++end;
+  return {first, end};
+}
+
+void CaseEstimates::look_at_next(const Eigen::MatrixXd& pulls) {
+  const auto [first, end] = next_level();
+  screens_.emplace_back(bridge_, observation_, table_, cases_.subspan(first, end - first), pulls,
+                        hardware_threads());
   for (const ReducedCase& one : screens_.back().cases()) {
     peaks_.push_back(one.peaks);
     add_rises(peaks_.size() - 1);
   }
-  return first;
 }
 
 void CaseEstimates::estimate(std::span<const std::size_t> places, double least) {
@@ -73,7 +77,7 @@ void CaseEstimates::estimate(std::span<const std::size_t> places, double least) 
     screen.estimate(rows, rises, first);
     for (ScreenedRow& row : rows) {
       row.logs += first;
-      for (double& log : std::span(row.logs, end - first)) log = usable(log);
+      for (float& log : std::span(row.logs, end - first)) log = usable(log);
     }
     screen.refine(rows, ScreenDirections::few);
   });
@@ -119,10 +123,10 @@ void CaseEstimates::add_up(std::span<const std::size_t> places) {
 double CaseEstimates::sum_over_cases(std::size_t place) const {
   constexpr double kNothing = 40.0;
   const auto logs = std::span(logs_).subspan(place * cases_.size(), cases_.size());
-  const double largest = *std::max_element(logs.begin(), logs.end());
+  const double largest = static_cast<double>(*std::max_element(logs.begin(), logs.end()));
   if (std::isinf(largest)) return largest + beforehand_[place];
   double sum = 0.0;
-  for (const double log : logs)
+  for (const double log : logs)  // rounded
     if (log > largest - kNothing) sum += log == largest ? 1.0 : std::exp(log - largest);
   return largest + std::log(sum) + beforehand_[place];
 }

@@ -2,6 +2,7 @@
 /// @file Estimates of the evidence of all scenes in all cases, each as good as it has to be.
 
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "lookup/evidence/unknown_screen.h"
@@ -17,14 +18,17 @@ class CaseEstimates {
                 std::span<const UnknownCase> cases, std::span<const std::size_t> rows,
                 std::span<const double> beforehand);
 
-  /// Makes the screen of the next level's cases; the number of the first of them.
-  std::size_t look_at_next();
+  /// The numbers of the next level's cases, from the first to before the last.
+  std::pair<std::size_t, std::size_t> next_level() const;
+
+  /// Makes their screen; see UnknownScreen.
+  void look_at_next(const Eigen::MatrixXd& pulls);
 
   /// So many cases have a screen.
   std::size_t looked_at() const { return peaks_.size(); }
 
-  /// In the cases of the last screen, in the first few directions, as far as log p(scene, readings | case)
-  /// may be `least`.
+  /// In the cases of the last screen, in the first directions and a few more, as far as log p(scene, readings
+  /// | case) may be `least`.
   void estimate(std::span<const std::size_t> places, double least);
 
   /// In more directions, in all cases from number `from` on that have a screen, where estimates are `least`.
@@ -38,7 +42,7 @@ class CaseEstimates {
   /// Of one case, with what was known beforehand; infinity where the estimate failed, -infinity if the scene
   /// is impossible or the case has no screen.
   double of(std::size_t place, std::size_t number) const {
-    return logs_[place * cases_.size() + number] + beforehand_[place];
+    return static_cast<double>(logs_[place * cases_.size() + number]) + beforehand_[place];
   }
   std::size_t count() const { return logs_.size(); }  ///< of estimates
 
@@ -58,7 +62,7 @@ class CaseEstimates {
   std::vector<UnknownScreen> screens_;  // one for each level
   std::vector<ScatterLogs> peaks_;      // of each case: ReducedCase::peaks
   Eigen::MatrixXd rises_;
-  std::vector<double> logs_;  // row by row of each case: log p(readings | scene, case)
+  std::vector<float> logs_;  // row by row of each case: log p(readings | scene, case)
   std::vector<double> sums_;
 };
 

@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "core/simd/lane_math.h"
+#include "lookup/evidence/descending_places.h"
 #include "lookup/evidence/scene_evidence.h"
 
 namespace voussoir {
@@ -17,23 +18,20 @@ void normalise(std::vector<double>& probability) {
     for (double& value : probability) value /= total;
 }
 
-/// Takes the likeliest rows from a heap until they hold enough. Rows below an even distribution of what may
+/// The likeliest rows that hold enough together. Rows below an even distribution of what may
 /// be left out cannot be needed.
 std::vector<std::size_t> credible_set(const RowValues& probability) {
   const std::vector<double>& values = probability.values;
   const double negligible = (1.0 - kCredibleShare) / static_cast<double>(values.size());
-  std::vector<std::size_t> heap;  // places in the values
+  std::vector<std::size_t> places;
   for (std::size_t i = 0; i < values.size(); ++i)
-    if (values[i] >= negligible) heap.push_back(i);
-  const auto less_likely = [&](std::size_t a, std::size_t b) {
-    return values[a] != values[b] ? values[a] < values[b] : a > b;
-  };
-  std::make_heap(heap.begin(), heap.end(), less_likely);
+    if (values[i] >= negligible) places.push_back(i);
+  DescendingPlaces likely(std::move(places), values);
   std::vector<std::size_t> rows;
-  for (double share = 0.0; share < kCredibleShare && !heap.empty(); heap.pop_back()) {
-    std::pop_heap(heap.begin(), heap.end(), less_likely);
-    rows.push_back(probability.rows[heap.back()]);
-    share += values[heap.back()];
+  for (double share = 0.0; share < kCredibleShare && !likely.empty();) {
+    const std::size_t place = likely.next();
+    rows.push_back(probability.rows[place]);
+    share += values[place];
   }
   return rows;
 }

@@ -1,6 +1,8 @@
 #pragma once
-/// @file The density of scenes' readings in the directions of a screen, in cases that share them: four scenes
-/// side by side.
+/// @file The density of scenes' readings in the directions of a screen, in cases that share them: eight
+/// scenes side by side, in single precision. Directions are whitened, so that all numbers are of the order of
+/// one in some case; logarithms of densities that matter are right to a hundredth. Only what nothing is known
+/// of, as collapses by metres, is much larger: such scenes are worked out in double precision.
 
 #include <array>
 #include <span>
@@ -60,7 +62,11 @@ struct ReducedQuestion {
   // for each its numbers in all directions.
   std::size_t points_of_rows;  ///< channels of a table's row
   const double *intact, *is_read, *directions;
-  double read;  ///< channels with a reading
+  const float* rounded_directions;
+  float read;           ///< channels with a reading
+  float widest_point;   ///< the largest variance in a direction of a unit variance at each changed row
+  float widest_spread;  ///< the largest ReducedCase::spread_square
+  float highest_peak;   ///< and ReducedCase::peak
 };
 
 /// A scene: its row of the table, and its known losses, of which there is at least one, which may be that of
@@ -69,19 +75,21 @@ struct ScenePrediction {
   const double* prediction;
   std::array<const ReducedLoss*, kMostLosses> losses;
   double least;
-  double* logs;  ///< log p(readings | scene, case), kappa marginalised, of all cases looked at so far
+  float* logs;  ///< log p(readings | scene, case), kappa marginalised, of all cases looked at so far
 };
 
-/// Of kLanes scenes with so many losses, in the first directions; -infinity if a scene is impossible. `logs`
-/// begin with those of the cases before the question's, `before` many; column k of `rises`, which has as many
-/// rows as there are cases in all, says how much those can rise to the question's case k. Where that leaves
-/// less than what matters, the bound is what is given.
-void estimate_log_densities(const ReducedQuestion& question, std::span<const ScenePrediction, kLanes> scenes,
-                            std::size_t losses, const Eigen::MatrixXd& rises, std::size_t before);
+/// Of kFloatLanes scenes with so many losses, in the first directions; -infinity if a scene is impossible.
+/// `logs` begin with those of the cases before the question's, `before` many; column k of `rises`, which has
+/// as many rows as there are cases in all, says how much those can rise to the question's case k. Where that
+/// leaves less than what matters, the bound is what is given.
+void estimate_log_densities(const ReducedQuestion& question,
+                            std::span<const ScenePrediction, kFloatLanes> scenes, std::size_t losses,
+                            const Eigen::MatrixXd& rises, std::size_t before);
 
 /// The same in more directions, in the question's cases (`logs` begin with these) where a logarithm matters;
 /// none becomes larger.
-void refine_log_densities(const ReducedQuestion& question, std::span<const ScenePrediction, kLanes> scenes,
-                          std::size_t losses, ScreenDirections directions);
+void refine_log_densities(const ReducedQuestion& question,
+                          std::span<const ScenePrediction, kFloatLanes> scenes, std::size_t losses,
+                          ScreenDirections directions);
 
 }  // namespace voussoir

@@ -1,35 +1,63 @@
 #pragma once
-/// @file The factorisation of a few rows and columns of four scenes' covariances side by side.
+/// @file The factorisation of a few rows and columns of several scenes' covariances side by side.
 
 #include <limits>
+#include <numbers>
+#include <type_traits>
 
 #include "core/simd/lane_math.h"
 #include "lookup/evidence/scatter_density.h"
 
 namespace voussoir {
 
+/// The logarithm of a product of up to a hundred positive numbers, whose exponents are summed up, so that it
+/// does not overflow.
+template <class Lanes>
+class ProductLogarithm {
+ public:
+  VOUSSOIR_INLINE void multiply(const Lanes& number) {
+    const Bits bits = reinterpret_cast<Bits>(number);
+    exponent_ += __builtin_convertvector((bits >> kMantissaBits) - kBias, Lanes);
+    mantissa_ *= reinterpret_cast<Lanes>((bits & kMantissa) | kOne);
+  }
+  VOUSSOIR_INLINE Lanes operator()() const {
+    Lanes result = mantissa_;
+    make_logarithm(result);
+    return result + std::numbers::ln2_v<ElementOf<Lanes>> * exponent_;
+  }
+
+ private:
+  using Word = std::conditional_t<std::is_same_v<ElementOf<Lanes>, float>, std::int32_t, std::int64_t>;
+  using Bits = typename LanesOf<Word, sizeof(Lanes) / sizeof(Word)>::Type;
+  static constexpr int kMantissaBits = std::numeric_limits<ElementOf<Lanes>>::digits - 1;
+  static constexpr Word kBias = std::numeric_limits<ElementOf<Lanes>>::max_exponent - 1;
+  static constexpr Word kMantissa = (Word{1} << kMantissaBits) - 1, kOne = kBias << kMantissaBits;
+
+  Lanes exponent_{}, mantissa_ = Lanes{} + ElementOf<Lanes>(1);
+};
+
 /// noise + kappa bridge = L D L^T with a unit diagonal in L, four rows of L D at a time.
-template <std::size_t N>
+template <class Lanes, std::size_t N>
 struct Factorisation {
   static constexpr std::size_t kTogether = 4;  // rows and columns whose sums are in registers
-  const DoubleLanes *noise, *bridge;
-  double kappa;
-  DoubleLanes factor[lower_size(N)];  // L left of its diagonal
-  DoubleLanes inverse[N];             // of D
-  DoubleLanes rows[kTogether][N];     // of L D
-  DoubleLanes log_determinant;
+  const Lanes *noise, *bridge;
+  ElementOf<Lanes> kappa;
+  Lanes factor[lower_size(N)];  // L left of its diagonal
+  Lanes inverse[N];             // of D
+  Lanes rows[kTogether][N];     // of L D
+  ProductLogarithm<Lanes> log_determinant;
 
-  VOUSSOIR_INLINE DoubleLanes entry(std::size_t i, std::size_t j) const {
+  VOUSSOIR_INLINE Lanes entry(std::size_t i, std::size_t j) const {
     return noise[lower_size(i) + j] + kappa * bridge[lower_size(i) + j];
   }
 
   /// Columns j to j + 3 of a row of L D, which begin with its entries.
-  VOUSSOIR_INLINE void solve_columns(DoubleLanes* row, std::size_t j) const {
-    const DoubleLanes *const r0 = factor + lower_size(j), *const r1 = factor + lower_size(j + 1),
-                             *const r2 = factor + lower_size(j + 2), *const r3 = factor + lower_size(j + 3);
-    DoubleLanes s0 = row[j], s1 = row[j + 1], s2 = row[j + 2], s3 = row[j + 3];
+  VOUSSOIR_INLINE void solve_columns(Lanes* row, std::size_t j) const {
+    const Lanes *const r0 = factor + lower_size(j), *const r1 = factor + lower_size(j + 1),
+                       *const r2 = factor + lower_size(j + 2), *const r3 = factor + lower_size(j + 3);
+    Lanes s0 = row[j], s1 = row[j + 1], s2 = row[j + 2], s3 = row[j + 3];
     for (std::size_t p = 0; p < j; ++p) {
-      const DoubleLanes own = row[p];
+      const Lanes own = row[p];
       s0 -= own * r0[p];
       s1 -= own * r1[p];
       s2 -= own * r2[p];
@@ -46,31 +74,31 @@ struct Factorisation {
 
   /// The block on the diagonal, where rows left of it are known.
   VOUSSOIR_INLINE void factorise_block(std::size_t first) {
-    DoubleLanes sums[kTogether][kTogether], product = DoubleLanes{} + 1.0;
+    Lanes sums[kTogether][kTogether];
     for (std::size_t i = 0; i < kTogether; ++i)
       for (std::size_t j = 0; j <= i; ++j) sums[i][j] = entry(first + i, first + j);
     for (std::size_t p = 0; p < first; ++p)
       for (std::size_t j = 0; j < kTogether; ++j) {
-        const DoubleLanes own = factor[lower_size(first + j) + p];
+        const Lanes own = factor[lower_size(first + j) + p];
         for (std::size_t i = j; i < kTogether; ++i) sums[i][j] -= rows[i][p] * own;
       }
     for (std::size_t j = 0; j < kTogether; ++j) {
-      const DoubleLanes pivot = sums[j][j];
+      const Lanes pivot = sums[j][j];
       inverse[first + j] =
-          1.0 / (pivot > 0.0 ? pivot : DoubleLanes{} + std::numeric_limits<double>::quiet_NaN());
-      product *= pivot;
+          ElementOf<Lanes>(1) / (pivot > ElementOf<Lanes>(0)
+                                     ? pivot
+                                     : Lanes{} + std::numeric_limits<ElementOf<Lanes>>::quiet_NaN());
+      log_determinant.multiply(pivot);
       for (std::size_t i = j + 1; i < kTogether; ++i) {
-        const DoubleLanes own = sums[i][j] * inverse[first + j];
+        const Lanes own = sums[i][j] * inverse[first + j];
         factor[lower_size(first + i) + first + j] = own;
         for (std::size_t k = j + 1; k <= i; ++k) sums[i][k] -= own * sums[k][j];
       }
     }
-    make_logarithm(product);
-    log_determinant += product;
   }
 
   VOUSSOIR_INLINE void factorise() {
-    log_determinant = DoubleLanes{};
+    log_determinant = {};
     for (std::size_t first = 0; first < N; first += kTogether) {
       for (std::size_t i = 0; i < kTogether; ++i) {
         for (std::size_t j = 0; j < first; ++j) rows[i][j] = entry(first + i, j);
@@ -82,11 +110,11 @@ struct Factorisation {
   }
 
   /// What a difference is in the inverse's quadratic form.
-  VOUSSOIR_INLINE DoubleLanes square_of(const DoubleLanes* difference) {
-    DoubleLanes* const row = rows[0];
+  VOUSSOIR_INLINE Lanes square_of(const Lanes* difference) {
+    Lanes* const row = rows[0];
     for (std::size_t j = 0; j < N; ++j) row[j] = difference[j];
     for (std::size_t j = 0; j < N; j += kTogether) solve_columns(row, j);
-    DoubleLanes square{};
+    Lanes square{};
     for (std::size_t j = 0; j < N; ++j) square += row[j] * (row[j] * inverse[j]);
     return square;
   }

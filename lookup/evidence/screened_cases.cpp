@@ -3,20 +3,25 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 #include "core/threads.h"
 #include "lookup/evidence/largest_places.h"
+#include "lookup/evidence/likely_places.h"
+#include "lookup/search/eligible_rows.h"
 
 namespace voussoir {
 namespace {
 
 constexpr double kNotWorkedOut = std::numeric_limits<double>::infinity();
-constexpr double kNegligibleCase =
-    20.0;                            // logarithm of how far behind the likeliest a scene's case is left out
-constexpr double kUncounted = 3e-4;  // probability of all scenes that are left at their first estimates
-constexpr double kLeftEstimated = 5e-4;      // probability of all scenes that are not worked out
-constexpr double kLeftUnrefined = 1e-4;      // of those that are not looked at in all directions
+constexpr double kNoEstimate = std::numeric_limits<double>::infinity();
+/// Logarithms of how far behind the likeliest a scene's case is left out, and a scene may be left for what
+/// all of them sum up to: an estimate is too low by more in one question of thousands.
+constexpr double kNegligibleCase = 20.0, kNegligibleScene = 15.0;
+// Probabilities of all scenes together that are left, by estimates that are too high: in cases where none of
+// them matters; with a look in a few directions; in some; of those that are no candidates for being worked
+// out; and of all that are not worked out.
+constexpr double kUncounted = 3e-4, kLeftWithFew = 2e-4, kLeftUnrefined = 4e-4, kLeftUnordered = 5e-4,
+                 kLeftEstimated = 1e-3;
 constexpr std::size_t kMostRefined = 64000;  // more take longer than what they save
 constexpr double kCaseTooLow = 0.5;          // what an estimate's logarithm may be too low by at least
 constexpr std::size_t kAtOnce = 8;  // scenes that are worked out before the next look at what matters
@@ -36,7 +41,6 @@ ScreenedCases::ScreenedCases(UnknownBridge& bridge, const Observation& observati
       estimates_(bridge, observation, table, cases, rows, beforehand),
       likelihoods_(bridge, observation, table),
       too_low_(kCaseTooLow),
-      exact_(rows.size()),
       is_worked_out_(rows.size(), false) {
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const bool few = table.most_missing < 2 || table.removed[rows[i] * table.most_missing + 1] < 0;
@@ -68,9 +72,23 @@ double ScreenedCases::least_counted() const {
   return best_ - too_low_ + std::log(kUncounted / static_cast<double>(estimates_.count()));
 }
 
+/// Of these cases and the scenes that were worked out in them the likeliest's: all that are as likely leave
+/// much the same of the readings.
+Eigen::MatrixXd ScreenedCases::pull_of_likeliest(std::size_t first, std::size_t end) {
+  double best = kImpossible;
+  std::size_t likeliest = 0, in = 0;
+  for (const auto& [place, exact] : exact_)
+    for (std::size_t k = first; k < end; ++k)
+      if (exact[k] != kNotWorkedOut && exact[k] + beforehand_[place] > best)
+        best = exact[k] + beforehand_[place], likeliest = place, in = k;
+  if (best == kImpossible) return {};
+  return likelihoods_.pull(terms_[in], rows_[likeliest]);
+}
+
 /// Cases of one level: first the scenes with few missing blocks, which show how likely scenes are.
 void ScreenedCases::look_at_level() {
-  const std::size_t first = estimates_.look_at_next();
+  const auto [first, end] = estimates_.next_level();
+  estimates_.look_at_next(pull_of_likeliest(first, end));
   estimates_.estimate(few_, kImpossible);
   estimates_.refine(few_, first, ScreenDirections::more, kImpossible);
   for (std::size_t number = first; number < estimates_.looked_at(); ++number) try_case(number);
@@ -79,57 +97,47 @@ void ScreenedCases::look_at_level() {
 
 /// Works out the scenes with few missing blocks that seem the likeliest in a case.
 void ScreenedCases::try_case(std::size_t number) {
-  std::vector<double> estimates(rows_.size(), kImpossible);
-  for (const std::size_t place : few_) estimates[place] = estimates_.of(place, number);
-  work_out(first_of(few_, estimates, kTried), [&](std::size_t, std::size_t k) { return k == number; });
+  std::vector<double> estimates;
+  for (const std::size_t place : few_) estimates.push_back(estimates_.of(place, number));
+  std::vector<std::size_t> places;
+  for (const std::size_t i : largest_places(estimates, kTried))
+    if (estimates[i] > kImpossible) places.push_back(few_[i]);
+  work_out(places, [&](std::size_t, std::size_t k) { return k == number; });
   for (const std::size_t place : few_)
-    if (!exact_[place].empty()) check_estimate(place, number);
+    if (exact_.contains(place)) check_estimate(place, number);
 }
 
 /// Scenes with many missing blocks are looked at no better than they have to be; the likeliest of them are
 /// worked out to know how well that is.
 void ScreenedCases::look_at_many(std::size_t first) {
+  const std::vector<double>& sums = estimates_.sums();
   estimates_.estimate(many_, least_counted());
   estimates_.add_up(many_);
-  work_out(first_of(many_, estimates_.sums(), kAtOnce), [&](std::size_t place, std::size_t number) {
+  std::vector<std::size_t> places = that_matter(many_, kLeftWithFew);
+  work_out(largest_places(places, sums, kAtOnce), [&](std::size_t place, std::size_t number) {
     return number < estimates_.looked_at() && may_matter(place, number);
   });
-  const double least = least_counted();
-  std::vector<std::size_t> places;
-  for (const std::size_t place : many_)
-    if (!(estimates_.sums()[place] < least)) places.push_back(place);
-  estimates_.refine(places, first, ScreenDirections::more, least);
+  places = that_matter(places, kLeftWithFew);
+  estimates_.refine(places, first, ScreenDirections::more, least_counted());
   estimates_.add_up(places);
 }
 
-/// Places in the order of estimates, the intact bridge first: its estimate is right but for what lies in no
-/// direction.
-std::vector<std::size_t> ScreenedCases::first_of(std::vector<std::size_t> places,
-                                                 std::span<const double> estimates, std::size_t count) const {
-  std::erase_if(places, [&](std::size_t place) { return !(estimates[place] > kImpossible); });
-  places = largest_places(std::move(places), estimates, count);
-  const auto intact = std::find_if(places.begin(), places.end(), [&](std::size_t place) {
-    return table_.removed[rows_[place] * table_.most_missing] < 0;
-  });
-  if (intact != places.end()) std::rotate(places.begin(), intact, intact + 1);
-  return places;
+/// log of what the estimates of scenes with so much of the probability sum up to, if they are too low.
+double ScreenedCases::sum_of(double probability) const {
+  return best_ - too_low_ + std::log(probability);
 }
 
-/// All scenes that may count, and at least so many.
-std::vector<std::size_t> ScreenedCases::most_likely(std::size_t count) const {
-  const double least = least_counted();
-  std::vector<std::size_t> places;
-  for (std::size_t place = 0; place < rows_.size(); ++place)
-    if (!(estimates_.sums()[place] < least)) places.push_back(place);
-  if (places.size() >= count) return first_of(std::move(places), estimates_.sums(), rows_.size());
-  places.resize(rows_.size());
-  std::iota(places.begin(), places.end(), std::size_t{0});
-  return first_of(std::move(places), estimates_.sums(), count);
+/// Without those that hold less than `rest` together.
+std::vector<std::size_t> ScreenedCases::that_matter(std::span<const std::size_t> places, double rest) const {
+  return likely_places(places, estimates_.sums(), sum_of(rest), best_ - too_low_ - kNegligibleScene);
+}
+std::vector<std::size_t> ScreenedCases::that_matter(double rest) const {
+  return likely_places(estimates_.sums(), sum_of(rest), best_ - too_low_ - kNegligibleScene);
 }
 
 /// Of a scene that was worked out in a case, if it is likely: how much its estimate is too low.
 void ScreenedCases::check_estimate(std::size_t place, std::size_t number) {
-  const double log = exact_[place][number] + beforehand_[place];
+  const double log = exact_.at(place)[number] + beforehand_[place];
   if (number < estimates_.looked_at() && log != kNotWorkedOut && log > best_ - kNegligibleCase)
     too_low_ = std::max(too_low_, log - estimates_.of(place, number));
 }
@@ -179,7 +187,7 @@ void ScreenedCases::work_out_where_likely(std::span<const std::size_t> places) {
 /// log of the sum over the cases in which the place was worked out.
 double ScreenedCases::total(std::size_t place) const {
   double sum = kImpossible;
-  for (const double one : exact_[place])
+  for (const double one : exact_.at(place))
     if (one != kNotWorkedOut) sum = log_sum(sum, one);
   return sum;
 }
@@ -191,83 +199,81 @@ void ScreenedCases::look_at_cases() {
   estimates_.add_up(few_);
 }
 
-/// How far sums of estimates are too high, of scenes that are worked out.
-double ScreenedCases::shift_of(std::span<const std::size_t> places) const {
-  double exact = kImpossible, estimated = kImpossible;
-  for (const std::size_t place : places) {
-    if (!std::isfinite(estimates_.sums()[place])) continue;
-    exact = log_sum(exact, total(place) + beforehand_[place]);
-    estimated = log_sum(estimated, estimates_.sums()[place]);
+/// Looks at likely scenes in all directions, as far as what is left matters.
+void ScreenedCases::refine_likely() {
+  const std::vector<double>& sums = estimates_.sums();
+  std::vector<std::size_t> likely = that_matter(kLeftUnrefined);
+  work_out_where_likely(largest_places(likely, sums, kAtOnce));
+  likely = that_matter(likely, kLeftUnrefined);
+  if (likely.size() > kMostRefined) {
+    std::nth_element(likely.begin(), likely.begin() + kMostRefined, likely.end(),
+                     [&](std::size_t a, std::size_t b) { return sums[a] > sums[b]; });
+    likely.resize(kMostRefined);
   }
-  return exact > kImpossible ? std::min(0.0, exact - estimated) : 0.0;
-}
-
-/// The sum of all estimates at each place of the order and behind it, and of those that are not in it.
-std::vector<double> ScreenedCases::left_behind(std::span<const std::size_t> order) const {
-  std::vector<bool> is_ordered(rows_.size(), false);
-  for (const std::size_t place : order) is_ordered[place] = true;
-  double others = 0.0;
-  for (std::size_t place = 0; place < rows_.size(); ++place)
-    if (!is_ordered[place]) others += std::exp(estimates_.sums()[place] - best_);
-  std::vector<double> left(order.size() + 1, best_ + std::log(others));
-  for (std::size_t i = order.size(); i-- > 0;) left[i] = log_sum(left[i + 1], estimates_.sums()[order[i]]);
-  return left;
-}
-
-/// Looks closer at scenes in the order of their estimates, until what is left does not matter.
-void ScreenedCases::refine_likely(std::size_t count) {
-  work_out_where_likely(first_of(many_, estimates_.sums(), kAtOnce));
-  const std::vector<std::size_t> order = most_likely(count);
-  const std::vector<double> left = left_behind(order);
-  std::size_t end = 0;
-  while (end < std::min(order.size(), kMostRefined) &&
-         !(left[end] + too_low_ < best_ + std::log(kLeftUnrefined)))
-    ++end;
-  const auto likely = std::span(order).first(end);
   estimates_.refine(likely, 0, ScreenDirections::all, best_ - too_low_ - kNegligibleCase);
   estimates_.add_up(likely);
   for (const std::size_t place : likely)
-    for (std::size_t number = 0; number < exact_[place].size(); ++number) check_estimate(place, number);
+    if (const auto exact = exact_.find(place); exact != exact_.end())
+      for (std::size_t number = 0; number < exact->second.size(); ++number) check_estimate(place, number);
+}
+
+/// All scenes that may count, and at least so many.
+std::vector<std::size_t> ScreenedCases::candidates(std::size_t count) const {
+  std::vector<std::size_t> places = that_matter(kLeftUnordered);
+  if (places.size() < count) places = largest_places(estimates_.sums(), count);
+  return places;
+}
+
+/// Scenes that were tried in some case, and those without an estimate.
+std::vector<std::size_t> ScreenedCases::known_to_need_it() const {
+  std::vector<std::size_t> places;
+  for (const auto& [place, exact] : exact_) places.push_back(place);
+  for (std::size_t place = 0; place < rows_.size(); ++place)
+    if (estimates_.sums()[place] == kNoEstimate && !exact_.contains(place)) places.push_back(place);
+  return places;
+}
+
+/// Scenes that may count, of one kind if they lack as many blocks and all of these losses are known.
+LeftScenes ScreenedCases::left_scenes(std::size_t count) const {
+  std::vector<std::size_t> places = candidates(count);
+  std::erase_if(places, [&](std::size_t place) { return is_worked_out_[place]; });
+  return {std::move(places), estimates_.sums(), [this](std::size_t place) {
+            const auto missing = static_cast<std::size_t>(missing_blocks(table_, rows_[place]));
+            const bool all_known = known_losses(bridge_, table_, rows_[place]).count == missing;
+            return all_known && missing < LeftScenes::kOther ? missing : LeftScenes::kOther;
+          }};
 }
 
 /// Works out scenes in the order of their estimates, so many at a time, until what is left can change no
-/// probability by more than kLeftEstimated. If more scenes than can be worked out are likely indeed, the
-/// others count by their estimates, shifted by what those of the last worked out are off.
-double ScreenedCases::work_out_likely(std::size_t count) {
-  const std::vector<std::size_t> order = most_likely(count);
-  const std::vector<double> left = left_behind(order);
-  std::vector<std::size_t> tried;
-  for (std::size_t place = 0; place < rows_.size(); ++place)
-    if (!exact_[place].empty()) tried.push_back(place);
-  work_out_where_likely(tried);
-  double shift = 0.0;
+/// probability by more than kLeftEstimated, or more are likely indeed than can be worked out.
+void ScreenedCases::work_out_likely(std::size_t count, LeftScenes& left) {
   std::size_t likely = 0;
-  for (std::size_t first = 0; first < order.size(); first += kAtOnce) {
-    const bool enough = left[first] + too_low_ < best_ + std::log(kLeftEstimated);
-    if (first >= count && (enough || likely >= kMostWorkedOut)) break;
-    const auto some = std::span(order).subspan(first, std::min(kAtOnce, order.size() - first));
+  for (std::size_t done = 0; !left.empty(); done += kAtOnce) {
+    const bool enough = left.log_sum() < sum_of(kLeftEstimated - kLeftUnordered);
+    if (done >= count && (enough || likely >= kMostWorkedOut)) break;
+    const std::vector<std::size_t> some = left.next(kAtOnce);
     work_out_where_likely(some);
-    shift = shift_of(some);
-    for (const std::size_t place : some)
-      if (total(place) + beforehand_[place] > best_ + std::log(kLeftEstimated / kMostWorkedOut)) ++likely;
+    for (const std::size_t place : some) {
+      const double log = total(place) + beforehand_[place];
+      left.learn(place, log);
+      if (log > best_ + std::log(kLeftEstimated / kMostWorkedOut)) ++likely;
+    }
   }
-  return shift;
 }
 
 std::vector<double> ScreenedCases::evidence(std::size_t count) {
   count = std::max(count, kAtOnce);
   look_at_cases();
-  refine_likely(count);
-  const double shift = work_out_likely(count);
+  refine_likely();
+  work_out_where_likely(known_to_need_it());
+  LeftScenes left = left_scenes(count);
+  work_out_likely(count, left);
   std::vector<double> result(rows_.size(), kImpossible);
+  for (std::size_t place = 0; place < rows_.size(); ++place)
+    result[place] = is_worked_out_[place] ? total(place) : estimates_.sums()[place] - beforehand_[place];
+  for (const std::size_t place : left.places()) result[place] += left.correction(place);
   const double log_cases = std::log(static_cast<double>(terms_.size()));
-  for (std::size_t place = 0; place < rows_.size(); ++place) {
-    if (std::isinf(estimates_.sums()[place]) && estimates_.sums()[place] > 0.0)
-      work_out_where_likely({&place, 1});
-    const double log =
-        is_worked_out_[place] ? total(place) : estimates_.sums()[place] - beforehand_[place] + shift;
-    result[place] = log - log_cases;
-  }
+  for (double& log : result) log -= log_cases;
   return result;
 }
 

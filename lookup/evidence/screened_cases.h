@@ -3,10 +3,12 @@
 /// say which scenes, in which cases, are worth working out.
 
 #include <functional>
+#include <map>
 #include <span>
 #include <vector>
 
 #include "lookup/evidence/case_estimates.h"
+#include "lookup/evidence/left_scenes.h"
 #include "lookup/evidence/scene_evidence.h"
 #include "lookup/evidence/unknown_evidence.h"
 
@@ -22,7 +24,8 @@ class ScreenedCases {
 
   /// log of the mean evidence over all cases, for each of the rows. -infinity for impossible ones. The
   /// `count` likeliest and all that matter are worked out; the others, which hold less than a thousandth of
-  /// the probability unless there are too many, count by their estimates.
+  /// the probability unless there are too many, count by their estimates, corrected by what those of their
+  /// kind were off.
   std::vector<double> evidence(std::size_t count);
 
   /// The case in which the likeliest scene is likeliest, once there is evidence.
@@ -33,23 +36,25 @@ class ScreenedCases {
 
   std::vector<std::size_t> nearest_singles() const;
   void look_at_cases();
+  Eigen::MatrixXd pull_of_likeliest(std::size_t first, std::size_t end);
   void look_at_level();
   void try_case(std::size_t number);
   void look_at_many(std::size_t first);
   double least_counted() const;
-  std::vector<std::size_t> first_of(std::vector<std::size_t> places, std::span<const double> estimates,
-                                    std::size_t count) const;
-  std::vector<std::size_t> most_likely(std::size_t count) const;
-  std::vector<double> left_behind(std::span<const std::size_t> order) const;
-  void refine_likely(std::size_t count);
-  double work_out_likely(std::size_t count);
+  double sum_of(double probability) const;
+  std::vector<std::size_t> that_matter(std::span<const std::size_t> places, double rest) const;
+  std::vector<std::size_t> that_matter(double rest) const;  // of all
+  std::vector<std::size_t> candidates(std::size_t count) const;
+  std::vector<std::size_t> known_to_need_it() const;
+  void refine_likely();
+  LeftScenes left_scenes(std::size_t count) const;
+  void work_out_likely(std::size_t count, LeftScenes& left);
   void check_estimate(std::size_t place, std::size_t number);
   void work_out(std::span<const std::size_t> places, const WantedCase& is_wanted,
                 const Eigen::MatrixXd* rise = nullptr);
   void work_out_where_likely(std::span<const std::size_t> places);
   bool may_matter(std::size_t place, std::size_t number) const;
   double total(std::size_t place) const;
-  double shift_of(std::span<const std::size_t> places) const;
 
   UnknownBridge& bridge_;
   const Observation& observation_;
@@ -61,8 +66,8 @@ class ScreenedCases {
   CaseEstimates estimates_;
   SceneLikelihoods likelihoods_;
   double too_low_;  // by how much estimates of likely scenes were found to be too low at most
-  std::vector<std::vector<double>> exact_;  // of each row, for each case; empty: not worked out
-  std::vector<bool> is_worked_out_;         // in all cases that may matter
+  std::map<std::size_t, std::vector<double>> exact_;  // by place, for each case; others are not worked out
+  std::vector<bool> is_worked_out_;                   // in all cases that may matter
   std::size_t likeliest_ = 0;
   double best_ = kImpossible;  // of any scene in any case, worked out
 };

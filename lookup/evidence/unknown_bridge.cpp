@@ -5,6 +5,8 @@
 #include <limits>
 #include <numbers>
 
+#include "core/threads.h"
+
 namespace voussoir {
 namespace {
 
@@ -148,9 +150,10 @@ void add_losses(const Comparison& comparison, const Observation& observation, Un
   const SceneTable& table = comparison.library.table;
   bridge.blocks = factors.blocks.size();
   bridge.losses.resize(bridge.blocks);
-  for (std::size_t block = 0; block < bridge.blocks; ++block)
+  for_each_index_on_threads(bridge.blocks, hardware_threads(), [&](std::size_t block) {
     if (const auto row = table.find({{BlockId{static_cast<std::int32_t>(block)}}}))
       bridge.losses[block] = loss_of(bridge, observation, factors.blocks[block], table.row(*row));
+  });
   for (const auto& [scene, change] : factors.several)
     if (const auto row = table.find(scene)) {
       bridge.several.push_back(scene);

@@ -1,5 +1,6 @@
 #include "lookup/evidence/unknown_evidence.h"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <limits>
 
@@ -210,6 +211,19 @@ std::vector<ScatterLogs> SceneLikelihoods::operator()(std::span<const CaseTerms>
     scene.work_out();
   });
   return result;
+}
+
+Eigen::VectorXd SceneLikelihoods::pull(const CaseTerms& one, std::size_t row) {
+  prepare({&row, 1}, 1);
+  Work work;
+  const SceneLoss loss = scene_loss(bridge_, observation_, table_, row).value();
+  store_scene(bridge_, loss, work);
+  store_bridge(row, work.bridge);
+  store_noise(bridge_, loss, one, work, work.noise);
+  add_to(work.noise, work.bridge);
+  const Index n = bridge_.reading.size();
+  const MatrixXd lower = matrix_of(work.noise, n);
+  return Eigen::LLT<MatrixXd, Eigen::Lower>(lower).solve(bridge_.reading - loss.signal);
 }
 
 std::vector<ScatterLogs> scatter_logs(const UnknownBridge& bridge, const Observation& observation,

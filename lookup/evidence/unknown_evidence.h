@@ -39,6 +39,9 @@ class SceneLikelihoods {
                                       std::span<const std::uint8_t> wanted, int threads,
                                       const CasePruning* pruning = nullptr);
 
+  /// C^-1 (y - mean) of a possible scene in a case, in rows of y, with the scatter that the file states.
+  Eigen::VectorXd pull(const CaseTerms& one, std::size_t row);
+
  private:
   /// What no case changes of a loss's part of A A^T: alone; and beside another loss, where the leading
   /// columns of both together come on top.

@@ -8,9 +8,11 @@
 #include <numbers>
 #include <numeric>
 
+#include "core/fetch.h"
 #include "core/simd/column_products.h"
 #include "core/threads.h"
 #include "lookup/evidence/leading_directions.h"
+#include "lookup/evidence/peak_density.h"
 #include "lookup/evidence/scene_evidence.h"
 
 namespace voussoir {
@@ -23,21 +25,28 @@ using Eigen::VectorXd;
 constexpr auto kAllDirections = static_cast<Index>(kDirections);
 constexpr auto kEpochs = static_cast<Index>(kEpochColumns);
 /// Columns count if without them and all that follow some reading's variance could be so much less.
-constexpr double kTooSmall = 1e-4;
+constexpr double kTooSmall = 1e-3;
+constexpr std::size_t kFetchedAhead = 2 * kFloatLanes;  // rows
 
-/// A A^T of the intact bridge in rows of y.
-MatrixXd intact_product(const UnknownBridge& bridge) {
+/// A product by channel in rows of y, each with its weight.
+template <class Weight>
+MatrixXd weighted_product(const UnknownBridge& bridge, const MatrixXd& by_channel, Weight weight) {
   const auto n = static_cast<Index>(bridge.rows.size());
   MatrixXd product(n, n);
   for (Index i = 0; i < n; ++i)
     for (Index j = 0; j < n; ++j) {
       const ReadingRow &row = bridge.rows[static_cast<std::size_t>(i)],
                        &other = bridge.rows[static_cast<std::size_t>(j)];
-      product(i, j) =
-          row.of_bridge() * other.of_bridge() *
-          bridge.factors->intact_product(static_cast<Index>(row.channel), static_cast<Index>(other.channel));
+      product(i, j) = weight(row) * weight(other) *
+                      by_channel(static_cast<Index>(row.channel), static_cast<Index>(other.channel));
     }
   return product;
+}
+
+/// A A^T of the intact bridge in rows of y.
+MatrixXd intact_product(const UnknownBridge& bridge) {
+  return weighted_product(bridge, bridge.factors->intact_product,
+                          [](const ReadingRow& row) { return row.of_bridge(); });
 }
 
 /// What all losses change, their signals and their scatter, in rows of y.
@@ -49,16 +58,8 @@ MatrixXd losses_product(const UnknownBridge& bridge) {
     const bool counts = signal.size() > 0 && !signal.hasNaN();
     signals.col(static_cast<Index>(block)) = counts ? signal : VectorXd::Zero(n);
   }
-  MatrixXd product = signals * signals.transpose();
-  for (Index i = 0; i < n; ++i)
-    for (Index j = 0; j < n; ++j) {
-      const ReadingRow &row = bridge.rows[static_cast<std::size_t>(i)],
-                       &other = bridge.rows[static_cast<std::size_t>(j)];
-      product(i, j) +=
-          row.after * other.after *
-          bridge.factors->signal_product(static_cast<Index>(row.channel), static_cast<Index>(other.channel));
-    }
-  return product;
+  return signals * signals.transpose() + weighted_product(bridge, bridge.factors->signal_product,
+                                                          [](const ReadingRow& row) { return row.after; });
 }
 
 void store(const VectorXd& vector, DirectionVector& to) {
@@ -84,28 +85,10 @@ void add_lower(const DirectionColumns& a, const DirectionColumns& b, double fact
                     factor, lower.data());
 }
 
-/// log density of no difference at all.
-ScatterLogs log_peak(const MatrixXd& noise, const MatrixXd& bridge) {
-  const std::vector<double> none(static_cast<std::size_t>(noise.rows()), 0.0);
-  return ScatterDensity()(none, lower_of(noise), lower_of(bridge));
-}
-
-/// What the density of all rows has more than that of the first few directions, which goes without its powers
-/// of two pi.
-ScatterLogs log_outside(const ScatterLogs& peaks, const MatrixXd& noise, const MatrixXd& bridge,
-                        std::size_t directions) {
-  const Index few = std::min(static_cast<Index>(directions), noise.rows());
-  const ScatterLogs inside = log_peak(noise.topLeftCorner(few, few), bridge.topLeftCorner(few, few));
-  const double powers = 0.5 * static_cast<double>(few) * std::log(2.0 * std::numbers::pi);
-  ScatterLogs logs = peaks;
-  for (std::size_t k = 0; k < logs.size(); ++k) logs[k] -= inside[k] + powers;
-  return logs;
-}
-
 }  // namespace
 
 UnknownScreen::UnknownScreen(UnknownBridge& bridge, const Observation& observation, const SceneTable& table,
-                             std::span<const UnknownCase> cases, int threads)
+                             std::span<const UnknownCase> cases, const MatrixXd& pulls, int threads)
     : bridge_(bridge), observation_(observation), table_(table) {
   const MatrixXd product = intact_product(bridge);
   const MatrixXd epoch = epoch_columns(bridge, {});
@@ -117,7 +100,7 @@ UnknownScreen::UnknownScreen(UnknownBridge& bridge, const Observation& observati
                      bridge.scale * bridge.scale * bridge.movement * bridge.movement.transpose());
     cases_.push_back({bridge.conditions * bridge.conditions, bridge.spread * bridge.spread});
   }
-  choose_directions(others, product);
+  choose_directions(others, product, pulls);
   epoch_after_ = directions_.transpose() * epoch.rightCols(bridge.factors->of_epoch());
   const MatrixXd reduced_product = directions_.transpose() * (product * directions_);
   store_lower(reduced_product, bridge_of_intact_);
@@ -143,24 +126,26 @@ void UnknownScreen::add_intact(const MatrixXd& others, const MatrixXd& bridge, c
 
 /// In which the readings are farthest from the intact bridge, in each case; orthonormal in whitened readings.
 MatrixXd UnknownScreen::reading_directions(std::span<const MatrixXd> others, const MatrixXd& product,
-                                           const Eigen::LLT<MatrixXd>& white) const {
-  const Index n = product.rows(),
-              count = std::min(static_cast<Index>(others.size()), std::min(kAllDirections, n));
+                                           const MatrixXd& pulls, const Eigen::LLT<MatrixXd>& white) const {
+  const Index n = product.rows(), cases = static_cast<Index>(others.size()),
+              count = std::min(cases + pulls.cols(), std::min(kAllDirections, n));
   MatrixXd first(n, count);
   for (Index k = 0; k < count; ++k) {
     const VectorXd direction =
-        Eigen::LLT<MatrixXd>(others[static_cast<std::size_t>(k)] + product).solve(bridge_.reading);
+        k < cases ? Eigen::LLT<MatrixXd>(others[static_cast<std::size_t>(k)] + product).solve(bridge_.reading)
+                  : VectorXd(pulls.col(k - cases));
     first.col(k) = white.matrixU() * direction;
     first.col(k) /= std::max(first.col(k).norm(), std::numeric_limits<double>::min());
   }
   return Eigen::HouseholderQR<MatrixXd>(first).householderQ() * MatrixXd::Identity(n, count);
 }
 
-void UnknownScreen::choose_directions(std::span<const MatrixXd> others, const MatrixXd& product) {
+void UnknownScreen::choose_directions(std::span<const MatrixXd> others, const MatrixXd& product,
+                                      const MatrixXd& pulls) {
   const Eigen::LLT<MatrixXd> white(others[others.size() / 2] + product);
   const auto lower = white.matrixL();
   const Index n = product.rows(), used = std::min(kAllDirections, n);
-  const MatrixXd first = reading_directions(others, product, white);
+  const MatrixXd first = reading_directions(others, product, pulls, white);
   MatrixXd losses = lower.solve(losses_product(bridge_));
   losses = lower.solve(losses.transpose().eval());
   const MatrixXd without = MatrixXd::Identity(n, n) - first * first.transpose();
@@ -174,7 +159,7 @@ void UnknownScreen::choose_directions(std::span<const MatrixXd> others, const Ma
   directions_.leftCols(used) = white.matrixU().solve(chosen);
   const auto channels = static_cast<Index>(observation_.reading.size());
   intact_ = observation_.intact;
-  intact_.resize(padded(intact_.size()));
+  intact_.resize((intact_.size() + kFloatLanes - 1) / kFloatLanes * kFloatLanes);
   is_read_.assign(intact_.size(), 0.0);
   MatrixXd of_loss = MatrixXd::Zero(channels, kAllDirections), of_bridge = of_loss;
   MatrixXd changed = directions_;
@@ -190,6 +175,7 @@ void UnknownScreen::choose_directions(std::span<const MatrixXd> others, const Ma
   store(directions_.transpose() * bridge_.reading, reading_);
   directions_by_channel_.resize(intact_.size() * kDirections);
   store_rows(of_loss, kAllDirections, directions_by_channel_.data());
+  rounded_directions_.assign(directions_by_channel_.begin(), directions_by_channel_.end());
   if (of_bridge.isZero(0.0)) return;
   of_bridge_by_channel_.resize(directions_by_channel_.size());
   store_rows(of_bridge, kAllDirections, of_bridge_by_channel_.data());
@@ -274,6 +260,13 @@ void UnknownScreen::reduce(const Loss& loss, ReducedLoss& to) const {
 }
 
 ReducedQuestion UnknownScreen::question() const {
+  double widest_point = 0.0, widest_spread = 0.0, highest_peak = kImpossible;
+  for (std::size_t i = 0; i < kDirections; ++i)
+    widest_point = std::max(widest_point, points_[lower_size(i) + i]);
+  for (const ReducedCase& one : cases_) {
+    widest_spread = std::max(widest_spread, one.spread_square);
+    highest_peak = std::max(highest_peak, one.peak);
+  }
   return {reading_.data(),
           points_.data(),
           bridge_of_intact_.data(),
@@ -282,7 +275,11 @@ ReducedQuestion UnknownScreen::question() const {
           intact_.data(),
           is_read_.data(),
           directions_by_channel_.data(),
-          std::accumulate(is_read_.begin(), is_read_.end(), 0.0)};
+          rounded_directions_.data(),
+          std::accumulate(is_read_.begin(), is_read_.end(), 0.0f),
+          static_cast<float>(widest_point),
+          static_cast<float>(widest_spread),
+          static_cast<float>(highest_peak)};
 }
 
 ScenePrediction UnknownScreen::scene(const ScreenedRow& row, const KnownLosses& known) const {
@@ -296,16 +293,18 @@ ScenePrediction UnknownScreen::scene(const ScreenedRow& row, const KnownLosses& 
 template <class Work>
 void UnknownScreen::for_rows_together(std::span<const ScreenedRow> rows, Work work) const {
   struct Together {
-    std::array<ScenePrediction, kLanes> scenes;
+    std::array<ScenePrediction, kFloatLanes> scenes;
     std::size_t count = 0;
   };
   std::array<Together, kMostLosses + 1> by_losses;
-  for (const ScreenedRow& row : rows) {
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const ScreenedRow& row = rows[i];
+    if (i + kFetchedAhead < rows.size()) fetch(table_.row(rows[i + kFetchedAhead].row));
     const KnownLosses known = known_losses(bridge_, table_, row.row);
     const std::size_t losses = std::max(known.count, std::size_t{1});
     Together& together = by_losses[losses];
     together.scenes[together.count++] = scene(row, known);
-    if (together.count < kLanes) continue;
+    if (together.count < kFloatLanes) continue;
     work(together.scenes, losses);
     together.count = 0;
   }
@@ -330,7 +329,7 @@ void UnknownScreen::refine(std::span<const ScreenedRow> rows, ScreenDirections d
   std::vector<ScreenedRow> likely;
   for (const ScreenedRow& row : rows)
     if (std::any_of(row.logs, row.logs + cases_.size(),
-                    [&](double log) { return !(log < row.least) && log != kImpossible; }))
+                    [&](float log) { return !(log < row.least) && log != kImpossible; }))
       likely.push_back(row);
   for_rows_together(likely, [&](const auto& scenes, std::size_t losses) {
     refine_log_densities(all, scenes, losses, directions);

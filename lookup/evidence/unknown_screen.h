@@ -3,7 +3,9 @@
 /// combinations of the readings, in cases that share them.
 ///
 /// Readings are whitened by the intact bridge's covariance in one of the cases. Of all directions those in
-/// which the readings are farthest from the intact bridge come first, one for each case, then those in which
+/// which the readings are farthest from the intact bridge come first, one for each case, then that in which
+/// they are farthest from the likeliest scene known so far, as all that are as likely leave much the same of
+/// them; then those in which
 /// losses show most: the leading principal directions of what all losses change, their signals and their
 /// scatter. In the first of them, as many as are worth it, the scene's Gaussian is worked out, with what two
 /// blocks' signals have in common as far as kFirstColumns show it; the rest of each counts once more for
@@ -29,14 +31,15 @@ using DirectionColumns = Eigen::Matrix<double, static_cast<int>(kDirections), Ei
 struct ScreenedRow {
   std::size_t row;
   double least;
-  double* logs;
+  float* logs;
 };
 
 class UnknownScreen {
  public:
-  /// All of them outlive the screen; the bridge's case is changed. `cases` differ in conditions only.
+  /// All but `pulls` outlive the screen; the bridge's case is changed. `cases` differ in conditions only.
+  /// Columns of `pulls` are directions of their own, in rows of y (SceneLikelihoods::pull).
   UnknownScreen(UnknownBridge& bridge, const Observation& observation, const SceneTable& table,
-                std::span<const UnknownCase> cases, int threads);
+                std::span<const UnknownCase> cases, const Eigen::MatrixXd& pulls, int threads);
 
   /// log p(readings | scene, case) of rows of the table in the first directions; see estimate_log_densities.
   /// NaN where the estimate fails.
@@ -48,8 +51,10 @@ class UnknownScreen {
   const std::vector<ReducedCase>& cases() const { return cases_; }
 
  private:
-  void choose_directions(std::span<const Eigen::MatrixXd> others, const Eigen::MatrixXd& product);
+  void choose_directions(std::span<const Eigen::MatrixXd> others, const Eigen::MatrixXd& product,
+                         const Eigen::MatrixXd& pulls);
   Eigen::MatrixXd reading_directions(std::span<const Eigen::MatrixXd> others, const Eigen::MatrixXd& product,
+                                     const Eigen::MatrixXd& pulls,
                                      const Eigen::LLT<Eigen::MatrixXd>& white) const;
   void add_intact(const Eigen::MatrixXd& others, const Eigen::MatrixXd& bridge,
                   const Eigen::MatrixXd& reduced_bridge, ReducedCase& to) const;
@@ -75,6 +80,7 @@ class UnknownScreen {
   std::vector<ReducedCase> cases_;
   // By channel, filled up for lanes; the directions as losses and, unless that is none, as the bridge count.
   std::vector<double> intact_, is_read_, directions_by_channel_, of_bridge_by_channel_;
+  std::vector<float> rounded_directions_;
   DirectionVector reading_{};
   DirectionTriangle points_{};  // what a unit variance at each changed point adds
   DirectionTriangle bridge_of_intact_{};

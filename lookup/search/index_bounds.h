@@ -71,11 +71,4 @@ class RowBounds {
   std::vector<RowBound> found_;
 };
 
-/// Asks the processor to fetch values that will soon be needed.
-template <typename T>
-void fetch(std::span<const T> values) {
-  constexpr std::size_t kCacheLine = 64 / sizeof(T);
-  for (std::size_t i = 0; i < values.size(); i += kCacheLine) __builtin_prefetch(values.data() + i);
-}
-
 }  // namespace voussoir

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/fetch.h"
 #include "lookup/search/exhaustive_search.h"
 #include "lookup/search/misfit.h"
 

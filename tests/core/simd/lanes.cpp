@@ -52,4 +52,10 @@ TEST_CASE("Sizes have no sign, and sums and the largest are of all lanes") {
   for (int i = 0; i < 4; ++i) CHECK(square_root(magnitude(lanes))[i] == std::sqrt(std::abs(lanes[i])));
   CHECK(any(lanes < -7.0));
   CHECK_FALSE(any(lanes > 2.0));
+  for (int i = 0; i < 8; ++i) {
+    FloatLanes one{};
+    one[i] = 1.0f;
+    CHECK(any(one > 0.5f));
+    CHECK_FALSE(any(one > 1.0f));
+  }
 }

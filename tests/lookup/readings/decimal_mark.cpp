@@ -22,7 +22,7 @@ DecimalMark mark_of(const std::vector<std::string>& numbers, char separator = ';
   return decimal_mark_of(table_of(numbers, separator), std::vector<std::size_t>{0});
 }
 
-std::string error_of(const std::vector<std::string>& numbers, char separator = ';') {
+std::string error_of_numbers(const std::vector<std::string>& numbers, char separator = ';') {
   try {
     mark_of(numbers, separator);
   } catch (const InputError& error) {
@@ -89,12 +89,12 @@ TEST_CASE(
 
 TEST_CASE(
     "Where no number decides the file is refused with both meanings, but for commas that separate fields") {
-  CHECK(error_of({"5", "-1.234"}) ==
+  CHECK(error_of_numbers({"5", "-1.234"}) ==
         "m.csv:3: '-1.234' is -1.234 or -1234, and no number of the file decides, expected one that shows "
         "the decimal "
         "mark (such as '-1.2340' in the place of '-1.234')");
-  CHECK(error_of({"12,345"}).find("m.csv:2: '12,345' is 12345 or 12.345") == 0);
-  CHECK(error_of({"12,345"}, ',').find("m.csv:2: '12,345' is 12345 or 12.345") == 0);
+  CHECK(error_of_numbers({"12,345"}).find("m.csv:2: '12,345' is 12345 or 12.345") == 0);
+  CHECK(error_of_numbers({"12,345"}, ',').find("m.csv:2: '12,345' is 12345 or 12.345") == 0);
   CHECK(mark_of({"12.345", "-1.234"}, ',') == DecimalMark::point);
   CHECK(mark_of({"12.345", "1.5"}) == DecimalMark::point);
   CHECK(mark_of({"12.345", "1,5"}) == DecimalMark::comma);
@@ -102,8 +102,8 @@ TEST_CASE(
 }
 
 TEST_CASE("Two decimal marks in one file are refused with both lines") {
-  CHECK(error_of({"1.5", "1,5"}) ==
+  CHECK(error_of_numbers({"1.5", "1,5"}) ==
         "m.csv:3: '1,5' has a decimal comma, expected a decimal point as in line 2");
-  CHECK(error_of({"7", "1.234,5", "0.25"}) ==
+  CHECK(error_of_numbers({"7", "1.234,5", "0.25"}) ==
         "m.csv:4: '0.25' has a decimal point, expected a decimal comma as in line 3");
 }

@@ -18,7 +18,7 @@ SensorList sensors() {
   return list;
 }
 
-bool same(double a, double b) {
+bool same_number(double a, double b) {
   return (std::isnan(a) && std::isnan(b)) || a == Approx(b).margin(5e-10);  // half a unit of the last place
 }
 
@@ -48,8 +48,8 @@ TEST_CASE("What is written is read again, whatever the kind (inverse functions)"
         CHECK(read.readings[i].sensor == file.readings[i].sensor);
         CHECK(read.readings[i].load == file.readings[i].load);
         CHECK(read.readings[i].silent == file.readings[i].silent);
-        CHECK(same(read.readings[i].value, file.readings[i].value));
-        CHECK(same(read.readings[i].sigma, file.readings[i].sigma));
+        CHECK(same_number(read.readings[i].value, file.readings[i].value));
+        CHECK(same_number(read.readings[i].sigma, file.readings[i].sigma));
       }
     }
 }

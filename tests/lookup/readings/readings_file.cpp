@@ -29,7 +29,7 @@ double value_in(const std::string& text) {
   return file.readings.front().value;
 }
 
-std::string error_of(const std::string& text) {
+std::string error_of_file(const std::string& text) {
   try {
     parse(text);
   } catch (const InputError& error) {
@@ -90,7 +90,7 @@ TEST_CASE("A point may come once under each load") {
   REQUIRE(read.readings.size() == 3);
   CHECK(read.readings[1].sensor == 0);
   CHECK(read.readings[1].load == "truck@2");
-  CHECK(error_of("point,load,uy_mm\nT1,axle,-1\nT1,axle,-2\n") ==
+  CHECK(error_of_file("point,load,uy_mm\nT1,axle,-1\nT1,axle,-2\n") ==
         "m.csv:3: point T1 is given again, expected each point once under a load (first in line 2)");
 }
 
@@ -119,9 +119,9 @@ TEST_CASE("Coordinates mean the nearest control point, and twins at one place ar
   const ReadingsFile loads = parse("x_m,y_m,load,uy_mm\n1,6,a,-1\n1,6,b,-2\n1,6,a,-3\n1,6,b,-4\n");
   for (const std::size_t i : {0U, 1U}) CHECK(loads.readings[i].sensor == 1);
   for (const std::size_t i : {2U, 3U}) CHECK(loads.readings[i].sensor == 2);
-  CHECK(error_of("x_m,y_m,uy_mm\n1,6,-1\n1,6,-2\n1,6,-3\n") ==
+  CHECK(error_of_file("x_m,y_m,uy_mm\n1,6,-1\n1,6,-2\n1,6,-3\n") ==
         "m.csv:4: point T2 is given again, expected each point once (first in line 2)");
-  CHECK(error_of("x_m,y_m,uy_mm\n1,6.2,-1\n") ==
+  CHECK(error_of_file("x_m,y_m,uy_mm\n1,6.2,-1\n") ==
         "m.csv:2: no control point at x = 1 m, y = 6.2 m: the nearest, T2, is 0.2 m away, expected at most "
         "0.05 m");
 }
@@ -133,9 +133,9 @@ TEST_CASE("A sensor's own sigma is read in millimetres") {
 }
 
 TEST_CASE("Long and unprintable texts are shortened and cleaned in messages") {
-  const std::string message = error_of("point,uy_mm\n" + std::string(10000, 'x') + "\x01,1\n");
+  const std::string message = error_of_file("point,uy_mm\n" + std::string(10000, 'x') + "\x01,1\n");
   CHECK(message == "m.csv:2: unknown point '" + std::string(40, 'x') + "...', expected T1 to A1");
-  CHECK(error_of("point,uy_mm\n\x1b[2J,1\n") == "m.csv:2: unknown point '?[2J', expected T1 to A1");
+  CHECK(error_of_file("point,uy_mm\n\x1b[2J,1\n") == "m.csv:2: unknown point '?[2J', expected T1 to A1");
 }
 
 TEST_CASE("A number too large for a double is refused in every spelling, and one too small is zero") {
@@ -143,11 +143,12 @@ TEST_CASE("A number too large for a double is refused in every spelling, and one
   for (const std::string& huge :
        {std::string("1e400"), std::string("-1e+999"), "1" + zeros, "1" + zeros + ".5", std::string(400, '9'),
         "0." + zeros + "1e900", "1" + zeros + "e-20", std::string("1e99999999999999999999")}) {
-    const std::string error = error_of("point,uy_m\nT1," + huge + "\n");
+    const std::string error = error_of_file("point,uy_m\nT1," + huge + "\n");
     INFO(huge);
     CHECK(error.find("is no finite number, expected a displacement or nothing") != std::string::npos);
-    CHECK(error_of("point,uy_mm,sigma_mm\nT1,1," + huge + "\n").find("is no sigma") != std::string::npos);
-    CHECK(error_of("x_m,y_m,uy_mm\n" + huge + ",1,1\n").find("is no coordinate") != std::string::npos);
+    CHECK(error_of_file("point,uy_mm,sigma_mm\nT1,1," + huge + "\n").find("is no sigma") !=
+          std::string::npos);
+    CHECK(error_of_file("x_m,y_m,uy_mm\n" + huge + ",1,1\n").find("is no coordinate") != std::string::npos);
   }
   for (const std::string& tiny : {std::string("1e-999"), "0." + zeros + "1", "-1" + zeros + "e-900",
                                   std::string("1e-99999999999999999999")})

@@ -9,14 +9,14 @@ using namespace voussoir;
 
 namespace {
 
-const Model& small_bridge() {
+const Model& sensors_bridge() {
   static const Model bridge = make_model(test::small_bridge_file().description);
   return bridge;
 }
 
 std::vector<Sensor> parse(const std::string& text) {
   SensorList list{{{"T1", Quantity::uy, Point(0, 2.5), {BlockId{0}}}}, 1};
-  parse_sensors(text, "s.csv", small_bridge().layout, small_bridge().mesh, list);
+  parse_sensors(text, "s.csv", sensors_bridge().layout, sensors_bridge().mesh, list);
   list.sensors.erase(list.sensors.begin());
   return list.sensors;
 }
@@ -31,7 +31,7 @@ std::string error_of(const std::string& text) {
 }
 
 std::string label(BlockId id) {
-  return small_bridge().layout[id].label;
+  return sensors_bridge().layout[id].label;
 }
 
 const std::string kHeader = "name,quantity,x_m,y_m,x2_m,y2_m,block,block2\n";

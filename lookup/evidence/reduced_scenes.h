@@ -1,0 +1,210 @@
+#pragma once
+/// @file Scenes in the directions of a screen, side by side in lanes: what no case changes of their
+/// Gaussians.
+
+#include <span>
+#include <type_traits>
+
+#include "core/simd/lanes.h"
+#include "lookup/evidence/reduced_density.h"
+
+namespace voussoir {
+
+inline constexpr std::size_t kTriangleWidth = kDirections;
+inline constexpr auto kFirstWidth = static_cast<std::size_t>(kFirstColumns);
+
+/// As many scenes as there are lanes.
+template <class Lanes>
+inline constexpr std::size_t kScenes = sizeof(Lanes) / sizeof(ElementOf<Lanes>);
+template <class Lanes>
+using Scenes = std::span<const ScenePrediction, kScenes<Lanes>>;
+
+/// Numbers of the scenes, one after the other, as lanes.
+VOUSSOIR_INLINE void transpose(DoubleLanes (&rows)[kLanes]) {
+  const DoubleLanes a = __builtin_shufflevector(rows[0], rows[1], 0, 4, 2, 6),
+                    b = __builtin_shufflevector(rows[0], rows[1], 1, 5, 3, 7),
+                    c = __builtin_shufflevector(rows[2], rows[3], 0, 4, 2, 6),
+                    d = __builtin_shufflevector(rows[2], rows[3], 1, 5, 3, 7);
+  rows[0] = __builtin_shufflevector(a, c, 0, 1, 4, 5);
+  rows[1] = __builtin_shufflevector(b, d, 0, 1, 4, 5);
+  rows[2] = __builtin_shufflevector(a, c, 2, 3, 6, 7);
+  rows[3] = __builtin_shufflevector(b, d, 2, 3, 6, 7);
+}
+VOUSSOIR_INLINE void transpose(FloatLanes (&rows)[kFloatLanes]) {
+  FloatLanes pairs[kFloatLanes], fours[kFloatLanes];
+  for (std::size_t i = 0; i < kFloatLanes; i += 2) {
+    pairs[i] = __builtin_shufflevector(rows[i], rows[i + 1], 0, 8, 1, 9, 4, 12, 5, 13);
+    pairs[i + 1] = __builtin_shufflevector(rows[i], rows[i + 1], 2, 10, 3, 11, 6, 14, 7, 15);
+  }
+  for (std::size_t i = 0; i < kFloatLanes; i += 4)
+    for (std::size_t k = 0; k < 2; ++k) {
+      const FloatLanes &one = pairs[i + k], &two = pairs[i + 2 + k];
+      fours[i + 2 * k] = __builtin_shufflevector(one, two, 0, 1, 8, 9, 4, 5, 12, 13);
+      fours[i + 2 * k + 1] = __builtin_shufflevector(one, two, 2, 3, 10, 11, 6, 7, 14, 15);
+    }
+  for (std::size_t k = 0; k < 4; ++k) {
+    rows[k] = __builtin_shufflevector(fours[k], fours[4 + k], 0, 1, 2, 3, 8, 9, 10, 11);
+    rows[4 + k] = __builtin_shufflevector(fours[k], fours[4 + k], 4, 5, 6, 7, 12, 13, 14, 15);
+  }
+}
+
+/// What no case changes of the scenes' Gaussians, in some of the directions.
+template <class Lanes>
+struct ReducedScenes {
+  Lanes signal[kTriangleWidth];
+  Lanes beyond[kTriangleWidth];  // of it what is not that of its losses
+  Lanes mean_square;             // of that over the channels read; NaN: the scene is impossible
+  Lanes bridge[lower_size(kTriangleWidth)], epoch[lower_size(kTriangleWidth)],
+      model_error[lower_size(kTriangleWidth)];
+  Lanes loose[lower_size(kTriangleWidth)];  // what a spread of 1 of the signal beyond its losses adds
+};
+
+/// Some numbers of each scene's losses, summed up over them.
+template <class Lanes, std::size_t kCount, class Numbers>
+VOUSSOIR_INLINE void add_up(Scenes<Lanes> scenes, std::size_t count, Numbers numbers, Lanes* sums) {
+  constexpr std::size_t kTogether = kScenes<Lanes>;
+  for (std::size_t at = 0; at < count; at += kTogether) {
+    Lanes rows[kTogether];
+    for (std::size_t k = 0; k < kTogether; ++k) {
+      rows[k] = load<Lanes>(numbers(*scenes[k].losses[0]) + at);
+      for (std::size_t l = 1; l < kCount; ++l) rows[k] += load<Lanes>(numbers(*scenes[k].losses[l]) + at);
+    }
+    transpose(rows);
+    for (std::size_t k = 0; k < kTogether; ++k) sums[at + k] = rows[k];
+  }
+}
+
+/// What a scene shows at four channels beyond the intact bridge, and of it what is not the signal of its
+/// losses: differences of large numbers, so in double precision.
+struct ShownAtChannels {
+  DoubleLanes signal, beyond;
+};
+template <std::size_t kCount>
+VOUSSOIR_INLINE ShownAtChannels shown_at(const ReducedQuestion& q, const ScenePrediction& scene,
+                                         std::size_t at) {
+  const std::size_t count = at < q.points_of_rows ? smaller(kLanes, q.points_of_rows - at) : 0;
+  const DoubleLanes shown = load_some<DoubleLanes>(scene.prediction + at, count, 0.0);
+  const DoubleLanes is_read = load<DoubleLanes>(q.is_read + at);
+  ShownAtChannels result;
+  result.signal = is_read > 0.0 ? shown - load<DoubleLanes>(q.intact + at) : DoubleLanes{};
+  result.beyond = result.signal;
+  for (std::size_t l = 0; l < kCount; ++l)
+    result.beyond -= load<DoubleLanes>(scene.losses[l]->signal_of_channels.data() + at);
+  return result;
+}
+
+/// The same at as many channels as there are lanes.
+template <class Lanes>
+struct ShownInLanes {
+  Lanes signal, beyond;
+};
+template <class Lanes, std::size_t kCount>
+VOUSSOIR_INLINE ShownInLanes<Lanes> shown_in_lanes(const ReducedQuestion& q, const ScenePrediction& scene,
+                                                   std::size_t at) {
+  const ShownAtChannels low = shown_at<kCount>(q, scene, at);
+  if constexpr (kScenes<Lanes> == kLanes) {
+    return {low.signal, low.beyond};
+  } else {
+    const ShownAtChannels high = shown_at<kCount>(q, scene, at + kLanes);
+    const auto rounded = [](const DoubleLanes& a, const DoubleLanes& b) VOUSSOIR_INLINE_WORK {
+      using HalfLanes = LanesOf<float, kLanes>::Type;
+      return __builtin_shufflevector(__builtin_convertvector(a, HalfLanes),
+                                     __builtin_convertvector(b, HalfLanes), 0, 1, 2, 3, 4, 5, 6, 7);
+    };
+    return {rounded(low.signal, high.signal), rounded(low.beyond, high.beyond)};
+  }
+}
+
+/// Signals by channel, and the mean square of what they are beyond those of the losses.
+template <class Lanes, std::size_t kCount>
+VOUSSOIR_INLINE void subtract_intact(const ReducedQuestion& q, Scenes<Lanes> scenes, Lanes* signals,
+                                     ReducedScenes<Lanes>& to) {
+  constexpr std::size_t kTogether = kScenes<Lanes>;
+  Lanes squares[kTogether] = {};
+  for (std::size_t at = 0; at < q.points_of_rows; at += kTogether) {
+    Lanes rows[kTogether];
+    for (std::size_t k = 0; k < kTogether; ++k) {
+      const ShownInLanes<Lanes> shown = shown_in_lanes<Lanes, kCount>(q, scenes[k], at);
+      rows[k] = shown.signal;
+      squares[k] += shown.beyond * shown.beyond;
+    }
+    transpose(rows);
+    for (std::size_t k = 0; k < kTogether; ++k) signals[at + k] = rows[k];
+  }
+  transpose(squares);
+  to.mean_square = Lanes{};
+  for (const Lanes& square : squares) to.mean_square += square;
+  to.mean_square /= static_cast<ElementOf<Lanes>>(q.read);
+}
+
+/// In the first N directions, some at a time, whose sums stay in registers.
+template <class Lanes, std::size_t N, std::size_t kCount>
+VOUSSOIR_INLINE void project(const ReducedQuestion& q, Scenes<Lanes> scenes, Lanes* signals,
+                             ReducedScenes<Lanes>& to) {
+  constexpr std::size_t kTogether = N < 8 ? N : 8;
+  const ElementOf<Lanes>* directions;
+  if constexpr (std::is_same_v<ElementOf<Lanes>, float>)
+    directions = q.rounded_directions;
+  else
+    directions = q.directions;
+  subtract_intact<Lanes, kCount>(q, scenes, signals, to);
+  for (std::size_t first = 0; first < N; first += kTogether) {
+    Lanes sums[kTogether] = {};
+    for (std::size_t k = 0; k < q.points_of_rows; ++k)
+      for (std::size_t i = 0; i < kTogether; ++i)
+        sums[i] += signals[k] * directions[k * kTriangleWidth + first + i];
+    for (std::size_t i = 0; i < kTogether; ++i) to.signal[first + i] = sums[i];
+  }
+  const auto signal = [](const ReducedLoss& loss) VOUSSOIR_INLINE_WORK { return loss.signal.data(); };
+  add_up<Lanes, kCount>(scenes, N, signal, to.beyond);
+  for (std::size_t i = 0; i < N; ++i) to.beyond[i] = to.signal[i] - to.beyond[i];
+}
+
+template <class Lanes, std::size_t kColumns>
+VOUSSOIR_INLINE void add_products(const Lanes* columns, std::size_t rows, Lanes* lower) {
+  for (std::size_t i = 0; i < rows; ++i)
+    for (std::size_t j = 0; j <= i; ++j, ++lower)
+      for (std::size_t p = 0; p < kColumns; ++p)
+        *lower += columns[i * kColumns + p] * columns[j * kColumns + p];
+}
+
+/// What the losses add to a covariance in the first N directions: each by itself, and by the columns in
+/// common.
+template <class Lanes, std::size_t N, std::size_t kCount, std::size_t kColumns, class Part, class Columns>
+VOUSSOIR_INLINE void add_losses(Scenes<Lanes> scenes, Part part, Columns numbers, Lanes* lower) {
+  constexpr std::size_t kSize = lower_size(N);
+  static_assert(N * kColumns % kScenes<Lanes> == 0);
+  Lanes own[lower_size(kTriangleWidth)], columns[N * kColumns];
+  add_up<Lanes, kCount>(
+      scenes, kSize,
+      [part](const ReducedLoss& loss) VOUSSOIR_INLINE_WORK { return part(loss).crossed.data(); }, lower);
+  add_up<Lanes, kCount>(
+      scenes, kSize, [part](const ReducedLoss& loss) VOUSSOIR_INLINE_WORK { return part(loss).own.data(); },
+      own);
+  for (std::size_t at = 0; at < kSize; ++at) lower[at] += static_cast<ElementOf<Lanes>>(kCount) * own[at];
+  add_up<Lanes, kCount>(scenes, N * kColumns, numbers, columns);
+  add_products<Lanes, kColumns>(columns, N, lower);
+}
+
+/// The triangles of the first N directions.
+template <class Lanes, std::size_t N, std::size_t kCount>
+VOUSSOIR_INLINE void fill(const ReducedQuestion& q, Scenes<Lanes> scenes, ReducedScenes<Lanes>& to) {
+  using Number = ElementOf<Lanes>;
+  constexpr std::size_t kSize = lower_size(N);
+  add_losses<Lanes, N, kCount, kFirstWidth>(
+      scenes, [](const ReducedLoss& loss) VOUSSOIR_INLINE_WORK -> const auto& { return loss.of_bridge; },
+      [](const ReducedLoss& loss) VOUSSOIR_INLINE_WORK { return loss.first.data(); }, to.bridge);
+  for (std::size_t at = 0; at < kSize; ++at) to.bridge[at] += static_cast<Number>(q.bridge[at]);
+  add_losses<Lanes, N, kCount, kEpochColumns>(
+      scenes, [](const ReducedLoss& loss) VOUSSOIR_INLINE_WORK -> const auto& { return loss.of_epoch; },
+      [](const ReducedLoss& loss) VOUSSOIR_INLINE_WORK { return loss.epoch.data(); }, to.epoch);
+  add_up<Lanes, kCount>(
+      scenes, kSize, [](const ReducedLoss& loss) VOUSSOIR_INLINE_WORK { return loss.model_error.data(); },
+      to.model_error);
+  std::size_t at = 0;
+  for (std::size_t i = 0; i < N; ++i)
+    for (std::size_t j = 0; j <= i; ++j, ++at)
+      to.loose[at] = to.beyond[i] * to.beyond[j] + to.mean_square * static_cast<Number>(q.points[at]);
+}
+
+}  // namespace voussoir
