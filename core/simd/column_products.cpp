@@ -77,9 +77,8 @@ void add_lower_product(const double* a, const double* b, std::size_t stride, std
 }
 
 Eigen::MatrixXd filled_up(const Eigen::MatrixXd& columns) {
-  constexpr auto kUnit = static_cast<Eigen::Index>(kColumnUnit);
-  Eigen::MatrixXd result =
-      Eigen::MatrixXd::Zero((columns.rows() + kUnit - 1) / kUnit * kUnit, columns.cols());
+  const auto rows = static_cast<Eigen::Index>(padded(static_cast<std::size_t>(columns.rows()), kColumnUnit));
+  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(rows, columns.cols());
   result.topRows(columns.rows()) = columns;
   return result;
 }

@@ -45,6 +45,11 @@ inline constexpr std::size_t kFloatLanes = 8;
 using FloatLanes = LanesOf<float, kFloatLanes>::Type;
 using FloatMask = LanesOf<std::int32_t, kFloatLanes>::Type;
 
+/// How many numbers there are with those that fill them up to a whole number of lanes.
+constexpr std::size_t padded(std::size_t count, std::size_t lanes = kLanes) {
+  return (count + lanes - 1) / lanes * lanes;
+}
+
 template <class Lanes>
 using ElementOf = std::remove_cvref_t<decltype(Lanes{}[0])>;
 

@@ -126,7 +126,7 @@ double CaseEstimates::sum_over_cases(std::size_t place) const {
   const double largest = static_cast<double>(*std::max_element(logs.begin(), logs.end()));
   if (std::isinf(largest)) return largest + beforehand_[place];
   double sum = 0.0;
-  for (const double log : logs)  // rounded
+  for (const double log : logs)
     if (log > largest - kNothing) sum += log == largest ? 1.0 : std::exp(log - largest);
   return largest + std::log(sum) + beforehand_[place];
 }

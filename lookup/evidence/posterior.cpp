@@ -18,8 +18,8 @@ void normalise(std::vector<double>& probability) {
     for (double& value : probability) value /= total;
 }
 
-/// The likeliest rows that hold enough together. Rows below an even distribution of what may
-/// be left out cannot be needed.
+/// The likeliest rows that hold enough together. Rows below an even distribution of what may be left out
+/// cannot be needed.
 std::vector<std::size_t> credible_set(const RowValues& probability) {
   const std::vector<double>& values = probability.values;
   const double negligible = (1.0 - kCredibleShare) / static_cast<double>(values.size());

@@ -152,13 +152,27 @@ VOUSSOIR_INLINE bool look_with(const ReducedQuestion& q, Scenes<Lanes> scenes, s
 }
 
 template <class Lanes, std::size_t N>
-VOUSSOIR_INLINE bool look_closer_with(const ReducedQuestion& q, Scenes<Lanes> scenes, std::size_t losses,
-                                      std::size_t place, Lanes* signals) {
+VOUSSOIR_INLINE bool look_closer_in(const ReducedQuestion& q, Scenes<Lanes> scenes, std::size_t losses,
+                                    std::size_t place, Lanes* signals) {
   if (losses == 1) return look_closer<Lanes, N, 1>(q, scenes, place, signals);
   if (losses == 2) return look_closer<Lanes, N, 2>(q, scenes, place, signals);
   return look_closer<Lanes, N, 3>(q, scenes, place, signals);
 }
 
+template <class Lanes>
+VOUSSOIR_INLINE bool look_closer_with(const ReducedQuestion& q, Scenes<Lanes> scenes, std::size_t losses,
+                                      ScreenDirections directions, Lanes* signals) {
+  switch (directions) {
+    case ScreenDirections::few:
+      return look_closer_in<Lanes, 8>(q, scenes, losses, 1, signals);
+    case ScreenDirections::more:
+      return look_closer_in<Lanes, 16>(q, scenes, losses, 2, signals);
+    default:
+      return look_closer_in<Lanes, 32>(q, scenes, losses, 3, signals);
+  }
+}
+
+// What is compiled for every processor cannot be a template.
 VOUSSOIR_FOR_EVERY_PROCESSOR
 bool look_at(const ReducedQuestion& q, Scenes<FloatLanes> scenes, std::size_t losses, const Rises& rises,
              FloatLanes* signals) {
@@ -171,43 +185,21 @@ bool look_at(const ReducedQuestion& q, Scenes<DoubleLanes> scenes, std::size_t l
 }
 
 VOUSSOIR_FOR_EVERY_PROCESSOR
-bool look_in_few(const ReducedQuestion& q, Scenes<FloatLanes> scenes, std::size_t losses,
-                 FloatLanes* signals) {
-  return look_closer_with<FloatLanes, 8>(q, scenes, losses, 1, signals);
+bool look_closer_at(const ReducedQuestion& q, Scenes<FloatLanes> scenes, std::size_t losses,
+                    ScreenDirections directions, FloatLanes* signals) {
+  return look_closer_with<FloatLanes>(q, scenes, losses, directions, signals);
 }
 VOUSSOIR_FOR_EVERY_PROCESSOR
-bool look_in_few(const ReducedQuestion& q, Scenes<DoubleLanes> scenes, std::size_t losses,
-                 DoubleLanes* signals) {
-  return look_closer_with<DoubleLanes, 8>(q, scenes, losses, 1, signals);
-}
-
-VOUSSOIR_FOR_EVERY_PROCESSOR
-bool look_in_more(const ReducedQuestion& q, Scenes<FloatLanes> scenes, std::size_t losses,
-                  FloatLanes* signals) {
-  return look_closer_with<FloatLanes, 16>(q, scenes, losses, 2, signals);
-}
-VOUSSOIR_FOR_EVERY_PROCESSOR
-bool look_in_more(const ReducedQuestion& q, Scenes<DoubleLanes> scenes, std::size_t losses,
-                  DoubleLanes* signals) {
-  return look_closer_with<DoubleLanes, 16>(q, scenes, losses, 2, signals);
-}
-
-VOUSSOIR_FOR_EVERY_PROCESSOR
-bool look_in_all(const ReducedQuestion& q, Scenes<FloatLanes> scenes, std::size_t losses,
-                 FloatLanes* signals) {
-  return look_closer_with<FloatLanes, 32>(q, scenes, losses, 3, signals);
-}
-VOUSSOIR_FOR_EVERY_PROCESSOR
-bool look_in_all(const ReducedQuestion& q, Scenes<DoubleLanes> scenes, std::size_t losses,
-                 DoubleLanes* signals) {
-  return look_closer_with<DoubleLanes, 32>(q, scenes, losses, 3, signals);
+bool look_closer_at(const ReducedQuestion& q, Scenes<DoubleLanes> scenes, std::size_t losses,
+                    ScreenDirections directions, DoubleLanes* signals) {
+  return look_closer_with<DoubleLanes>(q, scenes, losses, directions, signals);
 }
 
 /// Memory of one thread for signals by channel, filled up for all lanes.
 template <class Lanes>
 Lanes* memory_for(std::size_t channels) {
   thread_local Cells<Lanes> signals;
-  signals.resize(std::max(signals.size(), channels + kFloatLanes));
+  signals.resize(std::max(signals.size(), padded(channels, kFloatLanes)));
   return registers_of(signals);
 }
 
@@ -232,14 +224,7 @@ void estimate_log_densities(const ReducedQuestion& question, Scenes<FloatLanes> 
 void refine_log_densities(const ReducedQuestion& question, Scenes<FloatLanes> scenes, std::size_t losses,
                           ScreenDirections directions) {
   in_enough_precision(question, scenes, [&](auto some, auto* memory) {
-    switch (directions) {
-      case ScreenDirections::few:
-        return look_in_few(question, some, losses, memory);
-      case ScreenDirections::more:
-        return look_in_more(question, some, losses, memory);
-      default:
-        return look_in_all(question, some, losses, memory);
-    }
+    return look_closer_at(question, some, losses, directions, memory);
   });
 }
 

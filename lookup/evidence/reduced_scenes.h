@@ -10,7 +10,6 @@
 
 namespace voussoir {
 
-inline constexpr std::size_t kTriangleWidth = kDirections;
 inline constexpr auto kFirstWidth = static_cast<std::size_t>(kFirstColumns);
 
 /// As many scenes as there are lanes.
@@ -51,12 +50,11 @@ VOUSSOIR_INLINE void transpose(FloatLanes (&rows)[kFloatLanes]) {
 /// What no case changes of the scenes' Gaussians, in some of the directions.
 template <class Lanes>
 struct ReducedScenes {
-  Lanes signal[kTriangleWidth];
-  Lanes beyond[kTriangleWidth];  // of it what is not that of its losses
-  Lanes mean_square;             // of that over the channels read; NaN: the scene is impossible
-  Lanes bridge[lower_size(kTriangleWidth)], epoch[lower_size(kTriangleWidth)],
-      model_error[lower_size(kTriangleWidth)];
-  Lanes loose[lower_size(kTriangleWidth)];  // what a spread of 1 of the signal beyond its losses adds
+  Lanes signal[kDirections];
+  Lanes beyond[kDirections];  // of it what is not that of its losses
+  Lanes mean_square;          // of that over the channels read; NaN: the scene is impossible
+  Lanes bridge[lower_size(kDirections)], epoch[lower_size(kDirections)], model_error[lower_size(kDirections)];
+  Lanes loose[lower_size(kDirections)];  // what a spread of 1 of the signal beyond its losses adds
 };
 
 /// Some numbers of each scene's losses, summed up over them.
@@ -152,7 +150,7 @@ VOUSSOIR_INLINE void project(const ReducedQuestion& q, Scenes<Lanes> scenes, Lan
     Lanes sums[kTogether] = {};
     for (std::size_t k = 0; k < q.points_of_rows; ++k)
       for (std::size_t i = 0; i < kTogether; ++i)
-        sums[i] += signals[k] * directions[k * kTriangleWidth + first + i];
+        sums[i] += signals[k] * directions[k * kDirections + first + i];
     for (std::size_t i = 0; i < kTogether; ++i) to.signal[first + i] = sums[i];
   }
   const auto signal = [](const ReducedLoss& loss) VOUSSOIR_INLINE_WORK { return loss.signal.data(); };
@@ -174,7 +172,7 @@ template <class Lanes, std::size_t N, std::size_t kCount, std::size_t kColumns, 
 VOUSSOIR_INLINE void add_losses(Scenes<Lanes> scenes, Part part, Columns numbers, Lanes* lower) {
   constexpr std::size_t kSize = lower_size(N);
   static_assert(N * kColumns % kScenes<Lanes> == 0);
-  Lanes own[lower_size(kTriangleWidth)], columns[N * kColumns];
+  Lanes own[padded(kSize, kScenes<Lanes>)], columns[N * kColumns];
   add_up<Lanes, kCount>(
       scenes, kSize,
       [part](const ReducedLoss& loss) VOUSSOIR_INLINE_WORK { return part(loss).crossed.data(); }, lower);

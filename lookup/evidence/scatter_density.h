@@ -14,11 +14,6 @@ namespace voussoir {
 /// A logarithm for each of kScatterFactors.
 using ScatterLogs = std::array<double, kScatterFactors.size()>;
 
-/// Numbers of columns are filled up with zeros to a whole number of lanes.
-constexpr std::size_t padded(std::size_t columns) {
-  return (columns + kLanes - 1) / kLanes * kLanes;
-}
-
 /// The density of one difference under noise + kappa * bridge for all kScatterFactors side by side, and for
 /// two noises where the processor's registers hold them. Keeps its memory for the next call.
 class ScatterDensity {

@@ -24,8 +24,8 @@ struct Work {
 /// Channels in rows of y, each with a weight, filled up (add_lower_product).
 template <class Weight>
 MatrixXd weighted_rows(const UnknownBridge& bridge, const MatrixXd& channels, Weight weight) {
-  const auto n = static_cast<Index>(bridge.rows.size()), unit = static_cast<Index>(kColumnUnit);
-  MatrixXd result((n + unit - 1) / unit * unit, channels.cols());
+  const auto n = static_cast<Index>(bridge.rows.size());
+  MatrixXd result(static_cast<Index>(padded(bridge.rows.size(), kColumnUnit)), channels.cols());
   result.bottomRows(result.rows() - n).setZero();
   for (Index j = 0; j < result.cols(); ++j)
     for (Index k = 0; k < n; ++k) {
@@ -221,9 +221,8 @@ Eigen::VectorXd SceneLikelihoods::pull(const CaseTerms& one, std::size_t row) {
   store_bridge(row, work.bridge);
   store_noise(bridge_, loss, one, work, work.noise);
   add_to(work.noise, work.bridge);
-  const Index n = bridge_.reading.size();
-  const MatrixXd lower = matrix_of(work.noise, n);
-  return Eigen::LLT<MatrixXd, Eigen::Lower>(lower).solve(bridge_.reading - loss.signal);
+  const Eigen::LLT<MatrixXd> covariance(matrix_of(work.noise, bridge_.reading.size()));
+  return covariance.solve(bridge_.reading - loss.signal);
 }
 
 std::vector<ScatterLogs> scatter_logs(const UnknownBridge& bridge, const Observation& observation,

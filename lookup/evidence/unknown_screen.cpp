@@ -159,7 +159,7 @@ void UnknownScreen::choose_directions(std::span<const MatrixXd> others, const Ma
   directions_.leftCols(used) = white.matrixU().solve(chosen);
   const auto channels = static_cast<Index>(observation_.reading.size());
   intact_ = observation_.intact;
-  intact_.resize((intact_.size() + kFloatLanes - 1) / kFloatLanes * kFloatLanes);
+  intact_.resize(padded(intact_.size(), kFloatLanes));
   is_read_.assign(intact_.size(), 0.0);
   MatrixXd of_loss = MatrixXd::Zero(channels, kAllDirections), of_bridge = of_loss;
   MatrixXd changed = directions_;

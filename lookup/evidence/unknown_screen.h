@@ -5,15 +5,14 @@
 /// Readings are whitened by the intact bridge's covariance in one of the cases. Of all directions those in
 /// which the readings are farthest from the intact bridge come first, one for each case, then that in which
 /// they are farthest from the likeliest scene known so far, as all that are as likely leave much the same of
-/// them; then those in which
-/// losses show most: the leading principal directions of what all losses change, their signals and their
-/// scatter. In the first of them, as many as are worth it, the scene's Gaussian is worked out, with what two
-/// blocks' signals have in common as far as kFirstColumns show it; the rest of each counts once more for
-/// every other block. So a covariance is never less than the true one, and never loses its positive sign: X
-/// Y^T + Y X^T lies between -(X X^T + Y Y^T) and X X^T + Y Y^T. What lies in no direction counts as it does
-/// for the intact bridge: a loss can only widen it, so an estimate is rarely too low. No choice of directions
-/// makes it so; it only makes estimates higher. So all cases can have the same ones, and what losses change
-/// in them is worked out once.
+/// them; then those in which losses show most: the leading principal directions of what all losses change,
+/// their signals and their scatter. In the first of them, as many as are worth it, the scene's Gaussian is
+/// worked out, with what two blocks' signals have in common as far as kFirstColumns show it; the rest of each
+/// counts once more for every other block. So a covariance is never less than the true one, and never loses
+/// its positive sign: X Y^T + Y X^T lies between -(X X^T + Y Y^T) and X X^T + Y Y^T. What lies in no
+/// direction counts as it does for the intact bridge: a loss can only widen it, so an estimate is rarely too
+/// low. No choice of directions makes it so; it only makes estimates higher. So all cases can have the same
+/// ones, and what losses change in them is worked out once.
 
 #include <Eigen/Cholesky>
 #include <array>
