@@ -11,11 +11,6 @@
 namespace voussoir {
 namespace {
 
-/// An estimate that failed counts as likely: the scene is worked out.
-float usable(float estimate) {
-  return std::isnan(estimate) ? std::numeric_limits<float>::infinity() : estimate;
-}
-
 /// Calls work(block) for blocks of all places, on all threads.
 template <class Work>
 void for_blocks(std::span<const std::size_t> places, Work work) {
@@ -73,13 +68,7 @@ void CaseEstimates::estimate(std::span<const std::size_t> places, double least) 
   const Eigen::MatrixXd rises =
       rises_.middleCols(static_cast<Eigen::Index>(first), static_cast<Eigen::Index>(end - first));
   for_blocks(places, [&](std::span<const std::size_t> block) {
-    std::vector<ScreenedRow> rows = screened(block, 0, least);
-    screen.estimate(rows, rises, first);
-    for (ScreenedRow& row : rows) {
-      row.logs += first;
-      for (float& log : std::span(row.logs, end - first)) log = usable(log);
-    }
-    screen.refine(rows, ScreenDirections::few);
+    screen.estimate(screened(block, 0, least), rises, first);
   });
 }
 
@@ -113,22 +102,26 @@ void CaseEstimates::add_rises(std::size_t number) {
           highest_rise(peaks_[i], peaks_[number]);
 }
 
-void CaseEstimates::add_up(std::span<const std::size_t> places) {
+void CaseEstimates::add_up(std::span<const std::size_t> places, double least) {
+  const double most = std::log(static_cast<double>(cases_.size()));  // by which a sum is above its largest
   for_blocks(places, [&](std::span<const std::size_t> block) {
-    for (const std::size_t place : block) sums_[place] = sum_over_cases(place);
+    for (const std::size_t place : block) {
+      const auto logs = std::span(logs_).subspan(place * cases_.size(), cases_.size());
+      const double largest = static_cast<double>(*std::max_element(logs.begin(), logs.end()));
+      const bool matters = largest + beforehand_[place] >= least;
+      sums_[place] = beforehand_[place] + (matters ? sum_over_cases(logs, largest) : largest + most);
+    }
   });
 }
 
 /// Cases that add nothing to the largest are not worth an exponential.
-double CaseEstimates::sum_over_cases(std::size_t place) const {
+double CaseEstimates::sum_over_cases(std::span<const float> logs, double largest) {
   constexpr double kNothing = 40.0;
-  const auto logs = std::span(logs_).subspan(place * cases_.size(), cases_.size());
-  const double largest = static_cast<double>(*std::max_element(logs.begin(), logs.end()));
-  if (std::isinf(largest)) return largest + beforehand_[place];
+  if (std::isinf(largest)) return largest;
   double sum = 0.0;
   for (const double log : logs)
     if (log > largest - kNothing) sum += log == largest ? 1.0 : std::exp(log - largest);
-  return largest + std::log(sum) + beforehand_[place];
+  return largest + std::log(sum);
 }
 
 }  // namespace voussoir

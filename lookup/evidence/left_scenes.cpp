@@ -29,6 +29,11 @@ std::vector<std::size_t> LeftScenes::next(std::size_t count) {
   return taken;
 }
 
+void LeftScenes::order_again() {
+  places_ = DescendingPlaces(std::vector(places_.rest().begin(), places_.rest().end()), estimates_);
+  add_up();
+}
+
 void LeftScenes::learn(std::size_t place, double exact) {
   errors_[kind_of_(place)].add(estimates_[place], exact);
 }
@@ -38,6 +43,12 @@ double LeftScenes::log_sum() const {
   for (std::size_t kind = 0; kind < kKinds; ++kind)
     sum += sums_[kind] * std::exp(kind == kOther ? 0.0 : errors_[kind].most());
   return unit_ + std::log(sum);
+}
+
+void LeftScenes::correct(std::span<double> logs) const {
+  std::array<double, kKinds> corrections{};
+  for (std::size_t kind = 0; kind < kKinds; ++kind) corrections[kind] = errors_[kind].mean();
+  for (const std::size_t place : places_.rest()) logs[place] += corrections[kind_of_(place)];
 }
 
 }  // namespace voussoir

@@ -29,14 +29,17 @@ class LeftScenes {
   /// Takes so many away, if there are, the likeliest first.
   std::vector<std::size_t> next(std::size_t count);
 
+  /// To be called when estimates of places that are left have changed.
+  void order_again();
+
   /// Of a place that was taken away: its logarithm.
   void learn(std::size_t place, double exact);
 
   /// log of the sum of all that are left, at most, unless scenes are unlike those of their kind before them.
   double log_sum() const;
 
-  /// What is added to an estimate to make it right on average.
-  double correction(std::size_t place) const { return errors_[kind_of_(place)].mean(); }
+  /// Adds to the logarithms of all places that are left what makes their estimates right on average.
+  void correct(std::span<double> logs) const;
 
  private:
   void add_up();

@@ -88,15 +88,52 @@ VOUSSOIR_INLINE double bound_of(const ReducedCase& one, const float* logs, const
   return bound;
 }
 
+/// Below these logarithms nothing matters.
+template <class Lanes>
+VOUSSOIR_INLINE Lanes least_of(Scenes<Lanes> scenes) {
+  Lanes least{};
+  for (std::size_t i = 0; i < scenes.size(); ++i) least[i] = static_cast<ElementOf<Lanes>>(scenes[i].least);
+  return least;
+}
+
+/// Their logarithms in a case.
+template <class Lanes>
+VOUSSOIR_INLINE Lanes logs_of(Scenes<Lanes> scenes, std::size_t number) {
+  Lanes logs{};
+  for (std::size_t i = 0; i < scenes.size(); ++i) logs[i] = scenes[i].logs[number];
+  return logs;
+}
+
+/// In the first N directions, where some scene matters in a case; kKnown of them are projected on already.
+/// The cases' logarithms begin at number `first`; `place` is that of N in kScreenDirections.
+template <class Lanes, std::size_t kKnown, std::size_t N, std::size_t kCount>
+VOUSSOIR_INLINE void refine(const ReducedQuestion& q, Scenes<Lanes> scenes, std::size_t first,
+                            std::size_t place, const Lanes* beyond, ReducedScenes<Lanes>& reduced) {
+  const Lanes least = least_of<Lanes>(scenes);
+  bool is_filled = false;
+  for (std::size_t k = 0; k < q.cases.size(); ++k) {
+    const Lanes before = logs_of<Lanes>(scenes, first + k);
+    if (!any((before < least ? kImpossibleLanes<Lanes> : before) != kImpossibleLanes<Lanes>)) continue;
+    if (!is_filled) {
+      project<Lanes, kKnown, N>(q, beyond, reduced);
+      fill<Lanes, N, kCount>(q, scenes, reduced);
+    }
+    is_filled = true;
+    const Lanes refined = over_kappa<Lanes, N>(q, q.cases[k], reduced, q.cases[k].outside[place], least);
+    const Lanes after = refined < before ? refined : before;  // NaN changes nothing
+    for (std::size_t i = 0; i < scenes.size(); ++i) scenes[i].logs[first + k] = static_cast<float>(after[i]);
+  }
+}
+
 /// False, and nothing done, if the scenes are rough.
 template <class Lanes, std::size_t kCount>
-VOUSSOIR_INLINE bool look(const ReducedQuestion& q, Scenes<Lanes> scenes, const Rises& rises,
-                          Lanes* signals) {
+VOUSSOIR_INLINE bool look(const ReducedQuestion& q, Scenes<Lanes> scenes, const Rises& rises, Lanes* beyond) {
+  constexpr auto kFew = static_cast<std::size_t>(ScreenDirections::few);
   constexpr auto N = static_cast<std::size_t>(ScreenDirections::first);
+  const Lanes least = least_of<Lanes>(scenes);
   ReducedScenes<Lanes> reduced;
-  Lanes least{}, bounds{};
+  Lanes bounds{};
   bool is_filled = false;
-  for (std::size_t i = 0; i < scenes.size(); ++i) least[i] = static_cast<ElementOf<Lanes>>(scenes[i].least);
   for (std::size_t k = 0; k < q.cases.size(); ++k) {
     const ReducedCase& one = q.cases[k];
     for (std::size_t i = 0; i < scenes.size(); ++i)
@@ -105,102 +142,86 @@ VOUSSOIR_INLINE bool look(const ReducedQuestion& q, Scenes<Lanes> scenes, const 
     Lanes logs = bounds;
     if (any(bounds >= least)) {
       if (!is_filled) {
-        project<Lanes, N, kCount>(q, scenes, signals, reduced);
+        subtract_losses<Lanes, kCount>(q, scenes, beyond, reduced);
         if (are_rough(q, reduced, least)) return false;
+        project<Lanes, 0, N>(q, beyond, reduced);
         fill<Lanes, N, kCount>(q, scenes, reduced);
       }
       is_filled = true;
       logs = over_kappa<Lanes, N>(q, one, reduced, one.outside.front(), least);
+      logs = logs == logs ? logs : -kImpossibleLanes<Lanes>;
       logs = reduced.mean_square == reduced.mean_square ? logs : kImpossibleLanes<Lanes>;
       logs = bounds < least ? bounds : logs;
     }
     for (std::size_t i = 0; i < scenes.size(); ++i)
       scenes[i].logs[rises.before + k] = static_cast<float>(logs[i]);
   }
+  if (is_filled) refine<Lanes, N, kFew, kCount>(q, scenes, rises.before, 1, beyond, reduced);
   return true;
 }
 
 template <class Lanes, std::size_t N, std::size_t kCount>
 VOUSSOIR_INLINE bool look_closer(const ReducedQuestion& q, Scenes<Lanes> scenes, std::size_t place,
-                                 Lanes* signals) {
+                                 Lanes* beyond) {
   ReducedScenes<Lanes> reduced;
-  Lanes least{}, before{};
-  bool is_filled = false;
-  for (std::size_t i = 0; i < scenes.size(); ++i) least[i] = static_cast<ElementOf<Lanes>>(scenes[i].least);
-  for (std::size_t k = 0; k < q.cases.size(); ++k) {
-    for (std::size_t i = 0; i < scenes.size(); ++i) before[i] = scenes[i].logs[k];
-    if (!any((before < least ? kImpossibleLanes<Lanes> : before) != kImpossibleLanes<Lanes>)) continue;
-    if (!is_filled) {
-      project<Lanes, N, kCount>(q, scenes, signals, reduced);
-      if (are_rough(q, reduced, least)) return false;
-      fill<Lanes, N, kCount>(q, scenes, reduced);
-    }
-    is_filled = true;
-    const Lanes refined = over_kappa<Lanes, N>(q, q.cases[k], reduced, q.cases[k].outside[place], least);
-    before = refined < before ? refined : before;  // NaN changes nothing
-    for (std::size_t i = 0; i < scenes.size(); ++i) scenes[i].logs[k] = static_cast<float>(before[i]);
-  }
+  subtract_losses<Lanes, kCount>(q, scenes, beyond, reduced);
+  if (are_rough(q, reduced, least_of<Lanes>(scenes))) return false;
+  refine<Lanes, 0, N, kCount>(q, scenes, 0, place, beyond, reduced);
   return true;
 }
 
 template <class Lanes>
 VOUSSOIR_INLINE bool look_with(const ReducedQuestion& q, Scenes<Lanes> scenes, std::size_t losses,
-                               const Rises& rises, Lanes* signals) {
-  if (losses == 1) return look<Lanes, 1>(q, scenes, rises, signals);
-  if (losses == 2) return look<Lanes, 2>(q, scenes, rises, signals);
-  return look<Lanes, 3>(q, scenes, rises, signals);
+                               const Rises& rises, Lanes* beyond) {
+  if (losses == 1) return look<Lanes, 1>(q, scenes, rises, beyond);
+  if (losses == 2) return look<Lanes, 2>(q, scenes, rises, beyond);
+  return look<Lanes, 3>(q, scenes, rises, beyond);
 }
 
 template <class Lanes, std::size_t N>
 VOUSSOIR_INLINE bool look_closer_in(const ReducedQuestion& q, Scenes<Lanes> scenes, std::size_t losses,
-                                    std::size_t place, Lanes* signals) {
-  if (losses == 1) return look_closer<Lanes, N, 1>(q, scenes, place, signals);
-  if (losses == 2) return look_closer<Lanes, N, 2>(q, scenes, place, signals);
-  return look_closer<Lanes, N, 3>(q, scenes, place, signals);
+                                    std::size_t place, Lanes* beyond) {
+  if (losses == 1) return look_closer<Lanes, N, 1>(q, scenes, place, beyond);
+  if (losses == 2) return look_closer<Lanes, N, 2>(q, scenes, place, beyond);
+  return look_closer<Lanes, N, 3>(q, scenes, place, beyond);
 }
 
 template <class Lanes>
 VOUSSOIR_INLINE bool look_closer_with(const ReducedQuestion& q, Scenes<Lanes> scenes, std::size_t losses,
-                                      ScreenDirections directions, Lanes* signals) {
-  switch (directions) {
-    case ScreenDirections::few:
-      return look_closer_in<Lanes, 8>(q, scenes, losses, 1, signals);
-    case ScreenDirections::more:
-      return look_closer_in<Lanes, 16>(q, scenes, losses, 2, signals);
-    default:
-      return look_closer_in<Lanes, 32>(q, scenes, losses, 3, signals);
-  }
+                                      ScreenDirections directions, Lanes* beyond) {
+  if (directions == ScreenDirections::more) return look_closer_in<Lanes, 16>(q, scenes, losses, 2, beyond);
+  return look_closer_in<Lanes, 32>(q, scenes, losses, 3, beyond);
 }
 
 // What is compiled for every processor cannot be a template.
 VOUSSOIR_FOR_EVERY_PROCESSOR
 bool look_at(const ReducedQuestion& q, Scenes<FloatLanes> scenes, std::size_t losses, const Rises& rises,
-             FloatLanes* signals) {
-  return look_with<FloatLanes>(q, scenes, losses, rises, signals);
+             FloatLanes* beyond) {
+  return look_with<FloatLanes>(q, scenes, losses, rises, beyond);
 }
 VOUSSOIR_FOR_EVERY_PROCESSOR
 bool look_at(const ReducedQuestion& q, Scenes<DoubleLanes> scenes, std::size_t losses, const Rises& rises,
-             DoubleLanes* signals) {
-  return look_with<DoubleLanes>(q, scenes, losses, rises, signals);
+             DoubleLanes* beyond) {
+  return look_with<DoubleLanes>(q, scenes, losses, rises, beyond);
 }
 
 VOUSSOIR_FOR_EVERY_PROCESSOR
 bool look_closer_at(const ReducedQuestion& q, Scenes<FloatLanes> scenes, std::size_t losses,
-                    ScreenDirections directions, FloatLanes* signals) {
-  return look_closer_with<FloatLanes>(q, scenes, losses, directions, signals);
+                    ScreenDirections directions, FloatLanes* beyond) {
+  return look_closer_with<FloatLanes>(q, scenes, losses, directions, beyond);
 }
 VOUSSOIR_FOR_EVERY_PROCESSOR
 bool look_closer_at(const ReducedQuestion& q, Scenes<DoubleLanes> scenes, std::size_t losses,
-                    ScreenDirections directions, DoubleLanes* signals) {
-  return look_closer_with<DoubleLanes>(q, scenes, losses, directions, signals);
+                    ScreenDirections directions, DoubleLanes* beyond) {
+  return look_closer_with<DoubleLanes>(q, scenes, losses, directions, beyond);
 }
 
-/// Memory of one thread for signals by channel, filled up for all lanes.
+/// Memory of one thread for what is beyond by channel, filled up for all lanes.
 template <class Lanes>
 Lanes* memory_for(std::size_t channels) {
-  thread_local Cells<Lanes> signals;
-  signals.resize(std::max(signals.size(), padded(channels, kFloatLanes)));
-  return registers_of(signals);
+  thread_local Cells<Lanes> beyond;
+  beyond.resize(std::max(beyond.size(), padded(channels, kFloatLanes)));
+  return registers_of(beyond);
 }
 
 /// Works on all scenes in single precision, or where that is not enough in double, on half of them at a time.

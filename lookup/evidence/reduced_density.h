@@ -6,6 +6,8 @@
 
 #include <array>
 #include <span>
+#include <type_traits>
+#include <vector>
 
 #include "core/simd/lanes.h"
 #include "lookup/evidence/scatter_density.h"
@@ -25,19 +27,36 @@ using DirectionTriangle = std::array<double, lower_size(kDirections)>;
 
 /// What a loss adds to a covariance in the directions where a scene has `count` losses: crossed + count *
 /// own, and the outer product of what the losses' columns in common sum up to.
+template <class Number>
 struct ReducedPart {
-  DirectionTriangle crossed{};  ///< with what the intact bridge has
-  DirectionTriangle own{};      ///< without the columns in common
+  std::array<Number, lower_size(kDirections)> crossed{};  ///< with what the intact bridge has
+  std::array<Number, lower_size(kDirections)> own{};      ///< without the columns in common
 };
 
-/// A loss in the directions.
+/// A loss in the directions, in double or single precision.
+template <class Number>
+struct LossInDirections {
+  std::array<Number, kDirections> signal{};
+  std::array<Number, kDirections* static_cast<std::size_t>(kFirstColumns)> first{};  ///< of A
+  std::array<Number, kDirections * kEpochColumns> epoch{};  ///< of E, conditions being as the file states
+  ReducedPart<Number> of_bridge, of_epoch;
+  std::array<Number, lower_size(kDirections)> model_error{};
+};
+
+/// By channel: ReducedQuestion::channels many.
 struct ReducedLoss {
-  DirectionVector signal{};
-  std::array<double, kDirections* static_cast<std::size_t>(kFirstColumns)> first{};  ///< of A
-  std::array<double, kDirections * kEpochColumns> epoch{};  ///< of E, conditions being as the file states
-  ReducedPart of_bridge, of_epoch;
-  DirectionTriangle model_error{};
-  std::vector<double> signal_of_channels;  ///< ReducedQuestion::channels many, zero where there is no reading
+  LossInDirections<double> exact;
+  LossInDirections<float> rounded;
+  std::vector<double> signal;  ///< zero where there is no reading
+  std::vector<double> shown;   ///< with that of the intact bridge
+
+  template <class Number>
+  const LossInDirections<Number>& in() const {
+    if constexpr (std::is_same_v<Number, float>)
+      return rounded;
+    else
+      return exact;
+  }
 };
 
 /// What a case makes of the intact bridge in the directions.
@@ -58,10 +77,10 @@ struct ReducedQuestion {
   const double *reading, *points,
       *bridge;  ///< in the directions; points: a unit variance at each changed row
   std::span<const ReducedCase> cases;
-  // Channels, filled up for lanes: what the intact bridge shows, 1 where there is a reading (else 0), and
-  // for each its numbers in all directions.
+  // Channels, filled up for lanes: 1 where there is a reading (else 0), and for each its numbers in all
+  // directions.
   std::size_t points_of_rows;  ///< channels of a table's row
-  const double *intact, *is_read, *directions;
+  const double *is_read, *directions;
   const float* rounded_directions;
   float read;           ///< channels with a reading
   float widest_point;   ///< the largest variance in a direction of a unit variance at each changed row
@@ -78,7 +97,8 @@ struct ScenePrediction {
   float* logs;  ///< log p(readings | scene, case), kappa marginalised, of all cases looked at so far
 };
 
-/// Of kFloatLanes scenes with so many losses, in the first directions; -infinity if a scene is impossible.
+/// Of kFloatLanes scenes with so many losses, in the first directions, and in a few where that matters;
+/// -infinity if a scene is impossible, infinity where the estimate fails.
 /// `logs` begin with those of the cases before the question's, `before` many; column k of `rises`, which has
 /// as many rows as there are cases in all, says how much those can rise to the question's case k. Where that
 /// leaves less than what matters, the bound is what is given.

@@ -40,6 +40,7 @@ class ProductLogarithm {
 template <class Lanes, std::size_t N>
 struct Factorisation {
   static constexpr std::size_t kTogether = 4;  // rows and columns whose sums are in registers
+  static constexpr std::size_t kSolved = 2;    // rows that are solved for side by side
   const Lanes *noise, *bridge;
   ElementOf<Lanes> kappa;
   Lanes factor[lower_size(N)];  // L left of its diagonal
@@ -51,25 +52,23 @@ struct Factorisation {
     return noise[lower_size(i) + j] + kappa * bridge[lower_size(i) + j];
   }
 
-  /// Columns j to j + 3 of a row of L D, which begin with its entries.
-  VOUSSOIR_INLINE void solve_columns(Lanes* row, std::size_t j) const {
-    const Lanes *const r0 = factor + lower_size(j), *const r1 = factor + lower_size(j + 1),
-                       *const r2 = factor + lower_size(j + 2), *const r3 = factor + lower_size(j + 3);
-    Lanes s0 = row[j], s1 = row[j + 1], s2 = row[j + 2], s3 = row[j + 3];
-    for (std::size_t p = 0; p < j; ++p) {
-      const Lanes own = row[p];
-      s0 -= own * r0[p];
-      s1 -= own * r1[p];
-      s2 -= own * r2[p];
-      s3 -= own * r3[p];
-    }
-    s1 -= s0 * r1[j];
-    s2 -= s0 * r2[j] + s1 * r2[j + 1];
-    s3 -= s0 * r3[j] + s1 * r3[j + 1] + s2 * r3[j + 2];
-    row[j] = s0;
-    row[j + 1] = s1;
-    row[j + 2] = s2;
-    row[j + 3] = s3;
+  /// Columns j to j + 3 of kRows rows of L D from `row` on, which begin with their entries.
+  template <std::size_t kRows>
+  VOUSSOIR_INLINE void solve_columns(std::size_t row, std::size_t j) {
+    Lanes sums[kRows][kTogether];
+    for (std::size_t i = 0; i < kRows; ++i)
+      for (std::size_t c = 0; c < kTogether; ++c) sums[i][c] = rows[row + i][j + c];
+    for (std::size_t p = 0; p < j; ++p)
+      for (std::size_t c = 0; c < kTogether; ++c) {
+        const Lanes of_column = factor[lower_size(j + c) + p];
+        for (std::size_t i = 0; i < kRows; ++i) sums[i][c] -= rows[row + i][p] * of_column;
+      }
+    for (std::size_t c = 0; c < kTogether; ++c)
+      for (std::size_t i = 0; i < kRows; ++i) {
+        for (std::size_t before = 0; before < c; ++before)
+          sums[i][c] -= sums[i][before] * factor[lower_size(j + c) + j + before];
+        rows[row + i][j + c] = sums[i][c];
+      }
   }
 
   /// The block on the diagonal, where rows left of it are known.
@@ -100,11 +99,12 @@ struct Factorisation {
   VOUSSOIR_INLINE void factorise() {
     log_determinant = {};
     for (std::size_t first = 0; first < N; first += kTogether) {
-      for (std::size_t i = 0; i < kTogether; ++i) {
+      for (std::size_t i = 0; i < kTogether; ++i)
         for (std::size_t j = 0; j < first; ++j) rows[i][j] = entry(first + i, j);
-        for (std::size_t j = 0; j < first; j += kTogether) solve_columns(rows[i], j);
+      for (std::size_t i = 0; i < kTogether; i += kSolved)
+        for (std::size_t j = 0; j < first; j += kTogether) solve_columns<kSolved>(i, j);
+      for (std::size_t i = 0; i < kTogether; ++i)
         for (std::size_t j = 0; j < first; ++j) factor[lower_size(first + i) + j] = rows[i][j] * inverse[j];
-      }
       factorise_block(first);
     }
   }
@@ -113,7 +113,7 @@ struct Factorisation {
   VOUSSOIR_INLINE Lanes square_of(const Lanes* difference) {
     Lanes* const row = rows[0];
     for (std::size_t j = 0; j < N; ++j) row[j] = difference[j];
-    for (std::size_t j = 0; j < N; j += kTogether) solve_columns(row, j);
+    for (std::size_t j = 0; j < N; j += kTogether) solve_columns<1>(0, j);
     Lanes square{};
     for (std::size_t j = 0; j < N; ++j) square += row[j] * (row[j] * inverse[j]);
     return square;

@@ -64,98 +64,103 @@ VOUSSOIR_INLINE void add_up(Scenes<Lanes> scenes, std::size_t count, Numbers num
   for (std::size_t at = 0; at < count; at += kTogether) {
     Lanes rows[kTogether];
     for (std::size_t k = 0; k < kTogether; ++k) {
-      rows[k] = load<Lanes>(numbers(*scenes[k].losses[0]) + at);
-      for (std::size_t l = 1; l < kCount; ++l) rows[k] += load<Lanes>(numbers(*scenes[k].losses[l]) + at);
+      const auto of = [&](std::size_t l) VOUSSOIR_INLINE_WORK {
+        return load<Lanes>(numbers(scenes[k].losses[l]->template in<ElementOf<Lanes>>()) + at);
+      };
+      rows[k] = of(0);
+      for (std::size_t l = 1; l < kCount; ++l) rows[k] += of(l);
     }
     transpose(rows);
     for (std::size_t k = 0; k < kTogether; ++k) sums[at + k] = rows[k];
   }
 }
 
-/// What a scene shows at four channels beyond the intact bridge, and of it what is not the signal of its
-/// losses: differences of large numbers, so in double precision.
-struct ShownAtChannels {
-  DoubleLanes signal, beyond;
+/// What scenes show by channel, and what that of their losses is subtracted from it.
+template <std::size_t kTogether, std::size_t kCount>
+struct ShownByChannel {
+  const double* rows[kTogether];
+  const double* of_losses[kTogether][kCount];  // the first with that of the intact bridge
 };
-template <std::size_t kCount>
-VOUSSOIR_INLINE ShownAtChannels shown_at(const ReducedQuestion& q, const ScenePrediction& scene,
-                                         std::size_t at) {
-  const std::size_t count = at < q.points_of_rows ? smaller(kLanes, q.points_of_rows - at) : 0;
-  const DoubleLanes shown = load_some<DoubleLanes>(scene.prediction + at, count, 0.0);
-  const DoubleLanes is_read = load<DoubleLanes>(q.is_read + at);
-  ShownAtChannels result;
-  result.signal = is_read > 0.0 ? shown - load<DoubleLanes>(q.intact + at) : DoubleLanes{};
-  result.beyond = result.signal;
-  for (std::size_t l = 0; l < kCount; ++l)
-    result.beyond -= load<DoubleLanes>(scene.losses[l]->signal_of_channels.data() + at);
+template <class Lanes, std::size_t kCount>
+VOUSSOIR_INLINE ShownByChannel<kScenes<Lanes>, kCount> shown_by_channel(Scenes<Lanes> scenes) {
+  ShownByChannel<kScenes<Lanes>, kCount> result;
+  for (std::size_t k = 0; k < scenes.size(); ++k) {
+    result.rows[k] = scenes[k].prediction;
+    result.of_losses[k][0] = scenes[k].losses[0]->shown.data();
+    for (std::size_t l = 1; l < kCount; ++l) result.of_losses[k][l] = scenes[k].losses[l]->signal.data();
+  }
   return result;
 }
 
-/// The same at as many channels as there are lanes.
-template <class Lanes>
-struct ShownInLanes {
-  Lanes signal, beyond;
-};
-template <class Lanes, std::size_t kCount>
-VOUSSOIR_INLINE ShownInLanes<Lanes> shown_in_lanes(const ReducedQuestion& q, const ScenePrediction& scene,
-                                                   std::size_t at) {
-  const ShownAtChannels low = shown_at<kCount>(q, scene, at);
-  if constexpr (kScenes<Lanes> == kLanes) {
-    return {low.signal, low.beyond};
-  } else {
-    const ShownAtChannels high = shown_at<kCount>(q, scene, at + kLanes);
-    const auto rounded = [](const DoubleLanes& a, const DoubleLanes& b) VOUSSOIR_INLINE_WORK {
+/// What is beyond the losses' signals at as many channels as there are lanes, of which rows have `count`:
+/// differences of large numbers, so in double precision.
+template <class Lanes, std::size_t kTogether, std::size_t kCount>
+VOUSSOIR_INLINE void subtract_losses_at(const ShownByChannel<kTogether, kCount>& shown, const double* is_read,
+                                        std::size_t at, std::size_t count, Lanes (&rows)[kTogether]) {
+  constexpr std::size_t kParts = kTogether / kLanes;
+  DoubleLanes read[kParts];
+  for (std::size_t part = 0; part < kParts; ++part)
+    read[part] = load<DoubleLanes>(is_read + at + part * kLanes);
+#pragma GCC unroll 8
+  for (std::size_t k = 0; k < kTogether; ++k) {
+    DoubleLanes beyond[kParts];
+    for (std::size_t part = 0; part < kParts; ++part) {
+      const std::size_t from = at + part * kLanes, before = part * kLanes;
+      beyond[part] = load_some<DoubleLanes>(shown.rows[k] + from,
+                                            count < before ? 0 : smaller(count - before, kLanes), 0.0);
+      for (std::size_t l = 0; l < kCount; ++l)
+        beyond[part] -= load<DoubleLanes>(shown.of_losses[k][l] + from);
+      beyond[part] = read[part] > 0.0 ? beyond[part] : DoubleLanes{};
+    }
+    if constexpr (kParts == 1) {
+      rows[k] = beyond[0];
+    } else {
       using HalfLanes = LanesOf<float, kLanes>::Type;
-      return __builtin_shufflevector(__builtin_convertvector(a, HalfLanes),
-                                     __builtin_convertvector(b, HalfLanes), 0, 1, 2, 3, 4, 5, 6, 7);
-    };
-    return {rounded(low.signal, high.signal), rounded(low.beyond, high.beyond)};
+      rows[k] =
+          __builtin_shufflevector(__builtin_convertvector(beyond[0], HalfLanes),
+                                  __builtin_convertvector(beyond[1], HalfLanes), 0, 1, 2, 3, 4, 5, 6, 7);
+    }
   }
 }
 
-/// Signals by channel, and the mean square of what they are beyond those of the losses.
+/// What is beyond the losses' signals by channel, and the mean square of it.
 template <class Lanes, std::size_t kCount>
-VOUSSOIR_INLINE void subtract_intact(const ReducedQuestion& q, Scenes<Lanes> scenes, Lanes* signals,
+VOUSSOIR_INLINE void subtract_losses(const ReducedQuestion& q, Scenes<Lanes> scenes, Lanes* beyond,
                                      ReducedScenes<Lanes>& to) {
   constexpr std::size_t kTogether = kScenes<Lanes>;
-  Lanes squares[kTogether] = {};
-  for (std::size_t at = 0; at < q.points_of_rows; at += kTogether) {
+  const auto shown = shown_by_channel<Lanes, kCount>(scenes);
+  Lanes squares{};
+  const auto some = [&](std::size_t at, std::size_t count) VOUSSOIR_INLINE_WORK {
     Lanes rows[kTogether];
-    for (std::size_t k = 0; k < kTogether; ++k) {
-      const ShownInLanes<Lanes> shown = shown_in_lanes<Lanes, kCount>(q, scenes[k], at);
-      rows[k] = shown.signal;
-      squares[k] += shown.beyond * shown.beyond;
-    }
+    subtract_losses_at(shown, q.is_read, at, count, rows);
     transpose(rows);
-    for (std::size_t k = 0; k < kTogether; ++k) signals[at + k] = rows[k];
-  }
-  transpose(squares);
-  to.mean_square = Lanes{};
-  for (const Lanes& square : squares) to.mean_square += square;
-  to.mean_square /= static_cast<ElementOf<Lanes>>(q.read);
+    for (std::size_t k = 0; k < kTogether; ++k) {
+      beyond[at + k] = rows[k];
+      squares += rows[k] * rows[k];
+    }
+  };
+  const std::size_t whole = q.points_of_rows / kTogether * kTogether;
+  for (std::size_t at = 0; at < whole; at += kTogether) some(at, kTogether);
+  if (whole < q.points_of_rows) some(whole, q.points_of_rows - whole);
+  to.mean_square = squares / static_cast<ElementOf<Lanes>>(q.read);
 }
 
-/// In the first N directions, some at a time, whose sums stay in registers.
-template <class Lanes, std::size_t N, std::size_t kCount>
-VOUSSOIR_INLINE void project(const ReducedQuestion& q, Scenes<Lanes> scenes, Lanes* signals,
-                             ReducedScenes<Lanes>& to) {
-  constexpr std::size_t kTogether = N < 8 ? N : 8;
+/// What is beyond, in the directions from kFirst to N, some at a time, whose sums stay in registers.
+template <class Lanes, std::size_t kFirst, std::size_t N>
+VOUSSOIR_INLINE void project(const ReducedQuestion& q, const Lanes* beyond, ReducedScenes<Lanes>& to) {
+  constexpr std::size_t kTogether = N - kFirst < 8 ? N - kFirst : 8;
   const ElementOf<Lanes>* directions;
   if constexpr (std::is_same_v<ElementOf<Lanes>, float>)
     directions = q.rounded_directions;
   else
     directions = q.directions;
-  subtract_intact<Lanes, kCount>(q, scenes, signals, to);
-  for (std::size_t first = 0; first < N; first += kTogether) {
+  for (std::size_t first = kFirst; first < N; first += kTogether) {
     Lanes sums[kTogether] = {};
     for (std::size_t k = 0; k < q.points_of_rows; ++k)
       for (std::size_t i = 0; i < kTogether; ++i)
-        sums[i] += signals[k] * directions[k * kDirections + first + i];
-    for (std::size_t i = 0; i < kTogether; ++i) to.signal[first + i] = sums[i];
+        sums[i] += beyond[k] * directions[k * kDirections + first + i];
+    for (std::size_t i = 0; i < kTogether; ++i) to.beyond[first + i] = sums[i];
   }
-  const auto signal = [](const ReducedLoss& loss) VOUSSOIR_INLINE_WORK { return loss.signal.data(); };
-  add_up<Lanes, kCount>(scenes, N, signal, to.beyond);
-  for (std::size_t i = 0; i < N; ++i) to.beyond[i] = to.signal[i] - to.beyond[i];
 }
 
 template <class Lanes, std::size_t kColumns>
@@ -174,30 +179,32 @@ VOUSSOIR_INLINE void add_losses(Scenes<Lanes> scenes, Part part, Columns numbers
   static_assert(N * kColumns % kScenes<Lanes> == 0);
   Lanes own[padded(kSize, kScenes<Lanes>)], columns[N * kColumns];
   add_up<Lanes, kCount>(
-      scenes, kSize,
-      [part](const ReducedLoss& loss) VOUSSOIR_INLINE_WORK { return part(loss).crossed.data(); }, lower);
+      scenes, kSize, [part](const auto& loss) VOUSSOIR_INLINE_WORK { return part(loss).crossed.data(); },
+      lower);
   add_up<Lanes, kCount>(
-      scenes, kSize, [part](const ReducedLoss& loss) VOUSSOIR_INLINE_WORK { return part(loss).own.data(); },
-      own);
+      scenes, kSize, [part](const auto& loss) VOUSSOIR_INLINE_WORK { return part(loss).own.data(); }, own);
   for (std::size_t at = 0; at < kSize; ++at) lower[at] += static_cast<ElementOf<Lanes>>(kCount) * own[at];
   add_up<Lanes, kCount>(scenes, N * kColumns, numbers, columns);
   add_products<Lanes, kColumns>(columns, N, lower);
 }
 
-/// The triangles of the first N directions.
+/// The signals and triangles of the first N directions, in which it is known what is beyond.
 template <class Lanes, std::size_t N, std::size_t kCount>
 VOUSSOIR_INLINE void fill(const ReducedQuestion& q, Scenes<Lanes> scenes, ReducedScenes<Lanes>& to) {
   using Number = ElementOf<Lanes>;
   constexpr std::size_t kSize = lower_size(N);
+  add_up<Lanes, kCount>(
+      scenes, N, [](const auto& loss) VOUSSOIR_INLINE_WORK { return loss.signal.data(); }, to.signal);
+  for (std::size_t i = 0; i < N; ++i) to.signal[i] += to.beyond[i];
   add_losses<Lanes, N, kCount, kFirstWidth>(
-      scenes, [](const ReducedLoss& loss) VOUSSOIR_INLINE_WORK -> const auto& { return loss.of_bridge; },
-      [](const ReducedLoss& loss) VOUSSOIR_INLINE_WORK { return loss.first.data(); }, to.bridge);
+      scenes, [](const auto& loss) VOUSSOIR_INLINE_WORK -> const auto& { return loss.of_bridge; },
+      [](const auto& loss) VOUSSOIR_INLINE_WORK { return loss.first.data(); }, to.bridge);
   for (std::size_t at = 0; at < kSize; ++at) to.bridge[at] += static_cast<Number>(q.bridge[at]);
   add_losses<Lanes, N, kCount, kEpochColumns>(
-      scenes, [](const ReducedLoss& loss) VOUSSOIR_INLINE_WORK -> const auto& { return loss.of_epoch; },
-      [](const ReducedLoss& loss) VOUSSOIR_INLINE_WORK { return loss.epoch.data(); }, to.epoch);
+      scenes, [](const auto& loss) VOUSSOIR_INLINE_WORK -> const auto& { return loss.of_epoch; },
+      [](const auto& loss) VOUSSOIR_INLINE_WORK { return loss.epoch.data(); }, to.epoch);
   add_up<Lanes, kCount>(
-      scenes, kSize, [](const ReducedLoss& loss) VOUSSOIR_INLINE_WORK { return loss.model_error.data(); },
+      scenes, kSize, [](const auto& loss) VOUSSOIR_INLINE_WORK { return loss.model_error.data(); },
       to.model_error);
   std::size_t at = 0;
   for (std::size_t i = 0; i < N; ++i)

@@ -22,9 +22,11 @@ constexpr double kNegligibleCase = 20.0, kNegligibleScene = 15.0;
 // out; and of all that are not worked out.
 constexpr double kUncounted = 3e-4, kLeftWithFew = 2e-4, kLeftUnrefined = 4e-4, kLeftUnordered = 5e-4,
                  kLeftEstimated = 1e-3;
-constexpr std::size_t kMostRefined = 64000;  // more take longer than what they save
-constexpr double kCaseTooLow = 0.5;          // what an estimate's logarithm may be too low by at least
-constexpr std::size_t kAtOnce = 8;  // scenes that are worked out before the next look at what matters
+/// Likely scenes that are looked at in all directions; the others once so many have been worked out that it
+/// is cheaper than to go on.
+constexpr std::size_t kFirstRefined = 64000, kBeforeOthers = 2000;
+constexpr double kCaseTooLow = 0.5;  // what an estimate's logarithm may be too low by at least
+constexpr std::size_t kAtOnce = 8;   // scenes that are worked out before the next look at what matters
 constexpr std::size_t kMostWorkedOut = 400;  // likely scenes; others count by their estimates
 constexpr std::size_t kTried = 4;            // scenes with which a case is tried before pairs are looked at
 
@@ -41,6 +43,7 @@ ScreenedCases::ScreenedCases(UnknownBridge& bridge, const Observation& observati
       estimates_(bridge, observation, table, cases, rows, beforehand),
       likelihoods_(bridge, observation, table),
       too_low_(kCaseTooLow),
+      is_refined_(rows.size(), false),
       is_worked_out_(rows.size(), false) {
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const bool few = table.most_missing < 2 || table.removed[rows[i] * table.most_missing + 1] < 0;
@@ -112,14 +115,14 @@ void ScreenedCases::try_case(std::size_t number) {
 void ScreenedCases::look_at_many(std::size_t first) {
   const std::vector<double>& sums = estimates_.sums();
   estimates_.estimate(many_, least_counted());
-  estimates_.add_up(many_);
+  estimates_.add_up(many_, least_counted());
   std::vector<std::size_t> places = that_matter(many_, kLeftWithFew);
   work_out(largest_places(places, sums, kAtOnce), [&](std::size_t place, std::size_t number) {
     return number < estimates_.looked_at() && may_matter(place, number);
   });
   places = that_matter(places, kLeftWithFew);
   estimates_.refine(places, first, ScreenDirections::more, least_counted());
-  estimates_.add_up(places);
+  estimates_.add_up(places, least_counted());
 }
 
 /// log of what the estimates of scenes with so much of the probability sum up to, if they are too low.
@@ -196,7 +199,7 @@ double ScreenedCases::total(std::size_t place) const {
 void ScreenedCases::look_at_cases() {
   work_out(nearest_singles(), [](std::size_t, std::size_t) { return true; });
   while (estimates_.looked_at() < terms_.size()) look_at_level();
-  estimates_.add_up(few_);
+  estimates_.add_up(few_, kImpossible);
 }
 
 /// Looks at likely scenes in all directions, as far as what is left matters.
@@ -205,16 +208,23 @@ void ScreenedCases::refine_likely() {
   std::vector<std::size_t> likely = that_matter(kLeftUnrefined);
   work_out_where_likely(largest_places(likely, sums, kAtOnce));
   likely = that_matter(likely, kLeftUnrefined);
-  if (likely.size() > kMostRefined) {
-    std::nth_element(likely.begin(), likely.begin() + kMostRefined, likely.end(),
+  if (likely.size() > kFirstRefined) {
+    std::nth_element(likely.begin(), likely.begin() + kFirstRefined, likely.end(),
                      [&](std::size_t a, std::size_t b) { return sums[a] > sums[b]; });
-    likely.resize(kMostRefined);
+    likely.resize(kFirstRefined);
   }
-  estimates_.refine(likely, 0, ScreenDirections::all, best_ - too_low_ - kNegligibleCase);
-  estimates_.add_up(likely);
-  for (const std::size_t place : likely)
+  refine(likely);
+}
+
+/// In all directions.
+void ScreenedCases::refine(std::span<const std::size_t> places) {
+  estimates_.refine(places, 0, ScreenDirections::all, best_ - too_low_ - kNegligibleCase);
+  estimates_.add_up(places, kImpossible);
+  for (const std::size_t place : places) {
+    is_refined_[place] = true;
     if (const auto exact = exact_.find(place); exact != exact_.end())
       for (std::size_t number = 0; number < exact->second.size(); ++number) check_estimate(place, number);
+  }
 }
 
 /// All scenes that may count, and at least so many.
@@ -244,6 +254,15 @@ LeftScenes ScreenedCases::left_scenes(std::size_t count) const {
           }};
 }
 
+/// Of those that are left.
+void ScreenedCases::refine_others(LeftScenes& left) {
+  std::vector<std::size_t> others;
+  for (const std::size_t place : left.places())
+    if (!is_refined_[place]) others.push_back(place);
+  refine(others);
+  left.order_again();
+}
+
 /// Works out scenes in the order of their estimates, so many at a time, until what is left can change no
 /// probability by more than kLeftEstimated, or more are likely indeed than can be worked out.
 void ScreenedCases::work_out_likely(std::size_t count, LeftScenes& left) {
@@ -251,6 +270,7 @@ void ScreenedCases::work_out_likely(std::size_t count, LeftScenes& left) {
   for (std::size_t done = 0; !left.empty(); done += kAtOnce) {
     const bool enough = left.log_sum() < sum_of(kLeftEstimated - kLeftUnordered);
     if (done >= count && (enough || likely >= kMostWorkedOut)) break;
+    if (done == kBeforeOthers) refine_others(left);
     const std::vector<std::size_t> some = left.next(kAtOnce);
     work_out_where_likely(some);
     for (const std::size_t place : some) {
@@ -271,7 +291,7 @@ std::vector<double> ScreenedCases::evidence(std::size_t count) {
   std::vector<double> result(rows_.size(), kImpossible);
   for (std::size_t place = 0; place < rows_.size(); ++place)
     result[place] = is_worked_out_[place] ? total(place) : estimates_.sums()[place] - beforehand_[place];
-  for (const std::size_t place : left.places()) result[place] += left.correction(place);
+  left.correct(result);
   const double log_cases = std::log(static_cast<double>(terms_.size()));
   for (double& log : result) log -= log_cases;
   return result;

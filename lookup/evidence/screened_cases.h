@@ -47,6 +47,8 @@ class ScreenedCases {
   std::vector<std::size_t> candidates(std::size_t count) const;
   std::vector<std::size_t> known_to_need_it() const;
   void refine_likely();
+  void refine(std::span<const std::size_t> places);
+  void refine_others(LeftScenes& left);
   LeftScenes left_scenes(std::size_t count) const;
   void work_out_likely(std::size_t count, LeftScenes& left);
   void check_estimate(std::size_t place, std::size_t number);
@@ -67,6 +69,7 @@ class ScreenedCases {
   SceneLikelihoods likelihoods_;
   double too_low_;  // by how much estimates of likely scenes were found to be too low at most
   std::map<std::size_t, std::vector<double>> exact_;  // by place, for each case; others are not worked out
+  std::vector<bool> is_refined_;                      // in all directions
   std::vector<bool> is_worked_out_;                   // in all cases that may matter
   std::size_t likeliest_ = 0;
   double best_ = kImpossible;  // of any scene in any case, worked out

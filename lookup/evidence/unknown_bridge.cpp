@@ -133,8 +133,8 @@ VectorXd squares_of_rows(const MatrixXd& matrix) {
 /// The loss of what stands in a row of the table.
 Loss loss_of(const UnknownBridge& bridge, const Observation& observation, const LossFactors& factors,
              std::span<const double> prediction) {
-  Loss loss{&factors, signal_of(bridge, observation, prediction)};
-  if (!factors.known()) return loss;
+  Loss loss{factors.known() ? &factors : nullptr, signal_of(bridge, observation, prediction)};
+  if (!loss.known()) return loss;
   const VectorXd of_bridge = squares_of_rows(factors.own.leading(kFirstOwnColumns));
   const VectorXd of_epoch = squares_of_rows(factors.epoch);
   for (const ReadingRow& row : bridge.rows) {

@@ -70,11 +70,11 @@ Eigen::MatrixXd in_rows(const std::vector<ReadingRow>& rows, const Eigen::Matrix
 
 /// The loss of a block, or of several with factors of their own, in rows of y.
 struct Loss {
-  const LossFactors* factors = nullptr;
-  Eigen::VectorXd signal{};      ///< [m] NaN at readings that the loss makes impossible
+  const LossFactors* factors = nullptr;  ///< none if they are not known
+  Eigen::VectorXd signal{};              ///< [m] NaN at readings that the loss makes impossible
   double bridge_variance = 0.0;  ///< [m2] that parameters of the bridge give the signal, summed over rows
   double epoch_variance = 0.0;   ///< [m2] the same of those of an epoch, as the bridge file states them
-  bool known() const { return factors != nullptr && factors->known(); }
+  bool known() const { return factors != nullptr; }
 };
 
 struct UnknownBridge {

@@ -85,6 +85,24 @@ void add_lower(const DirectionColumns& a, const DirectionColumns& b, double fact
                     factor, lower.data());
 }
 
+template <class To, class From>
+void copy_numbers(const From& from, To& to) {
+  std::copy(from.begin(), from.end(), to.begin());
+}
+
+LossInDirections<float> rounded(const LossInDirections<double>& loss) {
+  LossInDirections<float> result;
+  copy_numbers(loss.signal, result.signal);
+  copy_numbers(loss.first, result.first);
+  copy_numbers(loss.epoch, result.epoch);
+  copy_numbers(loss.of_bridge.crossed, result.of_bridge.crossed);
+  copy_numbers(loss.of_bridge.own, result.of_bridge.own);
+  copy_numbers(loss.of_epoch.crossed, result.of_epoch.crossed);
+  copy_numbers(loss.of_epoch.own, result.of_epoch.own);
+  copy_numbers(loss.model_error, result.model_error);
+  return result;
+}
+
 }  // namespace
 
 UnknownScreen::UnknownScreen(UnknownBridge& bridge, const Observation& observation, const SceneTable& table,
@@ -105,7 +123,8 @@ UnknownScreen::UnknownScreen(UnknownBridge& bridge, const Observation& observati
   const MatrixXd reduced_product = directions_.transpose() * (product * directions_);
   store_lower(reduced_product, bridge_of_intact_);
   for (std::size_t k = 0; k < cases.size(); ++k) add_intact(others[k], product, reduced_product, cases_[k]);
-  none_.signal_of_channels.assign(intact_.size(), 0.0);
+  none_.signal.assign(intact_.size(), 0.0);
+  none_.shown = intact_;
   reduce_losses(threads);
 }
 
@@ -206,7 +225,9 @@ void UnknownScreen::reduce_losses(int threads) {
   });
   const MatrixXd columns = epoch_columns_of(changes);
   for_each_known([&](const Loss&, std::size_t place) {
-    reduce_epoch(changes[place], changes[place] * columns, losses_[place]);
+    ReducedLoss& loss = losses_[place];
+    reduce_epoch(changes[place], changes[place] * columns, loss.exact);
+    loss.rounded = rounded(loss.exact);
   });
 }
 
@@ -220,7 +241,7 @@ DirectionColumns UnknownScreen::projected(const MatrixXd& columns,
 }
 
 /// What a loss adds to A A^T, of which the first columns show what it has in common with others.
-void UnknownScreen::reduce_bridge(const LossFactors& factors, ReducedLoss& to) const {
+void UnknownScreen::reduce_bridge(const LossFactors& factors, LossInDirections<double>& to) const {
   const DirectionColumns first = projected(factors.lead.leading(kFirstColumns), directions_by_channel_);
   store_rows(first, kFirstColumns, to.first.data());
   const Index shown = factors.own.that_show(kTooSmall * bridge_.least_variance);
@@ -235,7 +256,7 @@ void UnknownScreen::reduce_bridge(const LossFactors& factors, ReducedLoss& to) c
 
 /// The same of E E^T.
 void UnknownScreen::reduce_epoch(const DirectionColumns& change, const DirectionColumns& first,
-                                 ReducedLoss& to) const {
+                                 LossInDirections<double>& to) const {
   store_rows(first, kEpochs, to.epoch.data());
   add_lower(change, change, 1.0, to.of_epoch.own);
   add_lower(first, first, -1.0, to.of_epoch.own);
@@ -244,19 +265,21 @@ void UnknownScreen::reduce_epoch(const DirectionColumns& change, const Direction
 }
 
 void UnknownScreen::reduce(const Loss& loss, ReducedLoss& to) const {
-  to.signal_of_channels.assign(intact_.size(), 0.0);
+  to.signal.assign(intact_.size(), 0.0);
   MatrixXd counted = MatrixXd::Zero(static_cast<Index>(intact_.size()), 1);
   for (std::size_t k = 0; k < bridge_.rows.size(); ++k) {
     const ReadingRow& row = bridge_.rows[k];
     const double signal = loss.signal[static_cast<Index>(k)];
     if (row.after == 0.0) continue;
-    to.signal_of_channels[row.channel] = signal / row.after;
+    to.signal[row.channel] = signal / row.after;
     if (!std::isnan(signal)) counted(static_cast<Index>(row.channel), 0) = signal / row.after;
   }
+  to.shown = intact_;
+  for (std::size_t i = 0; i < to.shown.size(); ++i) to.shown[i] += to.signal[i];
   const DirectionColumns signal = projected(counted, directions_by_channel_);
-  store(signal, to.signal);
-  reduce_bridge(*loss.factors, to);
-  add_lower(signal, signal, bridge_.model_error * bridge_.model_error, to.model_error);
+  store(signal, to.exact.signal);
+  reduce_bridge(*loss.factors, to.exact);
+  add_lower(signal, signal, bridge_.model_error * bridge_.model_error, to.exact.model_error);
 }
 
 ReducedQuestion UnknownScreen::question() const {
@@ -272,7 +295,6 @@ ReducedQuestion UnknownScreen::question() const {
           bridge_of_intact_.data(),
           cases_,
           observation_.intact.size(),
-          intact_.data(),
           is_read_.data(),
           directions_by_channel_.data(),
           rounded_directions_.data(),

@@ -40,8 +40,8 @@ class UnknownScreen {
   UnknownScreen(UnknownBridge& bridge, const Observation& observation, const SceneTable& table,
                 std::span<const UnknownCase> cases, const Eigen::MatrixXd& pulls, int threads);
 
-  /// log p(readings | scene, case) of rows of the table in the first directions; see estimate_log_densities.
-  /// NaN where the estimate fails.
+  /// log p(readings | scene, case) of rows of the table in the first directions, and in a few more where that
+  /// matters; see estimate_log_densities.
   void estimate(std::span<const ScreenedRow> rows, const Eigen::MatrixXd& rises, std::size_t before) const;
 
   /// The same in more directions; see refine_log_densities. `logs` are those of the screen's cases.
@@ -61,8 +61,9 @@ class UnknownScreen {
   void reduce(const Loss& loss, ReducedLoss& to) const;
   DirectionColumns projected(const Eigen::MatrixXd& columns, const std::vector<double>& by_channel) const;
   Eigen::MatrixXd epoch_columns_of(std::span<const DirectionColumns> changes) const;
-  void reduce_bridge(const LossFactors& factors, ReducedLoss& to) const;
-  void reduce_epoch(const DirectionColumns& change, const DirectionColumns& first, ReducedLoss& to) const;
+  void reduce_bridge(const LossFactors& factors, LossInDirections<double>& to) const;
+  void reduce_epoch(const DirectionColumns& change, const DirectionColumns& first,
+                    LossInDirections<double>& to) const;
 
   ScenePrediction scene(const ScreenedRow& row, const KnownLosses& known) const;
   template <class Work>

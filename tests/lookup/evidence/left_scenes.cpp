@@ -75,7 +75,26 @@ TEST_CASE("Scenes count for what those of their kind have shown, but others for 
   const double known = std::exp(1.5) * 36.0 * (std::exp(-4.0) + 3.0 / 32.0), others = std::exp(1.5) * 36.0;
   CHECK(all == Approx(std::log(std::exp(1.5) * 200.0)));
   CHECK(left.log_sum() == Approx(std::log(known + others)));
-  CHECK(left.correction(left.places()[0]) == Approx(-4.0));
+  std::vector<double> corrected = estimates;
+  left.correct(corrected);
+  for (const std::size_t place : left.places()) CHECK(corrected[place] == Approx(1.5 - 4.0));
+  for (const double taken : std::span(corrected).first(128)) CHECK(taken == 1.5);
+}
+
+TEST_CASE("Estimates that changed are put in order again and added up anew") {
+  std::vector<double> estimates = estimates_over(30.0, 400);
+  LeftScenes left(all_places(estimates.size()), estimates, [](std::size_t) { return std::size_t{1}; });
+  left.next(100);
+  for (std::size_t place = 0; place < estimates.size(); place += 3) estimates[place] -= 20.0;
+  left.order_again();
+  REQUIRE(left.places().size() == 300);
+  REQUIRE(left.log_sum() == Approx(log_sum_of(left.places(), estimates)).margin(1e-8));
+  double last = estimates[left.next(1).front()];
+  while (!left.empty()) {
+    const double next = estimates[left.next(1).front()];
+    REQUIRE(next <= last);
+    last = next;
+  }
 }
 
 TEST_CASE("Estimates that were right, or too low, lower nothing") {
