@@ -6,58 +6,13 @@
 
 #include <array>
 #include <span>
-#include <type_traits>
-#include <vector>
 
 #include "core/simd/lanes.h"
+#include "lookup/evidence/reduced_loss.h"
 #include "lookup/evidence/scatter_density.h"
 #include "lookup/evidence/unknown_bridge.h"
 
 namespace voussoir {
-
-/// How many of the directions are looked at.
-enum class ScreenDirections : std::size_t { first = 4, few = 8, more = 16, all = 32 };
-inline constexpr std::array kScreenDirections = {ScreenDirections::first, ScreenDirections::few,
-                                                 ScreenDirections::more, ScreenDirections::all};
-inline constexpr auto kDirections = static_cast<std::size_t>(ScreenDirections::all);
-inline constexpr std::size_t kEpochColumns = 4;  ///< combinations of an epoch's parameters, the leading
-
-using DirectionVector = std::array<double, kDirections>;
-using DirectionTriangle = std::array<double, lower_size(kDirections)>;
-
-/// What a loss adds to a covariance in the directions where a scene has `count` losses: crossed + count *
-/// own, and the outer product of what the losses' columns in common sum up to.
-template <class Number>
-struct ReducedPart {
-  std::array<Number, lower_size(kDirections)> crossed{};  ///< with what the intact bridge has
-  std::array<Number, lower_size(kDirections)> own{};      ///< without the columns in common
-};
-
-/// A loss in the directions, in double or single precision.
-template <class Number>
-struct LossInDirections {
-  std::array<Number, kDirections> signal{};
-  std::array<Number, kDirections* static_cast<std::size_t>(kFirstColumns)> first{};  ///< of A
-  std::array<Number, kDirections * kEpochColumns> epoch{};  ///< of E, conditions being as the file states
-  ReducedPart<Number> of_bridge, of_epoch;
-  std::array<Number, lower_size(kDirections)> model_error{};
-};
-
-/// By channel: ReducedQuestion::channels many.
-struct ReducedLoss {
-  LossInDirections<double> exact;
-  LossInDirections<float> rounded;
-  std::vector<double> signal;  ///< zero where there is no reading
-  std::vector<double> shown;   ///< with that of the intact bridge
-
-  template <class Number>
-  const LossInDirections<Number>& in() const {
-    if constexpr (std::is_same_v<Number, float>)
-      return rounded;
-    else
-      return exact;
-  }
-};
 
 /// What a case makes of the intact bridge in the directions.
 struct ReducedCase {

@@ -85,24 +85,6 @@ void add_lower(const DirectionColumns& a, const DirectionColumns& b, double fact
                     factor, lower.data());
 }
 
-template <class To, class From>
-void copy_numbers(const From& from, To& to) {
-  std::copy(from.begin(), from.end(), to.begin());
-}
-
-LossInDirections<float> rounded(const LossInDirections<double>& loss) {
-  LossInDirections<float> result;
-  copy_numbers(loss.signal, result.signal);
-  copy_numbers(loss.first, result.first);
-  copy_numbers(loss.epoch, result.epoch);
-  copy_numbers(loss.of_bridge.crossed, result.of_bridge.crossed);
-  copy_numbers(loss.of_bridge.own, result.of_bridge.own);
-  copy_numbers(loss.of_epoch.crossed, result.of_epoch.crossed);
-  copy_numbers(loss.of_epoch.own, result.of_epoch.own);
-  copy_numbers(loss.model_error, result.model_error);
-  return result;
-}
-
 }  // namespace
 
 UnknownScreen::UnknownScreen(UnknownBridge& bridge, const Observation& observation, const SceneTable& table,
