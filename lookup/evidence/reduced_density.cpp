@@ -105,10 +105,11 @@ VOUSSOIR_INLINE Lanes logs_of(Scenes<Lanes> scenes, std::size_t number) {
 }
 
 /// In the first N directions, where some scene matters in a case; kKnown of them are projected on already.
-/// The cases' logarithms begin at number `first`; `place` is that of N in kScreenDirections.
+/// The cases' logarithms begin at number `first`.
 template <class Lanes, std::size_t kKnown, std::size_t N, std::size_t kCount>
 VOUSSOIR_INLINE void refine(const ReducedQuestion& q, Scenes<Lanes> scenes, std::size_t first,
-                            std::size_t place, const Lanes* beyond, ReducedScenes<Lanes>& reduced) {
+                            const Lanes* beyond, ReducedScenes<Lanes>& reduced) {
+  constexpr std::size_t kPlace = place_of(static_cast<ScreenDirections>(N));
   const Lanes least = least_of<Lanes>(scenes);
   bool is_filled = false;
   for (std::size_t k = 0; k < q.cases.size(); ++k) {
@@ -119,7 +120,7 @@ VOUSSOIR_INLINE void refine(const ReducedQuestion& q, Scenes<Lanes> scenes, std:
       fill<Lanes, N, kCount>(q, scenes, reduced);
     }
     is_filled = true;
-    const Lanes refined = over_kappa<Lanes, N>(q, q.cases[k], reduced, q.cases[k].outside[place], least);
+    const Lanes refined = over_kappa<Lanes, N>(q, q.cases[k], reduced, q.cases[k].outside[kPlace], least);
     const Lanes after = refined < before ? refined : before;  // NaN changes nothing
     for (std::size_t i = 0; i < scenes.size(); ++i) scenes[i].logs[first + k] = static_cast<float>(after[i]);
   }
@@ -156,17 +157,16 @@ VOUSSOIR_INLINE bool look(const ReducedQuestion& q, Scenes<Lanes> scenes, const 
     for (std::size_t i = 0; i < scenes.size(); ++i)
       scenes[i].logs[rises.before + k] = static_cast<float>(logs[i]);
   }
-  if (is_filled) refine<Lanes, N, kFew, kCount>(q, scenes, rises.before, 1, beyond, reduced);
+  if (is_filled) refine<Lanes, N, kFew, kCount>(q, scenes, rises.before, beyond, reduced);
   return true;
 }
 
 template <class Lanes, std::size_t N, std::size_t kCount>
-VOUSSOIR_INLINE bool look_closer(const ReducedQuestion& q, Scenes<Lanes> scenes, std::size_t place,
-                                 Lanes* beyond) {
+VOUSSOIR_INLINE bool look_closer(const ReducedQuestion& q, Scenes<Lanes> scenes, Lanes* beyond) {
   ReducedScenes<Lanes> reduced;
   subtract_losses<Lanes, kCount>(q, scenes, beyond, reduced);
   if (are_rough(q, reduced, least_of<Lanes>(scenes))) return false;
-  refine<Lanes, 0, N, kCount>(q, scenes, 0, place, beyond, reduced);
+  refine<Lanes, 0, N, kCount>(q, scenes, 0, beyond, reduced);
   return true;
 }
 
@@ -180,17 +180,18 @@ VOUSSOIR_INLINE bool look_with(const ReducedQuestion& q, Scenes<Lanes> scenes, s
 
 template <class Lanes, std::size_t N>
 VOUSSOIR_INLINE bool look_closer_in(const ReducedQuestion& q, Scenes<Lanes> scenes, std::size_t losses,
-                                    std::size_t place, Lanes* beyond) {
-  if (losses == 1) return look_closer<Lanes, N, 1>(q, scenes, place, beyond);
-  if (losses == 2) return look_closer<Lanes, N, 2>(q, scenes, place, beyond);
-  return look_closer<Lanes, N, 3>(q, scenes, place, beyond);
+                                    Lanes* beyond) {
+  if (losses == 1) return look_closer<Lanes, N, 1>(q, scenes, beyond);
+  if (losses == 2) return look_closer<Lanes, N, 2>(q, scenes, beyond);
+  return look_closer<Lanes, N, 3>(q, scenes, beyond);
 }
 
 template <class Lanes>
 VOUSSOIR_INLINE bool look_closer_with(const ReducedQuestion& q, Scenes<Lanes> scenes, std::size_t losses,
                                       ScreenDirections directions, Lanes* beyond) {
-  if (directions == ScreenDirections::more) return look_closer_in<Lanes, 16>(q, scenes, losses, 2, beyond);
-  return look_closer_in<Lanes, 32>(q, scenes, losses, 3, beyond);
+  constexpr auto kMore = static_cast<std::size_t>(ScreenDirections::more);
+  if (directions == ScreenDirections::more) return look_closer_in<Lanes, kMore>(q, scenes, losses, beyond);
+  return look_closer_in<Lanes, kDirections>(q, scenes, losses, beyond);
 }
 
 // What is compiled for every processor cannot be a template.

@@ -30,7 +30,7 @@ struct LossInDirections {
   std::array<Number, lower_size(kDirections)> model_error{};
 };
 
-/// In both; and by channel, filled up for lanes.
+/// A loss in the directions in both precisions; and by channel, filled up for lanes.
 struct ReducedLoss {
   LossInDirections<double> exact;
   LossInDirections<float> rounded;

@@ -28,7 +28,8 @@ constexpr std::size_t kFirstRefined = 64000, kBeforeOthers = 2000;
 constexpr double kCaseTooLow = 0.5;  // what an estimate's logarithm may be too low by at least
 constexpr std::size_t kAtOnce = 8;   // scenes that are worked out before the next look at what matters
 constexpr std::size_t kMostWorkedOut = 400;  // likely scenes; others count by their estimates
-constexpr std::size_t kTried = 4;            // scenes with which a case is tried before pairs are looked at
+static_assert(kBeforeOthers % kAtOnce == 0);
+constexpr std::size_t kTried = 4;  // scenes with which a case is tried before pairs are looked at
 
 }  // namespace
 
