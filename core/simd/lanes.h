@@ -20,13 +20,14 @@
 /// What is compiled for every processor must be inlined there, or it is compiled for the oldest only.
 #define VOUSSOIR_INLINE inline __attribute__((always_inline))
 
-/// Compiles a function twice, for processors with and without AVX2, and picks at start-up. Without
-/// contraction to fused operations (the whole project is compiled so) both give the same bits. Not under
-/// sanitizers, whose run-time is not ready when the choice is made.
+/// Compiles a function twice, for processors with and without AVX2 and fused operations, and picks at
+/// start-up. Without contraction to fused operations (the project is compiled so, but for estimates of
+/// scenes: CMakeLists.txt) both give the same bits. Not under sanitizers, whose run-time is not ready when
+/// the choice is made.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__) || !defined(__x86_64__)
 #define VOUSSOIR_FOR_EVERY_PROCESSOR
 #else
-#define VOUSSOIR_FOR_EVERY_PROCESSOR __attribute__((target_clones("avx2", "default")))
+#define VOUSSOIR_FOR_EVERY_PROCESSOR __attribute__((target_clones("arch=x86-64-v3", "default")))
 #endif
 
 namespace voussoir {

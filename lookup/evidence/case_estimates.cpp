@@ -69,6 +69,7 @@ void CaseEstimates::estimate(std::span<const std::size_t> places, double least) 
       rises_.middleCols(static_cast<Eigen::Index>(first), static_cast<Eigen::Index>(end - first));
   for_blocks(places, [&](std::span<const std::size_t> block) {
     screen.estimate(screened(block, 0, least), rises, first);
+    add_up(block, least);
   });
 }
 
@@ -80,6 +81,7 @@ void CaseEstimates::refine(std::span<const std::size_t> places, std::size_t from
       if (first >= from) screen.refine(screened(block, first, least), directions);
       first += screen.cases().size();
     }
+    add_up(block, least);
   });
 }
 
@@ -104,14 +106,12 @@ void CaseEstimates::add_rises(std::size_t number) {
 
 void CaseEstimates::add_up(std::span<const std::size_t> places, double least) {
   const double most = std::log(static_cast<double>(cases_.size()));  // by which a sum is above its largest
-  for_blocks(places, [&](std::span<const std::size_t> block) {
-    for (const std::size_t place : block) {
-      const auto logs = std::span(logs_).subspan(place * cases_.size(), cases_.size());
-      const double largest = static_cast<double>(*std::max_element(logs.begin(), logs.end()));
-      const bool matters = largest + beforehand_[place] >= least;
-      sums_[place] = beforehand_[place] + (matters ? sum_over_cases(logs, largest) : largest + most);
-    }
-  });
+  for (const std::size_t place : places) {
+    const auto logs = std::span(logs_).subspan(place * cases_.size(), cases_.size());
+    const double largest = static_cast<double>(*std::max_element(logs.begin(), logs.end()));
+    const bool matters = largest + beforehand_[place] >= least;
+    sums_[place] = beforehand_[place] + (matters ? sum_over_cases(logs, largest) : largest + most);
+  }
 }
 
 /// Cases that add nothing to the largest are not worth an exponential.

@@ -35,9 +35,8 @@ class CaseEstimates {
   void refine(std::span<const std::size_t> places, std::size_t from, ScreenDirections directions,
               double least);
 
-  /// Sums over the cases of these rows, with what was known beforehand. Of rows with less than `least` in
-  /// each case the largest counts for all.
-  void add_up(std::span<const std::size_t> places, double least);
+  /// Over all cases. Of a row whose estimates were all below `least` the last time, the largest counts for
+  /// each.
   const std::vector<double>& sums() const { return sums_; }
 
   /// Of one case, with what was known beforehand; infinity where the estimate failed, -infinity if the scene
@@ -51,6 +50,7 @@ class CaseEstimates {
 
  private:
   std::vector<ScreenedRow> screened(std::span<const std::size_t> places, std::size_t first, double least);
+  void add_up(std::span<const std::size_t> places, double least);
   static double sum_over_cases(std::span<const float> logs, double largest);
   void add_rises(std::size_t number);
 

@@ -45,10 +45,13 @@ double LeftScenes::log_sum() const {
   return unit_ + std::log(sum);
 }
 
-void LeftScenes::correct(std::span<double> logs) const {
+std::vector<PlaceLog> LeftScenes::corrected() const {
   std::array<double, kKinds> corrections{};
   for (std::size_t kind = 0; kind < kKinds; ++kind) corrections[kind] = errors_[kind].mean();
-  for (const std::size_t place : places_.rest()) logs[place] += corrections[kind_of_(place)];
+  std::vector<PlaceLog> result;
+  for (const std::size_t place : places_.rest())
+    result.push_back({place, estimates_[place] + corrections[kind_of_(place)]});
+  return result;
 }
 
 }  // namespace voussoir

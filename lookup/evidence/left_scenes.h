@@ -14,6 +14,12 @@
 
 namespace voussoir {
 
+/// A logarithm of the scene at a place in a list.
+struct PlaceLog {
+  std::size_t place;
+  double log;
+};
+
 class LeftScenes {
  public:
   static constexpr std::size_t kKinds = 5;
@@ -38,8 +44,8 @@ class LeftScenes {
   /// log of the sum of all that are left, at most, unless scenes are unlike those of their kind before them.
   double log_sum() const;
 
-  /// Adds to the logarithms of all places that are left what makes their estimates right on average.
-  void correct(std::span<double> logs) const;
+  /// All that are left, in no order, with what makes their estimates right on average.
+  std::vector<PlaceLog> corrected() const;
 
  private:
   void add_up();

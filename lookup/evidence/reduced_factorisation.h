@@ -11,7 +11,7 @@
 namespace voussoir {
 
 /// The logarithm of a product of up to a hundred positive numbers, whose exponents are summed up, so that it
-/// does not overflow.
+/// does not overflow. Pivots come as products of four of them: they are of the order of one, and 1e9 at most.
 template <class Lanes>
 class ProductLogarithm {
  public:
@@ -46,7 +46,8 @@ struct Factorisation {
   Lanes factor[lower_size(N)];  // L left of its diagonal
   Lanes inverse[N];             // of D
   Lanes rows[kTogether][N];     // of L D
-  ProductLogarithm<Lanes> log_determinant;
+  ProductLogarithm<Lanes> determinant;
+  Lanes smallest_pivot;
 
   VOUSSOIR_INLINE Lanes entry(std::size_t i, std::size_t j) const {
     return noise[lower_size(i) + j] + kappa * bridge[lower_size(i) + j];
@@ -81,23 +82,24 @@ struct Factorisation {
         const Lanes own = factor[lower_size(first + j) + p];
         for (std::size_t i = j; i < kTogether; ++i) sums[i][j] -= rows[i][p] * own;
       }
+    Lanes product = Lanes{} + ElementOf<Lanes>(1);
     for (std::size_t j = 0; j < kTogether; ++j) {
       const Lanes pivot = sums[j][j];
-      inverse[first + j] =
-          ElementOf<Lanes>(1) / (pivot > ElementOf<Lanes>(0)
-                                     ? pivot
-                                     : Lanes{} + std::numeric_limits<ElementOf<Lanes>>::quiet_NaN());
-      log_determinant.multiply(pivot);
+      inverse[first + j] = ElementOf<Lanes>(1) / pivot;
+      smallest_pivot = smaller(smallest_pivot, pivot);
+      product *= pivot;
       for (std::size_t i = j + 1; i < kTogether; ++i) {
         const Lanes own = sums[i][j] * inverse[first + j];
         factor[lower_size(first + i) + first + j] = own;
         for (std::size_t k = j + 1; k <= i; ++k) sums[i][k] -= own * sums[k][j];
       }
     }
+    determinant.multiply(product);
   }
 
   VOUSSOIR_INLINE void factorise() {
-    log_determinant = {};
+    determinant = {};
+    smallest_pivot = Lanes{} + ElementOf<Lanes>(1);
     for (std::size_t first = 0; first < N; first += kTogether) {
       for (std::size_t i = 0; i < kTogether; ++i)
         for (std::size_t j = 0; j < first; ++j) rows[i][j] = entry(first + i, j);
@@ -107,6 +109,13 @@ struct Factorisation {
         for (std::size_t j = 0; j < first; ++j) factor[lower_size(first + i) + j] = rows[i][j] * inverse[j];
       factorise_block(first);
     }
+  }
+
+  /// NaN if the sum is not positive definite.
+  VOUSSOIR_INLINE Lanes log_determinant() const {
+    return smallest_pivot > ElementOf<Lanes>(0)
+               ? determinant()
+               : Lanes{} + std::numeric_limits<ElementOf<Lanes>>::quiet_NaN();
   }
 
   /// What a difference is in the inverse's quadratic form.

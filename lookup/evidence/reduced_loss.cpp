@@ -12,15 +12,23 @@ void copy_numbers(const From& from, To& to) {
 
 }  // namespace
 
+ReducedPart<double> reduced_part(const DirectionTriangle& crossed, const DirectionTriangle& own) {
+  ReducedPart<double> part;
+  for (std::size_t losses = 0; losses < part.size(); ++losses)
+    for (std::size_t at = 0; at < own.size(); ++at)
+      part[losses][at] = crossed[at] + static_cast<double>(losses + 1) * own[at];
+  return part;
+}
+
 LossInDirections<float> rounded(const LossInDirections<double>& loss) {
   LossInDirections<float> result;
   copy_numbers(loss.signal, result.signal);
   copy_numbers(loss.first, result.first);
   copy_numbers(loss.epoch, result.epoch);
-  copy_numbers(loss.of_bridge.crossed, result.of_bridge.crossed);
-  copy_numbers(loss.of_bridge.own, result.of_bridge.own);
-  copy_numbers(loss.of_epoch.crossed, result.of_epoch.crossed);
-  copy_numbers(loss.of_epoch.own, result.of_epoch.own);
+  for (std::size_t losses = 0; losses < kMostLosses; ++losses) {
+    copy_numbers(loss.of_bridge[losses], result.of_bridge[losses]);
+    copy_numbers(loss.of_epoch[losses], result.of_epoch[losses]);
+  }
   copy_numbers(loss.model_error, result.model_error);
   return result;
 }

@@ -6,19 +6,16 @@
 #include <vector>
 
 #include "lookup/evidence/screen_directions.h"
-#include "lookup/readings/reading_factors.h"
+#include "lookup/evidence/unknown_bridge.h"
 
 namespace voussoir {
 
 inline constexpr std::size_t kEpochColumns = 4;  ///< combinations of an epoch's parameters, the leading
 
-/// What a loss adds to a covariance in the directions where a scene has `count` losses: crossed + count *
-/// own, and the outer product of what the losses' columns in common sum up to.
+/// What a loss adds to a covariance in the directions of a scene with 1, 2 .. losses, beside the outer
+/// product of what the losses' columns in common sum up to.
 template <class Number>
-struct ReducedPart {
-  std::array<Number, lower_size(kDirections)> crossed{};  ///< with what the intact bridge has
-  std::array<Number, lower_size(kDirections)> own{};      ///< without the columns in common
-};
+using ReducedPart = std::array<std::array<Number, lower_size(kDirections)>, kMostLosses>;
 
 /// A loss in the directions, in double or single precision.
 template <class Number>
@@ -26,7 +23,7 @@ struct LossInDirections {
   std::array<Number, kDirections> signal{};
   std::array<Number, kDirections* static_cast<std::size_t>(kFirstColumns)> first{};  ///< of A
   std::array<Number, kDirections * kEpochColumns> epoch{};  ///< of E, conditions being as the file states
-  ReducedPart<Number> of_bridge, of_epoch;
+  ReducedPart<Number> of_bridge{}, of_epoch{};
   std::array<Number, lower_size(kDirections)> model_error{};
 };
 
@@ -45,6 +42,11 @@ struct ReducedLoss {
       return exact;
   }
 };
+
+/// From a loss's product with what the intact bridge has, and its own without the columns in common. What two
+/// losses have in common otherwise is bounded by the own products of both, so that these count once for each
+/// loss.
+ReducedPart<double> reduced_part(const DirectionTriangle& crossed, const DirectionTriangle& own);
 
 LossInDirections<float> rounded(const LossInDirections<double>& loss);
 

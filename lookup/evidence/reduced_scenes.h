@@ -175,15 +175,11 @@ VOUSSOIR_INLINE void add_products(const Lanes* columns, std::size_t rows, Lanes*
 /// common.
 template <class Lanes, std::size_t N, std::size_t kCount, std::size_t kColumns, class Part, class Columns>
 VOUSSOIR_INLINE void add_losses(Scenes<Lanes> scenes, Part part, Columns numbers, Lanes* lower) {
-  constexpr std::size_t kSize = lower_size(N);
   static_assert(N * kColumns % kScenes<Lanes> == 0);
-  Lanes own[padded(kSize, kScenes<Lanes>)], columns[N * kColumns];
+  Lanes columns[N * kColumns];
   add_up<Lanes, kCount>(
-      scenes, kSize, [part](const auto& loss) VOUSSOIR_INLINE_WORK { return part(loss).crossed.data(); },
-      lower);
-  add_up<Lanes, kCount>(
-      scenes, kSize, [part](const auto& loss) VOUSSOIR_INLINE_WORK { return part(loss).own.data(); }, own);
-  for (std::size_t at = 0; at < kSize; ++at) lower[at] += static_cast<ElementOf<Lanes>>(kCount) * own[at];
+      scenes, lower_size(N),
+      [part](const auto& loss) VOUSSOIR_INLINE_WORK { return part(loss)[kCount - 1].data(); }, lower);
   add_up<Lanes, kCount>(scenes, N * kColumns, numbers, columns);
   add_products<Lanes, kColumns>(columns, N, lower);
 }

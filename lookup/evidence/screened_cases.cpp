@@ -116,14 +116,12 @@ void ScreenedCases::try_case(std::size_t number) {
 void ScreenedCases::look_at_many(std::size_t first) {
   const std::vector<double>& sums = estimates_.sums();
   estimates_.estimate(many_, least_counted());
-  estimates_.add_up(many_, least_counted());
   std::vector<std::size_t> places = that_matter(many_, kLeftWithFew);
   work_out(largest_places(places, sums, kAtOnce), [&](std::size_t place, std::size_t number) {
     return number < estimates_.looked_at() && may_matter(place, number);
   });
   places = that_matter(places, kLeftWithFew);
   estimates_.refine(places, first, ScreenDirections::more, least_counted());
-  estimates_.add_up(places, least_counted());
 }
 
 /// log of what the estimates of scenes with so much of the probability sum up to, if they are too low.
@@ -200,7 +198,6 @@ double ScreenedCases::total(std::size_t place) const {
 void ScreenedCases::look_at_cases() {
   work_out(nearest_singles(), [](std::size_t, std::size_t) { return true; });
   while (estimates_.looked_at() < terms_.size()) look_at_level();
-  estimates_.add_up(few_, kImpossible);
 }
 
 /// Looks at likely scenes in all directions, as far as what is left matters.
@@ -220,7 +217,6 @@ void ScreenedCases::refine_likely() {
 /// In all directions.
 void ScreenedCases::refine(std::span<const std::size_t> places) {
   estimates_.refine(places, 0, ScreenDirections::all, best_ - too_low_ - kNegligibleCase);
-  estimates_.add_up(places, kImpossible);
   for (const std::size_t place : places) {
     is_refined_[place] = true;
     if (const auto exact = exact_.find(place); exact != exact_.end())
@@ -282,19 +278,19 @@ void ScreenedCases::work_out_likely(std::size_t count, LeftScenes& left) {
   }
 }
 
-std::vector<double> ScreenedCases::evidence(std::size_t count) {
+std::vector<PlaceLog> ScreenedCases::evidence(std::size_t count) {
   count = std::max(count, kAtOnce);
   look_at_cases();
   refine_likely();
   work_out_where_likely(known_to_need_it());
   LeftScenes left = left_scenes(count);
   work_out_likely(count, left);
-  std::vector<double> result(rows_.size(), kImpossible);
-  for (std::size_t place = 0; place < rows_.size(); ++place)
-    result[place] = is_worked_out_[place] ? total(place) : estimates_.sums()[place] - beforehand_[place];
-  left.correct(result);
+  std::vector<PlaceLog> result = left.corrected();
+  for (const auto& [place, exact] : exact_)
+    if (is_worked_out_[place]) result.push_back({place, total(place) + beforehand_[place]});
+  std::sort(result.begin(), result.end(), [](const auto& a, const auto& b) { return a.place < b.place; });
   const double log_cases = std::log(static_cast<double>(terms_.size()));
-  for (double& log : result) log -= log_cases;
+  for (auto& [place, log] : result) log -= beforehand_[place] + log_cases;
   return result;
 }
 

@@ -22,11 +22,11 @@ class ScreenedCases {
                 std::span<const UnknownCase> cases, std::span<const std::size_t> rows,
                 std::span<const double> beforehand);
 
-  /// log of the mean evidence over all cases, for each of the rows. -infinity for impossible ones. The
-  /// `count` likeliest and all that matter are worked out; the others, which hold less than a thousandth of
-  /// the probability unless there are too many, count by their estimates, corrected by what those of their
-  /// kind were off.
-  std::vector<double> evidence(std::size_t count);
+  /// log of the mean evidence over all cases of the rows that may count, by their places, in ascending order;
+  /// -infinity for impossible ones. The `count` likeliest and all that matter are worked out; others count by
+  /// their estimates, corrected by what those of their kind were off. These and those left out hold less than
+  /// a thousandth of the probability, unless there are too many.
+  std::vector<PlaceLog> evidence(std::size_t count);
 
   /// The case in which the likeliest scene is likeliest, once there is evidence.
   std::size_t likeliest() const { return likeliest_; }

@@ -57,11 +57,14 @@ RowValues UnknownBridgeQuestion::log_evidence(const Eligible& eligible, const Pr
   std::vector<double> beforehand = silence;
   for (std::size_t i = 0; i < beforehand.size(); ++i) beforehand[i] += by_missing[eligible.missing[i]];
   ScreenedCases screened(bridge_, observation_, table, cases_, eligible.rows, beforehand);
-  std::vector<double> logs = screened.evidence(count);
+  RowValues result{kImpossible, {}, {}};
+  for (const auto& [place, log] : screened.evidence(count)) {
+    result.rows.push_back(eligible.rows[place]);
+    result.values.push_back(log + silence[place]);
+  }
   likeliest_ = screened.likeliest();
   set_case(observation_, cases_[likeliest_], bridge_);
-  for (std::size_t k = 0; k < logs.size(); ++k) logs[k] += silence[k];
-  return {kImpossible, eligible.rows, std::move(logs)};
+  return result;
 }
 
 BridgePosterior UnknownBridgeQuestion::posterior(const std::vector<WeightedScene>& scenes) const {

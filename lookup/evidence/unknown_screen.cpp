@@ -227,23 +227,28 @@ void UnknownScreen::reduce_bridge(const LossFactors& factors, LossInDirections<d
   const DirectionColumns first = projected(factors.lead.leading(kFirstColumns), directions_by_channel_);
   store_rows(first, kFirstColumns, to.first.data());
   const Index shown = factors.own.that_show(kTooSmall * bridge_.least_variance);
-  const DirectionColumns own = projected(factors.own.leading(shown), directions_by_channel_);
-  add_lower(own, own, 1.0, to.of_bridge.own);
-  add_lower(first, first, -1.0, to.of_bridge.own);
-  if (of_bridge_by_channel_.empty()) return;
-  const DirectionColumns intact = projected(factors.intact.leading(shown), of_bridge_by_channel_);
-  add_lower(own, intact, 1.0, to.of_bridge.crossed);
-  add_lower(intact, own, 1.0, to.of_bridge.crossed);
+  const DirectionColumns columns = projected(factors.own.leading(shown), directions_by_channel_);
+  DirectionTriangle crossed{}, own{};
+  add_lower(columns, columns, 1.0, own);
+  add_lower(first, first, -1.0, own);
+  if (!of_bridge_by_channel_.empty()) {
+    const DirectionColumns intact = projected(factors.intact.leading(shown), of_bridge_by_channel_);
+    add_lower(columns, intact, 1.0, crossed);
+    add_lower(intact, columns, 1.0, crossed);
+  }
+  to.of_bridge = reduced_part(crossed, own);
 }
 
 /// The same of E E^T.
 void UnknownScreen::reduce_epoch(const DirectionColumns& change, const DirectionColumns& first,
                                  LossInDirections<double>& to) const {
   store_rows(first, kEpochs, to.epoch.data());
-  add_lower(change, change, 1.0, to.of_epoch.own);
-  add_lower(first, first, -1.0, to.of_epoch.own);
-  add_lower(epoch_after_, change, 1.0, to.of_epoch.crossed);
-  add_lower(change, epoch_after_, 1.0, to.of_epoch.crossed);
+  DirectionTriangle crossed{}, own{};
+  add_lower(change, change, 1.0, own);
+  add_lower(first, first, -1.0, own);
+  add_lower(epoch_after_, change, 1.0, crossed);
+  add_lower(change, epoch_after_, 1.0, crossed);
+  to.of_epoch = reduced_part(crossed, own);
 }
 
 void UnknownScreen::reduce(const Loss& loss, ReducedLoss& to) const {

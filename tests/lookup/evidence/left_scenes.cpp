@@ -75,10 +75,12 @@ TEST_CASE("Scenes count for what those of their kind have shown, but others for 
   const double known = std::exp(1.5) * 36.0 * (std::exp(-4.0) + 3.0 / 32.0), others = std::exp(1.5) * 36.0;
   CHECK(all == Approx(std::log(std::exp(1.5) * 200.0)));
   CHECK(left.log_sum() == Approx(std::log(known + others)));
-  std::vector<double> corrected = estimates;
-  left.correct(corrected);
-  for (const std::size_t place : left.places()) CHECK(corrected[place] == Approx(1.5 - 4.0));
-  for (const double taken : std::span(corrected).first(128)) CHECK(taken == 1.5);
+  const std::vector<PlaceLog> corrected = left.corrected();
+  CHECK(corrected.size() == left.places().size());
+  for (const auto& [place, log] : corrected) {
+    CHECK(place >= 128);
+    CHECK(log == Approx(1.5 - 4.0));
+  }
 }
 
 TEST_CASE("Estimates that changed are put in order again and added up anew") {
