@@ -1,5 +1,5 @@
 #pragma once
-/// @file How fast lookups are, in process, on one core.
+/// @file How fast lookups are, in process.
 
 #include <optional>
 #include <string>

@@ -1,4 +1,4 @@
-/// @file benchmark-lookup: how fast lookups are, in process, on one core.
+/// @file benchmark-lookup: how fast lookups are, in process and as whole processes.
 
 #include "core/error.h"
 #include "lookup/command_line.h"
@@ -13,7 +13,7 @@ struct Options {
   std::optional<std::string> database;
   voussoir::LookupQueries queries;
   int runs = 41;
-  bool triples = false;
+  bool triples = false, searches = false;
   std::string only;
 };
 
@@ -26,6 +26,7 @@ std::string table(const std::string& title, const std::vector<voussoir::Timing>&
 
 std::string questions(const Options& options, const voussoir::Database& database,
                       const voussoir::Library& library) {
+  if (options.searches) return {};
   const voussoir::LookupQueries& asked = options.queries;
   std::string text =
       fmt::format("{:<50} {:>12} {:>10} {:>16} {:>10}\n", "Whole answers, with the model's own error",
@@ -83,14 +84,15 @@ std::string benchmark(const Options& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("Measures how fast lookups are, in process on one core and as whole processes.",
-               "benchmark-lookup");
+  CLI::App app("Measures how fast lookups are, in process and as whole processes.", "benchmark-lookup");
   app.footer("Example: benchmark-lookup -d bridge.h5");
   Options options;
   app.add_option("-d,--database", options.database, "default: $VOUSSOIR_DATABASE, else ./bridge.h5");
   app.add_option("--queries", options.queries.count, "default 150")->check(CLI::Range(3, 1000000));
   app.add_option("--runs", options.runs, "of whole processes, default 41")->check(CLI::Range(1, 100000));
   app.add_option("--only", options.only, "whole answers to questions whose name contains this, and no more");
+  app.add_flag("--searches", options.searches, "searches and posteriors alone, no whole answers")
+      ->excludes("--only");
   app.add_option("--level", options.queries.level,
                  "of the noise of all queries; default: even from 0.01 to 0.1")
       ->check(CLI::Range(1e-4, 1.0));

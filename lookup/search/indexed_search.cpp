@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "core/fetch.h"
+#include "core/threads.h"
 #include "lookup/search/exhaustive_search.h"
 #include "lookup/search/misfit.h"
 
@@ -15,9 +16,12 @@ namespace {
 constexpr std::size_t kNearest = 4;    // clusters first looked at
 constexpr std::size_t kRowsAhead = 6;  // rows that are fetched while others are scored
 constexpr std::size_t kClustersAhead = 4;
-constexpr std::size_t kRowsExpected = 4;     // of a cluster: fetched while others are looked at
-constexpr double kWorthwhile = 0.25;         // share of rows left beyond which scoring all of them is faster
-constexpr std::size_t kFewRows = 512;        // that are scored without further ado
+constexpr std::size_t kRowsExpected = 4;  // of a cluster: fetched while others are looked at
+constexpr double kWorthwhile = 0.25;      // share of rows left beyond which scoring all of them is faster
+constexpr std::size_t kFewRows = 512;     // that are scored without further ado
+// Clusters whose centres are compared, or which are looked at, by one thread at a time: what takes as long as
+// to wake another one, or longer.
+constexpr std::size_t kCentresOfAThread = 4096, kClustersOfAThread = 512;
 constexpr std::int32_t kAnything = 1 << 28;  // [units] limit without a limit
 constexpr std::int32_t kDone = 1 << 29;      // [units] distance of clusters that need not be looked at again
 constexpr std::uint32_t kNoBlock = 0, kNotEligible = 1, kFirstBlock = 2;
@@ -41,6 +45,8 @@ class Smallest {
   double largest() const {
     return heap_.size() < count_ ? std::numeric_limits<double>::infinity() : heap_.front();
   }
+  std::span<const double> values() const { return heap_; }
+  std::size_t count() const { return count_; }
 
  private:
   std::size_t count_;
@@ -52,6 +58,18 @@ std::int32_t in_units(double limit, double unit) {
   return static_cast<std::int32_t>(std::min(limit * (1.0 + 1e-12) / unit + 1.0, double{kAnything}));
 }
 
+std::size_t parts_of(std::size_t count, std::size_t of) {
+  return (count + of - 1) / of;
+}
+
+/// Calls work(part, first, count) for parts of so many, on all threads.
+template <class Work>
+void for_parts(std::size_t count, std::size_t of, Work work) {
+  for_each_index_on_threads(parts_of(count, of), hardware_threads(), [&](std::size_t part) {
+    work(part, part * of, std::min(of, count - part * of));
+  });
+}
+
 /// A row that may be among the best, and what its sum [m] is at least.
 struct Found {
   std::uint32_t slot;
@@ -60,16 +78,27 @@ struct Found {
 
 }  // namespace
 
-/// One search on its way.
+/// What is asked of all clusters.
 struct IndexedSearch::Query {
   std::span<const double> exact;
-  Smallest smallest;  // of what the sums of rows are at most [m]
-  RowBounds bounds;
-  std::vector<UnitReadings> readings{};  // of each unit
-  std::vector<std::int32_t> limits{};  // of each unit [units]: no row whose sum is above it is among the best
+  std::vector<UnitReadings> readings{};    // of each unit
   std::vector<std::uint8_t> impossible{};  // of each block (from kFirstBlock on): a reading was taken on it
   std::vector<std::int32_t> distances{};   // of each cluster's centre [units], at least
+};
+
+/// What was found in some of the clusters.
+struct IndexedSearch::Finds {
+  Smallest smallest;  // of what the sums of rows are at most [m]
+  RowBounds bounds;
+  double limit =
+      std::numeric_limits<double>::infinity();  // [m]: no row whose sum is above it is among the best
+  std::vector<std::int32_t> limits{};           // the same for each unit [units]
   std::vector<Found> found{};
+
+  void add(const Finds& others) {
+    for (const double most : others.smallest.values()) smallest.add(most);
+    found.insert(found.end(), others.found.begin(), others.found.end());
+  }
 };
 
 IndexedSearch::IndexedSearch(const SceneTable& table, const SearchIndex& index,
@@ -110,11 +139,14 @@ void IndexedSearch::sort_out_blocks(Query& query) const {
 void IndexedSearch::find_distances(Query& query) const {
   query.distances.resize(index_.clusters());
   for (const UnitClusters& unit : units_) {
-    const std::size_t count = unit.last - unit.first;
     query.readings.push_back(round_readings(query.exact, index_.places, unit.exponent));
-    least_distances(query.readings.back(),
-                    index_.centre.subspan(unit.first * index_.places, count * index_.places),
-                    std::span(query.distances).subspan(unit.first, count));
+    for_parts(unit.last - unit.first, kCentresOfAThread,
+              [&](std::size_t, std::size_t first, std::size_t count) {
+                first += unit.first;
+                least_distances(query.readings.back(),
+                                index_.centre.subspan(first * index_.places, count * index_.places),
+                                std::span(query.distances).subspan(first, count));
+              });
   }
 }
 
@@ -144,22 +176,23 @@ std::vector<std::size_t> IndexedSearch::nearest_clusters(const Query& query) con
 }
 
 /// Clusters that may hold rows within the limits.
-std::vector<std::size_t> IndexedSearch::clusters_in_reach(const Query& query) const {
+std::vector<std::size_t> IndexedSearch::clusters_in_reach(const Query& query,
+                                                          const std::vector<std::int32_t>& limits) const {
   std::vector<std::size_t> result(index_.clusters() + 1);
   std::size_t count = 0;
   for (std::size_t i = 0; i < units_.size(); ++i)
     for (std::size_t cluster = units_[i].first; cluster < units_[i].last; ++cluster) {
       result[count] = cluster;
-      count += reach_[cluster] >= query.distances[cluster] - query.limits[i] ? 1 : 0;
+      count += reach_[cluster] >= query.distances[cluster] - limits[i] ? 1 : 0;
     }
   result.resize(count);
   return result;
 }
 
-void IndexedSearch::set_limits(Query& query) const {
-  query.limits.resize(units_.size());
-  for (std::size_t i = 0; i < units_.size(); ++i)
-    query.limits[i] = in_units(query.smallest.largest(), units_[i].metres);
+void IndexedSearch::set_limits(double limit, Finds& finds) const {
+  finds.limit = limit;
+  finds.limits.resize(units_.size());
+  for (std::size_t i = 0; i < units_.size(); ++i) finds.limits[i] = in_units(limit, units_[i].metres);
 }
 
 bool IndexedSearch::is_possible(std::size_t slot, const Query& query) const {
@@ -169,19 +202,19 @@ bool IndexedSearch::is_possible(std::size_t slot, const Query& query) const {
 }
 
 /// Finds those rows of a cluster that may be among the best.
-void IndexedSearch::look_at(std::size_t cluster, Query& query) const {
+void IndexedSearch::look_at(std::size_t cluster, const Query& query, Finds& finds) const {
   const std::size_t unit = unit_[cluster];
-  const double metres = units_[unit].metres, old = query.smallest.largest();
+  const double metres = units_[unit].metres;
   for (const RowBound& one :
-       query.bounds.within(cluster, query.readings[unit], query.distances[cluster], query.limits[unit])) {
+       finds.bounds.within(cluster, query.readings[unit], query.distances[cluster], finds.limits[unit])) {
     if (!is_possible(one.slot, query)) continue;
-    query.found.push_back({one.slot, metres * one.least});
-    if (one.most < kUnbounded) query.smallest.add(metres * one.most);
+    finds.found.push_back({one.slot, metres * one.least});
+    if (one.most < kUnbounded) finds.smallest.add(metres * one.most);
   }
-  if (query.smallest.largest() < old) set_limits(query);
+  if (finds.smallest.largest() < finds.limit) set_limits(finds.smallest.largest(), finds);
 }
 
-void IndexedSearch::look_at(const std::vector<std::size_t>& clusters, Query& query) const {
+void IndexedSearch::look_at(std::span<const std::size_t> clusters, const Query& query, Finds& finds) const {
   const auto expect = [&](std::size_t cluster) {
     const std::size_t slot = index_.slot(cluster), rows = std::min(kRowsExpected, index_.rows(cluster));
     fetch(index_.bounds.subspan(slot, rows));
@@ -189,17 +222,29 @@ void IndexedSearch::look_at(const std::vector<std::size_t>& clusters, Query& que
   };
   for (std::size_t i = 0; i < clusters.size(); ++i) {
     if (i + kClustersAhead < clusters.size()) expect(clusters[i + kClustersAhead]);
-    look_at(clusters[i], query);
+    look_at(clusters[i], query, finds);
   }
 }
 
-std::vector<ScoredRow> IndexedSearch::score(const Query& query) const {
-  const auto row = [&](std::size_t i) { return static_cast<std::size_t>(index_.row[query.found[i].slot]); };
+/// The same, on all threads if there are many. Each begins with what is known of the limits.
+void IndexedSearch::look_at_all(std::span<const std::size_t> clusters, const Query& query,
+                                Finds& finds) const {
+  if (clusters.size() <= kClustersOfAThread) return look_at(clusters, query, finds);
+  Finds nothing{Smallest(finds.smallest.count()), finds.bounds, finds.limit, finds.limits};
+  std::vector<Finds> parts(parts_of(clusters.size(), kClustersOfAThread), nothing);
+  for_parts(clusters.size(), kClustersOfAThread, [&](std::size_t part, std::size_t first, std::size_t count) {
+    look_at(clusters.subspan(first, count), query, parts[part]);
+  });
+  for (const Finds& part : parts) finds.add(part);
+}
+
+std::vector<ScoredRow> IndexedSearch::score(const Query& query, const Finds& finds) const {
+  const auto row = [&](std::size_t i) { return static_cast<std::size_t>(index_.row[finds.found[i].slot]); };
   std::vector<ScoredRow> scored;
-  scored.reserve(query.found.size());
-  for (std::size_t i = 0; i < std::min(kRowsAhead, query.found.size()); ++i) fetch(table_.row(row(i)));
-  for (std::size_t i = 0; i < query.found.size(); ++i) {
-    if (i + kRowsAhead < query.found.size()) fetch(table_.row(row(i + kRowsAhead)));
+  scored.reserve(finds.found.size());
+  for (std::size_t i = 0; i < std::min(kRowsAhead, finds.found.size()); ++i) fetch(table_.row(row(i)));
+  for (std::size_t i = 0; i < finds.found.size(); ++i) {
+    if (i + kRowsAhead < finds.found.size()) fetch(table_.row(row(i + kRowsAhead)));
     scored.push_back({row(i), sum_of_differences(query.exact, table_.row(row(i)))});
   }
   return scored;
@@ -211,20 +256,21 @@ IndexedSearch::Result IndexedSearch::search(std::span<const double> readings, st
     return Result{exhaustive_search(readings, table_, eligible_.rows, count), eligible_.rows.size(), true};
   };
   if (eligible_.rows.size() <= kFewRows) return score_all();
-  Query query{readings, Smallest(count), RowBounds(index_, most_rows_)};
-  query.found.reserve(kFewRows);
+  Query query{readings};
   sort_out_blocks(query);
   find_distances(query);
-  set_limits(query);
+  Finds finds{Smallest(count), RowBounds(index_, most_rows_)};
+  finds.found.reserve(kFewRows);
+  set_limits(finds.limit, finds);
   for (const std::size_t cluster : nearest_clusters(query)) {
-    look_at(cluster, query);
+    look_at(cluster, query, finds);
     query.distances[cluster] = kDone;
   }
-  look_at(clusters_in_reach(query), query);
-  std::erase_if(query.found, [&](const Found& one) { return one.least > query.smallest.largest(); });
-  if (static_cast<double>(query.found.size()) > kWorthwhile * static_cast<double>(eligible_.rows.size()))
+  look_at_all(clusters_in_reach(query, finds.limits), query, finds);
+  std::erase_if(finds.found, [&](const Found& one) { return one.least > finds.smallest.largest(); });
+  if (static_cast<double>(finds.found.size()) > kWorthwhile * static_cast<double>(eligible_.rows.size()))
     return score_all();
-  return {best_rows(score(query), count), query.found.size(), false};
+  return {best_rows(score(query, finds), count), finds.found.size(), false};
 }
 
 }  // namespace voussoir

@@ -28,16 +28,19 @@ class IndexedSearch {
 
  private:
   struct Query;
+  struct Finds;
 
   void sort_out_blocks(Query& query) const;
   void find_distances(Query& query) const;
   std::vector<std::size_t> nearest_clusters(const Query& query) const;
-  std::vector<std::size_t> clusters_in_reach(const Query& query) const;
-  void look_at(std::size_t cluster, Query& query) const;
-  void look_at(const std::vector<std::size_t>& clusters, Query& query) const;
-  void set_limits(Query& query) const;
+  std::vector<std::size_t> clusters_in_reach(const Query& query,
+                                             const std::vector<std::int32_t>& limits) const;
+  void look_at(std::size_t cluster, const Query& query, Finds& finds) const;
+  void look_at(std::span<const std::size_t> clusters, const Query& query, Finds& finds) const;
+  void look_at_all(std::span<const std::size_t> clusters, const Query& query, Finds& finds) const;
+  void set_limits(double limit, Finds& finds) const;
   bool is_possible(std::size_t slot, const Query& query) const;
-  std::vector<ScoredRow> score(const Query& query) const;
+  std::vector<ScoredRow> score(const Query& query, const Finds& finds) const;
 
   const SceneTable& table_;
   SearchIndex index_;

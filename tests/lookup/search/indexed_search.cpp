@@ -56,17 +56,24 @@ TEST_CASE(
   CHECK(scored < 100 * library.table.rows);  // the bounds do rule out rows
 }
 
-TEST_CASE("So many rows that they are indexed in parts: the same answers, three missing blocks among them") {
+TEST_CASE(
+    "So many rows that they are indexed in parts and looked at on all threads: the same answers, three "
+    "missing "
+    "blocks among them") {
   const SyntheticLibrary library(7, 9, 3);
   REQUIRE(library.table.rows > 40'000);  // of 32,768 at most together
   const CheckedSearch search(library, {0, 1, 2, 3});
   Random random(3);
+  std::size_t scored = 0;
   for (int trial = 0; trial < 40; ++trial) {
     const std::size_t truth = random.below(static_cast<std::uint32_t>(library.table.rows));
+    const double level = trial % 2 == 0 ? 0.1 : 1.0;  // of the latter most clusters are within reach
     const auto readings =
-        library.measure(truth, 0.1 * random.uniform(), NoiseShape::uniform, random).displacement;
+        library.measure(truth, level * random.uniform(), NoiseShape::uniform, random).displacement;
     search.check_same(readings, 10);
+    scored += search(readings, 10).scored;
   }
+  CHECK(scored < 10 * library.table.rows);  // of 40
 }
 
 TEST_CASE("Indexed search keeps the order of rows among equal sums") {
