@@ -89,6 +89,7 @@ void CaseEstimates::refine(std::span<const std::size_t> places, std::size_t from
 std::vector<ScreenedRow> CaseEstimates::screened(std::span<const std::size_t> places, std::size_t first,
                                                  double least) {
   std::vector<ScreenedRow> rows;
+  rows.reserve(places.size());
   for (const std::size_t place : places)
     rows.push_back({rows_[place], least - beforehand_[place], logs_.data() + place * cases_.size() + first});
   return rows;

@@ -79,15 +79,6 @@ struct Rises {
   std::size_t all, before;
 };
 
-/// What the cases before it leave of one.
-VOUSSOIR_INLINE double bound_of(const ReducedCase& one, const float* logs, const double* rises,
-                                std::size_t before) {
-  double bound = one.peak;
-  for (std::size_t j = 0; j < before; ++j)
-    bound = smaller(static_cast<double>(logs[j]) + rises[j], bound);  // NaN does not bound
-  return bound;
-}
-
 /// Below these logarithms nothing matters.
 template <class Lanes>
 VOUSSOIR_INLINE Lanes least_of(Scenes<Lanes> scenes) {
@@ -102,6 +93,20 @@ VOUSSOIR_INLINE Lanes logs_of(Scenes<Lanes> scenes, std::size_t number) {
   Lanes logs{};
   for (std::size_t i = 0; i < scenes.size(); ++i) logs[i] = scenes[i].logs[number];
   return logs;
+}
+
+/// What the cases before it leave of one, whose rises from them are given; most say nothing.
+template <class Lanes>
+VOUSSOIR_INLINE Lanes bounds_of(const ReducedCase& one, Scenes<Lanes> scenes, const double* rises,
+                                std::size_t before) {
+  using Number = ElementOf<Lanes>;
+  Lanes bounds = Lanes{} + static_cast<Number>(one.peak);
+  for (std::size_t j = 0; j < before; ++j) {
+    if (rises[j] == -kImpossible) continue;
+    const Lanes bound = logs_of<Lanes>(scenes, j) + static_cast<Number>(rises[j]);
+    bounds = smaller(bound, bounds);  // NaN does not bound
+  }
+  return bounds;
 }
 
 /// In the first N directions, where some scene matters in a case; kKnown of them are projected on already.
@@ -133,13 +138,10 @@ VOUSSOIR_INLINE bool look(const ReducedQuestion& q, Scenes<Lanes> scenes, const 
   constexpr auto N = static_cast<std::size_t>(ScreenDirections::first);
   const Lanes least = least_of<Lanes>(scenes);
   ReducedScenes<Lanes> reduced;
-  Lanes bounds{};
   bool is_filled = false;
   for (std::size_t k = 0; k < q.cases.size(); ++k) {
     const ReducedCase& one = q.cases[k];
-    for (std::size_t i = 0; i < scenes.size(); ++i)
-      bounds[i] = static_cast<ElementOf<Lanes>>(
-          bound_of(one, scenes[i].logs, rises.of + k * rises.all, rises.before + k));
+    const Lanes bounds = bounds_of<Lanes>(one, scenes, rises.of + k * rises.all, rises.before + k);
     Lanes logs = bounds;
     if (any(bounds >= least)) {
       if (!is_filled) {

@@ -46,6 +46,7 @@ ScreenedCases::ScreenedCases(UnknownBridge& bridge, const Observation& observati
       too_low_(kCaseTooLow),
       is_refined_(rows.size(), false),
       is_worked_out_(rows.size(), false) {
+  many_.reserve(rows.size());
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const bool few = table.most_missing < 2 || table.removed[rows[i] * table.most_missing + 1] < 0;
     (few ? few_ : many_).push_back(i);

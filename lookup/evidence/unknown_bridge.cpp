@@ -217,18 +217,10 @@ MatrixXd in_rows(const std::vector<ReadingRow>& rows, const MatrixXd& before, co
   return result;
 }
 
-KnownLosses known_losses(const UnknownBridge& bridge, const SceneTable& table, std::size_t row) {
-  KnownLosses found;
-  if (!bridge.several.empty()) {
-    const Scene scene = table.scene(row);
-    const auto own = std::lower_bound(bridge.several.begin(), bridge.several.end(), scene);
-    if (own != bridge.several.end() && *own == scene)
-      return {{bridge.blocks + static_cast<std::size_t>(own - bridge.several.begin())}, 1};
-  }
-  for (const std::int32_t block : table.removed.subspan(row * table.most_missing, table.most_missing))
-    if (block >= 0 && bridge.losses[static_cast<std::size_t>(block)].known() && found.count < kMostLosses)
-      found.place[found.count++] = static_cast<std::size_t>(block);
-  return found;
+std::optional<std::size_t> place_of_several(const UnknownBridge& bridge, const Scene& scene) {
+  const auto own = std::lower_bound(bridge.several.begin(), bridge.several.end(), scene);
+  if (own == bridge.several.end() || *own != scene) return std::nullopt;
+  return bridge.blocks + static_cast<std::size_t>(own - bridge.several.begin());
 }
 
 std::optional<SceneLoss> scene_loss(const UnknownBridge& bridge, const Observation& observation,

@@ -116,7 +116,18 @@ struct KnownLosses {
   std::array<std::size_t, kMostLosses> place{};
   std::size_t count = 0;
 };
-KnownLosses known_losses(const UnknownBridge& bridge, const SceneTable& table, std::size_t row);
+/// Of a scene that has factors of its own, its place in UnknownBridge::losses.
+std::optional<std::size_t> place_of_several(const UnknownBridge& bridge, const Scene& scene);
+/// Asked for millions of rows.
+inline KnownLosses known_losses(const UnknownBridge& bridge, const SceneTable& table, std::size_t row) {
+  if (!bridge.several.empty())
+    if (const auto own = place_of_several(bridge, table.scene(row))) return {{*own}, 1};
+  KnownLosses found;
+  for (const std::int32_t block : table.removed.subspan(row * table.most_missing, table.most_missing))
+    if (block >= 0 && bridge.losses[static_cast<std::size_t>(block)].known() && found.count < kMostLosses)
+      found.place[found.count++] = static_cast<std::size_t>(block);
+  return found;
+}
 
 /// What one scene lacks, in rows of y.
 struct SceneLoss {
