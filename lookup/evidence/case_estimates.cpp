@@ -4,8 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/threads.h"
-#include "lookup/evidence/row_blocks.h"
+#include "core/parts.h"
 #include "lookup/evidence/scene_evidence.h"
 
 namespace voussoir {
@@ -15,9 +14,8 @@ namespace {
 template <class Work>
 void for_blocks(std::span<const std::size_t> places, Work work) {
   constexpr std::size_t kPlaces = 1024;  // of which those that matter still fill lanes
-  const auto blocks = row_blocks(places, kPlaces);
-  const int threads = std::min(hardware_threads(), static_cast<int>(blocks.size()));
-  for_each_index_on_threads(blocks.size(), threads, [&](std::size_t i) { work(blocks[i]); });
+  for_parts(places.size(), kPlaces,
+            [&](std::size_t, std::size_t first, std::size_t count) { work(places.subspan(first, count)); });
 }
 
 /// How much a density rises at most if the covariance becomes that of another case, which is nowhere wider.

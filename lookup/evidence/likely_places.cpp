@@ -5,7 +5,7 @@
 #include <cmath>
 #include <ranges>
 
-#include "core/threads.h"
+#include "core/parts.h"
 #include "lookup/evidence/scene_evidence.h"
 
 namespace voussoir {
@@ -46,9 +46,9 @@ constexpr std::size_t kPart = 16384;
 /// What work(some of the places) gives, for all of them in their order.
 template <class Result, class Places, class Work>
 std::vector<Result> of_parts(const Places& places, Work work) {
-  std::vector<Result> results((places.size() + kPart - 1) / kPart);
-  for_each_index_on_threads(results.size(), hardware_threads(), [&](std::size_t i) {
-    results[i] = work(places | std::views::drop(i * kPart) | std::views::take(kPart));
+  std::vector<Result> results(parts_of(places.size(), kPart));
+  for_parts(places.size(), kPart, [&](std::size_t part, std::size_t first, std::size_t count) {
+    results[part] = work(places | std::views::drop(first) | std::views::take(count));
   });
   return results;
 }

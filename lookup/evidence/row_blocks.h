@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "core/threads.h"
+#include "core/parts.h"
 
 namespace voussoir {
 
@@ -36,8 +36,8 @@ std::vector<double> block_by_block(std::span<const std::size_t> rows, Function f
 /// Calls work(block) for blocks of all rows, on all of the machine's threads.
 template <typename Work>
 void for_row_blocks_on_threads(std::span<const std::size_t> rows, Work work) {
-  const auto blocks = row_blocks(rows, kRowsOfAThread);
-  for_each_index_on_threads(blocks.size(), hardware_threads(), [&](std::size_t i) { work(blocks[i]); });
+  for_parts(rows.size(), kRowsOfAThread,
+            [&](std::size_t, std::size_t first, std::size_t count) { work(rows.subspan(first, count)); });
 }
 
 }  // namespace voussoir

@@ -287,11 +287,12 @@ std::vector<PlaceLog> ScreenedCases::evidence(std::size_t count) {
   LeftScenes left = left_scenes(count);
   work_out_likely(count, left);
   std::vector<PlaceLog> result = left.corrected();
+  for (auto& [place, log] : result) log -= beforehand_[place];
   for (const auto& [place, exact] : exact_)
-    if (is_worked_out_[place]) result.push_back({place, total(place) + beforehand_[place]});
+    if (is_worked_out_[place]) result.push_back({place, total(place)});
   std::sort(result.begin(), result.end(), [](const auto& a, const auto& b) { return a.place < b.place; });
   const double log_cases = std::log(static_cast<double>(terms_.size()));
-  for (auto& [place, log] : result) log -= beforehand_[place] + log_cases;
+  for (auto& [place, log] : result) log -= log_cases;
   return result;
 }
 

@@ -116,6 +116,7 @@ struct KnownLosses {
   std::array<std::size_t, kMostLosses> place{};
   std::size_t count = 0;
 };
+
 /// Of a scene that has factors of its own, its place in UnknownBridge::losses.
 std::optional<std::size_t> place_of_several(const UnknownBridge& bridge, const Scene& scene);
 /// Asked for millions of rows.

@@ -49,18 +49,27 @@ UnknownBridgeQuestion::UnknownBridgeQuestion(const Comparison& comparison, const
   bridge_ = unknown_bridge(comparison, observation, cases_.front(), settings);
 }
 
+/// Rows that are impossible beforehand, as no such number of blocks can be missing or a sensor would not be
+/// silent, are not asked about.
 RowValues UnknownBridgeQuestion::log_evidence(const Eligible& eligible, const Prior& prior,
                                               std::size_t count) {
   const SceneTable& table = comparison_.library.table;
   const std::vector<double> by_missing = log_prior_by_missing(table, eligible, prior);
   const std::vector<double> silence = log_chance_of_silence(observation_, table, eligible.rows);
-  std::vector<double> beforehand = silence;
-  for (std::size_t i = 0; i < beforehand.size(); ++i) beforehand[i] += by_missing[eligible.missing[i]];
-  ScreenedCases screened(bridge_, observation_, table, cases_, eligible.rows, beforehand);
+  std::vector<std::size_t> rows;
+  std::vector<double> beforehand, of_silence;
+  for (std::size_t i = 0; i < silence.size(); ++i) {
+    const double log = by_missing[eligible.missing[i]] + silence[i];
+    if (log == kImpossible) continue;
+    rows.push_back(eligible.rows[i]);
+    beforehand.push_back(log);
+    of_silence.push_back(silence[i]);
+  }
+  ScreenedCases screened(bridge_, observation_, table, cases_, rows, beforehand);
   RowValues result{kImpossible, {}, {}};
   for (const auto& [place, log] : screened.evidence(count)) {
-    result.rows.push_back(eligible.rows[place]);
-    result.values.push_back(log + silence[place]);
+    result.rows.push_back(rows[place]);
+    result.values.push_back(log + of_silence[place]);
   }
   likeliest_ = screened.likeliest();
   set_case(observation_, cases_[likeliest_], bridge_);

@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "core/fetch.h"
-#include "core/threads.h"
+#include "core/parts.h"
 #include "lookup/search/exhaustive_search.h"
 #include "lookup/search/misfit.h"
 
@@ -56,18 +56,6 @@ class Smallest {
 /// A limit [m] in units, rounded up by more than what sums lose in double precision.
 std::int32_t in_units(double limit, double unit) {
   return static_cast<std::int32_t>(std::min(limit * (1.0 + 1e-12) / unit + 1.0, double{kAnything}));
-}
-
-std::size_t parts_of(std::size_t count, std::size_t of) {
-  return (count + of - 1) / of;
-}
-
-/// Calls work(part, first, count) for parts of so many, on all threads.
-template <class Work>
-void for_parts(std::size_t count, std::size_t of, Work work) {
-  for_each_index_on_threads(parts_of(count, of), hardware_threads(), [&](std::size_t part) {
-    work(part, part * of, std::min(of, count - part * of));
-  });
 }
 
 /// A row that may be among the best, and what its sum [m] is at least.

@@ -108,11 +108,15 @@ double largest_difference(const Trial& trial, Asked asked) {
   const Posterior wanted =
       posterior_of({kImpossible, all_rows(table), brute_force(trial, observation, asked, eligible)});
   double worst = 0.0;
+  const auto compare_numbers = [&](double a, double b) {
+    const double off = std::abs(a - b);
+    worst = std::max(worst, std::isnan(off) ? std::numeric_limits<double>::infinity() : off);
+  };
   const auto compare = [&](const std::vector<double>& a, const std::vector<double>& b) {
-    for (std::size_t i = 0; i < a.size(); ++i) worst = std::max(worst, std::abs(a[i] - b[i]));
+    for (std::size_t i = 0; i < a.size(); ++i) compare_numbers(a[i], b[i]);
   };
   for (std::size_t row = 0; row < table.rows; ++row)
-    worst = std::max(worst, std::abs(found.probability[row] - wanted.probability[row]));
+    compare_numbers(found.probability[row], wanted.probability[row]);
   compare(found.block_probability, wanted.block_probability);
   compare(found.missing_probability, wanted.missing_probability);
   return worst;
@@ -208,6 +212,30 @@ TEST_CASE("Cases that are not looked at change no probability by more than a tho
       trial.forget_sigmas();
       CHECK(largest_difference(trial, {.noise = {NoiseShape::gaussian, std::nullopt}}) < 1e-3);
     }
+}
+
+TEST_CASE("Numbers of missing blocks without any weight beforehand have no probability, others all of it") {
+  Trial trial(4, 6, 8, 3e-5);
+  Random random(7);
+  for (const std::size_t truth : {std::size_t{0}, std::size_t{5}, trial.library.table.rows / 2}) {
+    trial.measure(ReadingKind::change, trial.library.table.outcome[truth] == 0 ? truth : 3, 3e-5, random);
+    for (const std::vector<double>& weight :
+         {std::vector{0.0, 1.0, 1.0}, std::vector{1.0, 0.0, 1.0}, std::vector{1.0, 1.0, 0.0}})
+      CHECK(largest_difference(trial, {.prior = {{0, 1, 2}, weight}}) < 1e-3);
+  }
+}
+
+TEST_CASE("Where sensors are never silent without a reason, scenes that do not explain it are impossible") {
+  Trial trial(4, 6, 8, 3e-5);
+  Random random(8);
+  trial.measure(ReadingKind::change, 0, 3e-5, random);
+  NoiseModel never{NoiseShape::gaussian, 0.0};
+  never.silence = 0.0;
+  for (std::size_t silent = 0; silent < 3; ++silent) {
+    trial.comparison.measured.displacement[5 * silent] = kUnknown;
+    trial.comparison.measured.silent[5 * silent] = true;
+    CHECK(largest_difference(trial, {.noise = never}) < 1e-3);
+  }
 }
 
 TEST_CASE("Scenes that make the same collapse of metres share its probability") {

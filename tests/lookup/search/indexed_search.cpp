@@ -57,9 +57,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "So many rows that they are indexed in parts and looked at on all threads: the same answers, three "
-    "missing "
-    "blocks among them") {
+    "So many rows that parts are indexed and searched on their own: the same answers, triples among them") {
   const SyntheticLibrary library(7, 9, 3);
   REQUIRE(library.table.rows > 40'000);  // of 32,768 at most together
   const CheckedSearch search(library, {0, 1, 2, 3});
