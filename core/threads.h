@@ -12,9 +12,11 @@
 
 namespace voussoir {
 
-/// How many the machine runs side by side; at least one.
+/// How many the machine runs side by side; at least one. The system is asked once: that takes as long as a
+/// quick search.
 inline int hardware_threads() {
-  return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  static const int threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  return threads;
 }
 
 /// Calls the work on this thread and, unless it ends before they begin, on up to so many others at once,
