@@ -69,11 +69,13 @@ std::string benchmark(const Options& options) {
   text += table("Ten best under Eq. 1", timings.searches);
   text += table("Posterior over all scenes", timings.posteriors);
   text += questions(options, database, library);
-  text += table("Genetic search, the paper's settings", timings.genetic);
-  const auto own_folder = std::filesystem::read_symlink("/proc/self/exe").parent_path();
-  text +=
-      table("Whole process, warm cache",
-            voussoir::time_processes(own_folder / "locate-damage", database.path(), library, options.runs));
+  if (!options.searches) {
+    text += table("Genetic search, the paper's settings", timings.genetic);
+    const auto own_folder = std::filesystem::read_symlink("/proc/self/exe").parent_path();
+    text +=
+        table("Whole process, warm cache",
+              voussoir::time_processes(own_folder / "locate-damage", database.path(), library, options.runs));
+  }
   for (const auto& timing : timings.searches)
     text += fmt::format("{:<30} {:>6.1f} times the search index's median\n", timing.name,
                         timing.median / timings.searches[1].median);
