@@ -12,8 +12,8 @@
 
 namespace voussoir {
 
-/// How many the machine runs side by side; at least one. The system is asked once: that takes as long as a
-/// quick search.
+/// How many the machine runs side by side; at least one. The system is asked once: to ask takes
+/// microseconds, and a quick search twenty of them.
 inline int hardware_threads() {
   static const int threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   return threads;

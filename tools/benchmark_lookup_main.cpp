@@ -69,8 +69,8 @@ std::string benchmark(const Options& options) {
   text += table("Ten best under Eq. 1", timings.searches);
   text += table("Posterior over all scenes", timings.posteriors);
   text += questions(options, database, library);
+  text += table("Genetic search, the paper's settings", timings.genetic);
   if (!options.searches) {
-    text += table("Genetic search, the paper's settings", timings.genetic);
     const auto own_folder = std::filesystem::read_symlink("/proc/self/exe").parent_path();
     text +=
         table("Whole process, warm cache",

@@ -58,6 +58,9 @@ RowValues UnknownBridgeQuestion::log_evidence(const Eligible& eligible, const Pr
   const std::vector<double> silence = log_chance_of_silence(observation_, table, eligible.rows);
   std::vector<std::size_t> rows;
   std::vector<double> beforehand, of_silence;
+  rows.reserve(silence.size());
+  beforehand.reserve(silence.size());
+  of_silence.reserve(silence.size());
   for (std::size_t i = 0; i < silence.size(); ++i) {
     const double log = by_missing[eligible.missing[i]] + silence[i];
     if (log == kImpossible) continue;
