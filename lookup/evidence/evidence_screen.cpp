@@ -20,8 +20,9 @@ namespace voussoir {
 namespace {
 
 /// So many clusters' rows are worked out first; more if they hold too few possible scenes.
-constexpr std::array<std::size_t, 2> kClustersFirst = {8, 32};
-constexpr std::size_t kLikelyRows = 16;  // that say where an unknown level lies
+constexpr std::array<std::size_t, 2> kClustersFirst = {4, 32};
+constexpr std::size_t kLikelyClusters = 8;  // whose rows nearest to the readings, so many,
+constexpr std::size_t kLikelyRows = 16;     // say where an unknown level lies
 
 /// The sum of |reading - centre| for each cluster [m].
 std::vector<double> distances_from(std::span<const double> readings, const SearchIndex& index) {
@@ -67,7 +68,8 @@ EvidenceScreen::EvidenceScreen(const SceneTable& table, const SearchIndex& index
       index_(index),
       eligible_(eligible),
       priors_{std::vector<double>(table.rows, kImpossible),
-              std::vector<double>(index.clusters(), kImpossible)} {
+              std::vector<double>(index.clusters(), kImpossible)},
+      gaussian_(table, index) {
   const std::vector<double> by_missing = log_prior_by_missing(table, eligible, prior);
   for (std::size_t i = 0; i < eligible.rows.size(); ++i)
     priors_.row[eligible.rows[i]] = by_missing[eligible.missing[i]];
@@ -131,7 +133,7 @@ std::vector<std::size_t> EvidenceScreen::rows_within_bounds(const Observation& o
                                                             std::size_t count) const {
   const double threshold = least_that_matters(observation, count).value_or(kImpossible);
   if (gaussian_screen_applies(observation))
-    return in_order(rows_in_reach(observation, table_, index_, priors_, threshold));
+    return in_order(gaussian_.rows_in_reach(observation, priors_, threshold));
   const std::vector<double> bounds = cluster_bounds(observation, index_);
   std::vector<std::size_t> clusters;
   for (std::size_t i = 0; i < bounds.size(); ++i)
@@ -142,7 +144,7 @@ std::vector<std::size_t> EvidenceScreen::rows_within_bounds(const Observation& o
 /// A few possible rows near the readings, in ascending order.
 std::vector<std::size_t> EvidenceScreen::likely_rows(const Observation& observation,
                                                      std::span<const std::size_t> possible) const {
-  std::vector<std::size_t> near = rows_of(nearest_clusters(observation, kClustersFirst.front()));
+  std::vector<std::size_t> near = rows_of(nearest_clusters(observation, kLikelyClusters));
   near = possible_rows(observation, table_, near);
   if (near.size() < kLikelyRows) near.assign(possible.begin(), possible.end());
   std::vector<std::size_t> rows;

@@ -41,6 +41,7 @@ class EvidenceScreen {
   SearchIndex index_;
   const Eligible& eligible_;
   RowPriors priors_;
+  GaussianScreen gaussian_;
 };
 
 }  // namespace voussoir

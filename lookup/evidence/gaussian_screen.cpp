@@ -1,92 +1,139 @@
 #include "lookup/evidence/gaussian_screen.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "core/simd/lane_math.h"
+#include "core/parts.h"
+#include "lookup/evidence/box_variances.h"
 #include "lookup/evidence/evidence.h"
 #include "lookup/evidence/index_box.h"
 #include "lookup/evidence/scene_evidence.h"
-#include "lookup/evidence/wide_product.h"
 
 namespace voussoir {
 namespace {
 
-constexpr std::size_t kPlacesTried = 20;  // after which hopeless boxes are left
-static_assert(kPlacesTried % kLanes == 0);
+constexpr std::size_t kPlacesTried = 20;     // after which hopeless boxes are left
+constexpr std::size_t kPlacesAtOnce = 16;    // of a row, after which hopeless ones are left
+constexpr std::size_t kClustersAtOnce = 64;  // whose variances stay near
+constexpr std::size_t kClustersOfAThread = 1024;
+static_assert(kPlacesTried % kLanes == 0 && kPlacesAtOnce % kLanes == 0);
 
 struct Question {
   const PlaceArrays& arrays;
   const SceneTable& table;
   const SearchIndex& index;
   const RowPriors& priors;
-  double constant;  // of the logarithm of the density, but for squares and scales in units of the arrays
-  double highest;   // that a density's logarithm can be
-  double least;     // that matters
+  double shared;  // of the logarithm of all densities, in the arrays' unit
+  double least;   // that matters
 };
 
-/// Of a box: errors against the nearest number over the largest variance, and the product of the least
-/// variances.
-struct GaussianSums {
-  DoubleLanes square{}, variances = DoubleLanes{} + 1.0;
+/// A row that may matter.
+struct OpenRow {
+  std::size_t row;
+  double sum;   // of the squares of its errors so far
+  double most;  // that the whole sum may be
 };
 
-/// Adds the places from the i-th and keeps the inverse of the largest variances there.
-VOUSSOIR_INLINE void add_places(const PlaceArrays& arrays, const ClusterBox& box, std::size_t i,
-                                const CommonVariance& common, double* weights, GaussianSums& sums) {
-  const DoubleLanes zero{}, one = DoubleLanes{} + 1.0;
-  const PlaceBounds at = place_bounds(arrays, box, i, common);
-  const DoubleLanes most_variance = at.most_instrument * at.most_instrument + at.most_variance;
-  const DoubleLanes weight = at.has_reading ? 1.0 / most_variance : zero;
-  store_some(weight, kLanes, weights + i);
-  sums.square += at.has_reading ? at.error * at.error * weight : zero;
-  const DoubleLanes least_variance = at.least_instrument * at.least_instrument + at.least_variance;
-  const double unit = arrays.inverse_unit;
-  sums.variances *= at.has_reading ? least_variance * (unit * unit) : one;
+/// What some places from the i-th have at least in a box.
+VOUSSOIR_INLINE DoubleLanes box_squares(const PlaceArrays& arrays, const ClusterBox& box,
+                                        const double* weight, std::size_t i) {
+  const auto reading = load<DoubleLanes>(arrays.reading.data() + i);
+  const DoubleLanes error = distances(reading - box.high(i), reading - box.low(i)).least;
+  return reading == reading ? error * error * load<DoubleLanes>(weight + i) : DoubleLanes{};
 }
 
-/// The most that the logarithm of a density can be in a box but for the squares; -infinity if no row in it
-/// reaches `least`.
-VOUSSOIR_INLINE double bound_of(const Question& q, const ClusterBox& box, double least, double* weights) {
-  const CommonVariance common = common_variance_in(q.arrays, box);
-  GaussianSums sums;
-  WideProduct variances;
-  for (std::size_t i = 0, step = 1; i < q.arrays.reading.size(); i += kLanes, ++step) {
-    add_places(q.arrays, box, i, common, weights, sums);
-    if (step % (kSafeProducts / 2) == 0) flush(sums.variances, variances);
-    if (i + kLanes == kPlacesTried && q.highest - 0.5 * sum_of(sums.square) < least) return kImpossible;
-  }
-  flush(sums.variances, variances);
-  const double bound = q.constant - 0.5 * logarithm_of(variances);
-  return bound - 0.5 * sum_of(sums.square) < least ? kImpossible : bound;
-}
-
-/// NaN if a reading has no prediction; beyond `most` it may be too small.
-VOUSSOIR_INLINE double sum_of_squares(const PlaceArrays& arrays, const double* weights,
-                                      std::span<const double> row, double most) {
+/// True if no row of the box has so small a sum of squares.
+VOUSSOIR_INLINE bool is_beyond(const PlaceArrays& arrays, const ClusterBox& box, const double* weight,
+                               double most) {
   DoubleLanes sum{};
-  for (std::size_t i = 0; i < row.size(); i += kLanes) {
-    const auto reading = load<DoubleLanes>(arrays.reading.data() + i);
-    const std::size_t some = row.size() - i < kLanes ? row.size() - i : kLanes;
-    const DoubleLanes error = reading - load_some<DoubleLanes>(row.data() + i, some, 0.0);
-    sum += reading == reading ? error * error * load<DoubleLanes>(weights + i) : DoubleLanes{};
-    if ((i / kLanes) % 4 == 3 && sum_of(sum) > most) break;
+  for (std::size_t i = 0; i < arrays.reading.size(); i += kLanes) {
+    sum += box_squares(arrays, box, weight, i);
+    if (i + kLanes == kPlacesTried && sum_of(sum) > most) return true;
   }
-  return sum_of(sum);
+  return sum_of(sum) > most;
 }
 
-VOUSSOIR_FOR_EVERY_PROCESSOR
-void find_rows(const Question& q, double* weights, std::vector<std::size_t>& found) {
-  for (std::size_t cluster = 0; cluster < q.index.clusters(); ++cluster) {
-    const double bound = bound_of(q, box_of(q.index, cluster), q.least - q.priors.cluster[cluster], weights);
-    if (!(bound > kImpossible)) continue;
-    for (const std::int32_t slot : q.index.row.subspan(q.index.slot(cluster), q.index.rows(cluster))) {
-      const auto row = static_cast<std::size_t>(slot);
-      const double left = bound + q.priors.row[row] - q.least;
-      if (left >= 0.0 && sum_of_squares(q.arrays, weights, q.table.row(row), 2.0 * left) <= 2.0 * left)
-        found.push_back(row);
-    }
+/// NaN where a reading has no prediction.
+VOUSSOIR_INLINE DoubleLanes row_squares(const PlaceArrays& arrays, const double* row, const double* weight,
+                                        std::size_t i, std::size_t some) {
+  const auto reading = load<DoubleLanes>(arrays.reading.data() + i);
+  const DoubleLanes error = reading - load_some<DoubleLanes>(row + i, some, 0.0);
+  return reading == reading ? error * error * load<DoubleLanes>(weight + i) : DoubleLanes{};
+}
+
+/// Fetches `count` numbers ahead: rows come from memory in an order of their own.
+VOUSSOIR_INLINE void fetch(const double* numbers, std::size_t count) {
+  constexpr std::size_t kLine = 64 / sizeof(double);
+  for (std::size_t i = 0; i < count + kLine; i += kLine) __builtin_prefetch(numbers + i);
+}
+
+/// Writes down the rows of a cluster that may matter, none of whose densities' logarithms is above `highest`,
+/// and returns how many there are.
+VOUSSOIR_INLINE std::size_t open_rows(const Question& q, std::size_t cluster, double highest, OpenRow* open) {
+  std::size_t count = 0;
+  for (const std::int32_t slot : q.index.row.subspan(q.index.slot(cluster), q.index.rows(cluster))) {
+    const auto row = static_cast<std::size_t>(slot);
+    open[count] = {row, 0.0, 2.0 * (highest + q.priors.row[row] - q.least)};
+    fetch(q.table.row(row).data(), kPlacesAtOnce);
+    count += open[count].most >= 0.0 ? 1 : 0;
   }
+  return count;
+}
+
+/// Adds the squares of some places and keeps the rows that still may matter. Which do is as good as random:
+/// there is no branch that could be guessed wrongly.
+VOUSSOIR_INLINE std::size_t keep_within(const Question& q, const double* weight, std::size_t first,
+                                        std::size_t last, OpenRow* open, std::size_t count) {
+  std::size_t kept = 0;
+  for (std::size_t k = 0; k < count; ++k) {
+    OpenRow one = open[k];
+    const double* row = q.table.row(one.row).data();
+    fetch(row + last, kPlacesAtOnce);
+    DoubleLanes sum{};
+    for_lanes(last - first, [&](std::size_t i, std::size_t some) VOUSSOIR_INLINE_WORK {
+      sum += row_squares(q.arrays, row, weight, first + i, some);
+    });
+    one.sum += sum_of(sum);
+    open[kept] = one;
+    kept += one.sum <= one.most ? 1 : 0;
+  }
+  return kept;
+}
+
+/// Finds rows of the clusters from `first` to before `last`.
+VOUSSOIR_FOR_EVERY_PROCESSOR
+void find_rows(const Question& q, const BoxVariances& boxes, std::size_t first, std::size_t last,
+               OpenRow* open, std::vector<std::size_t>& found) {
+  for (std::size_t cluster = first; cluster < last; ++cluster) {
+    const double highest = q.shared + boxes.highest[cluster - boxes.first];
+    const double* weight = boxes.weight.data() + (cluster - boxes.first) * q.index.places;
+    const double most = 2.0 * (highest + q.priors.cluster[cluster] - q.least);
+    if (!(most >= 0.0) || is_beyond(q.arrays, box_of(q.index, cluster), weight, most)) continue;
+    std::size_t count = open_rows(q, cluster, highest, open);
+    for (std::size_t place = 0; place < q.table.points && count > 0; place += kPlacesAtOnce)
+      count = keep_within(q, weight, place, std::min(place + kPlacesAtOnce, q.table.points), open, count);
+    for (std::size_t k = 0; k < count; ++k) found.push_back(open[k].row);
+  }
+}
+
+/// The same; variances that are not kept are made a few boxes at a time.
+std::vector<std::size_t> find_rows(const Question& q, const BoxVariances* kept, std::size_t first,
+                                   std::size_t last) {
+  std::size_t most_rows = 0;
+  for (std::size_t cluster = first; cluster < last; ++cluster)
+    most_rows = std::max(most_rows, q.index.rows(cluster));
+  std::vector<OpenRow> open(most_rows);
+  std::vector<std::size_t> found;
+  if (kept != nullptr) {
+    find_rows(q, *kept, first, last, open.data(), found);
+    return found;
+  }
+  for (; first < last; first += kClustersAtOnce) {
+    const std::size_t end = std::min(first + kClustersAtOnce, last);
+    find_rows(q, box_variances(q.arrays, q.index, first, end), first, end, open.data(), found);
+  }
+  return found;
 }
 
 }  // namespace
@@ -96,22 +143,23 @@ bool gaussian_screen_applies(const Observation& observation) {
          !observation.has_levelling() && observation.unknown_scale == 0.0;
 }
 
-std::vector<std::size_t> rows_in_reach(const Observation& observation, const SceneTable& table,
-                                       const SearchIndex& index, const RowPriors& priors, double least) {
+std::vector<std::size_t> GaussianScreen::rows_in_reach(const Observation& observation,
+                                                       const RowPriors& priors, double least) const {
   const ErrorScales scales = scales_at(observation, stated_level(observation));
-  const PlaceArrays arrays(observation, scales, index.places);
+  const PlaceArrays arrays(observation, scales, index_.places);
   const auto count = static_cast<double>(observation.count);
-  const double constant = -count * (0.5 * std::log(2.0 * std::numbers::pi) + std::log(scales.unit));
-  double highest = constant;
-  for (std::size_t i = 0; i < observation.reading.size(); ++i)
-    if (!std::isnan(observation.reading[i]))
-      highest -= 0.5 * std::log((scales.offset[i] * scales.offset[i] + observation.own_variance[i]) *
-                                arrays.inverse_unit * arrays.inverse_unit);
+  const double shared = -count * (0.5 * std::log(2.0 * std::numbers::pi) + std::log(scales.unit));
   const double safe = least - kLogRoundOff * (1.0 + std::abs(least));
-  std::vector<double> weights(index.places);
-  std::vector<std::size_t> found;
-  find_rows({arrays, table, index, priors, constant, highest, safe}, weights.data(), found);
-  return found;
+  const Question question{arrays, table_, index_, priors, shared, safe};
+  const auto kept = kept_.find(arrays, index_);
+  std::vector<std::vector<std::size_t>> found(parts_of(index_.clusters(), kClustersOfAThread));
+  for_parts(index_.clusters(), kClustersOfAThread,
+            [&](std::size_t part, std::size_t first, std::size_t clusters) {
+              found[part] = find_rows(question, kept.get(), first, first + clusters);
+            });
+  std::vector<std::size_t> all;
+  for (const std::vector<std::size_t>& rows : found) all.insert(all.end(), rows.begin(), rows.end());
+  return all;
 }
 
 }  // namespace voussoir

@@ -6,6 +6,7 @@
 
 #include "database/records/scene_table.h"
 #include "database/search/search_index.h"
+#include "lookup/evidence/box_variances.h"
 #include "lookup/readings/observation.h"
 
 namespace voussoir {
@@ -19,9 +20,20 @@ struct RowPriors {
 /// True if the errors are Gaussian, their level is stated, and neither a factor nor levellings are unknown.
 bool gaussian_screen_applies(const Observation& observation);
 
-/// Rows whose log prior and log evidence together reach `least` are among these, cluster by cluster.
-/// Precondition: gaussian_screen_applies.
-std::vector<std::size_t> rows_in_reach(const Observation& observation, const SceneTable& table,
-                                       const SearchIndex& index, const RowPriors& priors, double least);
+class GaussianScreen {
+ public:
+  /// What table and index (with clusters) look into outlives the screen.
+  GaussianScreen(const SceneTable& table, const SearchIndex& index) : table_(table), index_(index) {}
+
+  /// Rows whose log prior and log evidence together reach `least` are among these, cluster by cluster.
+  /// Precondition: gaussian_screen_applies.
+  std::vector<std::size_t> rows_in_reach(const Observation& observation, const RowPriors& priors,
+                                         double least) const;
+
+ private:
+  SceneTable table_;
+  SearchIndex index_;
+  mutable KeptBoxVariances kept_;
+};
 
 }  // namespace voussoir

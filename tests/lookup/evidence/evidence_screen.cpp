@@ -103,6 +103,32 @@ TEST_CASE("Sensors' own sigmas are screened as well, and a library without an in
   }
 }
 
+TEST_CASE("What is kept from one question about the same sensors to the next changes no answer") {
+  const SyntheticLibrary library(4, 9);
+  const Eligible eligible = eligible_rows(library.table, {0, 1, 2});
+  const Prior prior = stated_prior({}, library.table, true);
+  const EvidenceScreen screen(library.table, library.index.view(), eligible, prior);
+  const NoiseModel noise{NoiseShape::gaussian, 0.02};
+  Random random(5);
+  for (int trial = 0; trial < 60; ++trial) {
+    const std::size_t truth = random.below(static_cast<std::uint32_t>(library.table.rows));
+    Measurements measured = library.measure(truth, 0.02, NoiseShape::gaussian, random);
+    measured.sigma.assign(measured.sigma.size(), std::nan(""));
+    ModelError error{0.03, 0.02, {}};
+    // One thing at a time is another for a question or two, and then as before.
+    if (trial % 12 == 3 || trial % 12 == 4)
+      for (std::size_t i = 0; i < measured.displacement.size(); i += 3)
+        measured.displacement[i] = std::nan("");
+    if (trial % 12 == 6) {
+      measured.sigma[5] = 1e-3;
+      measured.displacement[5] += 1e-3;
+    }
+    if (trial % 12 == 8) error.common = 0.3;
+    if (trial % 12 == 10 || trial % 12 == 11) error.share = 0.2;
+    check_same(library, screen, eligible, prior, measured, {noise, {}, error});
+  }
+}
+
 TEST_CASE("What one shape leaves out because another explains the readings changes no probability") {
   const SyntheticLibrary library(3, 7);
   const Eligible eligible = eligible_rows(library.table, {0, 1, 2});
