@@ -38,6 +38,12 @@ bool StartingFields::falls_likely(const Scene& scene, std::size_t state) const {
   });
 }
 
+bool StartingFields::falls_by_one(const Scene& scene, std::size_t state) const {
+  if (scene.missing() != 2 || intact(state) == nullptr || !falls_likely(scene, state)) return false;
+  return std::ranges::count_if(scene.removed,
+                               [&](BlockId block) { return find(Scene{{block}}, state) != nullptr; }) == 1;
+}
+
 bool StartingFields::open_likely(const Scene& scene, std::size_t state) const {
   return std::ranges::any_of(starting_subsets(scene), [&](const Scene& fewer) {
     return open_.contains({fewer, state});

@@ -45,6 +45,10 @@ class StartingFields {
   /// within the scene let blocks fall that this scene has?
   bool falls_likely(const Scene& scene, std::size_t state) const;
 
+  /// Of a pair that falls_likely: does only one of its blocks, missing alone, let anything fall, while the
+  /// bridge stands intact and without the other?
+  bool falls_by_one(const Scene& scene, std::size_t state) const;
+
   /// Has the intact bridge, one of the singles, or with more than two missing blocks one of the pairs, within
   /// the scene no answer?
   bool open_likely(const Scene& scene, std::size_t state) const;

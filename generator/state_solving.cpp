@@ -30,6 +30,7 @@ struct StateSolving::Search {
   std::optional<State> before;
   int steps = 1;
   bool falls_likely = false;
+  bool falls_by_one = false;
   bool open_likely = false;
   bool starts_near = false;
 
@@ -39,6 +40,7 @@ struct StateSolving::Search {
             .before = before ? &*before : nullptr,
             .steps = steps,
             .falls_likely = falls_likely,
+            .falls_by_one = falls_by_one,
             .open_likely = open_likely,
             .starts_near = starts_near};
   }
@@ -107,8 +109,9 @@ StateSolving::Search StateSolving::one_step_search(const Scene& scene, std::size
     if (!basis.warm_starts) return search;
     search.start = basis.starts.start_for(scene, state);
     search.falls_likely = basis.starts.falls_likely(scene, state);
+    search.falls_by_one = basis.starts.falls_by_one(scene, state);
     search.open_likely = basis.starts.open_likely(scene, state);
-    search.starts_near = scene.missing() > 2;  // of pairs
+    search.starts_near = scene.missing() > 1;  // where what fewer missing blocks change adds up
     return search;
   }
   search.before.emplace(State{{}, memory_before(scene, state, states, basis.of_intact)});

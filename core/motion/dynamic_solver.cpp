@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "core/motion/early_motion.h"
 #include "core/motion/motion_step.h"
 #include "core/motion/softening.h"
 
@@ -13,6 +14,10 @@ namespace {
 constexpr double kOfCritical = 0.9;         ///< default step; the power iteration comes from below
 constexpr double kDampingShare = 0.5;       ///< of the critical damping
 constexpr double kTimeBetweenLooks = 0.01;  ///< [s] between two looks at a scene
+/// Of the ramp, for which motions add up: a quarter of gravity acts then. Until half of it, fields of
+/// collapses would be three times as far off (docs/numerics.md).
+constexpr double kEarlyShare = 1.0 / 3.0;
+constexpr std::size_t kMostEarlyMemory = std::size_t{1} << 26U;  ///< [bytes] a solver
 
 /// A shorter step, if need be, of which a whole number lies between two looks.
 double step_between_looks(double step) {
@@ -76,10 +81,19 @@ struct DynamicSolver::Workspace {
 
   DynamicSettings settings;
   std::unique_ptr<Model> softer;  ///< what is followed if it is not the bridge
+  /// After which motions that add up are followed on their own; 0: none are put together.
+  long early_steps() const {
+    const bool adds_up = settings.skips.early_motions && model.bonds.empty() &&
+                         settings.integrator == Integrator::implicit_blocks &&
+                         memory_of_early_motions(model) <= kMostEarlyMemory;
+    return adds_up ? static_cast<long>(kEarlyShare * settings.ramp / model.step()) : 0;
+  }
+
   NaturalMotion natural;
   double critical;
   MotionModel model;
   double margin;
+  EarlyMotions early;
 };
 
 namespace {
@@ -109,28 +123,48 @@ struct LaneRun {
 template <class T, class Shared>
 class MotionRun {
  public:
-  MotionRun(const Shared& shared, const DecisionRules& rules, std::span<const Scene> scenes)
+  MotionRun(const Shared& shared, const DecisionRules& rules, std::span<const Scene> scenes,
+            std::span<const MotionStart> starts)
       : shared_(shared),
         rules_(rules),
         model_(shared.model),
         scenes_(scenes),
+        starts_(starts),
         solutions_(scenes.size()),
         motion_(at_rest<T>(model_)) {}
 
   std::vector<DynamicSolution> run() {
+    go([&](int lane) { follow(lane); });
+    return std::move(solutions_);
+  }
+
+  /// Where the scenes are after so many steps.
+  std::vector<MotionSnapshot> snapshots_after(long steps) {
+    std::vector<MotionSnapshot> snapshots(scenes_.size());
+    go([&](int lane) {
+      LaneRun& run = runs_[static_cast<std::size_t>(lane)];
+      if (++run.steps < steps) return;
+      snapshots[run.scene] = take_snapshot(motion_, lane);
+      clear(lane);
+    });
+    return snapshots;
+  }
+
+ private:
+  /// Steps until all scenes are done; follow_lane looks at a busy lane after each.
+  template <class FollowLane>
+  void go(const FollowLane& follow_lane) {
     for (int lane = 0; lane < kLaneCount<T>; ++lane) clear(lane);
     start_in_idle_lanes();
     while (any_busy()) {
       prepare_step();
       take_step(shared_.settings.integrator, model_, motion_);
       for (int lane = 0; lane < kLaneCount<T>; ++lane)
-        if (runs_[lane].busy) follow(lane);
+        if (runs_[lane].busy) follow_lane(lane);
       if (shared_.settings.skips.lane_refill || !any_busy()) start_in_idle_lanes();
     }
-    return std::move(solutions_);
   }
 
- private:
   bool any_busy() const {
     return std::any_of(runs_.begin(), runs_.end(), [](const LaneRun& run) { return run.busy; });
   }
@@ -142,7 +176,13 @@ class MotionRun {
       run = LaneRun{};
       run.busy = true;
       run.scene = next_++;
-      place_scene(model_, removal_mask(scenes_[run.scene], model_.bodies.size()), lane, motion_);
+      const Scene& scene = scenes_[run.scene];
+      const std::vector<bool> removed = removal_mask(scene, model_.bodies.size());
+      if (starts_[run.scene] == MotionStart::from_singles) run.steps = shared_.early_steps();
+      if (run.steps > 0)
+        place_snapshot(model_, removed, shared_.early.of(scene), shared_.margin, lane, motion_);
+      else
+        place_scene(model_, removed, lane, motion_);
     }
   }
 
@@ -215,33 +255,24 @@ class MotionRun {
   const DecisionRules& rules_;
   const MotionModel& model_;
   std::span<const Scene> scenes_;
+  std::span<const MotionStart> starts_;
   std::vector<DynamicSolution> solutions_;
   Motion<T> motion_;
   std::array<LaneRun, kLaneCount<T>> runs_;
   std::size_t next_ = 0;
 };
 
+/// What work(run) gives for a run of the scenes, side by side if there are several.
+template <class Shared, class Work>
+auto on_lanes(const Shared& shared, const DecisionRules& rules, std::span<const Scene> scenes,
+              std::span<const MotionStart> starts, const Work& work) {
+  const bool several = shared.settings.side_by_side > 1 && scenes.size() > 1 &&
+                       shared.settings.integrator == Integrator::implicit_blocks;
+  return several ? work(MotionRun<DoubleLanes, Shared>(shared, rules, scenes, starts))
+                 : work(MotionRun<double, Shared>(shared, rules, scenes, starts));
+}
+
 }  // namespace
-
-DecisionRules patient(DecisionRules rules) {
-  // Measured on the reference bridge: a bridge at rest goes below 1e-7 of its weight within a second; a block
-  // that creeps keeps 4e-3 and more of its own weight unbalanced.
-  rules.standing_unbalance = 1e-7;
-  rules.collapsing_unbalance = 1e-3;
-  rules.latest_decision = 4.0;
-  // Damping holds what creeps: one that is nearly balanced moves away within 0.4 s without it, and what rests
-  // stays at rest. Blocks that rattle, which only damping holds, would be shaken apart.
-  rules.freer_from = 1.0;
-  rules.freer_unbalance = 2.3e-4;
-  rules.freer_until = 2.5;
-  rules.freer_damping = 0.05;
-  return rules;
-}
-
-DecisionRules when_gone(DecisionRules rules) {
-  rules.moving_sags = 30.0;
-  return rules;
-}
 
 DynamicSettings acting_settings(DynamicSettings settings, const Model& model) {
   if (!has_mortar(model.parameters)) return settings;
@@ -264,12 +295,21 @@ DynamicSolver::~DynamicSolver() = default;
 DynamicSolver::DynamicSolver(DynamicSolver&&) noexcept = default;
 DynamicSolver& DynamicSolver::operator=(DynamicSolver&&) noexcept = default;
 
-std::vector<DynamicSolution> DynamicSolver::solve(std::span<const Scene> scenes, const DecisionRules& rules) {
-  const Workspace& shared = *workspace_;
-  const bool several = shared.settings.side_by_side > 1 && scenes.size() > 1 &&
-                       shared.settings.integrator == Integrator::implicit_blocks;
-  if (several) return MotionRun<DoubleLanes, Workspace>(shared, rules, scenes).run();
-  return MotionRun<double, Workspace>(shared, rules, scenes).run();
+std::vector<DynamicSolution> DynamicSolver::solve(std::span<const Scene> scenes, const DecisionRules& rules,
+                                                  std::span<const MotionStart> starts) {
+  Workspace& shared = *workspace_;
+  const std::vector<MotionStart> all_at_rest(starts.empty() ? scenes.size() : 0, MotionStart::at_rest);
+  if (starts.empty()) starts = all_at_rest;
+  const long early_steps = shared.early_steps();
+  std::vector<Scene> early;
+  for (std::size_t i = 0; i < scenes.size() && early_steps > 0; ++i)
+    if (starts[i] == MotionStart::from_singles) early.push_back(scenes[i]);
+  if (const std::vector<Scene> lacking = shared.early.lacking(early); !lacking.empty()) {
+    const std::vector<MotionStart> at_rest(lacking.size(), MotionStart::at_rest);
+    shared.early.add(lacking, on_lanes(shared, rules, lacking, at_rest,
+                                       [&](auto&& run) { return run.snapshots_after(early_steps); }));
+  }
+  return on_lanes(shared, rules, scenes, starts, [](auto&& run) { return run.run(); });
 }
 
 std::vector<DynamicSolution> DynamicSolver::solve(std::span<const Scene> scenes) {

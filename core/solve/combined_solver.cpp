@@ -1,5 +1,6 @@
 #include "core/solve/combined_solver.h"
 
+#include "core/motion/early_motion.h"
 #include "core/structure/collapse.h"
 
 namespace voussoir {
@@ -22,6 +23,12 @@ std::vector<StageTask> tasks_at(std::span<const StageTask> tasks, std::span<cons
 /// Has the scene no answer yet? Later stages are left to the first search.
 bool is_open(const StageTask& task, const Solution& solution) {
   return solution.outcome == Outcome::unresolved && task.before == nullptr;
+}
+
+/// What is looked at with all patience begins at rest.
+MotionStart start_of(const StageTask& task, const Structure& structure, bool patiently) {
+  const bool adds_up = task.falls_by_one && !patiently && are_apart(task.stage.scene, structure);
+  return adds_up ? MotionStart::from_singles : MotionStart::at_rest;
 }
 
 /// Those that have no answer yet; `patiently`: of them those that are worth it.
@@ -81,15 +88,19 @@ bool CombinedSolver::falls_late(const StageTask& task, const DecisionRules& rule
 }
 
 std::vector<DynamicSolution> CombinedSolver::move(std::span<const StageTask> tasks,
-                                                  const DecisionRules& rules) {
+                                                  const DecisionRules& rules, bool patiently) {
   std::vector<bool> fall_late;
   for (const StageTask& task : tasks) fall_late.push_back(falls_late(task, rules));
   std::vector<DynamicSolution> solutions(tasks.size());
   for (const bool late : {false, true}) {
     const auto places = places_where(tasks.size(), [&](std::size_t i) { return fall_late[i] == late; });
     std::vector<Scene> scenes;
-    for (const std::size_t place : places) scenes.push_back(tasks[place].stage.scene);
-    std::vector<DynamicSolution> found = motion_.solve(scenes, late ? when_gone(rules) : rules);
+    std::vector<MotionStart> starts;
+    for (const std::size_t place : places) {
+      scenes.push_back(tasks[place].stage.scene);
+      starts.push_back(start_of(tasks[place], *newton_.system().structure, patiently));
+    }
+    std::vector<DynamicSolution> found = motion_.solve(scenes, late ? when_gone(rules) : rules, starts);
     for (std::size_t k = 0; k < places.size(); ++k) solutions[places[k]] = std::move(found[k]);
   }
   return solutions;
@@ -100,7 +111,7 @@ std::vector<DynamicSolution> CombinedSolver::move(std::span<const StageTask> tas
 void CombinedSolver::follow(const DecisionRules& rules, std::span<const StageTask> tasks, bool patiently,
                             std::vector<Solution>& solutions) {
   const std::vector<std::size_t> open = open_places(tasks, solutions, patiently);
-  std::vector<DynamicSolution> motions = move(tasks_at(tasks, open), rules);
+  std::vector<DynamicSolution> motions = move(tasks_at(tasks, open), rules, patiently);
 
   std::vector<StageTask> resting;
   std::vector<std::size_t> resting_at;

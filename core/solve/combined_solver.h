@@ -35,7 +35,8 @@ class CombinedSolver {
   std::vector<Solution> search(std::span<const StageTask> tasks);
   void insist(std::span<const StageTask> tasks, std::vector<Solution>& solutions);
   bool falls_late(const StageTask& task, const DecisionRules& rules) const;
-  std::vector<DynamicSolution> move(std::span<const StageTask> tasks, const DecisionRules& rules);
+  std::vector<DynamicSolution> move(std::span<const StageTask> tasks, const DecisionRules& rules,
+                                    bool patiently);
   void follow(const DecisionRules& rules, std::span<const StageTask> tasks, bool patiently,
               std::vector<Solution>& solutions);
 

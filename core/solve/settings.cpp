@@ -130,6 +130,7 @@ void visit_motion(Settings& settings, const Visit& visit) {
   visit("motion.contact_damping_s", contact_damping);
   visit("motion.moment_s", moment);
   visit("motion.early_outcome", skips.early_outcome);
+  if (integrator == Integrator::implicit_blocks) visit("motion.early_motions", skips.early_motions);
   visit_rules("motion", decision, visit);
 }
 

@@ -48,6 +48,8 @@ struct StageTask {
   int steps = 1;
   bool patiently = false;     ///< the search begins with its patient phase, whatever the settings say
   bool falls_likely = false;  ///< so that who can follow a motion asks it first (CombinedSolver)
+  bool falls_by_one = false;  ///< alone, exactly one of the missing blocks lets something fall, so that early
+                              ///< on what they change adds up (CombinedSolver)
   bool open_likely = false;   ///< fewer missing blocks have no answer with all patience, so that this is not
                               ///< worth any (CombinedSolver)
   bool starts_near = false;   ///< the start is so near the answer that a factorisation serves several steps

@@ -19,6 +19,9 @@ struct Skips {
   bool kept_factors = true;   ///< in all stages but the first, and from near starts there, too, a
                               ///< factorisation serves several steps as long as they make progress. Changes
                               ///< fields by less than the solver's tolerance
+  bool early_motions = true;  ///< the motion of a pair of which one block's absence alone lets something fall
+                              ///< begins where its singles' motions add up to after a third of the ramp.
+                              ///< Changes fields of such collapses by some 1e-4
 };
 
 }  // namespace voussoir

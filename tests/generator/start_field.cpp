@@ -118,6 +118,16 @@ TEST_CASE("A pair is likely to fall if what falls without one of its blocks is t
   CHECK_FALSE(starts.falls_likely(without({1, 3}), 0));
   CHECK_FALSE(starts.falls_likely(without({0, 1}), 1));  // another state
   CHECK_FALSE(starts.falls_likely(without({0}), 0));     // a single says nothing of itself
+
+  CHECK_FALSE(starts.falls_by_one(without({0, 1}), 0));  // the intact bridge is not known to stand
+  starts.add(Scene{}, 0, standing(row(1.0, 2.0)));
+  CHECK(starts.falls_by_one(without({0, 1}), 0));
+  CHECK_FALSE(starts.falls_by_one(without({0, 3}), 0));  // nothing is left to fall
+  CHECK_FALSE(starts.falls_by_one(without({0, 2}), 0));  // what the other does alone is not known
+  starts.add(without({2}), 0, fall);
+  CHECK_FALSE(starts.falls_by_one(without({0, 2}), 0));  // both do
+  CHECK_FALSE(starts.falls_by_one(without({0, 1, 4}), 0));
+
   starts.add(Scene{}, 0, fall);
   CHECK(starts.falls_likely(without({0}), 0));  // the bridge itself falls
   CHECK_FALSE(starts.falls_likely(without({3}), 0));

@@ -1,0 +1,25 @@
+#include "core/motion/decision_rules.h"
+
+namespace voussoir {
+
+DecisionRules patient(DecisionRules rules) {
+  // Measured on the reference bridge: a bridge at rest goes below 1e-7 of its weight within a second; a block
+  // that creeps keeps 4e-3 and more of its own weight unbalanced.
+  rules.standing_unbalance = 1e-7;
+  rules.collapsing_unbalance = 1e-3;
+  rules.latest_decision = 4.0;
+  // Damping holds what creeps: one that is nearly balanced moves away within 0.4 s without it, and what rests
+  // stays at rest. Blocks that rattle, which only damping holds, would be shaken apart.
+  rules.freer_from = 1.0;
+  rules.freer_unbalance = 2.3e-4;
+  rules.freer_until = 2.5;
+  rules.freer_damping = 0.05;
+  return rules;
+}
+
+DecisionRules when_gone(DecisionRules rules) {
+  rules.moving_sags = 30.0;
+  return rules;
+}
+
+}  // namespace voussoir

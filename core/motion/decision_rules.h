@@ -1,0 +1,32 @@
+#pragma once
+/// @file When it is said of a scene in motion what has become of it.
+
+namespace voussoir {
+
+/// When a scene in motion has come to rest, and when it falls. Times in seconds of the bridge's own time.
+struct DecisionRules {
+  double earliest_decision = 0.4;  ///< but for collapses that are plain at the moment of the field
+  double latest_decision = 1.0;    ///< a scene that neither rests nor falls by then is unresolved
+  double standing_unbalance =
+      2.3e-4;  ///< sum of the blocks' resultant forces over the bridge's weight [-], at most
+  double collapsing_unbalance =
+      0.05;  ///< resultant force on a block over its weight, at least, when blocks have moved away
+  double plain_unbalance =
+      1e-2;  ///< unbalance over the bridge's weight, at least, of a collapse that is plain at its moment
+  double largest_standing_unbalance = 1e-2;  ///< resultant force on a block over its weight, at most
+  double moving_sags =
+      2.0;  ///< blocks that have moved further than this many sags of the bonded bridge have moved away
+  double freer_from = 0.0;  ///< at this time, what is nearly balanced (sum of the blocks' resultant forces
+  double freer_unbalance = 0.0;  ///< over the bridge's weight, at most) is damped less until a later time:
+  double freer_until = 0.0;      ///< a block that creeps, held by nearly enough friction, falls the sooner
+  double freer_damping = 1.0;    ///< [-] share of the damping
+};
+
+/// Rules that follow a motion until friction that nearly holds has let go, or the bridge is really at rest.
+DecisionRules patient(DecisionRules rules);
+
+/// Rules by which something falls only when it is far away: bridges with soft joints come to rest after they
+/// have sagged fifteen times as far as bonded.
+DecisionRules when_gone(DecisionRules rules);
+
+}  // namespace voussoir
