@@ -25,8 +25,9 @@ constexpr const char* kFooter =
     "file that is up to date is left alone.\n\n"
     "--without takes the names above, separated by ','. They save time only: the database stays the same "
     "but\n"
-    "for round-off. Alone 'composed' has an error of its own, which is bounded, and what is 'inherited' has\n"
-    "no displacements. tools/benchmark accuracy shows what each gains.\n\n"
+    "for round-off. Alone 'composed' and 'early-motions' have errors of their own, the first of which is\n"
+    "bounded and the other below half a percent of a fall, and what is 'inherited' has no displacements.\n"
+    "tools/benchmark accuracy shows what each gains.\n\n"
     "Exit codes: 0 done, 1 could not be done, 2 bad usage or bad bridge file. With --format json the last\n"
     "line of stdout is one JSON object, {\"ok\": true, ...} or {\"ok\": false, \"error\": ...}.";
 

@@ -79,9 +79,8 @@ struct DynamicSolver::Workspace {
   /// Steps until a time has come, but for round-off.
   long steps_until(double time) const { return std::lround(std::ceil(time / model.step() - 1e-6)); }
 
-  DynamicSettings settings;
-  std::unique_ptr<Model> softer;  ///< what is followed if it is not the bridge
-  /// After which motions that add up are followed on their own; 0: none are put together.
+  /// After so many steps a scene is followed on its own, if it starts from its singles. 0: none does, as
+  /// bonds remember more than a snapshot has, or there are too many snapshots.
   long early_steps() const {
     const bool adds_up = settings.skips.early_motions && model.bonds.empty() &&
                          settings.integrator == Integrator::implicit_blocks &&
@@ -89,6 +88,8 @@ struct DynamicSolver::Workspace {
     return adds_up ? static_cast<long>(kEarlyShare * settings.ramp / model.step()) : 0;
   }
 
+  DynamicSettings settings;
+  std::unique_ptr<Model> softer;  ///< what is followed if it is not the bridge
   NaturalMotion natural;
   double critical;
   MotionModel model;

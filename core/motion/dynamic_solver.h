@@ -53,12 +53,12 @@ struct DynamicSolution {
 enum class MotionStart {
   at_rest,
   from_singles  ///< where the motions of their missing blocks, each missing alone, add up to after a third of
-                ///< the ramp, if the settings skip early motions (early_motion.h)
+                ///< the ramp (early_motion.h); at rest where the solver cannot or is not to skip that
 };
 
 /// Follows scenes of one variant, several side by side; lanes that finish early take the next scene. A
-/// solution depends on its scene only, to the last bit. Not thread-safe: one solver a thread. The model must
-/// outlive the solver.
+/// solution depends on its scene and start only, to the last bit. Not thread-safe: one solver a thread. The
+/// model must outlive the solver.
 class DynamicSolver {
  public:
   /// Throws InputError for a step above the critical one and for settings that make no sense.

@@ -14,8 +14,9 @@ namespace voussoir {
 /// `collapsed`, with the field at the dynamic settings' moment. What seems to come to rest is handed back to
 /// Newton, which polishes the resting field to equilibrium; if there is none near, Newton searches from rest
 /// with all patience; and if that finds none, a block creeps, held by nearly enough friction, and the motion
-/// is followed until it has come to rest or moved away. Scenes that are said to fall are set in motion first;
-/// those that are said to have no answer get no patience.
+/// is followed until it has come to rest or moved away. A pair apart that falls by one of its blocks
+/// (StageTask) begins to move where its singles' motions add up to. Scenes that are said to fall are set in
+/// motion first; those that are said to have no answer get no patience.
 ///
 /// A solution depends on its scene and start only, to the last bit. Not thread-safe: one solver a thread. The
 /// model must outlive the solver. `residual` is a nodal one for standing scenes and that of DynamicSolution
