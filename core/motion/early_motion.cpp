@@ -7,19 +7,13 @@
 namespace voussoir {
 namespace {
 
-constexpr std::size_t kOfNode = 6, kOfBlock = 6;
+constexpr std::size_t kOfNode = 6, kOfBlock = 7;
 constexpr std::size_t kBytesOfContact = 80;  // of the map; there are some two for each joint
 
 template <class T>
 void append(const Pair<T>& pair, int i, std::vector<double>& values) {
   values.push_back(lane(pair.x, i));
   values.push_back(lane(pair.y, i));
-}
-
-template <class T>
-void set_pair(Pair<T>& pair, int i, const double* values) {
-  set_lane(pair.x, i, values[0]);
-  set_lane(pair.y, i, values[1]);
 }
 
 /// sum += factor * part
@@ -48,22 +42,21 @@ template <class T>
 void place_block(const BlockBody& body, const MotionSnapshot& snapshot, std::size_t block, int i,
                  Motion<T>& motion) {
   const double* frame = snapshot.frames.data() + kOfBlock * block;
+  const double per_length = 1.0 / std::sqrt(frame[4] * frame[4] + frame[5] * frame[5]);
+  const double cosine = per_length * frame[4], sine = per_length * frame[5];
   BlockFrame<T>& placed = motion.frames[block];
-  const double angle = frame[4], rotation[] = {std::cos(angle), std::sin(angle)};
-  set_pair(placed.centre, i, frame);
-  set_pair(placed.velocity, i, frame + 2);
-  set_pair(placed.rotation, i, rotation);
-  set_lane(placed.spin, i, frame[5]);
+  set_pair(placed.centre, i, frame[0], frame[1]);
+  set_pair(placed.velocity, i, frame[2], frame[3]);
+  set_pair(placed.rotation, i, cosine, sine);
+  set_lane(placed.spin, i, frame[6]);
   for (int k = 0; k < body.nodes.size(); ++k) {
     const auto node = static_cast<std::size_t>(body.nodes.begin + k);
     const double* values = snapshot.nodes.data() + kOfNode * node;
-    set_pair(motion.deformed[node], i, values);
-    set_pair(motion.rates[node], i, values + 2);
-    set_pair(motion.moved[node], i, values + 4);
+    set_pair(motion.deformed[node], i, values[0], values[1]);
+    set_pair(motion.rates[node], i, values[2], values[3]);
+    set_pair(motion.moved[node], i, values[4], values[5]);
     const double x = values[0] + body.arms[2 * k], y = values[1] + body.arms[2 * k + 1];
-    const double place[] = {frame[0] + rotation[0] * x - rotation[1] * y,
-                            frame[1] + rotation[1] * x + rotation[0] * y};
-    set_pair(motion.places[node], i, place);
+    set_pair(motion.places[node], i, frame[0] + cosine * x - sine * y, frame[1] + sine * x + cosine * y);
   }
 }
 
@@ -78,7 +71,7 @@ MotionSnapshot take_snapshot(const Motion<T>& motion, int i) {
   for (const BlockFrame<T>& frame : motion.frames) {
     append(frame.centre, i, result.frames);
     append(frame.velocity, i, result.frames);
-    result.frames.push_back(std::atan2(lane(frame.rotation.y, i), lane(frame.rotation.x, i)));
+    append(frame.rotation, i, result.frames);
     result.frames.push_back(lane(frame.spin, i));
   }
   for (std::size_t c = 0; c < motion.pairs.size(); ++c) {

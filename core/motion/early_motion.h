@@ -15,7 +15,9 @@ namespace voussoir {
 /// What a lane holds of its scene's motion at one moment; contacts are looked for anew.
 struct MotionSnapshot {
   std::vector<double> nodes;   ///< for each node deformation [m], its rate [m/s], last movement [m]: x and y
-  std::vector<double> frames;  ///< for each block centre [m], velocity [m/s]: x and y; angle and spin
+  std::vector<double> frames;  ///< for each block BlockFrame's numbers; the rotation of one that is put
+                               ///< together is a vector near a unit one (no angles: libraries round their
+                               ///< functions differently, and databases are the same whatever the processor)
   std::map<EdgePair, std::pair<double, double>> shear;  ///< ContactShear, where there is some [m]
 };
 

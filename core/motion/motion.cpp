@@ -23,12 +23,6 @@ std::vector<bool> absent_in_lane(const Motion<T>& motion, int lane_index) {
   return absent;
 }
 
-template <class T>
-void set_pair(Pair<T>& pair, int i, double x, double y) {
-  set_lane(pair.x, i, x);
-  set_lane(pair.y, i, y);
-}
-
 EdgeContact contact_of(const MotionModel& model, const EdgePair& pair) {
   EdgeContact contact = model.search.contact(pair);
   const auto [a, b] = model.search.blocks(pair);

@@ -25,6 +25,11 @@ VOUSSOIR_INLINE Pair<T> operator*(const Pair<T>& a, const S& factor) {
   return {a.x * factor, a.y * factor};
 }
 template <class T>
+VOUSSOIR_INLINE void set_pair(Pair<T>& pair, int i, double x, double y) {
+  set_lane(pair.x, i, x);
+  set_lane(pair.y, i, y);
+}
+template <class T>
 VOUSSOIR_INLINE T dot(const Pair<T>& a, const Pair<T>& b) {
   return a.x * b.x + a.y * b.y;
 }

@@ -35,12 +35,17 @@ struct OpenRow {
   double most;  // that the whole sum may be
 };
 
+/// Zero where there is no reading, NaN where a reading has no prediction.
+VOUSSOIR_INLINE DoubleLanes weighted_squares(const DoubleLanes& reading, const DoubleLanes& error,
+                                             const double* weight) {
+  return reading == reading ? error * error * load<DoubleLanes>(weight) : DoubleLanes{};
+}
+
 /// What some places from the i-th have at least in a box.
 VOUSSOIR_INLINE DoubleLanes box_squares(const PlaceArrays& arrays, const ClusterBox& box,
                                         const double* weight, std::size_t i) {
   const auto reading = load<DoubleLanes>(arrays.reading.data() + i);
-  const DoubleLanes error = distances(reading - box.high(i), reading - box.low(i)).least;
-  return reading == reading ? error * error * load<DoubleLanes>(weight + i) : DoubleLanes{};
+  return weighted_squares(reading, least_error(reading, box.low(i), box.high(i)), weight + i);
 }
 
 /// True if no row of the box has so small a sum of squares.
@@ -54,12 +59,10 @@ VOUSSOIR_INLINE bool is_beyond(const PlaceArrays& arrays, const ClusterBox& box,
   return sum_of(sum) > most;
 }
 
-/// NaN where a reading has no prediction.
 VOUSSOIR_INLINE DoubleLanes row_squares(const PlaceArrays& arrays, const double* row, const double* weight,
                                         std::size_t i, std::size_t some) {
   const auto reading = load<DoubleLanes>(arrays.reading.data() + i);
-  const DoubleLanes error = reading - load_some<DoubleLanes>(row + i, some, 0.0);
-  return reading == reading ? error * error * load<DoubleLanes>(weight + i) : DoubleLanes{};
+  return weighted_squares(reading, reading - load_some<DoubleLanes>(row + i, some, 0.0), weight + i);
 }
 
 /// Fetches `count` numbers ahead: rows come from memory in an order of their own.

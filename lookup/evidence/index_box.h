@@ -86,6 +86,12 @@ VOUSSOIR_INLINE CommonVariance common_variance_in(const PlaceArrays& view, const
           view.common_square * smaller(largest_of(largest), sum_of(most) / view.readings)};
 }
 
+/// The least errors of rows between low and high.
+VOUSSOIR_INLINE DoubleLanes least_error(const DoubleLanes& reading, const DoubleLanes& low,
+                                        const DoubleLanes& high) {
+  return distances(reading - high, reading - low).least;
+}
+
 /// What the rows of a box can have at the places from the i-th.
 struct PlaceBounds {
   DoubleMask has_reading;
@@ -105,7 +111,7 @@ VOUSSOIR_INLINE PlaceBounds place_bounds(const PlaceArrays& view, const ClusterB
   const Distances signal = distances(low - at(view.intact), high - at(view.intact));
   const DoubleLanes slope = at(view.slope), offset = at(view.offset), own = at(view.own_variance);
   return {reading == reading,
-          distances(reading - high, reading - low).least,
+          least_error(reading, low, high),
           noise_scale(slope, offset, movement.least),
           noise_scale(slope, offset, movement.most),
           model_variance<DoubleLanes>(own + common.least, view.share_square, signal.least),
