@@ -46,7 +46,9 @@ void Crew::for_each_index(std::size_t count, const Work& work) {
 
 template <class Work>
 void Crew::for_each_index(std::size_t count, const Work& work) {
-  arena_.execute([&] { oneapi::tbb::parallel_for(std::size_t{0}, count, work); });
+  // Piece by piece, as work is dear and uneven.
+  arena_.execute(
+      [&] { oneapi::tbb::parallel_for(std::size_t{0}, count, work, oneapi::tbb::simple_partitioner()); });
 }
 
 #endif

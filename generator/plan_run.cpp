@@ -77,7 +77,7 @@ std::map<std::int32_t, StartingFields> read_starts(const PlanRun& run, Tasks tas
 /// Large enough to keep the solver's lanes busy, small enough to share a stage among the threads, and never
 /// so large that much is lost when the program is killed.
 std::size_t batch_size(std::size_t tasks, int threads) {
-  constexpr std::size_t kBatchesPerThread = 4, kLargestBatch = 128;
+  constexpr std::size_t kBatchesPerThread = 4, kLargestBatch = 512;
   return std::clamp<std::size_t>(tasks / (kBatchesPerThread * static_cast<std::size_t>(threads)), 1,
                                  kLargestBatch);
 }
@@ -109,13 +109,14 @@ std::vector<Tasks> split_into_batches(Tasks tasks, std::size_t size) {
   return batches;
 }
 
-/// Those last that will be set in motion, so that they fill the lanes of a motion together.
-void put_motions_last(const std::map<std::int32_t, SearchBasis>& bases, Tasks tasks) {
+/// Those first that will be set in motion, so that they fill the lanes of a motion together, and as they take
+/// the longest.
+void put_motions_first(const std::map<std::int32_t, SearchBasis>& bases, Tasks tasks) {
   while (!tasks.empty()) {
     const Tasks variant = first_variant(tasks);
     const SearchBasis& basis = bases.at(variant.front().variant);
     std::stable_partition(variant.begin(), variant.end(), [&](const SolvingTask& task) {
-      return !basis.starts.falls_likely(task.solved, kBuilt) || basis.falls.apply_to(task.solved);
+      return basis.starts.falls_likely(task.solved, kBuilt) && !basis.falls.apply_to(task.solved);
     });
     tasks = tasks.subspan(variant.size());
   }
@@ -135,7 +136,7 @@ void run_plan(BuildPlan plan, const PlanRun& run, KnownRecords& known) {
         solver.prepare(variant, run);
         bases[variant] = solver.states->basis(solver.solver, std::move(starts), run.rules);
       }
-      put_motions_last(bases, tasks);
+      put_motions_first(bases, tasks);
       const auto batches = split_into_batches(tasks, batch_size(tasks.size(), crew.size()));
       crew.for_each_index(batches.size(), [&](std::size_t i) {
         const std::int32_t variant = batches[i].front().variant;

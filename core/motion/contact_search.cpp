@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 
 #include "core/geometry/box.h"
 
@@ -17,40 +18,83 @@ bool near(const Box& a, const Box& b, double margin) {
          a.min().y() <= b.max().y() + margin && b.min().y() <= a.max().y() + margin;
 }
 
-Box box_around(const Eigen::Matrix2Xd& places, const BoundaryEdge& edge) {
-  const Point a = places.col(value(edge.from));
-  const Point b = places.col(value(edge.to));
-  return {a.cwiseMin(b), a.cwiseMax(b)};
+/// A boundary edge where it is now.
+struct PlacedEdge {
+  Box box;
+  Point along;  ///< from its first node to its second [m]
+  double squared_length;
+};
+
+std::vector<PlacedEdge> placed_edges(const Mesh& mesh, const Eigen::Matrix2Xd& places) {
+  std::vector<PlacedEdge> edges;
+  edges.reserve(mesh.edges.size());
+  for (const BoundaryEdge& edge : mesh.edges) {
+    const Point a = places.col(value(edge.from));
+    const Point b = places.col(value(edge.to));
+    edges.push_back({Box(a.cwiseMin(b), a.cwiseMax(b)), b - a, (b - a).squaredNorm()});
+  }
+  return edges;
 }
 
-Box box_around(const Eigen::Matrix2Xd& places, const IndexRange& nodes) {
-  const auto block = places.middleCols(nodes.begin, nodes.size());
-  return {block.rowwise().minCoeff(), block.rowwise().maxCoeff()};
+/// Per block: the box around its edges.
+std::vector<Box> boxes_of_blocks(const Mesh& mesh, const std::vector<PlacedEdge>& edges) {
+  std::vector<Box> boxes(mesh.block_edges.size());
+  for (std::size_t block = 0; block < boxes.size(); ++block)
+    for (int e = mesh.block_edges[block].begin; e < mesh.block_edges[block].end; ++e)
+      boxes[block].extend(edges[static_cast<std::size_t>(e)].box);
+  return boxes;
+}
+
+/// Pairs of blocks, in ascending order of their first.
+using BlockPairs = std::vector<std::pair<int, int>>;
+
+/// By counting, as there are few blocks.
+BlockPairs in_order_of_first(const BlockPairs& pairs, std::size_t block_count) {
+  std::vector<std::size_t> next(block_count + 1, 0);
+  for (const auto& [first, second] : pairs) ++next[static_cast<std::size_t>(first) + 1];
+  std::partial_sum(next.begin(), next.end(), next.begin());
+  BlockPairs ordered(pairs.size());
+  for (const auto& pair : pairs) ordered[next[static_cast<std::size_t>(pair.first)]++] = pair;
+  return ordered;
 }
 
 /// Pairs of blocks whose boxes are near, by a sweep from left to right.
-std::vector<std::pair<int, int>> near_blocks(const std::vector<Box>& boxes, const std::vector<bool>& absent,
-                                             double margin) {
-  std::vector<int> order;
+BlockPairs near_blocks(const std::vector<Box>& boxes, const std::vector<bool>& absent, double margin) {
+  std::vector<std::pair<double, int>> from_left;
   for (std::size_t b = 0; b < boxes.size(); ++b)
-    if (!absent[b]) order.push_back(static_cast<int>(b));
-  const auto left = [&](int b) { return boxes[static_cast<std::size_t>(b)].min().x(); };
-  std::sort(order.begin(), order.end(), [&](int a, int b) { return left(a) < left(b); });
-  std::vector<std::pair<int, int>> pairs;
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    const Box& box = boxes[static_cast<std::size_t>(order[i])];
-    for (std::size_t j = i + 1; j < order.size() && left(order[j]) <= box.max().x() + margin; ++j)
-      if (near(box, boxes[static_cast<std::size_t>(order[j])], margin))
-        pairs.emplace_back(std::min(order[i], order[j]), std::max(order[i], order[j]));
+    if (!absent[b]) from_left.emplace_back(boxes[b].min().x(), static_cast<int>(b));
+  std::sort(from_left.begin(), from_left.end());
+  BlockPairs pairs;
+  for (std::size_t i = 0; i < from_left.size(); ++i) {
+    const int one = from_left[i].second;
+    const Box& box = boxes[static_cast<std::size_t>(one)];
+    for (std::size_t j = i + 1; j < from_left.size() && from_left[j].first <= box.max().x() + margin; ++j) {
+      const int other = from_left[j].second;
+      if (near(box, boxes[static_cast<std::size_t>(other)], margin))
+        pairs.emplace_back(std::min(one, other), std::max(one, other));
+    }
   }
-  return pairs;
+  return in_order_of_first(pairs, boxes.size());
 }
 
 /// Contact ends at 60 degrees; the rest is for rotations until the next search.
-bool may_face(const Point& along_a, const Point& along_b) {
+bool may_face(const PlacedEdge& a, const PlacedEdge& b) {
   constexpr double kCosine = 0.25881904510252074;  // of 75 degrees
-  const double cosine = along_a.dot(along_b);
-  return cosine < 0.0 && cosine * cosine > kCosine * kCosine * along_a.squaredNorm() * along_b.squaredNorm();
+  const double cosine = a.along.dot(b.along);
+  return cosine < 0.0 && cosine * cosine > kCosine * kCosine * a.squared_length * b.squared_length;
+}
+
+/// Adds the pairs of two blocks' edges that are near and may face each other.
+void add_near_edges(const std::vector<PlacedEdge>& edges, const IndexRange& first, const IndexRange& second,
+                    const Box& second_box, double margin, std::vector<EdgePair>& pairs) {
+  for (int a = first.begin; a < first.end; ++a) {
+    const PlacedEdge& edge_a = edges[static_cast<std::size_t>(a)];
+    if (!near(edge_a.box, second_box, margin)) continue;
+    for (int b = second.begin; b < second.end; ++b) {
+      const PlacedEdge& edge_b = edges[static_cast<std::size_t>(b)];
+      if (may_face(edge_a, edge_b) && near(edge_a.box, edge_b.box, margin)) pairs.emplace_back(a, b);
+    }
+  }
 }
 
 /// 1 / tan(half the interior angle) at the node between two edges; 0 at straight and re-entrant angles.
@@ -80,7 +124,7 @@ std::vector<int> edges_by_first_node(const Mesh& mesh) {
 }  // namespace
 
 double search_margin(const Structure& structure) {
-  return 0.01 * mean_block_size(structure);
+  return 0.02 * mean_block_size(structure);
 }
 
 ContactMaterial::ContactMaterial(const JointMaterial& joint, double thickness)
@@ -135,27 +179,20 @@ EdgePair ContactSearch::pair_of(const Joint& joint) const {
 
 std::vector<EdgePair> ContactSearch::candidates(const Eigen::Matrix2Xd& places,
                                                 const std::vector<bool>& absent, double margin) const {
-  const auto along = [&](const BoundaryEdge& e) -> Point {
-    return places.col(value(e.to)) - places.col(value(e.from));
-  };
-  std::vector<Box> block_boxes;
-  for (const IndexRange& nodes : mesh_->block_nodes) block_boxes.push_back(box_around(places, nodes));
+  const std::vector<PlacedEdge> edges = placed_edges(*mesh_, places);
+  const std::vector<Box> boxes = boxes_of_blocks(*mesh_, edges);
+  const BlockPairs blocks = near_blocks(boxes, absent, margin);
   std::vector<EdgePair> pairs;
-  for (const auto& [first, second] : near_blocks(block_boxes, absent, margin)) {
-    const IndexRange& first_edges = mesh_->block_edges[static_cast<std::size_t>(first)];
-    const IndexRange& second_edges = mesh_->block_edges[static_cast<std::size_t>(second)];
-    for (int a = first_edges.begin; a < first_edges.end; ++a) {
-      const BoundaryEdge& edge_a = mesh_->edges[static_cast<std::size_t>(a)];
-      const Box box_a = box_around(places, edge_a);
-      if (!near(box_a, block_boxes[static_cast<std::size_t>(second)], margin)) continue;
-      for (int b = second_edges.begin; b < second_edges.end; ++b) {
-        const BoundaryEdge& edge_b = mesh_->edges[static_cast<std::size_t>(b)];
-        if (may_face(along(edge_a), along(edge_b)) && near(box_a, box_around(places, edge_b), margin))
-          pairs.emplace_back(a, b);
-      }
+  for (std::size_t i = 0; i < blocks.size();) {
+    const int first = blocks[i].first;
+    const auto begin = static_cast<std::ptrdiff_t>(pairs.size());
+    for (; i < blocks.size() && blocks[i].first == first; ++i) {
+      const auto second = static_cast<std::size_t>(blocks[i].second);
+      add_near_edges(edges, mesh_->block_edges[static_cast<std::size_t>(first)], mesh_->block_edges[second],
+                     boxes[second], margin, pairs);
     }
+    std::sort(pairs.begin() + begin, pairs.end());
   }
-  std::sort(pairs.begin(), pairs.end());
   return pairs;
 }
 

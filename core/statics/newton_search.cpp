@@ -23,13 +23,10 @@ constexpr double kFallingSags =
 /// new matrix costs as much as four steps with an old one (docs/numerics.md).
 constexpr double kLittleProgress = 0.3;
 constexpr std::size_t kMostSecants = 9;
-/// A search that descends is given up after so many steps ..
-constexpr int kFewestDescents = 8;
-/// .. if the unbalance has not fallen to this share in the last so many. Of 390 singles of stiff random
-/// bridges those that fall take 13 linear systems so, and 11 of the 209 that stand are left to later
-/// searches.
+/// A search is given up after so many steps at the earliest if it makes no progress ..
+constexpr int kFewestSteps = 8;
+/// .. that is, if the unbalance has not fallen to this share in the last few (PhaseRules::most_stalled).
 constexpr double kProgress = 0.9;
-constexpr int kMostStalled = 5;
 constexpr double kMovingShare = 0.1;  ///< of the way of the block that has fallen: further means moving away
 
 /// How a phase behaves.
@@ -38,23 +35,34 @@ struct PhaseRules {
   double rise;            ///< that a step may make of the worst of the last residuals
   int patience;           ///< steps after which the phase is given up ..
   double promising;       ///< .. unless the residual is below this share of the first step's
+  int most_stalled;       ///< steps without progress after which the phase is given up
   bool descends = false;  ///< every step but the first must leave less unbalance than there was
-  bool stalls = false;    ///< the phase is given up when the unbalance falls no more
 };
 
 constexpr int kForever = std::numeric_limits<int>::max();
+/// Of 390 singles of stiff random bridges those that fall take 13 linear systems so, and 11 of the 209 that
+/// stand are left to later searches.
+constexpr int kFewStalled = 5;
+/// Few would do for the reference bridge, but two of 24 other bridges would have no answer intact.
+constexpr int kManyStalled = 30;
 /// Nine of ten standing scenes have a hundredth of the residual after three steps, falling ones more than a
 /// half.
-constexpr PhaseRules kQuick{.largest_step = 0.5, .rise = 1.0, .patience = 3, .promising = 0.3};
+constexpr PhaseRules kQuick{
+    .largest_step = 0.5, .rise = 1.0, .patience = 3, .promising = 0.3, .most_stalled = kFewStalled};
 /// A residual that may rise lets joints open and close in turn for ever (docs/numerics.md).
-constexpr PhaseRules kPatient{
-    .largest_step = 0.5, .rise = 1.0, .patience = kForever, .promising = 0.0, .descends = true};
+constexpr PhaseRules kPatient{.largest_step = 0.5,
+                              .rise = 1.0,
+                              .patience = kForever,
+                              .promising = 0.0,
+                              .most_stalled = kManyStalled,
+                              .descends = true};
 constexpr PhaseRules kDescending = [] {
   PhaseRules rules = kPatient;
-  rules.stalls = true;
+  rules.most_stalled = kFewStalled;
   return rules;
 }();
-constexpr PhaseRules kFalling{.largest_step = 2.0, .rise = 3.0, .patience = kForever, .promising = 0.0};
+constexpr PhaseRules kFalling{
+    .largest_step = 2.0, .rise = 3.0, .patience = kForever, .promising = 0.0, .most_stalled = kForever};
 
 const PhaseRules& rules_of(SearchPhase phase) {
   switch (phase) {
@@ -281,7 +289,7 @@ void NewtonSearch::try_step_with_old_matrix(const Eigen::VectorXd& step) {
 bool NewtonSearch::exhausted() const {
   const PhaseRules& rules = rules_of(phase_);
   const bool without_hope = steps_ >= rules.patience && recent_.back() > rules.promising * first_norm_;
-  const bool stalls = rules.stalls && phase_iterations_ >= kFewestDescents && stalled_ >= kMostStalled;
+  const bool stalls = phase_iterations_ >= kFewestSteps && stalled_ >= rules.most_stalled;
   return (settings_->skips.early_outcome && (without_hope || stalls)) || fallen() ||
          phase_iterations_ >= most_iterations(phase_, *settings_);
 }
