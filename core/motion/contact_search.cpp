@@ -21,17 +21,21 @@ bool near(const Box& a, const Box& b, double margin) {
 /// A boundary edge where it is now.
 struct PlacedEdge {
   Box box;
+  Point from;
   Point along;  ///< from its first node to its second [m]
   double squared_length;
+  double reach;  ///< of its block behind it [m]
 };
 
-std::vector<PlacedEdge> placed_edges(const Mesh& mesh, const Eigen::Matrix2Xd& places) {
+std::vector<PlacedEdge> placed_edges(const Mesh& mesh, const Eigen::Matrix2Xd& places,
+                                     const std::vector<double>& reach) {
   std::vector<PlacedEdge> edges;
   edges.reserve(mesh.edges.size());
   for (const BoundaryEdge& edge : mesh.edges) {
     const Point a = places.col(value(edge.from));
     const Point b = places.col(value(edge.to));
-    edges.push_back({Box(a.cwiseMin(b), a.cwiseMax(b)), b - a, (b - a).squaredNorm()});
+    edges.push_back(
+        {Box(a.cwiseMin(b), a.cwiseMax(b)), a, b - a, (b - a).squaredNorm(), reach[edges.size()]});
   }
   return edges;
 }
@@ -84,15 +88,33 @@ bool may_face(const PlacedEdge& a, const PlacedEdge& b) {
   return cosine < 0.0 && cosine * cosine > kCosine * kCosine * a.squared_length * b.squared_length;
 }
 
-/// Adds the pairs of two blocks' edges that are near and may face each other.
+/// Is some of the other edge on this one's own side, where its block is?
+bool is_behind(const PlacedEdge& edge, const PlacedEdge& other) {
+  const Point to_other = other.from - edge.from;
+  return cross(edge.along, to_other) > 0.0 || cross(edge.along, to_other + other.along) > 0.0;
+}
+
+/// Are faces of a joint within each other and no deeper than faces may be that touch (EdgeContact::deepest)?
+/// Others are left out: behind a thin block's face lies its neighbour's, which faces it, too.
+bool is_closed_joint(const PlacedEdge& a, const PlacedEdge& b, double margin) {
+  return near(a.box, b.box, margin + 0.5 * (a.reach + b.reach)) && is_behind(a, b) && is_behind(b, a);
+}
+
+/// Adds the pairs of two blocks' edges that may face each other and are near, or form a joint that is closed
+/// by more than the margin.
 void add_near_edges(const std::vector<PlacedEdge>& edges, const IndexRange& first, const IndexRange& second,
-                    const Box& second_box, double margin, std::vector<EdgePair>& pairs) {
+                    const Box& second_box, double margin, const std::vector<EdgePair>& joined,
+                    std::vector<EdgePair>& pairs) {
   for (int a = first.begin; a < first.end; ++a) {
     const PlacedEdge& edge_a = edges[static_cast<std::size_t>(a)];
     if (!near(edge_a.box, second_box, margin)) continue;
     for (int b = second.begin; b < second.end; ++b) {
       const PlacedEdge& edge_b = edges[static_cast<std::size_t>(b)];
-      if (may_face(edge_a, edge_b) && near(edge_a.box, edge_b.box, margin)) pairs.emplace_back(a, b);
+      if (!may_face(edge_a, edge_b)) continue;
+      if (near(edge_a.box, edge_b.box, margin) ||
+          (is_closed_joint(edge_a, edge_b, margin) &&
+           std::binary_search(joined.begin(), joined.end(), EdgePair(a, b))))
+        pairs.emplace_back(a, b);
     }
   }
 }
@@ -179,7 +201,7 @@ EdgePair ContactSearch::pair_of(const Joint& joint) const {
 
 std::vector<EdgePair> ContactSearch::candidates(const Eigen::Matrix2Xd& places,
                                                 const std::vector<bool>& absent, double margin) const {
-  const std::vector<PlacedEdge> edges = placed_edges(*mesh_, places);
+  const std::vector<PlacedEdge> edges = placed_edges(*mesh_, places, behind_);
   const std::vector<Box> boxes = boxes_of_blocks(*mesh_, edges);
   const BlockPairs blocks = near_blocks(boxes, absent, margin);
   std::vector<EdgePair> pairs;
@@ -189,7 +211,7 @@ std::vector<EdgePair> ContactSearch::candidates(const Eigen::Matrix2Xd& places,
     for (; i < blocks.size() && blocks[i].first == first; ++i) {
       const auto second = static_cast<std::size_t>(blocks[i].second);
       add_near_edges(edges, mesh_->block_edges[static_cast<std::size_t>(first)], mesh_->block_edges[second],
-                     boxes[second], margin, pairs);
+                     boxes[second], margin, joined_, pairs);
     }
     std::sort(pairs.begin() + begin, pairs.end());
   }

@@ -22,8 +22,8 @@ class ContactSearch {
   explicit ContactSearch(const Model& model);
 
   /// Pairs of edges of different blocks that face each other roughly (within 75 degrees) and whose bounding
-  /// boxes are at most `margin` [m] apart at these places of the nodes [m], in ascending order. Blocks in
-  /// `absent` are left out.
+  /// boxes are at most `margin` [m] apart at these places of the nodes [m], or which form a joint at rest
+  /// that has closed by more, as soft ones do; in ascending order. Blocks in `absent` are left out.
   std::vector<EdgePair> candidates(const Eigen::Matrix2Xd& places, const std::vector<bool>& absent,
                                    double margin) const;
 

@@ -4,7 +4,9 @@
 #include <catch2/catch.hpp>
 #include <random>
 
+#include "core/motion/dynamic_solver.h"
 #include "core/structure/model.h"
+#include "tools/validation/assemblies.h"
 
 namespace voussoir {
 namespace {
@@ -21,6 +23,25 @@ bool boxes_near(const Eigen::Matrix2Xd& places, const BoundaryEdge& a, const Bou
     const auto at = [&](NodeId node) { return places(axis, value(node)); };
     if (std::min(at(a.from), at(a.to)) > std::max(at(b.from), at(b.to)) + margin) return false;
     if (std::min(at(b.from), at(b.to)) > std::max(at(a.from), at(a.to)) + margin) return false;
+  }
+  return true;
+}
+
+/// Has the other edge an end on this one's left, where its block is?
+bool has_end_behind(const Eigen::Matrix2Xd& places, const BoundaryEdge& edge, const BoundaryEdge& other) {
+  const auto at = [&](NodeId node) -> Point { return places.col(value(node)); };
+  const Point along = at(edge.to) - at(edge.from), left(-along.y(), along.x());
+  return left.dot(at(other.from) - at(edge.from)) > 0.0 || left.dot(at(other.to) - at(edge.from)) > 0.0;
+}
+
+/// Is an edge's box near that around all nodes of a block?
+bool is_near_block(const Eigen::Matrix2Xd& places, const BoundaryEdge& edge, const IndexRange& nodes,
+                   double margin) {
+  const auto block = places.middleCols(nodes.begin, nodes.size());
+  for (int axis = 0; axis < 2; ++axis) {
+    const double a = places(axis, value(edge.from)), b = places(axis, value(edge.to));
+    if (std::min(a, b) > block.row(axis).maxCoeff() + margin) return false;
+    if (std::max(a, b) < block.row(axis).minCoeff() - margin) return false;
   }
   return true;
 }
@@ -51,8 +72,13 @@ TEST_CASE("The contact search finds every pair of edges that brute force finds, 
             const Point along_a = places.col(value(edge_a.to)) - places.col(value(edge_a.from));
             const Point along_b = places.col(value(edge_b.to)) - places.col(value(edge_b.from));
             const bool facing = along_a.normalized().dot(along_b.normalized()) < -0.5;
-            if (!absent[first] && !absent[second] && facing && boxes_near(places, edge_a, edge_b, 0.05))
-              expected.emplace_back(a, b);
+            const bool within = search.contact({a, b}).joined &&
+                                is_near_block(places, edge_a, bridge.mesh.block_nodes[second], 0.05) &&
+                                boxes_near(places, edge_a, edge_b, 0.05 + search.contact({a, b}).deepest) &&
+                                has_end_behind(places, edge_a, edge_b) &&
+                                has_end_behind(places, edge_b, edge_a);
+            const bool touches = within || boxes_near(places, edge_a, edge_b, 0.05);
+            if (!absent[first] && !absent[second] && facing && touches) expected.emplace_back(a, b);
           }
     std::sort(expected.begin(), expected.end());
     CHECK(search.candidates(places, absent, 0.05) == expected);
@@ -71,6 +97,27 @@ TEST_CASE("All joints at rest are among the candidates and own their corners") {
   }
   CHECK(joined == bridge.joints.size());
   CHECK(pairs.size() > joined);  // edges that meet at a corner only
+}
+
+TEST_CASE(
+    "A joint that closes by more than the contact search's margin carries its block (weight over p_n)") {
+  BridgeDescription description;
+  description.wall.length = 3.0;
+  description.spans.clear();
+  description.supports.sides = SupportKind::free;
+  description.joints.normal_stiffness = description.joints.tangential_stiffness = 2e5;
+  const Model bridge = validation::assemble_blocks(
+      description,
+      {validation::rectangle(Point(1.0, 0.0), 1.0, 0.5), validation::rectangle(Point(1.0, 0.5), 1.0, 0.5)});
+  const double closure = validation::kSpecificWeight * 0.5 / description.joints.normal_stiffness;
+  REQUIRE(closure > 3.0 * search_margin(bridge));
+  DynamicSettings settings;
+  settings.decision.latest_decision = 10.0;
+  const Solution rests = DynamicSolver(bridge, settings).solve(Scene{}).solution;
+  CHECK(rests.outcome == Outcome::standing);
+  const IndexRange& upper = bridge.mesh.block_nodes[1];
+  for (int node = upper.begin; node < upper.end; ++node)
+    CHECK(-rests.displacement(1, node) == Approx(closure).epsilon(0.01));
 }
 
 }  // namespace voussoir

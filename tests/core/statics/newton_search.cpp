@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 #include <limits>
 
+#include "tests/support/bridges.h"
 #include "tools/validation/assemblies.h"
 
 using namespace voussoir;
@@ -58,4 +59,32 @@ TEST_CASE("A search takes no step from a singular matrix, whatever stands in it"
     CHECK(search.solution().outcome == Outcome::unresolved);
     CHECK(search.solution().displacement == Field::Zero(2, bridge.mesh.node_count()));
   }
+}
+
+TEST_CASE("Searches without progress are given up, and nothing that stands is (searches to their end)",
+          "[solver]") {
+  const Model bridge = make_model(test::small_description());
+  QuasiStaticSettings settings;
+  settings.follow_falls = false;
+  QuasiStaticSolver brief(bridge, settings);
+  settings.skips.early_outcome = false;
+  QuasiStaticSolver to_the_end(bridge, settings);
+  std::vector<StageTask> tasks;
+  for (const Scene& scene : all_scenes(bridge.layout.size(), 1))
+    tasks.push_back({.stage = {.scene = scene}, .patiently = true});
+  const std::vector<Solution> found = brief.solve(tasks), wanted = to_the_end.solve(tasks);
+  int stand = 0, in_vain = 0, in_vain_to_the_end = 0;
+  for (std::size_t i = 0; i < tasks.size(); ++i) {
+    INFO(to_string(tasks[i].stage.scene, bridge.layout));
+    REQUIRE(found[i].outcome == wanted[i].outcome);
+    if (wanted[i].outcome == Outcome::standing) {
+      ++stand;
+    } else {
+      in_vain += found[i].iterations;
+      in_vain_to_the_end += wanted[i].iterations;
+    }
+  }
+  CHECK(stand > 20);
+  CHECK(in_vain > 0);
+  CHECK(in_vain < 3 * in_vain_to_the_end / 4);
 }
