@@ -24,18 +24,18 @@ struct PlacedEdge {
   Point from;
   Point along;  ///< from its first node to its second [m]
   double squared_length;
-  double reach;  ///< of its block behind it [m]
+  double behind;  ///< how far its block reaches behind it [m]
 };
 
 std::vector<PlacedEdge> placed_edges(const Mesh& mesh, const Eigen::Matrix2Xd& places,
-                                     const std::vector<double>& reach) {
+                                     const std::vector<double>& behind) {
   std::vector<PlacedEdge> edges;
   edges.reserve(mesh.edges.size());
   for (const BoundaryEdge& edge : mesh.edges) {
     const Point a = places.col(value(edge.from));
     const Point b = places.col(value(edge.to));
     edges.push_back(
-        {Box(a.cwiseMin(b), a.cwiseMax(b)), a, b - a, (b - a).squaredNorm(), reach[edges.size()]});
+        {Box(a.cwiseMin(b), a.cwiseMax(b)), a, b - a, (b - a).squaredNorm(), behind[edges.size()]});
   }
   return edges;
 }
@@ -94,10 +94,15 @@ bool is_behind(const PlacedEdge& edge, const PlacedEdge& other) {
   return cross(edge.along, to_other) > 0.0 || cross(edge.along, to_other + other.along) > 0.0;
 }
 
-/// Are faces of a joint within each other and no deeper than faces may be that touch (EdgeContact::deepest)?
-/// Others are left out: behind a thin block's face lies its neighbour's, which faces it, too.
+/// EdgeContact::deepest of two edges with so much of their blocks behind them [m].
+double deepest_of(double behind_a, double behind_b) {
+  return 0.5 * (behind_a + behind_b);
+}
+
+/// Are faces of a joint within each other and no deeper than faces may be that touch? Others are left out:
+/// behind a thin block's face lies its neighbour's, which faces it, too.
 bool is_closed_joint(const PlacedEdge& a, const PlacedEdge& b, double margin) {
-  return near(a.box, b.box, margin + 0.5 * (a.reach + b.reach)) && is_behind(a, b) && is_behind(b, a);
+  return near(a.box, b.box, margin + deepest_of(a.behind, b.behind)) && is_behind(a, b) && is_behind(b, a);
 }
 
 /// Adds the pairs of two blocks' edges that may face each other and are near, or form a joint that is closed
@@ -235,7 +240,7 @@ EdgeContact ContactSearch::contact(const EdgePair& pair) const {
           .per_length = {per_length(edge_a), per_length(edge_b)},
           .corner_share = {share(edge_a.from), share(edge_a.to), share(edge_b.from), share(edge_b.to)},
           .joined = joined,
-          .deepest = 0.5 * (behind_[a] + behind_[b]),
+          .deepest = deepest_of(behind_[a], behind_[b]),
           .material = joined ? joined_material_[static_cast<std::size_t>(found - joined_.begin())]
                              : new_contact(edge_block_[a], edge_block_[b])};
 }
