@@ -1,8 +1,16 @@
 #include "generator/proved_falls.h"
 
 #include <algorithm>
+#include <array>
+
+#include "core/structure/neighbours.h"
 
 namespace voussoir {
+
+std::optional<Mechanism> fall_beside(const Scene& scene, const Model& bridge,
+                                     const Coefficients& coefficients) {
+  return is_one_group(scene, bridge) ? find_mechanism_beside(bridge, coefficients, scene) : std::nullopt;
+}
 
 ProvedFalls::ProvedFalls(const StartingFields& starts, const Model& bridge, const Coefficients& coefficients,
                          const PlanRules& rules, bool has_losses)
@@ -11,16 +19,21 @@ ProvedFalls::ProvedFalls(const StartingFields& starts, const Model& bridge, cons
   for (const auto& [scene, moving] : starts.falling(kBuilt)) {
     if (!(inherited_ || (of_singles && scene.missing() == 1))) continue;
     if (proved(scene)) continue;  // by a single within the pair
-    if (auto mechanism = find_mechanism(bridge, coefficients, scene, moving))
-      mechanisms_.emplace(scene, std::move(*mechanism));
+    auto mechanism = fall_beside(scene, bridge, coefficients);
+    if (!mechanism) mechanism = find_mechanism(bridge, coefficients, scene, moving);
+    if (mechanism) mechanisms_.emplace(scene, std::move(*mechanism));
   }
 }
 
-std::optional<Solution> ProvedFalls::of(const Scene& scene, const Structure& structure) const {
+std::optional<Solution> ProvedFalls::of(const Scene& scene, const Model& bridge,
+                                        const Coefficients& coefficients) const {
   if (!inherits(scene) && !others_) return std::nullopt;
-  auto solution = proved_fall(mechanisms_within(scene), scene, structure);
-  if (solution && inherits(scene)) solution->origin = Origin::inherited;
-  return solution;
+  if (auto solution = proved_fall(mechanisms_within(scene), scene, bridge)) {
+    if (inherits(scene)) solution->origin = Origin::inherited;
+    return solution;
+  }
+  const auto own = others_ ? fall_beside(scene, bridge, coefficients) : std::nullopt;
+  return own ? proved_fall(std::array{&*own}, scene, bridge) : std::nullopt;
 }
 
 bool ProvedFalls::apply_to(const Scene& scene) const {

@@ -1,5 +1,6 @@
 #pragma once
-/// @file Scenes that are known to fall without a search, because singles or pairs within them do.
+/// @file Scenes that are known to fall without a search: as singles or pairs within them do, or because
+/// nothing can carry blocks beside the missing ones.
 ///
 /// That a scene falls in motion does not mean that it falls with more blocks missing: where friction hardly
 /// holds, the motion passes an equilibrium that another one finds. Where limit analysis proves the fall
@@ -14,6 +15,11 @@
 
 namespace voussoir {
 
+/// A proof that blocks beside the missing ones fall, where these are one group: what several groups do is
+/// known of scenes with fewer missing blocks. Nothing if there is none.
+std::optional<Mechanism> fall_beside(const Scene& scene, const Model& bridge,
+                                     const Coefficients& coefficients);
+
 class ProvedFalls {
  public:
   ProvedFalls() = default;
@@ -24,13 +30,14 @@ class ProvedFalls {
               const PlanRules& rules, bool has_losses);
 
   /// What is known of a scene that falls as built: see proved_fall. Nothing if nothing proves it, or if its
-  /// field is wanted. Of three and more missing blocks, `inherited` (Origin) if the rules have it so.
-  std::optional<Solution> of(const Scene& scene, const Structure& structure) const;
+  /// field is wanted. Of three and more missing blocks, `inherited` (Origin) if the rules have it so and
+  /// fewer missing blocks prove it.
+  std::optional<Solution> of(const Scene& scene, const Model& bridge, const Coefficients& coefficients) const;
 
   /// Is anything known of the scene as built?
   bool apply_to(const Scene& scene) const;
 
-  /// Is it proved that no state of the scene without a load is in equilibrium?
+  /// Is it proved by fewer missing blocks that no state of the scene without a load is in equilibrium?
   bool proved(const Scene& scene) const;
 
  private:

@@ -88,7 +88,7 @@ std::optional<Solution> StateSolving::without_search(const Scene& scene, std::si
                                                      const SearchBasis& basis) const {
   const PlannedState& planned = plan_[state];
   if (!planned.before) {
-    if (auto falls = basis.falls.of(scene, bridge_)) return falls;
+    if (auto falls = basis.falls.of(scene, bridge_, coefficients_)) return falls;
     return basis.composition.has_parts(scene, basis.starts)
                ? basis.composition.of(scene, basis.starts, equations(scene, state, {}))
                : std::nullopt;
@@ -108,7 +108,8 @@ StateSolving::Search StateSolving::one_step_search(const Scene& scene, std::size
   if (!planned.before) {
     if (!basis.warm_starts) return search;
     search.start = basis.starts.start_for(scene, state);
-    search.falls_likely = basis.starts.falls_likely(scene, state);
+    search.falls_likely = basis.starts.falls_likely(scene, state) ||
+                          (basis.collapse_fields && fall_beside(scene, bridge_, coefficients_).has_value());
     search.falls_by_one = basis.starts.falls_by_one(scene, state);
     search.open_likely = basis.starts.open_likely(scene, state);
     search.starts_near = scene.missing() > 1;  // where what fewer missing blocks change adds up

@@ -107,20 +107,6 @@ void place_snapshot(const MotionModel& model, const std::vector<bool>& removed,
   }
 }
 
-bool are_apart(const Scene& scene, const Structure& structure) {
-  std::set<BlockId> near;  // to the missing blocks looked at so far, and these
-  for (const BlockId block : scene.removed) {
-    std::set<BlockId> own = {block};
-    for (const Joint& joint : structure.joints) {
-      if (joint.first == block) own.insert(joint.second);
-      if (joint.second == block) own.insert(joint.first);
-    }
-    if (std::ranges::any_of(own, [&](BlockId one) { return near.contains(one); })) return false;
-    near.merge(own);
-  }
-  return true;
-}
-
 std::vector<Scene> EarlyMotions::lacking(std::span<const Scene> scenes) const {
   std::set<Scene> result;
   for (const Scene& scene : scenes)

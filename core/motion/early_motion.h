@@ -32,10 +32,6 @@ template <class T>
 void place_snapshot(const MotionModel& model, const std::vector<bool>& removed,
                     const MotionSnapshot& snapshot, double margin, int lane_index, Motion<T>& motion);
 
-/// True if no two of the missing blocks touch, neither each other nor the same block: what their absence
-/// changes adds up early on.
-bool are_apart(const Scene& scene, const Structure& structure);
-
 /// Snapshots of the intact bridge and its singles at one moment.
 class EarlyMotions {
  public:

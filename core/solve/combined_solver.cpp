@@ -2,6 +2,7 @@
 
 #include "core/motion/early_motion.h"
 #include "core/structure/collapse.h"
+#include "core/structure/neighbours.h"
 
 namespace voussoir {
 namespace {
@@ -27,7 +28,7 @@ bool is_open(const StageTask& task, const Solution& solution) {
 
 /// What is looked at with all patience begins at rest.
 MotionStart start_of(const StageTask& task, const Structure& structure, bool patiently) {
-  const bool adds_up = task.falls_by_one && !patiently && are_apart(task.stage.scene, structure);
+  const bool adds_up = task.falls_by_one && !patiently && !is_one_group(task.stage.scene, structure);
   return adds_up ? MotionStart::from_singles : MotionStart::at_rest;
 }
 

@@ -8,6 +8,7 @@
 
 #include "core/geometry/polygon.h"
 #include "core/statics/non_negative_least_squares.h"
+#include "core/structure/neighbours.h"
 
 namespace voussoir {
 namespace {
@@ -15,6 +16,7 @@ namespace {
 /// Of g . g, the least work that proves a fall. Turns of the joints before blocks fall are of the order of
 /// 1e-3, and so is what they change; collapses of the reference bridge's arch have 0.05 to 0.18.
 constexpr double kLeastShare = 0.01;
+constexpr double kAtRest = 1e-6;  ///< of the largest velocity: what is less is round-off
 
 /// Blocks that may move, each with a place about which moments are taken and a length that makes forces of
 /// them.
@@ -91,6 +93,20 @@ Eigen::MatrixXd cone_edges(const Model& model, const MovingBlocks& moving, const
   return matrix;
 }
 
+/// The mechanism of those blocks alone that move in it: the others' velocities are zero.
+Mechanism falling_part(const Mechanism& mechanism) {
+  const double most = *std::ranges::max_element(mechanism.unbalanced);
+  Mechanism part{mechanism.scene, {}, {}, {}, {}};
+  for (std::size_t i = 0; i < mechanism.blocks.size(); ++i) {
+    if (mechanism.unbalanced[i] < kAtRest * most) continue;
+    part.blocks.push_back(mechanism.blocks[i]);
+    part.work.push_back(mechanism.work[i]);
+    part.load.push_back(mechanism.load[i]);
+    part.unbalanced.push_back(mechanism.unbalanced[i]);
+  }
+  return part;
+}
+
 /// Sums over the mechanism's blocks that a scene has.
 double sum_over_present(const Mechanism& mechanism, const Scene& scene, const std::vector<double>& values) {
   double sum = 0.0;
@@ -115,6 +131,13 @@ std::optional<Mechanism> find_mechanism(const Model& model, const Coefficients& 
     mechanism.unbalanced.push_back(left.segment<2>(row).norm() / coefficients.weight.sum());
   }
   return proves_fall(mechanism, scene) ? std::optional(std::move(mechanism)) : std::nullopt;
+}
+
+std::optional<Mechanism> find_mechanism_beside(const Model& model, const Coefficients& coefficients,
+                                               const Scene& scene) {
+  const std::vector<BlockId> beside = blocks_beside(scene, model);
+  auto mechanism = find_mechanism(model, coefficients, scene, beside);
+  return mechanism ? std::optional(falling_part(*mechanism)) : std::nullopt;
 }
 
 bool proves_fall(const Mechanism& mechanism, const Scene& scene) {

@@ -38,6 +38,12 @@ struct Mechanism {
 std::optional<Mechanism> find_mechanism(const Model& model, const Coefficients& coefficients,
                                         const Scene& scene, std::span<const BlockId> blocks);
 
+/// The same of the blocks beside the missing ones, which are few and fall most often, without asking what
+/// moves: `blocks` are those of them that fall. Most falls of wall blocks and many of the arch are proved so,
+/// in a tenth of a millisecond.
+std::optional<Mechanism> find_mechanism_beside(const Model& model, const Coefficients& coefficients,
+                                               const Scene& scene);
+
 /// Does the mechanism prove that this scene falls? So it can if the scene lacks all that its own does.
 bool proves_fall(const Mechanism& mechanism, const Scene& scene);
 

@@ -7,6 +7,7 @@
 
 #include "core/motion/dynamic_solver.h"
 #include "core/motion/early_motion.h"
+#include "core/structure/neighbours.h"
 #include "tests/support/bridges.h"
 
 namespace voussoir {
@@ -55,7 +56,7 @@ std::vector<Scene> pairs_apart_of_which_one_falls() {
       if ((alone[i].solution.outcome == Outcome::collapsed) !=
           (alone[j].solution.outcome == Outcome::collapsed))
         pairs.push_back({{singles[i].removed.front(), singles[j].removed.front()}});
-  std::erase_if(pairs, [](const Scene& pair) { return !are_apart(pair, moving_bridge()); });
+  std::erase_if(pairs, [](const Scene& pair) { return is_one_group(pair, moving_bridge()); });
   return pairs;
 }
 
@@ -79,25 +80,6 @@ TEST_CASE(
   const auto expected = motions(pairs, MotionStart::at_rest);
   const auto found = motions(pairs, MotionStart::from_singles);
   check_alike(pairs, found, expected, 0.005);
-}
-
-TEST_CASE("Blocks are apart that touch neither each other nor the same block (joints, one by one)") {
-  const Model& bridge = moving_bridge();
-  const auto touch = [&](BlockId a, BlockId b) {
-    return std::ranges::any_of(bridge.joints, [&](const Joint& joint) {
-      return (joint.first == a && joint.second == b) || (joint.first == b && joint.second == a);
-    });
-  };
-  for (const Scene& scene : all_scenes(bridge.layout.blocks.size(), 2)) {
-    if (scene.missing() < 2) continue;
-    const BlockId a = scene.removed.front(), b = scene.removed.back();
-    bool near = touch(a, b);
-    for (std::size_t i = 0; i < bridge.layout.blocks.size(); ++i) {
-      const BlockId between{static_cast<int>(i)};
-      near = near || (touch(a, between) && touch(between, b));
-    }
-    REQUIRE(are_apart(scene, bridge) == !near);
-  }
 }
 
 TEST_CASE(

@@ -1,7 +1,9 @@
 #include "core/statics/mechanism.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 
+#include "core/motion/dynamic_solver.h"
 #include "core/statics/quasi_static_solver.h"
 #include "tests/support/bridges.h"
 #include "tools/validation/assemblies.h"
@@ -80,4 +82,25 @@ TEST_CASE("No part of a bridge that stands has a mechanism (Newton's equilibrium
   for (int block = 0; block < bridge.block_count(); ++block) blocks.push_back(BlockId{block});
   REQUIRE(stands(QuasiStaticSolver(bridge).solve(Scene{})));
   CHECK_FALSE(mechanism_of(bridge, {}, blocks));
+}
+
+TEST_CASE("Of blocks beside missing ones only those that fall are said to (the motion from rest)",
+          "[solver]") {
+  const Model bridge = test::small_bridge();
+  const Coefficients coefficients(EquilibriumSystem(bridge), bridge.parameters);
+  const std::vector<Scene> singles = all_scenes(bridge.layout.blocks.size(), 1);
+  const std::vector<DynamicSolution> motions = DynamicSolver(bridge).solve(singles);
+  std::size_t proved = 0;
+  for (std::size_t i = 0; i < singles.size(); ++i) {
+    const auto falls = find_mechanism_beside(bridge, coefficients, singles[i]);
+    if (!falls) continue;
+    ++proved;
+    const Solution& motion = motions[i].solution;
+    CAPTURE(to_string(singles[i], bridge.layout));
+    REQUIRE(motion.outcome == Outcome::collapsed);
+    CHECK(std::ranges::includes(motion.moving, falls->blocks));
+    CHECK_FALSE(falls->blocks.empty());
+  }
+  CHECK(proved > 3);
+  CHECK_FALSE(find_mechanism_beside(bridge, coefficients, Scene{}));
 }
