@@ -10,15 +10,14 @@
 namespace voussoir {
 namespace {
 
-constexpr double kLeastBonding =
-    1e-3;  ///< first help for loose blocks: a thousandth of the joints' stiffness
+constexpr double kLeastBonding = 1e-3;   ///< of the joints' stiffness: first help for loose blocks
 constexpr double kBondingFactor = 10.0;  ///< more help for a step out of bounds, less after a step
 constexpr int kMostHalvings = 4;
 /// Of a step along which the unbalance does not fall however short it is: what joints do at their kinks stops
 /// a descent at places that are no equilibria, and from beside them it goes on.
 constexpr double kEscape = 0.25;
-constexpr double kFallingSags =
-    10.0;  ///< a scene that moves further than this many times the sag of the bonded one falls
+/// A scene that moves further than this many times the sag of the bonded one falls.
+constexpr double kFallingSags = 10.0;
 /// Of the unbalance at most so much may be left after a step if its matrix is to serve the next one, too; a
 /// new matrix costs as much as four steps with an old one (docs/numerics.md).
 constexpr double kLittleProgress = 0.3;
@@ -61,13 +60,14 @@ constexpr PhaseRules kDescending = [] {
   rules.most_stalled = kFewStalled;
   return rules;
 }();
-constexpr PhaseRules kFalling{
+constexpr PhaseRules kBold{
     .largest_step = 2.0, .rise = 3.0, .patience = kForever, .promising = 0.0, .most_stalled = kForever};
 
 const PhaseRules& rules_of(SearchPhase phase) {
   switch (phase) {
+    case SearchPhase::bold:
     case SearchPhase::falling:
-      return kFalling;
+      return kBold;
     case SearchPhase::descending:
       return kDescending;
     case SearchPhase::patient:
@@ -84,6 +84,8 @@ int most_iterations(SearchPhase phase, const QuasiStaticSettings& settings) {
   switch (phase) {
     case SearchPhase::warm:
       return settings.most_warm_iterations;
+    case SearchPhase::bold:
+      return settings.most_bold_iterations;
     case SearchPhase::falling:
       return settings.most_falling_iterations;
     case SearchPhase::descending:
@@ -136,23 +138,31 @@ void NewtonSearch::begin_next_phase() {
         begin_from_rest(SearchPhase::quick);
       break;
     case SearchPhase::quick:
-      phase_ =
-          settings_->follow_falls ? SearchPhase::falling : SearchPhase::done;  // from where the search is
-      phase_iterations_ = 0;
+      go_on_boldly(settings_->follow_falls ? SearchPhase::falling : SearchPhase::bold);
       break;
     case SearchPhase::falling:
       begin_from_rest(SearchPhase::patient);
       break;
     case SearchPhase::descending:
       if (settings_->patient_first)
-        phase_ = SearchPhase::done;
+        go_on_boldly(SearchPhase::bold);
       else
         begin_from_rest(SearchPhase::quick);
       break;
+    case SearchPhase::bold:
+      displacement_ = before_bold_;
+      evaluate_forces();
+      [[fallthrough]];
     case SearchPhase::patient:
     case SearchPhase::done:
       phase_ = SearchPhase::done;
   }
+}
+
+void NewtonSearch::go_on_boldly(SearchPhase phase) {
+  phase_ = most_iterations(phase, *settings_) > 0 ? phase : SearchPhase::done;
+  phase_iterations_ = 0;
+  before_bold_ = displacement_;
 }
 
 void NewtonSearch::evaluate() {
@@ -195,7 +205,8 @@ void NewtonSearch::advance(bool regular, const Eigen::VectorXd& solution) {
     return;
   }
   note_progress();
-  if (in_equilibrium() || (fallen() && phase_ != SearchPhase::warm))
+  const bool goes_on = phase_ == SearchPhase::warm || phase_ == SearchPhase::bold;
+  if (in_equilibrium() || (fallen() && !goes_on))
     phase_ = SearchPhase::done;
   else if (exhausted())
     begin_next_phase();
@@ -243,7 +254,7 @@ void NewtonSearch::take_step(const Eigen::VectorXd& step) {
   double factor = 1.0;
   for (int halving = 0; halving <= kMostHalvings; ++halving, factor *= 0.5) {
     move(before, factor, step);
-    may_keep ? evaluate_forces() : evaluate();
+    may_keep || halving > 0 ? evaluate_forces() : evaluate();  // a tangent costs as much as five tries
     if (norm_ < bound) break;
   }
   if (descends && !(norm_ < bound)) {
@@ -253,6 +264,8 @@ void NewtonSearch::take_step(const Eigen::VectorXd& step) {
     move(before, factor, step);
     evaluate();
     if (may_bond) return;
+  } else if (factor < 1.0 && !may_keep) {
+    evaluate();
   }
   note_step(factor * step.cwiseAbs().maxCoeff());
   if (bonded_from_rest) bonded_sag_ = last_step_;

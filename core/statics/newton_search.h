@@ -17,7 +17,9 @@ enum class SearchPhase {
   warm,        ///< from a given start
   descending,  ///< from there on, or at first: the unbalance falling, given up when it falls no more
   quick,       ///< from rest, given up when it has no hope
-  falling,     ///< goes on with bolder steps: does something fall?
+  bold,        ///< goes on with a few bolder steps, which cross what the others cannot; in vain, the search
+               ///< ends where it was before
+  falling,     ///< goes on with bolder steps for longer: does something fall?
   patient,     ///< likewise, from rest after the others, with all patience: the last word
   done
 };
@@ -49,6 +51,7 @@ class NewtonSearch {
   void begin(SearchPhase phase, const Field& start, double bonding);
   void begin_from_rest(SearchPhase phase) { begin(phase, at_rest(), 1.0); }
   void begin_next_phase();
+  void go_on_boldly(SearchPhase phase);  // from where the search is
   void take_step(const Eigen::VectorXd& step);
   void try_step_with_old_matrix(const Eigen::VectorXd& step);
   void move(const Field& from, double factor, const Eigen::VectorXd& step);
@@ -89,6 +92,7 @@ class NewtonSearch {
   double least_norm_ = 0.0;  ///< that counted as progress
   int stalled_ = 0;          ///< steps since
   int steps_ = 0;            ///< since the start
+  Field before_bold_;        ///< where a bold phase began
   int phase_iterations_ = 0;
   int iterations_ = 0;  ///< linear systems in all phases
 };

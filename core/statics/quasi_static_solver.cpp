@@ -69,6 +69,9 @@ struct LaneSearch {
     settings = w.settings;
     if (task->before == nullptr) settings.descends_near = false;
     if (task->before == nullptr && !task->starts_near) settings.skips.kept_factors = false;
+    // What is not found from near falls where joints are soft, and later stages stay near.
+    const bool ends_near = task->before != nullptr || (task->starts_near && !settings.patient_first);
+    if (ends_near) settings.most_bold_iterations = 0;
     own.reset();
     if (task->parameters != nullptr) own.emplace(w.system, *task->parameters);
     reached = Solution{};

@@ -25,12 +25,14 @@ struct QuasiStaticSettings {
   int most_warm_iterations =
       12;                    ///< factorisations from a given start before the search starts again from zero
   int most_iterations = 30;  ///< factorisations of a search from zero
+  int most_bold_iterations = 12;      ///< factorisations with bolder steps where none is followed
   int most_falling_iterations = 40;   ///< factorisations of a fall
   int most_patient_iterations = 100;  ///< factorisations of a patient search
-  bool patient_first = false;         ///< true: searches descend, as a patient one does, and do nothing else
-  bool descends_near = true;  ///< true: a later stage's search that fails from its start first goes on from
-                              ///< there as one that descends
-  bool follow_falls = true;   ///< false: a search without progress ends there, `unresolved`
+  bool patient_first = false;  ///< true: searches descend, as a patient one does, before they go on boldly
+  bool descends_near = true;   ///< true: a later stage's search that fails from its start first goes on from
+                               ///< there as one that descends
+  bool follow_falls = true;    ///< false: a search without progress goes on for a few bolder steps and
+                               ///< then ends where it was, `unresolved`
   double collapse_displacement =
       0.1;  ///< [m] beyond it, and beyond ten sags of the bonded scene, blocks are falling
   JointRule joint_rule = JointRule::exact;

@@ -27,6 +27,7 @@ TEST_CASE("Settings survive their text form, every value changed (round trip)", 
   SolverSettings settings = SolverSettings::of(SolverKind::quasi_static, motion);
   settings.newton.tolerance = 1e-7;
   settings.newton.most_iterations = 77;
+  settings.newton.most_bold_iterations = 7;
   settings.newton.most_patient_iterations = 99;
   settings.newton.patient_first = true;
   settings.newton.descends_near = false;

@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 #include <limits>
 
+#include "core/motion/dynamic_solver.h"
 #include "tests/support/bridges.h"
 #include "tools/validation/assemblies.h"
 
@@ -87,4 +88,52 @@ TEST_CASE("Searches without progress are given up, and nothing that stands is (s
   CHECK(stand > 20);
   CHECK(in_vain > 0);
   CHECK(in_vain < 3 * in_vain_to_the_end / 4);
+}
+
+TEST_CASE("Bolder steps find equilibria that the searches before them miss (slow motion)", "[solver]") {
+  BridgeDescription description = test::small_description();
+  description.joints.normal_stiffness = 3e9;
+  description.joints.tangential_stiffness = 3e7;
+  const Model bridge = make_model(description);
+  const std::vector<Scene> scenes = {parse_scene("2,1", bridge.layout), parse_scene("4,6", bridge.layout)};
+
+  QuasiStaticSettings settings;
+  settings.follow_falls = false;
+  QuasiStaticSolver solver(bridge, settings);
+  settings.most_bold_iterations = 0;
+  QuasiStaticSolver timid(bridge, settings);
+  const Field intact = solver.solve(Scene{}).displacement;
+  DynamicSettings slow;
+  slow.ramp = 2.0;
+  slow.decision.earliest_decision = slow.ramp;
+  slow.decision.latest_decision = 8.0;
+  slow.decision.standing_unbalance = 1e-7;
+  const std::vector<DynamicSolution> motions = DynamicSolver(bridge, slow).solve(scenes);
+  for (std::size_t i = 0; i < scenes.size(); ++i) {
+    CAPTURE(to_string(scenes[i], bridge.layout));
+    CHECK(timid.solve(scenes[i], intact).outcome == Outcome::unresolved);
+    const Solution found = solver.solve(scenes[i], intact);
+    REQUIRE(found.outcome == Outcome::standing);
+    REQUIRE(motions[i].solution.outcome == Outcome::standing);
+    const Field field = test::without_nan(found.displacement);
+    const Field expected = test::without_nan(motions[i].solution.displacement);
+    CHECK((field - expected).cwiseAbs().maxCoeff() < 0.005 * expected.cwiseAbs().maxCoeff());
+  }
+}
+
+TEST_CASE("Bolder steps in vain leave a search where it was (the search without them)", "[solver]") {
+  const Model bridge = test::small_bridge();
+  QuasiStaticSettings settings;
+  settings.follow_falls = false;
+  QuasiStaticSolver solver(bridge, settings);
+  settings.most_bold_iterations = 0;
+  QuasiStaticSolver timid(bridge, settings);
+  const Scene falls = parse_scene("0,3", bridge.layout);
+  const Solution expected = timid.solve(falls);
+  const Solution found = solver.solve(falls);
+  REQUIRE(expected.outcome == Outcome::unresolved);
+  CHECK(found.outcome == Outcome::unresolved);
+  CHECK(found.iterations > expected.iterations);
+  CHECK(test::without_nan(found.displacement) == test::without_nan(expected.displacement));
+  CHECK(found.residual == Approx(expected.residual));
 }
