@@ -9,9 +9,7 @@
 
 #include "core/motion/dynamic_solver.h"
 #include "core/random.h"
-#include "core/solve/outcomes_only.h"
-#include "core/solve/state_plan.h"
-#include "generator/start_field.h"
+#include "tools/default_build.h"
 #include "tools/timing.h"
 
 namespace voussoir {
@@ -48,18 +46,6 @@ std::vector<Scene> drawn_scenes(const Model& model, int count, std::uint64_t see
   return scenes;
 }
 
-/// As build-database does, with what it knows of the intact bridge.
-std::vector<Solution> solve(CombinedSolver& solver, std::span<const Scene> scenes,
-                            const StartingFields& starts) {
-  std::vector<StageTask> tasks;
-  for (const Scene& scene : scenes)
-    tasks.push_back({.stage = {.scene = scene},
-                     .start = starts.intact(kBuilt),
-                     .falls_likely = starts.falls_likely(scene, kBuilt),
-                     .open_likely = starts.open_likely(scene, kBuilt)});
-  return solver.solve(tasks);
-}
-
 void count(const std::vector<Solution>& solutions, std::span<const Scene> scenes, const BlockLayout& layout,
            BridgeRow& row) {
   for (std::size_t i = 0; i < solutions.size(); ++i) {
@@ -71,24 +57,23 @@ void count(const std::vector<Solution>& solutions, std::span<const Scene> scenes
   }
 }
 
+/// The intact bridge, which comes first, alone.
+std::vector<Solution> solve_group(DefaultBuild& build, std::span<const Scene> scenes) {
+  if (!scenes.front().removed.empty()) return build.solve(scenes);
+  return {build.solve_intact()};
+}
+
 /// The scene of a group that takes longest is looked for in the slowest group alone.
-void find_worst(CombinedSolver& solver, std::span<const Scene> scenes, const StartingFields& starts,
-                const BlockLayout& layout, BridgeRow& row) {
+void find_worst(DefaultBuild& build, std::span<const Scene> scenes, const BlockLayout& layout,
+                BridgeRow& row) {
   for (const Scene& scene : scenes) {
     const double begin = processor_seconds();
-    solve(solver, std::span(&scene, 1), starts);
+    solve_group(build, std::span(&scene, 1));
     const double seconds = processor_seconds() - begin;
     if (seconds <= row.worst) continue;
     row.worst = seconds;
     row.worst_scene = to_string(scene, layout);
   }
-}
-
-/// Of build-database: fields of what falls are kept where motion can follow the joints as they are.
-SolverSettings default_settings(const Model& model) {
-  const SolverSettings settings = SolverSettings::of(SolverKind::quasi_static);
-  return acting_settings(softens_joints(settings.motion, model) ? for_outcomes(settings, model) : settings,
-                         model);
 }
 
 /// Until what moves rests or is far away.
@@ -117,31 +102,29 @@ void follow(const Model& model, std::span<const Scene> scenes, std::span<const O
 
 BridgeRow measure(const BridgeDescription& description, const BridgeOptions& options, std::uint64_t seed) {
   const Model model = make_model(description);
-  CombinedSolver solver(model, default_settings(model));
+  DefaultBuild build(model);
   const std::vector<Scene> scenes = drawn_scenes(model, options.scenes, seed);
   BridgeRow row{
       .name = description.name, .blocks = model.block_count(), .scenes = static_cast<int>(scenes.size())};
   std::span<const Scene> slowest;
   double longest = -1.0;
-  StartingFields starts;
   std::vector<Outcome> outcomes;
   for (std::size_t first = 0; first < scenes.size();) {
     const std::size_t size = first == 0 ? 1 : std::min(kTogether, scenes.size() - first);
     const auto group = std::span(scenes).subspan(first, size);
     const double begin = processor_seconds();
-    std::vector<Solution> solutions = solve(solver, group, starts);
+    const std::vector<Solution> solutions = solve_group(build, group);
     const double seconds = processor_seconds() - begin;
     row.seconds += seconds;
     count(solutions, group, model.layout, row);
     for (const Solution& solution : solutions) outcomes.push_back(solution.outcome);
-    if (first == 0) starts.add(scenes.front(), kBuilt, solutions.front());
     first += size;
     if (seconds > longest) {
       longest = seconds;
       slowest = group;
     }
   }
-  find_worst(solver, slowest, starts, model.layout, row);
+  find_worst(build, slowest, model.layout, row);
   if (row.blocks <= options.most_followed) follow(model, scenes, outcomes, row);
   return row;
 }

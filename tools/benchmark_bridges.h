@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "core/solve/combined_solver.h"
+#include "core/structure/bridge_description.h"
 
 namespace voussoir {
 

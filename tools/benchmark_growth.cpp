@@ -7,8 +7,9 @@
 #include <cmath>
 #include <limits>
 
-#include "core/solve/combined_solver.h"
+#include "core/statics/quasi_static_solver.h"
 #include "lookup/report/drawing/chart.h"
+#include "tools/default_build.h"
 #include "tools/timing.h"
 
 namespace voussoir {
@@ -29,24 +30,36 @@ std::vector<Scene> spread_singles(const Model& model, int count, bool only_wall)
     if (!only_wall || model.layout[BlockId{block}].role == BlockRole::wall)
       singles.push_back({{BlockId{block}}});
   std::vector<Scene> chosen;
-  for (int i = 0; i < count; ++i)
-    chosen.push_back(singles[(2 * static_cast<std::size_t>(i) + 1) * singles.size() /
-                             (2 * static_cast<std::size_t>(count))]);
+  const std::size_t wanted = std::min(singles.size(), static_cast<std::size_t>(count));
+  for (std::size_t i = 0; i < wanted; ++i)
+    chosen.push_back(singles[(2 * i + 1) * singles.size() / (2 * wanted)]);
   return chosen;
 }
 
-/// Singles from the intact field, as in a build. Newton alone, or what a build would do.
+/// Newton alone, singles from the intact field.
+class Equilibria {
+ public:
+  explicit Equilibria(const Model& model) : solver_(model) {}
+  void solve_intact() { intact_ = solver_.solve(Scene{}).displacement; }
+  std::vector<Solution> solve(std::span<const Scene> scenes) {
+    std::vector<StageTask> tasks;
+    for (const Scene& scene : scenes) tasks.push_back({.stage = {.scene = scene}, .start = &intact_});
+    return solver_.solve(tasks);
+  }
+
+ private:
+  QuasiStaticSolver solver_;
+  Field intact_;
+};
+
 template <class Solver>
 GrowthPoint measure(double x, const Model& model, const std::vector<Scene>& singles) {
   const double before = megabytes_in_use();
   Solver solver(model);
   GrowthPoint point{.x = x, .blocks = model.block_count(), .megabytes = megabytes_in_use() - before};
-  const std::vector<StageTask> intact(1);
-  const Field start = solver.solve(std::span<const StageTask>(intact)).front().displacement;
-  std::vector<StageTask> tasks;
-  for (const Scene& single : singles) tasks.push_back({.stage = {.scene = single}, .start = &start});
+  solver.solve_intact();
   const double begin = processor_seconds();
-  const std::vector<Solution> solutions = solver.solve(std::span<const StageTask>(tasks));
+  const std::vector<Solution> solutions = solver.solve(singles);
   point.seconds = (processor_seconds() - begin) / static_cast<double>(singles.size());
   for (const Solution& solution : solutions)
     (solution.outcome == Outcome::standing    ? point.standing
@@ -134,20 +147,19 @@ std::vector<Growth> measure_growth(int most_spans, int scenes,
   };
   for (int spans = 1; spans <= most_spans; spans *= 2) {
     const Model model = make_model(viaduct(spans));
-    add(all[0],
-        measure<QuasiStaticSolver>(model.block_count(), model, spread_singles(model, kViaductScenes, true)));
+    add(all[0], measure<Equilibria>(model.block_count(), model, spread_singles(model, kViaductScenes, true)));
   }
   for (const double stiffness : decades(7, 12)) {
     BridgeDescription bridge;
     bridge.joints.normal_stiffness = stiffness;
     bridge.joints.tangential_stiffness = 0.1 * stiffness;
     const Model model = make_model(bridge);
-    add(all[1], measure<CombinedSolver>(stiffness, model, spread_singles(model, scenes, false)));
+    add(all[1], measure<DefaultBuild>(stiffness, model, spread_singles(model, scenes, false)));
   }
   for (const double piece : decades(-6, -1)) {
     const BridgeDescription bridge = with_smallest_piece(piece);
     const Model model = make_model(bridge);
-    add(all[2], measure<CombinedSolver>(smallest_piece(bridge), model, spread_singles(model, scenes, false)));
+    add(all[2], measure<DefaultBuild>(smallest_piece(bridge), model, spread_singles(model, scenes, false)));
   }
   return all;
 }
