@@ -193,10 +193,10 @@ void parse_build_options(int argc, char** argv, BuildOptions& options) {
 
 SolverChoice settle_collapses(const Model& bridge, BuildOptions& options) {
   const bool fields =
-      options.collapse_fields ? *options.collapse_fields : !softens_joints(options.motion, bridge);
+      options.collapse_fields ? *options.collapse_fields : keeps_collapse_fields(bridge, options.motion);
   options.request.rules.collapse_fields = fields;
   if (options.solver == SolverKind::dynamic) return dynamic(options.motion);
-  return fields ? quasi_static(options.motion) : for_outcomes(options.motion);
+  return quasi_static_with(fields, options.motion);
 }
 
 }  // namespace voussoir

@@ -34,6 +34,10 @@ SceneSolver stated_solver(const Model& model, const std::string& settings);
 SolverChoice quasi_static(const DynamicSettings& motion = {});
 /// The same for databases without fields of collapses (core/solve/outcomes_only.h).
 SolverChoice for_outcomes(const DynamicSettings& motion = {});
+/// Of these two the one for databases with fields of collapses or without.
+SolverChoice quasi_static_with(bool collapse_fields, const DynamicSettings& motion = {});
+/// Are fields of collapses kept if nobody says? Where motion can follow the joints as they are.
+bool keeps_collapse_fields(const Model& bridge, const DynamicSettings& motion = {});
 SolverChoice dynamic(const DynamicSettings& motion = {});
 
 /// Solves the scenes and rounds their fields to the storage precision. What the joints remember is left

@@ -58,6 +58,14 @@ SolverChoice for_outcomes(const DynamicSettings& motion) {
   return choice;
 }
 
+SolverChoice quasi_static_with(bool collapse_fields, const DynamicSettings& motion) {
+  return collapse_fields ? quasi_static(motion) : for_outcomes(motion);
+}
+
+bool keeps_collapse_fields(const Model& bridge, const DynamicSettings& motion) {
+  return !softens_joints(motion, bridge);
+}
+
 SolverChoice dynamic(const DynamicSettings& motion) {
   return solver_with(SolverSettings::of(SolverKind::dynamic, motion));
 }

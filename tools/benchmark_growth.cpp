@@ -23,14 +23,15 @@ double megabytes_in_use() {
   return 1e-6 * static_cast<double>(info.uordblks + info.hblkhd);
 }
 
-/// Singles, evenly spread over the blocks.
+/// Singles, evenly spread over the blocks; 0: all.
 std::vector<Scene> spread_singles(const Model& model, int count, bool only_wall) {
   std::vector<Scene> singles;
   for (int block = 0; block < model.block_count(); ++block)
     if (!only_wall || model.layout[BlockId{block}].role == BlockRole::wall)
       singles.push_back({{BlockId{block}}});
   std::vector<Scene> chosen;
-  const std::size_t wanted = std::min(singles.size(), static_cast<std::size_t>(count));
+  const std::size_t wanted =
+      count == 0 ? singles.size() : std::min(singles.size(), static_cast<std::size_t>(count));
   for (std::size_t i = 0; i < wanted; ++i)
     chosen.push_back(singles[(2 * i + 1) * singles.size() / (2 * wanted)]);
   return chosen;

@@ -32,11 +32,11 @@ int main(int argc, char** argv) {
       "benchmark-growth");
   app.footer("Example: benchmark-growth --svg docs/pictures/growth");
   int most_spans = 16;
-  int scenes = 212;
+  int scenes = 0;
   std::string folder;
   app.add_option("--spans", most_spans, "of the longest viaduct; default 16")->check(CLI::Range(1, 64));
-  app.add_option("--scenes", scenes, "singles of each bridge with other joints or pieces; default all")
-      ->check(CLI::Range(1, 1000));
+  app.add_option("--scenes", scenes, "singles of each bridge with other joints or pieces; default 0: all")
+      ->check(CLI::Range(0, 100000));
   app.add_option("--svg", folder, "write the pictures into this folder")->check(CLI::ExistingDirectory);
   return voussoir::run_program(app, argc, argv, [&] { return benchmark(most_spans, scenes, folder); });
 }

@@ -1,19 +1,10 @@
 #include "tools/default_build.h"
 
-#include "core/motion/dynamic_solver.h"
-
 namespace voussoir {
 namespace {
 
-/// Fields of what falls are kept where motion can follow the joints as they are.
-PlanRules default_rules(const Model& model) {
-  PlanRules rules;
-  rules.collapse_fields = !softens_joints({}, model);
-  return rules;
-}
-
-SceneSolver default_solver(const Model& model, bool collapse_fields) {
-  const SolverChoice choice = collapse_fields ? quasi_static() : for_outcomes();
+SceneSolver default_solver(const Model& model, const PlanRules& rules) {
+  const SolverChoice choice = quasi_static_with(rules.collapse_fields);
   return choice.make_solver(model, choice.settings(model));
 }
 
@@ -21,8 +12,8 @@ SceneSolver default_solver(const Model& model, bool collapse_fields) {
 
 DefaultBuild::DefaultBuild(const Model& model)
     : plan_({PlannedState{.name = "built"}}),
-      rules_(default_rules(model)),
-      solver_(default_solver(model, rules_.collapse_fields)),
+      rules_{.collapse_fields = keeps_collapse_fields(model)},
+      solver_(default_solver(model, rules_)),
       states_(model, plan_),
       basis_(states_.basis(solver_, {}, rules_)) {}
 

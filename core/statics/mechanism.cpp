@@ -93,7 +93,7 @@ Eigen::MatrixXd cone_edges(const Model& model, const MovingBlocks& moving, const
   return matrix;
 }
 
-/// The mechanism of those blocks alone that move in it: the others' velocities are zero.
+/// The mechanism without the blocks that stay where they are or only turn: their weight does no work.
 Mechanism falling_part(const Mechanism& mechanism) {
   const double most = *std::ranges::max_element(mechanism.unbalanced);
   Mechanism part{mechanism.scene, {}, {}, {}, {}};

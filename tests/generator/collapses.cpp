@@ -26,7 +26,7 @@ Built build(const test::TemporaryFolder& folder, const BridgeFile& bridge, const
   request.scenes = scenes;
   request.rules.collapse_fields = collapse_fields;
   request.known_bridge = true;
-  BuildSummary summary = build_database(request, collapse_fields ? quasi_static() : for_outcomes(), quiet);
+  BuildSummary summary = build_database(request, quasi_static_with(collapse_fields), quiet);
   return {request.output, std::move(summary)};
 }
 
