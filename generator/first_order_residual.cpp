@@ -96,10 +96,12 @@ class CaseSolving {
     Stage stage = one.bridge->epoch;
     stage.scene = first_order_.scenes[one.scene];
     stage.load = planned.load;
-    return StageTask{.stage = std::move(stage),
-                     .start = &first_order_.states[one.scene][state]->displacement,
-                     .before = before,
-                     .parameters = &one.bridge->parameters};
+    return StageTask{
+        .stage = std::move(stage),
+        .start = &first_order_.states[one.scene][state]->displacement,
+        .before = before,
+        .slipped = before == nullptr ? &first_order_.states[one.scene][kBuilt]->slipped : nullptr,
+        .parameters = &one.bridge->parameters};
   }
 
   const SensitivityStudy& study_;

@@ -28,6 +28,15 @@ Settlements settlements_of(const SceneGroup& group, const StatePlan& plan, const
   return settlements;
 }
 
+/// One that finds equilibria only, unless the intact bridge stands by what it has slipped in motion.
+SceneSolver probe_solver(const ErrorProbes& probes, const Model& bridge) {
+  const StageTask intact{.stage = {.scene = {}}};
+  SceneSolver of_equilibria = probes.solver.make_equilibrium_solver(bridge);
+  if (stands(of_equilibria({&intact, 1}).front())) return of_equilibria;
+  SceneSolver of_all = probes.solver.make_solver(bridge, probes.solver.settings(bridge));
+  return stands(of_all({&intact, 1}).front()) ? of_all : of_equilibria;
+}
+
 /// Control displacements of the intact bridge and the singles, on one mesh.
 std::vector<Settlements> solve_probes(const ErrorProbes& probes, const Model& bridge,
                                       const BridgeDescription& description,
@@ -38,7 +47,7 @@ std::vector<Settlements> solve_probes(const ErrorProbes& probes, const Model& br
   const StateSolving solving(bridge, plan);
   std::vector<SceneGroup> groups = {{.solved = {}, .states = {}, .image = {}}};
   for (const Scene& single : singles) groups.push_back({.solved = single, .states = {}, .image = {}});
-  solving.solve_from_intact(probes.solver.make_equilibrium_solver(bridge), groups);
+  solving.solve_from_intact(probe_solver(probes, bridge), groups);
   std::vector<Settlements> result;
   for (const SceneGroup& group : groups) result.push_back(settlements_of(group, plan, bridge));
   return result;

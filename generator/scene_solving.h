@@ -40,11 +40,12 @@ SolverChoice quasi_static_with(bool collapse_fields, const DynamicSettings& moti
 bool keeps_collapse_fields(const Model& bridge, const DynamicSettings& motion = {});
 SolverChoice dynamic(const DynamicSettings& motion = {});
 
-/// Solves the scenes and rounds their fields to the storage precision. What the joints remember is left
-/// out where it follows from the field: after one step.
+/// Solves the scenes and rounds their fields, and what has slipped beforehand, to the storage precision. What
+/// the joints remember at the end is left out where it follows from these: after one step.
 std::vector<Solution> solve_for_storage(const SceneSolver& solver, std::span<const StageTask> scenes);
 
 /// The mirror image of a solution, in the same storage precision and without memory.
-Solution mirrored_solution(const Solution& solution, const MirrorSymmetry& symmetry);
+/// Precondition: the bridge is symmetric.
+Solution mirrored_solution(const Solution& solution, const Structure& bridge);
 
 }  // namespace voussoir

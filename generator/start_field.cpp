@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/solve/state_plan.h"
+
 namespace voussoir {
 namespace {
 
@@ -26,6 +28,7 @@ std::vector<Scene> starting_subsets(const Scene& scene) {
 void StartingFields::add(const Scene& scene, std::size_t state, const Solution& solution) {
   if (scene.missing() > 2) return;
   if (solution.outcome == Outcome::standing) standing_[{scene, state}] = solution.displacement;
+  if (state == kBuilt && stands(solution) && solution.slipped.size() > 0) slipped_[scene] = solution.slipped;
   if (solution.outcome == Outcome::collapsed) falling_[{scene, state}] = solution.moving;
   if (solution.outcome == Outcome::unresolved) open_.emplace(scene, state);
 }
@@ -60,6 +63,11 @@ const Field* StartingFields::find(const Scene& scene, std::size_t state) const {
   return found == standing_.end() ? nullptr : &found->second;
 }
 
+Eigen::Matrix2Xd StartingFields::slipped(const Scene& scene) const {
+  const auto found = slipped_.find(scene);
+  return found == slipped_.end() ? Eigen::Matrix2Xd() : found->second;
+}
+
 std::vector<Scene> StartingFields::standing_singles(std::size_t state) const {
   std::vector<Scene> singles;
   for (const auto& [place, field] : standing_)
@@ -80,21 +88,39 @@ bool StartingFields::has_pairs() const {
   return std::ranges::any_of(standing_, is_pair) || std::ranges::any_of(falling_, is_pair);
 }
 
-std::optional<Field> StartingFields::start_for(const Scene& scene, std::size_t state) const {
-  const Field* intact_field = intact(state);
-  if (scene.removed.empty() || intact_field == nullptr) return std::nullopt;
-  Field start = *intact_field;
-  if (scene.missing() == 1) return start;
+template <class Of>
+std::optional<Field> StartingFields::summed_up(const Scene& scene, std::size_t state, const Of& of) const {
+  const auto part = [&](const Scene& within) { return find(within, state) ? &of(within) : nullptr; };
+  const Field* intact_part = part(Scene{});
+  if (scene.removed.empty() || intact_part == nullptr) return std::nullopt;
+  Field sum = *intact_part;
+  if (scene.missing() == 1) return sum;
   for (const BlockId block : scene.removed)
-    if (const Field* single = find(Scene{{block}}, state)) start += *single - *intact_field;
+    if (const Field* single = part(Scene{{block}})) sum += *single - *intact_part;
   for (const Scene& pair : starting_subsets(scene)) {
-    const Field* both = pair.missing() == 2 ? find(pair, state) : nullptr;
+    const Field* both = pair.missing() == 2 ? part(pair) : nullptr;
     if (both == nullptr) continue;
-    const Field* first = find(Scene{{pair.removed.front()}}, state);
-    const Field* second = find(Scene{{pair.removed.back()}}, state);
-    if (first != nullptr && second != nullptr) start += *both - *first - *second + *intact_field;
+    const Field* first = part(Scene{{pair.removed.front()}});
+    const Field* second = part(Scene{{pair.removed.back()}});
+    if (first != nullptr && second != nullptr) sum += *both - *first - *second + *intact_part;
   }
-  return zero_for_nan(start);
+  return zero_for_nan(sum);
+}
+
+std::optional<Field> StartingFields::start_for(const Scene& scene, std::size_t state) const {
+  return summed_up(scene, state, [&](const Scene& part) -> const Field& {
+    return standing_.at({part, state});
+  });
+}
+
+Eigen::Matrix2Xd StartingFields::slipped_for(const Scene& scene) const {
+  if (slipped_.empty()) return {};
+  const Field none = Field::Zero(2, slipped_.begin()->second.cols());
+  const auto sum = summed_up(scene, kBuilt, [&](const Scene& part) -> const Field& {
+    const auto known = slipped_.find(part);
+    return known == slipped_.end() ? none : known->second;
+  });
+  return !sum || sum->isZero(0.0) ? Field() : *sum;
 }
 
 std::optional<Field> StartingFields::change(const Scene& scene, std::size_t before, std::size_t after) const {

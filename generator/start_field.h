@@ -34,6 +34,10 @@ class StartingFields {
   /// and nothing for any scene if the intact bridge does not stand.
   std::optional<Field> start_for(const Scene& scene, std::size_t state = 0) const;
 
+  /// The plastic slip that a scene's search as built begins with, 2 x joints: what the intact bridge, the
+  /// singles and the pairs within it began with (Solution::slipped), summed up as in start_for. Empty: none.
+  Eigen::Matrix2Xd slipped_for(const Scene& scene) const;
+
   /// The start for state `after` of a scene that stands in state `before` with the field `own`: with c the
   /// change from `before` to `after`,
   ///     d = own + c_intact + sum_i (c_i - c_intact)   over the singles i, other than the scene, that stand
@@ -65,6 +69,10 @@ class StartingFields {
   /// The field of the intact bridge, a single or a pair in a state, if it is there and stands.
   const Field* find(const Scene& scene, std::size_t state) const;
 
+  /// What had slipped before the intact bridge, a single or a pair stood as built; empty: nothing, or it does
+  /// not stand.
+  Eigen::Matrix2Xd slipped(const Scene& scene) const;
+
   /// The singles that stand in a state, in ascending order.
   std::vector<Scene> standing_singles(std::size_t state) const;
 
@@ -73,8 +81,13 @@ class StartingFields {
   const std::vector<BlockId>* find_falling(const Scene& scene, std::size_t state) const;
   std::optional<Field> change(const Scene& scene, std::size_t before, std::size_t after) const;
 
+  /// The sum of start_for, given what the intact bridge and a scene that stands have of what is summed up.
+  template <class Of>
+  std::optional<Field> summed_up(const Scene& scene, std::size_t state, const Of& of) const;
+
   using Place = std::pair<Scene, std::size_t>;     ///< scene and state
   std::map<Place, Field> standing_;                ///< fields
+  std::map<Scene, Eigen::Matrix2Xd> slipped_;      ///< of those as built that began with some
   std::map<Place, std::vector<BlockId>> falling_;  ///< which blocks move
   std::set<Place> open_;                           ///< no answer
 };

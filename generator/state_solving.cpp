@@ -27,6 +27,7 @@ struct StateSolving::Search {
   SceneStates* states;  ///< where the answer belongs
   Stage stage;
   std::optional<Field> start;
+  Eigen::Matrix2Xd slipped{};
   std::optional<State> before;
   int steps = 1;
   bool falls_likely = false;
@@ -38,6 +39,7 @@ struct StateSolving::Search {
     return {.stage = stage,
             .start = start ? &*start : nullptr,
             .before = before ? &*before : nullptr,
+            .slipped = &slipped,
             .steps = steps,
             .falls_likely = falls_likely,
             .falls_by_one = falls_by_one,
@@ -60,18 +62,20 @@ StageEquations StateSolving::equations(const Scene& scene, std::size_t state,
   return {system_, coefficients_, Stage{.scene = scene, .load = plan_[state].load}, std::move(memory)};
 }
 
-std::vector<JointMemory> StateSolving::memory_of_intact(const Field* intact) const {
-  return intact == nullptr ? std::vector<JointMemory>{}
-                           : updated_memory(equations(Scene{}, kBuilt, {}), *intact);
+std::vector<JointMemory> StateSolving::memory_of_intact(const Field& displacement,
+                                                        const Eigen::Matrix2Xd& slipped) const {
+  return updated_memory(equations(Scene{}, kBuilt, memory_of_slip(slipped)), displacement);
 }
 
 std::vector<JointMemory> StateSolving::memory_before(const Scene& scene, std::size_t state,
                                                      SceneStates& states,
                                                      const std::vector<JointMemory>& of_intact) const {
-  if (!plan_[state].before) return {};
+  if (!plan_[state].before)
+    return states[state] ? memory_of_slip(states[state]->slipped) : std::vector<JointMemory>{};
   if (!plan_[state].is_load)
-    return scene.removed.empty() && states[kBuilt] ? memory_of_intact(&states[kBuilt]->displacement)
-                                                   : of_intact;
+    return scene.removed.empty() && states[kBuilt]
+               ? memory_of_intact(states[kBuilt]->displacement, states[kBuilt]->slipped)
+               : of_intact;
   Solution& before = *states[*plan_[state].before];
   if (before.memory.empty()) {
     const Field& end = before.displacement;
@@ -89,9 +93,12 @@ std::optional<Solution> StateSolving::without_search(const Scene& scene, std::si
   const PlannedState& planned = plan_[state];
   if (!planned.before) {
     if (auto falls = basis.falls.of(scene, bridge_, coefficients_)) return falls;
-    return basis.composition.has_parts(scene, basis.starts)
-               ? basis.composition.of(scene, basis.starts, equations(scene, state, {}))
-               : std::nullopt;
+    if (!basis.composition.has_parts(scene, basis.starts)) return std::nullopt;
+    const Eigen::Matrix2Xd slipped = basis.starts.slipped_for(scene);
+    auto composed =
+        basis.composition.of(scene, basis.starts, equations(scene, state, memory_of_slip(slipped)));
+    if (composed) composed->slipped = slipped;
+    return composed;
   }
   if (planned.is_load)
     return stands(*states[*planned.before]) ? std::nullopt
@@ -104,10 +111,12 @@ std::optional<Solution> StateSolving::without_search(const Scene& scene, std::si
 StateSolving::Search StateSolving::one_step_search(const Scene& scene, std::size_t state, SceneStates& states,
                                                    const SearchBasis& basis) const {
   const PlannedState& planned = plan_[state];
-  Search search{&states, {.scene = scene, .load = planned.load}, {}, {}};
+  Search search{
+      .states = &states, .stage = {.scene = scene, .load = planned.load}, .start = {}, .before = {}};
   if (!planned.before) {
     if (!basis.warm_starts) return search;
     search.start = basis.starts.start_for(scene, state);
+    search.slipped = basis.starts.slipped_for(scene);
     search.falls_likely = basis.starts.falls_likely(scene, state) ||
                           (basis.collapse_fields && fall_beside(scene, bridge_, coefficients_).has_value());
     search.falls_by_one = basis.starts.falls_by_one(scene, state);
@@ -205,7 +214,7 @@ void StateSolving::solve(const SceneSolver& solver, const SearchBasis& basis,
       take(state, std::move(solutions[i]), basis, *searches[i].states);
     for (SceneGroup& group : groups)
       if (group.image && plan_[state].mirrors)
-        group.image_states[state] = mirrored_solution(*group.states[state], *bridge_.symmetry);
+        group.image_states[state] = mirrored_solution(*group.states[state], bridge_);
     if (plan_[state].is_loss()) find_lacking_memory(solver, state, groups, basis);
   }
 }
@@ -246,8 +255,9 @@ SearchBasis StateSolving::basis(const SceneSolver& solver, StartingFields starts
   SearchBasis basis{std::move(starts), rules.warm_starts, rules.collapse_fields, {}, {}, {}, {}};
   const Field* intact = basis.starts.intact(kBuilt);
   if (rules.composed && intact != nullptr && basis.starts.has_pairs())
-    basis.composition = Composition(equations(Scene{}, kBuilt, {}), *intact);
-  basis.of_intact = memory_of_intact(intact);
+    basis.composition =
+        Composition(equations(Scene{}, kBuilt, memory_of_slip(basis.starts.slipped({}))), *intact);
+  if (intact != nullptr) basis.of_intact = memory_of_intact(*intact, basis.starts.slipped({}));
   const auto lost = place_of_lost(plan_);
   basis.falls = ProvedFalls(basis.starts, bridge_, coefficients_, rules, lost.has_value());
   if (lost && intact != nullptr) basis.steps = steps_of_loss(solver, basis, *lost);

@@ -2,8 +2,9 @@
 /// @file Solving the states of scenes one after the other.
 ///
 /// Every state is found from stored fields only. What the joints remember of a state follows from its field
-/// in storage precision and the memory before it, and where blocks went in many steps from solving these
-/// again. So a record is the same whatever was computed before it, interrupted or taken over.
+/// in storage precision and the memory before it (before `built`, what has slipped in motion), and where
+/// blocks went in many steps from solving these again. So a record is the same whatever was computed before
+/// it, interrupted or taken over.
 
 #include "core/solve/state_plan.h"
 #include "core/statics/equilibrium.h"
@@ -70,8 +71,8 @@ class StateSolving {
 
  private:
   struct Search;
-  /// What the joints remember of the intact bridge as built, given its field; nothing for null.
-  std::vector<JointMemory> memory_of_intact(const Field* intact) const;
+  /// What the joints remember of the intact bridge as built, given its field and what had slipped before.
+  std::vector<JointMemory> memory_of_intact(const Field& displacement, const Eigen::Matrix2Xd& slipped) const;
   std::optional<Solution> without_search(const Scene& scene, std::size_t state, const SceneStates& states,
                                          const SearchBasis& basis) const;
   Search one_step_search(const Scene& scene, std::size_t state, SceneStates& states,

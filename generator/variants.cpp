@@ -1,7 +1,6 @@
 #include "generator/variants.h"
 
 #include <algorithm>
-#include <map>
 
 #include "core/error.h"
 #include "core/random.h"
@@ -35,29 +34,6 @@ JointMaterial typical_joint(std::vector<JointMaterial> joints, const JointMateri
   return {.normal_stiffness = median(&JointMaterial::normal_stiffness),
           .tangential_stiffness = median(&JointMaterial::tangential_stiffness),
           .friction_angle = median(&JointMaterial::friction_angle)};
-}
-
-using JointNodes = std::array<int, 4>;  // in ascending order
-
-JointNodes nodes_of(const Joint& joint, const std::vector<NodeId>* image) {
-  JointNodes nodes = {value(joint.first_edge.from), value(joint.first_edge.to), value(joint.second_edge.from),
-                      value(joint.second_edge.to)};
-  if (image)
-    for (int& node : nodes) node = value((*image)[static_cast<std::size_t>(node)]);
-  std::sort(nodes.begin(), nodes.end());
-  return nodes;
-}
-
-/// The image of each joint; the number of joints where there is none.
-std::vector<std::size_t> joint_images(const std::vector<Joint>& joints, const MirrorSymmetry& symmetry) {
-  std::map<JointNodes, std::size_t> places;
-  for (std::size_t i = 0; i < joints.size(); ++i) places[nodes_of(joints[i], nullptr)] = i;
-  std::vector<std::size_t> images;
-  for (const Joint& joint : joints) {
-    const auto image = places.find(nodes_of(joint, &symmetry.node_image));
-    images.push_back(image == places.end() ? joints.size() : image->second);
-  }
-  return images;
 }
 
 bool same_in_images(const std::vector<double>& values, const std::vector<std::size_t>& images) {

@@ -1,6 +1,7 @@
 #pragma once
 /// @file What a stage leaves behind, and the next one starts from.
 
+#include <Eigen/Core>
 #include <vector>
 
 #include "core/structure/mesh.h"
@@ -24,6 +25,9 @@ struct JointMemory {
   std::vector<BondMemory> bond{};  ///< at bond_points(); empty: no mortar, or nothing has happened to it
   friend bool operator==(const JointMemory&, const JointMemory&) = default;
 };
+
+/// Dry joints with this plastic slip at their two ends [m], 2 x joints.
+std::vector<JointMemory> memory_of_slip(const Eigen::Matrix2Xd& slip);
 
 struct State {
   Field displacement;               ///< [m], 2 x nodes; NaN at nodes of removed blocks

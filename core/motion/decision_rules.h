@@ -14,9 +14,9 @@ struct DecisionRules {
   double plain_unbalance =
       1e-2;  ///< unbalance over the bridge's weight, at least, of a collapse that is plain at its moment
   double largest_standing_unbalance = 1e-2;  ///< resultant force on a block over its weight, at most
-  double moving_sags =
-      2.0;  ///< blocks that have moved further than this many sags of the bonded bridge have moved away
-  double freer_from = 0.0;  ///< at this time, what is nearly balanced (sum of the blocks' resultant forces
+  double moving_sags = 2.0;  ///< blocks that have moved further than this many sags of the bonded bridge, or
+                             ///< half a mean block, have moved away
+  double freer_from = 0.0;   ///< at this time, what is nearly balanced (sum of the blocks' resultant forces
   double freer_unbalance = 0.0;  ///< over the bridge's weight, at most) is damped less until a later time:
   double freer_until = 0.0;      ///< a block that creeps, held by nearly enough friction, falls the sooner
   double freer_damping = 1.0;    ///< [-] share of the damping

@@ -14,6 +14,8 @@ namespace {
 constexpr double kOfCritical = 0.9;         ///< default step; the power iteration comes from below
 constexpr double kDampingShare = 0.5;       ///< of the critical damping
 constexpr double kTimeBetweenLooks = 0.01;  ///< [s] between two looks at a scene
+/// Of a mean block: what drops into a gap comes to rest after one course, and softly if joints are soft.
+constexpr double kFallenShare = 0.5;
 /// Of the ramp, for which motions add up: a quarter of gravity acts then. Until half of it, fields of
 /// collapses would be three times as far off (docs/numerics.md).
 constexpr double kEarlyShare = 1.0 / 3.0;
@@ -73,7 +75,8 @@ struct DynamicSolver::Workspace {
             voussoir::critical_step(followed(bridge), bodies, settings.integrator, settings.contact_damping)),
         model(followed(bridge), bodies, acting_pace(followed(bridge), bodies, settings, critical),
               settings.damping.value_or(2.0 * kDampingShare * natural.frequency), settings.contact_damping),
-        margin(search_margin(bridge)) {}
+        margin(search_margin(bridge)),
+        block_size(mean_block_size(bridge)) {}
 
   const Model& followed(const Model& bridge) const { return softer ? *softer : bridge; }
   /// Steps until a time has come, but for round-off.
@@ -88,12 +91,18 @@ struct DynamicSolver::Workspace {
     return adds_up ? static_cast<long>(kEarlyShare * settings.ramp / model.step()) : 0;
   }
 
+  /// From so far on blocks have moved away [m].
+  double moved_away(const DecisionRules& rules) const {
+    return std::min(rules.moving_sags * natural.sag, kFallenShare * block_size);
+  }
+
   DynamicSettings settings;
   std::unique_ptr<Model> softer;  ///< what is followed if it is not the bridge
   NaturalMotion natural;
   double critical;
   MotionModel model;
   double margin;
+  double block_size;  ///< [m]
   EarlyMotions early;
 };
 
@@ -228,26 +237,24 @@ class MotionRun {
   /// Fills in the outcome, if there is one by now.
   bool decided(int i, long steps, DynamicSolution& result) const {
     const double unbalanced = lane(motion_.unbalanced, i) / model_.weight;
-    const double kinetic = kinetic_energy(model_, motion_, i);
+    result.kinetic_energy = kinetic_energy(model_, motion_, i);
     const double largest = lane(motion_.largest_unbalanced, i);
     const bool early = steps < shared_.steps_until(rules_.earliest_decision);
     if (early && !shared_.settings.skips.early_outcome) return false;
-    const bool last = steps >= shared_.steps_until(rules_.latest_decision);
     const bool quiet = !early && unbalanced <= rules_.standing_unbalance &&
-                       kinetic <= unbalanced * shared_.natural.work &&
+                       result.kinetic_energy <= unbalanced * shared_.natural.work &&
                        largest <= rules_.largest_standing_unbalance;
     const Field now = displacement(model_, motion_, i);
-    const Mesh& mesh = model_.structure->mesh;
-    result.solution.moving = blocks_moved_beyond(rules_.moving_sags * shared_.natural.sag, mesh, now);
+    result.solution.moving = blocks_moved_beyond(shared_.moved_away(rules_), model_.structure->mesh, now);
     result.solution.extent = collapse_extent(model_.structure->layout, result.solution.moving);
     const bool plain = early ? unbalanced >= rules_.plain_unbalance : largest >= rules_.collapsing_unbalance;
     const bool falling = !quiet && !result.solution.moving.empty() && plain;
-    if (!quiet && !falling && !last) return false;
-    result.kinetic_energy = kinetic;
+    if (!quiet && !falling && steps < shared_.steps_until(rules_.latest_decision)) return false;
     result.solution.residual = unbalanced;
     result.solution.outcome = quiet ? Outcome::standing : falling ? Outcome::collapsed : Outcome::unresolved;
     if (falling) return true;
     result.solution.displacement = now;
+    result.solution.slipped = plastic_slip(model_, motion_, i);
     result.time = static_cast<double>(steps) * model_.step();
     return true;
   }

@@ -44,7 +44,8 @@ bool softens_joints(const DynamicSettings& settings, const Model& model);
 /// What happened to a scene in motion.
 struct DynamicSolution {
   Solution solution;  ///< `residual` is the sum of the blocks' resultant forces over the bridge's weight;
-                      ///< `iterations` counts time steps; the field of a collapse is the one at `time`
+                      ///< `iterations` counts time steps; the field of a collapse is the one at `time`;
+                      ///< `slipped` is what joints have slipped where it does not fall
   double time = 0.0;  ///< of the field [s]
   double kinetic_energy = 0.0;  ///< at the decision [J]
 };

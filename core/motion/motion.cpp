@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <limits>
 
+#include "core/law/joint_kinematics.h"
+#include "core/statics/elements.h"
+
 namespace voussoir {
 namespace {
 
@@ -75,6 +78,16 @@ void add_contacts(const MotionModel& model, const std::vector<EdgePair>& added, 
   motion.contacts = std::move(contacts);
   motion.found = std::move(found);
   motion.shear = std::move(shear);
+}
+
+/// The shear of a contact in one lane, at the ends of its stretch; none where there is no contact.
+template <class T>
+std::pair<double, double> elastic_slip(const Motion<T>& motion, const EdgePair& pair, int i) {
+  const auto known = std::lower_bound(motion.pairs.begin(), motion.pairs.end(), pair);
+  if (known == motion.pairs.end() || *known != pair) return {0.0, 0.0};
+  const auto c = static_cast<std::size_t>(known - motion.pairs.begin());
+  if (lane(motion.found[c].value, i) == 0.0) return {0.0, 0.0};
+  return {lane(motion.shear[c].at_0, i), lane(motion.shear[c].at_1, i)};
 }
 
 }  // namespace
@@ -223,6 +236,23 @@ Field displacement(const MotionModel& model, const Motion<T>& motion, int lane_i
 }
 
 template <class T>
+Eigen::Matrix2Xd plastic_slip(const MotionModel& model, const Motion<T>& motion, int i) {
+  if (!model.bonds.empty()) return {};
+  const Structure& structure = *model.structure;
+  const Eigen::Matrix2Xd moved = places_in_lane(motion, i) - structure.mesh.nodes;
+  Eigen::Matrix2Xd slip(2, static_cast<Eigen::Index>(structure.joints.size()));
+  Eigen::Index place = 0;
+  for (const Joint& joint : structure.joints) {
+    const JointFrame frame = make_joint_frame(joint, structure.mesh);
+    const JointState state = joint_pose(frame, gathered(moved, corners(joint))).state;
+    auto [xi_0, xi_1] = elastic_slip(motion, model.search.pair_of(joint), i);
+    if (value(joint.second) < value(joint.first)) std::swap(xi_0, xi_1);  // s runs the other way
+    slip.col(place++) << state[1] - xi_0, state[3] - xi_1;
+  }
+  return slip;
+}
+
+template <class T>
 double kinetic_energy(const MotionModel& model, const Motion<T>& motion, int i) {
   double energy = 0.0;
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
@@ -246,6 +276,7 @@ double kinetic_energy(const MotionModel& model, const Motion<T>& motion, int i) 
   template void search_contacts<T>(const MotionModel&, double, int, Motion<T>&);               \
   template void follow_bonds<T>(const MotionModel&, Motion<T>&);                               \
   template Field displacement<T>(const MotionModel&, const Motion<T>&, int);                   \
+  template Eigen::Matrix2Xd plastic_slip<T>(const MotionModel&, const Motion<T>&, int);        \
   template double kinetic_energy<T>(const MotionModel&, const Motion<T>&, int);
 VOUSSOIR_INSTANTIATE(double)
 VOUSSOIR_INSTANTIATE(DoubleLanes)

@@ -103,6 +103,11 @@ void follow_bonds(const MotionModel& model, Motion<T>& motion);
 template <class T>
 Field displacement(const MotionModel& model, const Motion<T>& motion, int lane_index);
 
+/// Plastic slip of dry joints in one lane [m], 2 x joints: by how much more they have slipped than their
+/// shear stress tells. Empty where joints have mortar.
+template <class T>
+Eigen::Matrix2Xd plastic_slip(const MotionModel& model, const Motion<T>& motion, int lane_index);
+
 /// Kinetic energy in one lane [J].
 template <class T>
 double kinetic_energy(const MotionModel& model, const Motion<T>& motion, int lane_index);

@@ -26,6 +26,18 @@ bool is_open(const StageTask& task, const Solution& solution) {
   return solution.outcome == Outcome::unresolved && task.before == nullptr;
 }
 
+/// Newton's equilibria. Where it gets too far away, motion shall say whether anything falls.
+std::vector<Solution> equilibria(QuasiStaticSolver& newton, const std::vector<StageTask>& tasks) {
+  std::vector<Solution> solutions = newton.solve(tasks);
+  for (std::size_t i = 0; i < tasks.size(); ++i) {
+    if (solutions[i].outcome != Outcome::collapsed || tasks[i].before != nullptr) continue;
+    solutions[i].outcome = Outcome::unresolved;
+    solutions[i].extent = CollapseExtent::none;
+    solutions[i].moving.clear();
+  }
+  return solutions;
+}
+
 /// What is looked at with all patience begins at rest.
 MotionStart start_of(const StageTask& task, const Structure& structure, bool patiently) {
   const bool adds_up = task.falls_by_one && !patiently && !is_one_group(task.stage.scene, structure);
@@ -49,8 +61,9 @@ CombinedSolver::CombinedSolver(const Model& model, const SolverSettings& setting
 
 std::vector<Solution> CombinedSolver::solve(std::span<const StageTask> tasks) {
   std::vector<Solution> solutions = search(tasks);
+  insist(tasks, Whom::intact, solutions);
   follow(settings_.motion.decision, tasks, false, solutions);
-  insist(tasks, solutions);
+  insist(tasks, Whom::all, solutions);
   follow(settings_.patient, tasks, true, solutions);
   return solutions;
 }
@@ -60,21 +73,24 @@ std::vector<Solution> CombinedSolver::search(std::span<const StageTask> tasks) {
   const bool falls_first = settings_.newton.skips.likely_falls;
   const auto places =
       places_where(tasks.size(), [&](std::size_t i) { return !(falls_first && tasks[i].falls_likely); });
-  std::vector<Solution> found = newton_.solve(tasks_at(tasks, places));
+  std::vector<Solution> found = equilibria(newton_, tasks_at(tasks, places));
   std::vector<Solution> solutions(tasks.size());
   for (std::size_t k = 0; k < found.size(); ++k) solutions[places[k]] = std::move(found[k]);
   return solutions;
 }
 
-/// Takes the equilibria that Newton's method finds with all patience, from rest.
-void CombinedSolver::insist(std::span<const StageTask> tasks, std::vector<Solution>& solutions) {
-  const std::vector<std::size_t> places = open_places(tasks, solutions, true);
+/// Takes the equilibria that Newton's method finds with all patience, from rest. All other scenes start from
+/// the intact bridge, which shall have slipped only if it has to.
+void CombinedSolver::insist(std::span<const StageTask> tasks, Whom whom, std::vector<Solution>& solutions) {
+  std::vector<std::size_t> places = open_places(tasks, solutions, true);
+  if (whom == Whom::intact)
+    std::erase_if(places, [&](std::size_t place) { return tasks[place].stage.scene.missing() > 0; });
   std::vector<StageTask> open = tasks_at(tasks, places);
   for (StageTask& task : open) {
     task.start = nullptr;
     task.patiently = true;
   }
-  std::vector<Solution> found = newton_.solve(open);
+  std::vector<Solution> found = equilibria(newton_, open);
   for (std::size_t k = 0; k < found.size(); ++k)
     if (stands(found[k])) solutions[places[k]] = std::move(found[k]);
 }
@@ -90,6 +106,8 @@ bool CombinedSolver::falls_late(const StageTask& task, const DecisionRules& rule
 
 std::vector<DynamicSolution> CombinedSolver::move(std::span<const StageTask> tasks,
                                                   const DecisionRules& rules, bool patiently) {
+  DecisionRules late_rules = when_gone(rules);  // which takes its time
+  late_rules.latest_decision = settings_.patient.latest_decision;
   std::vector<bool> fall_late;
   for (const StageTask& task : tasks) fall_late.push_back(falls_late(task, rules));
   std::vector<DynamicSolution> solutions(tasks.size());
@@ -101,7 +119,7 @@ std::vector<DynamicSolution> CombinedSolver::move(std::span<const StageTask> tas
       scenes.push_back(tasks[place].stage.scene);
       starts.push_back(start_of(tasks[place], *newton_.system().structure, patiently));
     }
-    std::vector<DynamicSolution> found = motion_.solve(scenes, late ? when_gone(rules) : rules, starts);
+    std::vector<DynamicSolution> found = motion_.solve(scenes, late ? late_rules : rules, starts);
     for (std::size_t k = 0; k < places.size(); ++k) solutions[places[k]] = std::move(found[k]);
   }
   return solutions;
@@ -114,20 +132,42 @@ void CombinedSolver::follow(const DecisionRules& rules, std::span<const StageTas
   const std::vector<std::size_t> open = open_places(tasks, solutions, patiently);
   std::vector<DynamicSolution> motions = move(tasks_at(tasks, open), rules, patiently);
 
-  std::vector<StageTask> resting;
+  std::vector<StageTask> tasks_at_rest;
+  std::vector<Solution> resting;
   std::vector<std::size_t> resting_at;
   for (std::size_t k = 0; k < open.size(); ++k) {
     if (motions[k].solution.outcome == Outcome::collapsed) {
       solutions[open[k]] = std::move(motions[k].solution);
     } else {
       const bool rests = patiently && motions[k].solution.outcome == Outcome::standing;
-      resting.push_back(
-          {.stage = tasks[open[k]].stage, .start = &motions[k].solution.displacement, .patiently = rests});
+      tasks_at_rest.push_back(
+          {.stage = tasks[open[k]].stage, .slipped = tasks[open[k]].slipped, .patiently = rests});
+      resting.push_back(std::move(motions[k].solution));
       resting_at.push_back(open[k]);
     }
   }
-  std::vector<Solution> polished = newton_.solve(resting);
+  std::vector<Solution> polished = polish(std::move(tasks_at_rest), resting);
   for (std::size_t k = 0; k < polished.size(); ++k) solutions[resting_at[k]] = std::move(polished[k]);
+}
+
+/// Equilibria near where the tasks have come to rest: with nothing slipped beforehand, unless a search for
+/// one with some slip has failed already; otherwise with what the joints remember of the motion, as friction
+/// holds what it has let slide.
+std::vector<Solution> CombinedSolver::polish(std::vector<StageTask> tasks,
+                                             std::span<const Solution> resting) {
+  std::vector<Solution> polished(tasks.size());
+  const auto take = [&](const std::vector<std::size_t>& places) {
+    std::vector<Solution> found = equilibria(newton_, tasks_at(tasks, places));
+    for (std::size_t k = 0; k < found.size(); ++k) polished[places[k]] = std::move(found[k]);
+  };
+  const auto has_slipped = [](const Eigen::Matrix2Xd* slip) { return slip != nullptr && slip->size() > 0; };
+  for (std::size_t k = 0; k < tasks.size(); ++k) tasks[k].start = &resting[k].displacement;
+  take(places_where(tasks.size(), [&](std::size_t k) { return !has_slipped(tasks[k].slipped); }));
+  const auto open = places_where(
+      tasks.size(), [&](std::size_t k) { return !stands(polished[k]) && has_slipped(&resting[k].slipped); });
+  for (const std::size_t k : open) tasks[k].slipped = &resting[k].slipped;
+  take(open);
+  return polished;
 }
 
 }  // namespace voussoir

@@ -75,8 +75,8 @@ bool read_value(std::string_view text,
 template <class Settings, class Visit>
 void visit_newton(Settings& settings, const Visit& visit) {
   auto& [tolerance, step_tolerance, round_off, loose_tolerance, most_warm_iterations, most_iterations,
-         most_bold_iterations, most_falling_iterations, most_patient_iterations, patient_first, descends_near,
-         follow_falls, collapse_displacement, joint_rule, skips] = settings;
+         most_bold_iterations, most_falling_iterations, most_patient_iterations, most_slipped_iterations,
+         patient_first, descends_near, follow_falls, collapse_displacement, joint_rule, skips] = settings;
   visit("newton.tolerance", tolerance);
   visit("newton.step_tolerance", step_tolerance);
   visit("newton.round_off", round_off);
@@ -85,6 +85,7 @@ void visit_newton(Settings& settings, const Visit& visit) {
   visit("newton.most_iterations", most_iterations);
   visit("newton.most_bold_iterations", most_bold_iterations);
   visit("newton.most_patient_iterations", most_patient_iterations);
+  visit("newton.most_slipped_iterations", most_slipped_iterations);
   visit("newton.patient_first", patient_first);
   visit("newton.descends_near", descends_near);
   visit("newton.follow_falls", follow_falls);

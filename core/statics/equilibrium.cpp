@@ -287,10 +287,12 @@ double unbalanced_force(const StageEquations& equations, const Field& displaceme
   return unbalanced_forces(equations, clean).cwiseAbs().maxCoeff() / equations.largest_load;
 }
 
-double unbalanced_force(const Model& model, const Scene& scene, const Field& displacement) {
+double unbalanced_force(const Model& model, const Scene& scene, const Field& displacement,
+                        const Eigen::Matrix2Xd& slipped) {
   const EquilibriumSystem system(model);
   const Coefficients coefficients(system, model.parameters);
-  return unbalanced_force(StageEquations(system, coefficients, {.scene = scene}), displacement);
+  return unbalanced_force(StageEquations(system, coefficients, {.scene = scene}, memory_of_slip(slipped)),
+                          displacement);
 }
 
 }  // namespace voussoir

@@ -122,7 +122,8 @@ std::vector<bool> removal_mask(const Scene& scene, std::size_t block_count);
 /// (NaN at nodes of removed blocks is expected and ignored). What a stored field is checked by.
 double unbalanced_force(const StageEquations& equations, const Field& displacement);
 
-/// The same for a scene under its weight.
-double unbalanced_force(const Model& model, const Scene& scene, const Field& displacement);
+/// The same for a scene under its weight whose joints have slipped beforehand as in Solution.
+double unbalanced_force(const Model& model, const Scene& scene, const Field& displacement,
+                        const Eigen::Matrix2Xd& slipped = {});
 
 }  // namespace voussoir

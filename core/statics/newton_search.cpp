@@ -16,7 +16,7 @@ constexpr int kMostHalvings = 4;
 /// Of a step along which the unbalance does not fall however short it is: what joints do at their kinks stops
 /// a descent at places that are no equilibria, and from beside them it goes on.
 constexpr double kEscape = 0.25;
-/// A scene that moves further than this many times the sag of the bonded one falls.
+/// A scene that moves further than this many times the sag of the bonded one, and as its start has, falls.
 constexpr double kFallingSags = 10.0;
 /// Of the unbalance at most so much may be left after a step if its matrix is to serve the next one, too; a
 /// new matrix costs as much as four steps with an old one (docs/numerics.md).
@@ -112,6 +112,7 @@ NewtonSearch::NewtonSearch(StageEquations equations, const QuasiStaticSettings& 
                             : start != nullptr       ? SearchPhase::warm
                                                      : SearchPhase::quick;
   begin(first, start != nullptr ? *start : at_rest(), start != nullptr ? 0.0 : 1.0);
+  start_sag_ = largest_displacement();
 }
 
 void NewtonSearch::begin(SearchPhase phase, const Field& start, double bonding) {
@@ -320,12 +321,11 @@ bool NewtonSearch::in_equilibrium() const {
 
 /// Soft joints let a standing bridge move further than the setting says; not further than many bonded sags.
 double NewtonSearch::falling_displacement() const {
-  return std::max(settings_->collapse_displacement, kFallingSags * bonded_sag_);
+  return std::max(settings_->collapse_displacement, kFallingSags * std::max(bonded_sag_, start_sag_));
 }
 
 bool NewtonSearch::fallen() const {
-  const double largest = largest_displacement();
-  return !std::isfinite(largest) || largest > falling_displacement();
+  return !(largest_displacement() <= falling_displacement());  // not a number, too
 }
 
 Solution NewtonSearch::solution() const {

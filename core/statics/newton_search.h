@@ -86,6 +86,7 @@ class NewtonSearch {
   double last_step_ = 0.0;  ///< largest component [m]
   std::array<double, kRecent>
       recent_{};             ///< the last norms of `unbalanced_`: a step may rise to the worst of them
+  double start_sag_ = 0.0;   ///< largest displacement of the start [m]
   double bonded_sag_ = 0.0;  ///< largest displacement after the bonded first step from rest [m]; 0 before
   double norm_ = 0.0;        ///< of `unbalanced_`, in units of the largest load
   double first_norm_ = 0.0;  ///< after the start's first step

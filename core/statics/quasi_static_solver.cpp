@@ -59,6 +59,8 @@ struct LaneSearch {
   std::optional<NewtonSearch> search;
   Solution reached;  ///< at the end of the last step; what all steps have cost
 
+  Eigen::Matrix2Xd slipped() const { return task->slipped != nullptr ? *task->slipped : Eigen::Matrix2Xd(); }
+
   bool has_old_matrix() const { return search && !search->has_new_matrix(); }
 
   template <class Workspace>
@@ -71,7 +73,9 @@ struct LaneSearch {
     if (task->before == nullptr && !task->starts_near) settings.skips.kept_factors = false;
     // What is not found from near falls where joints are soft, and later stages stay near.
     const bool ends_near = task->before != nullptr || (task->starts_near && !settings.patient_first);
-    if (ends_near) settings.most_bold_iterations = 0;
+    const bool has_slipped = slipped().size() > 0;
+    if (ends_near || has_slipped) settings.most_bold_iterations = 0;
+    if (has_slipped) settings.most_patient_iterations = settings.most_slipped_iterations;
     own.reset();
     if (task->parameters != nullptr) own.emplace(w.system, *task->parameters);
     reached = Solution{};
@@ -82,7 +86,7 @@ struct LaneSearch {
   template <class Workspace>
   void begin_step(const State* before, const Field* start, std::size_t lane, Workspace& w) {
     StageEquations equations(w.system, own ? *own : w.nominal, task->stage,
-                             before != nullptr ? before->memory : std::vector<JointMemory>{});
+                             before != nullptr ? before->memory : memory_of_slip(slipped()));
     const int left = task->steps - ++step;
     settings.tolerance = left > 0 ? w.settings.step_tolerance : w.settings.tolerance;
     if (left > 0) hold_back(static_cast<double>(left) / (left + 1), before, equations);
@@ -103,6 +107,7 @@ struct LaneSearch {
     reached = search->solution();
     reached.iterations += before;
     reached.steps = std::move(passed);
+    if (task->before == nullptr && stands(reached)) reached.slipped = slipped();
     search.reset();
     if (step == task->steps || reached.outcome != Outcome::standing) return true;
     Field start = reached.displacement;

@@ -28,6 +28,7 @@ struct QuasiStaticSettings {
   int most_bold_iterations = 12;      ///< factorisations with bolder steps where none is followed
   int most_falling_iterations = 40;   ///< factorisations of a fall
   int most_patient_iterations = 100;  ///< factorisations of a patient search
+  int most_slipped_iterations = 20;   ///< .. where joints have slipped beforehand: equilibria are near
   bool patient_first = false;  ///< true: searches descend, as a patient one does, before they go on boldly
   bool descends_near = true;   ///< true: a later stage's search that fails from its start first goes on from
                                ///< there as one that descends
@@ -44,7 +45,9 @@ struct StageTask {
   Stage stage;
   const Field* start = nullptr;   ///< 2 x nodes, near the answer, NaN counts as zero; null: from rest
   const State* before = nullptr;  ///< the stage before, whose memory counts; null: nothing has slipped
-  const Parameters* parameters = nullptr;  ///< of the variant; null: those of the solver's model
+  const Eigen::Matrix2Xd* slipped = nullptr;  ///< as in Solution, of a stage with nothing before it; null:
+                                              ///< nothing has slipped
+  const Parameters* parameters = nullptr;     ///< of the variant; null: those of the solver's model
   /// Implicit steps. Forces that would hold the stage where the one before ended (what lost blocks carried, a
   /// new load turned round) are let go in so many equal parts, and the joints' memory is updated after each.
   int steps = 1;

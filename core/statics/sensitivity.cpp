@@ -46,7 +46,7 @@ struct SensitivitySolver::Adjoint {
 void append_stage(const EquilibriumSystem& system, const Coefficients& coefficients, const Stage& stage,
                   const Solution& solution, int steps, SolvedHistory& history) {
   for (int step = 1; step <= steps; ++step) {
-    std::vector<JointMemory> memory;
+    std::vector<JointMemory> memory = memory_of_slip(solution.slipped);
     Field place = Field::Zero(2, system.structure->mesh.node_count());
     if (!history.empty()) {
       memory = updated_memory(history.back().equations, history.back().displacement);

@@ -40,6 +40,8 @@ struct Solution : State {
   std::vector<BlockId>
       moving{};  ///< blocks that had moved away when the scene's collapse was decided, ascending;
                  ///< of a scene in motion that stands those that slid and were caught
+  Eigen::Matrix2Xd slipped{};  ///< of a stage with nothing before it that stands: plastic slip at the ends
+                               ///< of the joints beforehand, as motion has slid them [m]; empty: none
   std::vector<State> steps{};  ///< at the ends of all implicit steps but the last, if the task asked for them
 };
 

@@ -77,6 +77,17 @@ std::set<std::array<NodeId, 3>> triangle_set(const Mesh& mesh, const std::vector
   return triples;
 }
 
+using JointNodes = std::array<int, 4>;  // in ascending order
+
+JointNodes nodes_of(const Joint& joint, const std::vector<NodeId>* image) {
+  JointNodes nodes = {value(joint.first_edge.from), value(joint.first_edge.to), value(joint.second_edge.from),
+                      value(joint.second_edge.to)};
+  if (image)
+    for (int& node : nodes) node = value((*image)[static_cast<std::size_t>(node)]);
+  std::sort(nodes.begin(), nodes.end());
+  return nodes;
+}
+
 }  // namespace
 
 std::optional<MirrorSymmetry> find_mirror_symmetry(const BlockLayout& layout, const Mesh& mesh,
@@ -104,6 +115,33 @@ std::vector<BlockId> mirrored(const std::vector<BlockId>& blocks, const MirrorSy
 
 Scene mirrored(const Scene& scene, const MirrorSymmetry& symmetry) {
   return {mirrored(scene.removed, symmetry)};
+}
+
+std::vector<std::size_t> joint_images(const std::vector<Joint>& joints, const MirrorSymmetry& symmetry) {
+  std::map<JointNodes, std::size_t> places;
+  for (std::size_t i = 0; i < joints.size(); ++i) places[nodes_of(joints[i], nullptr)] = i;
+  std::vector<std::size_t> images;
+  for (const Joint& joint : joints) {
+    const auto image = places.find(nodes_of(joint, &symmetry.node_image));
+    images.push_back(image == places.end() ? joints.size() : image->second);
+  }
+  return images;
+}
+
+Eigen::Matrix2Xd mirrored_slip(const Eigen::Matrix2Xd& slip, const std::vector<Joint>& joints,
+                               const MirrorSymmetry& symmetry) {
+  Eigen::Matrix2Xd image = Eigen::Matrix2Xd::Zero(2, slip.cols());
+  if (slip.size() == 0) return image;
+  const std::vector<std::size_t> images = joint_images(joints, symmetry);
+  for (std::size_t i = 0; i < joints.size(); ++i) {
+    if (images[i] == joints.size()) continue;
+    const BlockId first = symmetry.block_image[static_cast<std::size_t>(value(joints[i].first))];
+    const bool runs_back = joints[images[i]].first == first;
+    const auto from = slip.col(static_cast<Eigen::Index>(i));
+    const auto to = static_cast<Eigen::Index>(images[i]);
+    image.col(to) << -from[runs_back ? 1 : 0], -from[runs_back ? 0 : 1];
+  }
+  return image;
 }
 
 Field mirrored(const Field& field, const MirrorSymmetry& symmetry) {

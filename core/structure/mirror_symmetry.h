@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "core/structure/joint.h"
 #include "core/structure/mesh.h"
 #include "core/structure/scene.h"
 
@@ -23,6 +24,14 @@ std::optional<MirrorSymmetry> find_mirror_symmetry(const BlockLayout& layout, co
 std::vector<BlockId> mirrored(const std::vector<BlockId>& blocks, const MirrorSymmetry& symmetry);
 
 Scene mirrored(const Scene& scene, const MirrorSymmetry& symmetry);
+
+/// The image of each joint; the number of joints where there is none.
+std::vector<std::size_t> joint_images(const std::vector<Joint>& joints, const MirrorSymmetry& symmetry);
+
+/// Slip at the ends of the joints, 2 x joints: the image joint slips as far the other way. Nothing if it is
+/// empty.
+Eigen::Matrix2Xd mirrored_slip(const Eigen::Matrix2Xd& slip, const std::vector<Joint>& joints,
+                               const MirrorSymmetry& symmetry);
 
 /// u_x changes sign, u_y stays, node by image node.
 Field mirrored(const Field& field, const MirrorSymmetry& symmetry);

@@ -148,6 +148,12 @@ std::vector<Column> columns_of_state() {
              Form::packed, kInChecksum, "m", "ux, uy of each node; NaN in removed blocks"),
       column(dataset::kChunkCrc, {states, records}, kOfState<&State::field_crc>, Form::plain, !kInChecksum,
              "1", "CRC-32 (zlib's) of the field's compressed chunk as it stands in the file"),
+      column(
+          dataset::kSlipped, {states, records, joints, components}, kOfState<&State::slipped>,
+          Form::compressed, kInChecksum, "m",
+          "plastic slip at both ends of each joint with which a standing scene's `built` begins; missing if "
+          "none begins with any",
+          kOptional),
       column(dataset::kOrigin, {states, records}, kOfState<&State::origin>, Form::plain, kInChecksum, "1",
              "0 solved, 1 composed, 2 inherited; missing if all are 0", kOptional)};
 }
@@ -166,6 +172,8 @@ std::uint64_t size_of(Extent extent, const Sizes& sizes) {
       return sizes.blocks;
     case nodes:
       return sizes.nodes;
+    case joints:
+      return sizes.joints;
     case components:
       return 2;
     case checksum_bytes:

@@ -11,7 +11,17 @@
 namespace voussoir {
 
 /// What a dataset extends over.
-enum class Extent { states, records, most_missing, points, blocks, nodes, components, checksum_bytes };
+enum class Extent {
+  states,
+  records,
+  most_missing,
+  points,
+  blocks,
+  nodes,
+  joints,
+  components,
+  checksum_bytes
+};
 
 /// How far, in one file.
 struct Sizes {
@@ -21,14 +31,16 @@ struct Sizes {
   std::uint64_t points = 0;
   std::uint64_t blocks = 0;
   std::uint64_t nodes = 0;
+  std::uint64_t joints = 0;
 };
 
 /// How a record's values stand in a row of the file.
 enum class Form {
-  plain,   ///< as they are
-  padded,  ///< a list of numbers, then -1 up to the end of the row
-  marks,   ///< a list of numbers: a 1 in the place of each in a row of zeros
-  packed   ///< the bytes that pack_field made: a compressed chunk
+  plain,      ///< as they are
+  padded,     ///< a list of numbers, then -1 up to the end of the row
+  marks,      ///< a list of numbers: a 1 in the place of each in a row of zeros
+  packed,     ///< the bytes that pack_field made: a compressed chunk
+  compressed  ///< pairs of numbers, or none; in the file a compressed chunk, all zero where there are none
 };
 
 struct Column {
@@ -48,6 +60,7 @@ struct Column {
 
   bool of_state() const { return shape.front() == Extent::states; }
   bool of_fields() const;  ///< missing in a database without fields
+  bool in_chunks() const { return form == Form::packed || form == Form::compressed; }
 };
 
 /// Columns of the record, then those of its states, in the order of checksum and journal.

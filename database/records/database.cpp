@@ -37,6 +37,12 @@ std::size_t count_nodes(const Hdf5File& file) {
   return file.numbers<double>(dataset::kNodes, ElementType::float64, 2).size() / 2;
 }
 
+std::size_t count_joints(const Hdf5File& file) {
+  return file.has(dataset::kJointLength)
+             ? file.numbers<double>(dataset::kJointLength, ElementType::float64, kFlat).size()
+             : 0;
+}
+
 /// Something that is read when it is first asked for.
 template <class T>
 class OnFirstUse {
@@ -94,6 +100,7 @@ struct Database::Implementation {
     return records.get([&] {
       Sizes sizes = rows.sizes();
       sizes.nodes = count_nodes(file);
+      sizes.joints = count_joints(file);
       return StoredRecords(file, sizes);
     });
   }

@@ -19,6 +19,7 @@ RecordedState make_state(const Solution& solution, const std::vector<ControlPoin
   if (keep == KeepField::yes) {
     state.packed_field = pack_field(solution.displacement);
     state.field_crc = crc32_of(state.packed_field);
+    state.slipped.assign(solution.slipped.data(), solution.slipped.data() + solution.slipped.size());
   }
   return state;
 }
@@ -53,6 +54,8 @@ Solution solution_of(const RecordedState& state, Field displacement) {
   solution.extent = state.extent;
   solution.moving = state.moving;
   solution.origin = state.origin;
+  solution.slipped = Eigen::Map<const Eigen::Matrix2Xd>(state.slipped.data(), 2,
+                                                        static_cast<Eigen::Index>(state.slipped.size() / 2));
   return solution;
 }
 
@@ -62,6 +65,7 @@ Sha256 scene_checksum(const Record& record, std::span<const std::span<const doub
   hash.add(std::as_bytes(std::span(&states, 1)));
   for_each_column(record.states.size(), [&](const Column& column, std::size_t state) {
     if (!column.in_checksum || (column.optional && is_zero(column.values(record, state)))) return;
+    if (column.form == Form::compressed && fields.empty()) return;
     if (column.form != Form::packed)
       add_counted(column.values(record, state), column.value_width, hash);
     else

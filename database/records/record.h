@@ -19,6 +19,7 @@ struct RecordedState {
   std::vector<BlockId> moving;                   ///< as in Solution
   std::vector<double> vertical;                  ///< [m] at the control points, NaN where the block is gone
   Origin origin = Origin::solved;                ///< as in Solution
+  std::vector<double> slipped;  ///< as in Solution, joint after joint; empty: nothing, or fields are not kept
   Bytes packed_field;           ///< pack_field of the displacements; empty if fields are not kept
   std::uint32_t field_crc = 0;  ///< CRC-32 of packed_field
 };

@@ -88,6 +88,7 @@ inline constexpr char kMoving[] = "scenes/moving";
 inline constexpr char kChecksum[] = "scenes/checksum";
 inline constexpr char kOrigin[] = "scenes/origin";
 inline constexpr char kField[] = "fields/displacement";
+inline constexpr char kSlipped[] = "fields/slipped";
 inline constexpr char kChunkCrc[] = "fields/chunk_crc32";
 }  // namespace dataset
 

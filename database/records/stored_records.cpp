@@ -5,14 +5,23 @@
 #include "database/records/stored_table.h"
 
 namespace voussoir {
+namespace {
+
+/// Of a column in chunks: the nodes, or the joints.
+Eigen::Index pairs_in_row(const Column& column, const Sizes& sizes) {
+  return static_cast<Eigen::Index>(row_size(column, sizes) / (2 * sizeof(double)));
+}
+
+}  // namespace
 
 StoredRecords::StoredRecords(const Hdf5File& file, const Sizes& sizes) : file_(file), sizes_(sizes) {
   const bool has_fields = file.has(dataset::kField);
   for (const Column& column : record_columns()) {
-    const bool missing = column.of_fields() ? !has_fields : column.optional && !file.has(column.path);
-    const bool packed = column.form == Form::packed;
-    columns_.push_back(missing || packed ? ByteView{} : read_column(file, column, sizes));
-    if (packed && !missing) fields_ = file.open_chunked(column.path, shape_of(column, sizes));
+    const bool missing = (column.of_fields() && !has_fields) || (column.optional && !file.has(column.path));
+    const bool in_chunks = column.in_chunks();
+    columns_.push_back(missing || in_chunks ? ByteView{} : read_column(file, column, sizes));
+    chunks_.push_back(missing || !in_chunks ? ChunkedDataset{}
+                                            : file.open_chunked(column.path, shape_of(column, sizes)));
   }
 }
 
@@ -29,12 +38,17 @@ Record StoredRecords::read(std::size_t row) const {
 
 /// What is missing stays as a record begins: without a field, solved.
 bool StoredRecords::is_missing(const Column& column) const {
-  return column.form == Form::packed ? fields_.chunks.empty() : columns_[number_of(column)].empty();
+  return columns_[number_of(column)].empty() && chunks_[number_of(column)].chunks.empty();
 }
 
 /// A record's values of a column.
 Bytes StoredRecords::values(const Column& column, std::size_t row, std::size_t state) const {
-  if (column.form == Form::packed) return packed_field(row, state);
+  if (column.form == Form::packed) return chunk(column, row, state);
+  if (column.form == Form::compressed) {
+    const Field numbers = unpacked(column, row, state);
+    const ByteView bytes = std::as_bytes(numbers_of(numbers));
+    return is_zero(bytes) ? Bytes{} : Bytes(bytes.begin(), bytes.end());
+  }
   const std::size_t size = row_size(column, sizes_);
   const std::size_t place = column.of_state() ? state * sizes_.records + row : row;
   const ByteView whole = columns_[number_of(column)];
@@ -43,17 +57,21 @@ Bytes StoredRecords::values(const Column& column, std::size_t row, std::size_t s
   return std::move(*read);
 }
 
-Bytes StoredRecords::packed_field(std::size_t row, std::size_t state) const {
-  const ByteView stored = fields_.chunks.at(state * sizes_.records + row);
-  if (stored.empty() || stored.size() > most_packed_bytes(static_cast<Eigen::Index>(sizes_.nodes)))
-    file_.refuse(fmt::format("the field of row {} is missing or too large", row));
+Bytes StoredRecords::chunk(const Column& column, std::size_t row, std::size_t state) const {
+  const ByteView stored = chunks_[number_of(column)].chunks.at(state * sizes_.records + row);
+  if (stored.empty() || stored.size() > most_packed_bytes(pairs_in_row(column, sizes_)))
+    file_.refuse(fmt::format("dataset '{}': row {} is missing or too large", column.path, row));
   return {stored.begin(), stored.end()};
 }
 
+Field StoredRecords::unpacked(const Column& column, std::size_t row, std::size_t state) const {
+  auto numbers = unpack_field(chunk(column, row, state), pairs_in_row(column, sizes_));
+  if (!numbers) file_.refuse(fmt::format("dataset '{}' is damaged in row {}", column.path, row));
+  return std::move(*numbers);
+}
+
 Field StoredRecords::field(std::size_t row, std::size_t state) const {
-  auto field = unpack_field(packed_field(row, state), static_cast<Eigen::Index>(sizes_.nodes));
-  if (!field) file_.refuse(fmt::format("the field of row {} is damaged", row));
-  return std::move(*field);
+  return unpacked(column_at(dataset::kField), row, state);
 }
 
 }  // namespace voussoir

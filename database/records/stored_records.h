@@ -20,12 +20,13 @@ class StoredRecords {
  private:
   bool is_missing(const Column& column) const;
   Bytes values(const Column& column, std::size_t row, std::size_t state) const;
-  Bytes packed_field(std::size_t row, std::size_t state) const;
+  Bytes chunk(const Column& column, std::size_t row, std::size_t state) const;
+  Field unpacked(const Column& column, std::size_t row, std::size_t state) const;
 
   const Hdf5File& file_;
   Sizes sizes_;
-  std::vector<ByteView> columns_;  ///< as record_columns(); empty where the file has none or they are packed
-  ChunkedDataset fields_;          ///< without chunks if the file has no fields
+  std::vector<ByteView> columns_;       ///< as record_columns(); empty where the file has none or chunks
+  std::vector<ChunkedDataset> chunks_;  ///< as record_columns(); without chunks where the file has none
 };
 
 }  // namespace voussoir

@@ -74,7 +74,7 @@ StoredTable::StoredTable(const Hdf5File& file, std::size_t blocks, std::size_t p
   const DatasetView removed_blocks = file.view(dataset::kRemoved);
   file.require(removed_blocks.shape.size() == 2,
                fmt::format("dataset '{}' has not the expected type and shape", dataset::kRemoved));
-  sizes_ = {states, removed_blocks.shape[0], removed_blocks.shape[1], points, blocks, 0};
+  sizes_ = {states, removed_blocks.shape[0], removed_blocks.shape[1], points, blocks, 0, 0};
   read_views(file);
   check_rows(file);
   check_values(file);

@@ -1,9 +1,12 @@
 #include "database/records/writer.h"
 
 #include <algorithm>
+#include <cstring>
+#include <set>
 #include <stdexcept>
 
 #include "database/format/durable_file.h"
+#include "database/format/field_codec.h"
 #include "database/format/hdf5_writing.h"
 #include "database/records/columns.h"
 #include "database/records/content_digest.h"
@@ -21,7 +24,8 @@ Sizes sizes_of(const DatabaseContent& content) {
           most_missing,
           content.bridge.control_points.size(),
           content.bridge.layout.size(),
-          static_cast<std::uint64_t>(content.bridge.mesh.node_count())};
+          static_cast<std::uint64_t>(content.bridge.mesh.node_count()),
+          content.bridge.joints.size()};
 }
 
 /// A column's dataset without its bytes.
@@ -29,17 +33,16 @@ DatasetValue described(const Column& column, const Sizes& sizes) {
   return {column.path, column.type, shape_of(column, sizes), 0, column.units, column.meaning, {}};
 }
 
-/// The datasets of all columns, being filled row by row. Fields, which are large, go straight to the file.
+/// The datasets of all columns, being filled row by row. Those in chunks, which are large, go straight to the
+/// file.
 class Columns {
  public:
   Columns(const DatabaseContent& content, Hdf5Output& output)
       : sizes_(sizes_of(content)), fields_(content.fields), output_(output) {
     for (const Column& column : record_columns()) {
       datasets_.push_back(described(column, sizes_));
-      if (!is_kept(column)) continue;
-      if (column.form == Form::packed)
-        field_dataset_ = output_.add_field_dataset(datasets_.back());
-      else
+      chunked_.emplace_back();
+      if (is_kept(column) && !column.in_chunks())
         datasets_.back().bytes.resize(row_size(column, sizes_) * sizes_.records *
                                       (column.of_state() ? sizes_.states : 1));
     }
@@ -51,7 +54,7 @@ class Columns {
     for_each_column(sizes_.states, [&](const Column& column, std::size_t state) {
       if (!is_kept(column)) return;
       const ByteView values = column.values(record, state);
-      if (column.form == Form::packed) return output_.add_chunk(field_dataset_, state, row, values);
+      if (column.in_chunks()) return put_chunk(column, state, row, values);
       const std::size_t size = row_size(column, sizes_);
       const std::size_t place = column.of_state() ? state * sizes_.records + row : row;
       write_row(column, values, std::span(dataset(column).bytes).subspan(place * size, size));
@@ -59,23 +62,57 @@ class Columns {
   }
 
   void write() {
-    for (const Column& column : record_columns())
-      if (is_kept(column) && column.form != Form::packed &&
-          !(column.optional && is_zero(dataset(column).bytes)))
+    for (const Column& column : record_columns()) {
+      if (column.form == Form::compressed) fill_up(column);
+      if (is_kept(column) && !column.in_chunks() && !(column.optional && is_zero(dataset(column).bytes)))
         output_.add_dataset(dataset(column));
+    }
   }
 
   ByteView bytes(const char* path) { return dataset(column_at(path)).bytes; }
 
  private:
+  /// A dataset in chunks, made when it gets the first.
+  struct Chunked {
+    Hdf5Handle dataset;
+    std::set<std::pair<std::size_t, std::size_t>> filled;  ///< state and row, of compressed values
+  };
+
   bool is_kept(const Column& column) const { return !column.of_fields() || fields_ == KeepField::yes; }
   DatasetValue& dataset(const Column& column) { return datasets_[number_of(column)]; }
+
+  void put_chunk(const Column& column, std::size_t state, std::size_t row, ByteView values) {
+    if (column.form == Form::compressed && values.empty()) return;
+    Chunked& chunked = chunked_[number_of(column)];
+    if (!chunked.dataset) chunked.dataset = output_.add_field_dataset(dataset(column));
+    if (column.form == Form::packed) return output_.add_chunk(chunked.dataset, state, row, values);
+    std::vector<std::byte> whole(row_size(column, sizes_));
+    write_row(column, values, whole);
+    output_.add_chunk(chunked.dataset, state, row, packed(whole));
+    chunked.filled.emplace(state, row);
+  }
+
+  /// Readers want no gaps.
+  void fill_up(const Column& column) {
+    const Chunked& chunked = chunked_[number_of(column)];
+    if (!chunked.dataset) return;
+    const Bytes zero = packed(Bytes(row_size(column, sizes_)));
+    for (std::size_t state = 0; state < sizes_.states; ++state)
+      for (std::size_t row = 0; row < sizes_.records; ++row)
+        if (!chunked.filled.contains({state, row})) output_.add_chunk(chunked.dataset, state, row, zero);
+  }
+
+  static Bytes packed(const Bytes& pairs) {
+    Field numbers(2, static_cast<Eigen::Index>(pairs.size() / (2 * sizeof(double))));
+    std::memcpy(numbers.data(), pairs.data(), pairs.size());
+    return pack_field(numbers);
+  }
 
   Sizes sizes_;
   KeepField fields_;
   Hdf5Output& output_;
   std::vector<DatasetValue> datasets_;  ///< as record_columns()
-  Hdf5Handle field_dataset_;
+  std::vector<Chunked> chunked_;        ///< as record_columns()
 };
 
 /// The control displacements that searches look at in a state: of the nominal variant, whose rows come first.

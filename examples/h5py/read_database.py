@@ -22,9 +22,9 @@ LOCAL, ARCH = 1, 2  # scenes/collapse
 RECORD_COLUMNS = ["scenes/variant", "scenes/removed"]
 STATE_COLUMNS = [
     "scenes/outcome", "scenes/residual", "scenes/iterations", "scenes/collapse", "scenes/moving",
-    "control/vertical_displacement", "fields/displacement", "scenes/origin",
+    "control/vertical_displacement", "fields/displacement", "fields/slipped", "scenes/origin",
 ]
-OPTIONAL = ["scenes/origin"]  # left out where it is 0, and the dataset where all are
+OPTIONAL = ["fields/slipped", "scenes/origin"]  # left out where it is 0, and the dataset where all are
 PADDED = ["scenes/removed"]  # a list, then -1
 MARKS = ["scenes/moving"]    # a list: 1 in the place of each of its numbers
 

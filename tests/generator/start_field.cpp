@@ -45,6 +45,25 @@ TEST_CASE("The intact bridge starts from zero and a single from the intact field
   CHECK(*starts.start_for(without({1})) == row(1.0, 2.0));
 }
 
+TEST_CASE("What has slipped before adds up like the fields, and is nothing where nothing has (by hand)") {
+  StartingFields starts;
+  Solution intact = standing(row(1.0, 2.0)), first = standing(row(1.0, 2.0)), second = first;
+  starts.add(Scene{}, 0, intact);
+  starts.add(without({2}), 0, second);
+  CHECK(starts.slipped_for(without({1, 2})).size() == 0);
+  first.slipped = row(3.0, 5.0);
+  starts.add(without({1}), 0, first);
+  CHECK(starts.slipped_for(without({3})).size() == 0);
+  CHECK(starts.slipped_for(without({1, 2})) == row(3.0, 5.0));
+  CHECK(starts.slipped(without({1})) == row(3.0, 5.0));
+  CHECK(starts.slipped(without({2})).size() == 0);
+  intact.slipped = row(1.0, 1.0);
+  starts.add(Scene{}, 0, intact);
+  CHECK(starts.slipped_for(without({3})) == row(1.0, 1.0));
+  CHECK(starts.slipped_for(without({1, 2})) == row(2.0, 4.0));  // 1 + (3 - 1) + (0 - 1)
+  CHECK(starts.slipped_for(Scene{}).size() == 0);
+}
+
 TEST_CASE("A pair starts from the superposition of its singles, written out by hand") {
   StartingFields starts;
   starts.add(Scene{}, 0, standing(row(1.0, 2.0)));

@@ -65,6 +65,14 @@ inline VariantParameters made_up_parameters(const Model& bridge, std::size_t var
           numbers(joints, joint.tangential_stiffness), numbers(joints, joint.friction_coefficient())};
 }
 
+/// Of every joint another.
+inline Eigen::Matrix2Xd made_up_slip(const Model& bridge) {
+  return to_storage_precision(Field::NullaryExpr(
+      2, static_cast<Eigen::Index>(bridge.joints.size()), [](Eigen::Index end, Eigen::Index joint) {
+        return 1e-4 * std::sin(0.3 * static_cast<double>(joint) + static_cast<double>(end));
+      }));
+}
+
 inline Record made_up_record(const Model& bridge, const RecordKey& key, std::size_t states,
                              KeepField fields) {
   std::vector<Solution> solutions;
@@ -73,6 +81,8 @@ inline Record made_up_record(const Model& bridge, const RecordKey& key, std::siz
     const double scale = 1.0 + key.variant + 10.0 * static_cast<double>(state);
     solutions.back().displacement = to_storage_precision(scale * solutions.back().displacement);
     solutions.back().residual *= scale;
+    const bool slides = state == 0 && key.scene.missing() == 1 && stands(solutions.back());
+    if (slides) solutions.back().slipped = scale * made_up_slip(bridge);
   }
   return make_record(key, solutions, bridge.control_points, fields, fields);
 }

@@ -193,3 +193,42 @@ TEST_CASE("All joints' own factors together are the common one (sum rule)", "[se
   const Eigen::VectorXd common = derivatives.col(0) / bench.uncertain.of_bridge[0].parameter.sigma;
   CHECK((sum - common).cwiseAbs().maxCoeff() < 1e-9 * common.cwiseAbs().maxCoeff());
 }
+
+TEST_CASE("Adjoint sensitivities are central differences where joints have slipped beforehand",
+          "[sensitivity]") {
+  constexpr double kStep = 3e-5;  // [standard deviations]
+  Bench bench;
+  const Scene scene = parse_scene("4,2", bench.bridge.layout);
+  const Eigen::Matrix2Xd slip = Eigen::Matrix2Xd::NullaryExpr(
+      2, static_cast<Eigen::Index>(bench.bridge.joints.size()),
+      [](Eigen::Index, Eigen::Index joint) { return 2e-6 * std::sin(0.7 * joint); });
+  const auto solve = [&](const Eigen::VectorXd& theta) {
+    const Parameters own = parameters_at(bench.bridge, bench.uncertain,
+                                         theta.head(static_cast<Eigen::Index>(bench.of_bridge())));
+    Solution found =
+        bench.solver.solve(StageTask{.stage = {.scene = scene}, .slipped = &slip, .parameters = &own});
+    REQUIRE(stands(found));
+    return found;
+  };
+  const Solution nominal = solve(bench.nominal());
+  CHECK(nominal.slipped == slip);
+  SolvedHistory history;
+  append_stage(bench.solver.system(), bench.coefficients, {.scene = scene}, nominal, 1, history);
+  const Eigen::MatrixXd adjoint = bench.sensitivities.solve(history, bench.readings).value();
+  const auto vertical = [&](const Solution& solution) {
+    return vertical_displacements(solution.displacement, bench.bridge.control_points);
+  };
+  int compared = 0;
+  for (std::size_t parameter = 0; parameter < bench.of_bridge(); parameter += 7) {
+    const auto column = static_cast<Eigen::Index>(parameter);
+    Eigen::VectorXd ahead = bench.nominal(), behind = ahead;
+    ahead[column] += kStep;
+    behind[column] -= kStep;
+    const Eigen::VectorXd difference = (vertical(solve(ahead)) - vertical(solve(behind))) / (2.0 * kStep);
+    if (difference.cwiseAbs().maxCoeff() < 1e-8) continue;
+    INFO(bench.uncertain.of_bridge[parameter].parameter.name);
+    CHECK((difference - adjoint.col(column)).cwiseAbs().maxCoeff() < 1e-4 * difference.cwiseAbs().maxCoeff());
+    ++compared;
+  }
+  CHECK(compared > 5);
+}

@@ -14,16 +14,17 @@ using namespace voussoir;
 
 namespace {
 
-constexpr double kLength = 4.0, kHeight = 0.5;
+constexpr double kBeamLength = 4.0, kBeamHeight = 0.5;
 
 /// A bar on a smooth base and against a smooth wall at its left end; at its right one, too, or free there.
 Model bar(PlaneState plane, bool held) {
   BridgeDescription description;
   description.supports = {.base = SupportKind::roller, .sides = SupportKind::roller};
   description.material.plane = plane;
-  description.wall.length = held ? kLength : 2.0 * kLength;
+  description.wall.length = held ? kBeamLength : 2.0 * kBeamLength;
   description.mesh.refinement = 2;
-  return validation::assemble_blocks(description, {validation::rectangle(Point(0.0, 0.0), kLength, kHeight)});
+  return validation::assemble_blocks(description,
+                                     {validation::rectangle(Point(0.0, 0.0), kBeamLength, kBeamHeight)});
 }
 
 /// Displacement of the corner that lies furthest from the supports.
@@ -33,7 +34,8 @@ Point corner_of_heated(const Model& bridge, double temperature) {
       solver.solve(StageTask{.stage = {.gravity_share = 0.0, .temperature = temperature}});
   REQUIRE(solution.outcome == Outcome::standing);
   for (int node = 0; node < bridge.mesh.node_count(); ++node)
-    if (bridge.mesh.nodes.col(node) == Point(kLength, kHeight)) return solution.displacement.col(node);
+    if (bridge.mesh.nodes.col(node) == Point(kBeamLength, kBeamHeight))
+      return solution.displacement.col(node);
   throw std::runtime_error("no such corner");
 }
 
@@ -57,18 +59,18 @@ Field moved_together(const Model& bridge, const Point& movement) {
 TEST_CASE("A bar that is free to expand does so, and out of plane held the more (closed form)", "[stage]") {
   const double strain = 8e-6 * 30.0;
   const Point stress = corner_of_heated(bar(PlaneState::stress, false), 30.0);
-  CHECK(stress.x() == Approx(kLength * elongation(strain)).epsilon(1e-7));
-  CHECK(stress.y() == Approx(kHeight * elongation(strain)).epsilon(1e-7));
+  CHECK(stress.x() == Approx(kBeamLength * elongation(strain)).epsilon(1e-7));
+  CHECK(stress.y() == Approx(kBeamHeight * elongation(strain)).epsilon(1e-7));
   const Point plane_strain = corner_of_heated(bar(PlaneState::strain, false), 30.0);
-  CHECK(plane_strain.x() == Approx(kLength * elongation(1.2 * strain)).epsilon(1e-7));
-  CHECK(plane_strain.y() == Approx(kHeight * elongation(1.2 * strain)).epsilon(1e-7));
+  CHECK(plane_strain.x() == Approx(kBeamLength * elongation(1.2 * strain)).epsilon(1e-7));
+  CHECK(plane_strain.y() == Approx(kBeamHeight * elongation(1.2 * strain)).epsilon(1e-7));
 }
 
 TEST_CASE("A bar that is held at both ends grows upwards only, by (1 + nu) times the strain (closed form)",
           "[stage]") {
   const Point corner = corner_of_heated(bar(PlaneState::stress, true), 30.0);
   CHECK(corner.x() == 0.0);
-  CHECK(corner.y() == Approx(kHeight * elongation(1.2 * 8e-6 * 30.0)).epsilon(1e-7));
+  CHECK(corner.y() == Approx(kBeamHeight * elongation(1.2 * 8e-6 * 30.0)).epsilon(1e-7));
 }
 
 TEST_CASE("A column of two blocks grows by its own expansion and not by its joint's (closed form)",

@@ -46,7 +46,7 @@ TEST_CASE("Every contiguous dataset has the type, the shape and the bytes that H
   const auto lock = lock_hdf5();
   int compared = 0;
   for (const std::string& path : test::dataset_paths(pair.theirs.get())) {
-    if (path == dataset::kField) continue;
+    if (path == dataset::kField || path == dataset::kSlipped) continue;
     INFO(path);
     const Hdf5Handle theirs(H5Dopen2(pair.theirs.get(), path.c_str(), H5P_DEFAULT), H5Dclose);
     const DatasetView ours = pair.ours->view(path.c_str());

@@ -187,10 +187,11 @@ TEST_CASE("A file's columns are those of the description, with its types, shapes
                     2,
                     many.bridge.control_points.size(),
                     many.bridge.layout.size(),
-                    static_cast<std::uint64_t>(many.bridge.mesh.node_count())};
+                    static_cast<std::uint64_t>(many.bridge.mesh.node_count()),
+                    many.bridge.joints.size()};
   for (const Column& column : record_columns()) {
     INFO(column.path);
-    if (column.form == Form::packed)
+    if (column.in_chunks())
       CHECK_NOTHROW(file.open_chunked(column.path, shape_of(column, sizes)));
     else
       CHECK_NOTHROW(file.array(column.path, column.type, shape_of(column, sizes)));

@@ -24,6 +24,7 @@ void check_same(const RecordedState& stored, const RecordedState& expected) {
   REQUIRE(std::ranges::equal(view_bytes(stored.vertical), view_bytes(expected.vertical)));
   REQUIRE(stored.packed_field == expected.packed_field);
   REQUIRE(stored.field_crc == expected.field_crc);
+  REQUIRE(stored.slipped == expected.slipped);
 }
 
 struct SmallDatabase {
@@ -50,7 +51,7 @@ TEST_CASE("What is written of each record is read back bit by bit, for every var
   REQUIRE(database.rows() == content.keys.size());
   REQUIRE(database.states() == content.states);
   REQUIRE(database.has_fields());
-  int moving = 0;
+  int moving = 0, slipped = 0;
   for (std::size_t row = 0; row < database.rows(); ++row) {
     const RecordKey& key = content.keys[row];
     const Record stored = database.record(row);
@@ -65,9 +66,11 @@ TEST_CASE("What is written of each record is read back bit by bit, for every var
       const auto field = unpack_field(expected.states[state].packed_field, bridge.mesh.node_count());
       REQUIRE(test::same_bits(database.field(row, state), *field));
       moving += expected.states[state].moving.empty() ? 0 : 1;
+      slipped += expected.states[state].slipped.empty() ? 0 : 1;
     }
   }
   CHECK(moving > 0);
+  CHECK(slipped > 0);
   CHECK_FALSE(database.find(3, Scene{}).has_value());
 }
 

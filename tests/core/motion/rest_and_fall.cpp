@@ -1,0 +1,44 @@
+/// @file What a motion that ends says of statics.
+
+#include <catch2/catch.hpp>
+
+#include "core/motion/dynamic_solver.h"
+#include "core/statics/equilibrium.h"
+#include "tests/support/bridges.h"
+
+namespace voussoir {
+
+TEST_CASE("Where blocks rest that have slid, field and slip are in balance (the equations of statics)") {
+  BridgeDescription description = test::small_description();
+  description.joints.normal_stiffness = description.joints.tangential_stiffness = 3e7;
+  description.joints.friction_angle = 0.45;
+  const Model bridge = make_model(description);
+  for (const char* const name : {"5,3", "5,5"}) {
+    INFO(name);
+    const Scene scene = parse_scene(name, bridge.layout);
+    const Solution rest = DynamicSolver(bridge)
+                              .solve(std::span(&scene, 1), when_gone(patient(DecisionRules{})))
+                              .front()
+                              .solution;
+    REQUIRE(rest.slipped.cols() == static_cast<Eigen::Index>(bridge.joints.size()));
+    const double without_slip = unbalanced_force(bridge, scene, rest.displacement);
+    CHECK(without_slip > 0.05);
+    CHECK(unbalanced_force(bridge, scene, rest.displacement, rest.slipped) < 0.1 * without_slip);
+  }
+}
+
+TEST_CASE("A block that drops by one course has fallen, though soft joints sag far (plain explicit motion)") {
+  BridgeDescription description = test::small_description();
+  description.joints.normal_stiffness = 3e6;
+  description.joints.tangential_stiffness = 3e5;
+  const Model bridge = make_model(description);
+  DynamicSolver solver(bridge);
+  const DecisionRules rules = when_gone(patient(DecisionRules{}));
+  REQUIRE(rules.moving_sags * solver.sag() > mean_block_size(bridge));
+  const Scene scene = parse_scene("0,5", bridge.layout);
+  const DynamicSolution fallen = solver.solve(std::span(&scene, 1), rules).front();
+  CHECK(fallen.solution.outcome == Outcome::collapsed);
+  CHECK_FALSE(fallen.solution.moving.empty());
+}
+
+}  // namespace voussoir
