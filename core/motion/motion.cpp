@@ -245,8 +245,7 @@ Eigen::Matrix2Xd plastic_slip(const MotionModel& model, const Motion<T>& motion,
   for (const Joint& joint : structure.joints) {
     const JointFrame frame = make_joint_frame(joint, structure.mesh);
     const JointState state = joint_pose(frame, gathered(moved, corners(joint))).state;
-    auto [xi_0, xi_1] = elastic_slip(motion, model.search.pair_of(joint), i);
-    if (value(joint.second) < value(joint.first)) std::swap(xi_0, xi_1);  // s runs the other way
+    const auto [xi_0, xi_1] = elastic_slip(motion, model.search.pair_of(joint), i);  // s runs as in the joint
     slip.col(place++) << state[1] - xi_0, state[3] - xi_1;
   }
   return slip;

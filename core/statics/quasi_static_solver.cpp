@@ -75,7 +75,7 @@ struct LaneSearch {
     const bool ends_near = task->before != nullptr || (task->starts_near && !settings.patient_first);
     const bool has_slipped = slipped().size() > 0;
     if (ends_near || has_slipped) settings.most_bold_iterations = 0;
-    if (has_slipped) settings.most_patient_iterations = settings.most_slipped_iterations;
+    if (has_slipped && !task->patiently) settings.most_patient_iterations = settings.most_slipped_iterations;
     own.reset();
     if (task->parameters != nullptr) own.emplace(w.system, *task->parameters);
     reached = Solution{};
