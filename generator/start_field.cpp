@@ -11,6 +11,26 @@ Field zero_for_nan(const Field& field) {
   return field.array().isNaN().select(Field::Zero(2, field.cols()), field);
 }
 
+/// The sum of StartingFields::start_for; `part_of` finds what the intact bridge and the parts of the scene
+/// that stand have of what is summed up, null for others.
+template <class PartOf>
+std::optional<Field> summed_up(const Scene& scene, const PartOf& part_of) {
+  const Field* intact = part_of(Scene{});
+  if (scene.removed.empty() || intact == nullptr) return std::nullopt;
+  Field sum = *intact;
+  if (scene.missing() == 1) return sum;
+  for (const BlockId block : scene.removed)
+    if (const Field* single = part_of(Scene{{block}})) sum += *single - *intact;
+  for (const Scene& pair : starting_subsets(scene)) {
+    const Field* both = pair.missing() == 2 ? part_of(pair) : nullptr;
+    if (both == nullptr) continue;
+    const Field* first = part_of(Scene{{pair.removed.front()}});
+    const Field* second = part_of(Scene{{pair.removed.back()}});
+    if (first != nullptr && second != nullptr) sum += *both - *first - *second + *intact;
+  }
+  return zero_for_nan(sum);
+}
+
 }  // namespace
 
 std::vector<Scene> starting_subsets(const Scene& scene) {
@@ -88,37 +108,17 @@ bool StartingFields::has_pairs() const {
   return std::ranges::any_of(standing_, is_pair) || std::ranges::any_of(falling_, is_pair);
 }
 
-template <class Of>
-std::optional<Field> StartingFields::summed_up(const Scene& scene, std::size_t state, const Of& of) const {
-  const auto part = [&](const Scene& within) { return find(within, state) ? &of(within) : nullptr; };
-  const Field* intact_part = part(Scene{});
-  if (scene.removed.empty() || intact_part == nullptr) return std::nullopt;
-  Field sum = *intact_part;
-  if (scene.missing() == 1) return sum;
-  for (const BlockId block : scene.removed)
-    if (const Field* single = part(Scene{{block}})) sum += *single - *intact_part;
-  for (const Scene& pair : starting_subsets(scene)) {
-    const Field* both = pair.missing() == 2 ? part(pair) : nullptr;
-    if (both == nullptr) continue;
-    const Field* first = part(Scene{{pair.removed.front()}});
-    const Field* second = part(Scene{{pair.removed.back()}});
-    if (first != nullptr && second != nullptr) sum += *both - *first - *second + *intact_part;
-  }
-  return zero_for_nan(sum);
-}
-
 std::optional<Field> StartingFields::start_for(const Scene& scene, std::size_t state) const {
-  return summed_up(scene, state, [&](const Scene& part) -> const Field& {
-    return standing_.at({part, state});
-  });
+  return summed_up(scene, [&](const Scene& part) { return find(part, state); });
 }
 
 Eigen::Matrix2Xd StartingFields::slipped_for(const Scene& scene) const {
   if (slipped_.empty()) return {};
   const Field none = Field::Zero(2, slipped_.begin()->second.cols());
-  const auto sum = summed_up(scene, kBuilt, [&](const Scene& part) -> const Field& {
+  const auto sum = summed_up(scene, [&](const Scene& part) -> const Field* {
+    if (find(part, kBuilt) == nullptr) return nullptr;
     const auto known = slipped_.find(part);
-    return known == slipped_.end() ? none : known->second;
+    return known == slipped_.end() ? &none : &known->second;
   });
   return !sum || sum->isZero(0.0) ? Field() : *sum;
 }

@@ -81,10 +81,6 @@ class StartingFields {
   const std::vector<BlockId>* find_falling(const Scene& scene, std::size_t state) const;
   std::optional<Field> change(const Scene& scene, std::size_t before, std::size_t after) const;
 
-  /// The sum of start_for, given what the intact bridge and a scene that stands have of what is summed up.
-  template <class Of>
-  std::optional<Field> summed_up(const Scene& scene, std::size_t state, const Of& of) const;
-
   using Place = std::pair<Scene, std::size_t>;     ///< scene and state
   std::map<Place, Field> standing_;                ///< fields
   std::map<Scene, Eigen::Matrix2Xd> slipped_;      ///< of those as built that began with some

@@ -160,11 +160,10 @@ std::vector<Solution> CombinedSolver::polish(std::vector<StageTask> tasks,
     std::vector<Solution> found = equilibria(newton_, tasks_at(tasks, places));
     for (std::size_t k = 0; k < found.size(); ++k) polished[places[k]] = std::move(found[k]);
   };
-  const auto has_slipped = [](const Eigen::Matrix2Xd* slip) { return slip != nullptr && slip->size() > 0; };
   for (std::size_t k = 0; k < tasks.size(); ++k) tasks[k].start = &resting[k].displacement;
-  take(places_where(tasks.size(), [&](std::size_t k) { return !has_slipped(tasks[k].slipped); }));
+  take(places_where(tasks.size(), [&](std::size_t k) { return !tasks[k].has_slipped(); }));
   const auto open = places_where(
-      tasks.size(), [&](std::size_t k) { return !stands(polished[k]) && has_slipped(&resting[k].slipped); });
+      tasks.size(), [&](std::size_t k) { return !stands(polished[k]) && resting[k].slipped.size() > 0; });
   for (const std::size_t k : open) tasks[k].slipped = &resting[k].slipped;
   take(open);
   return polished;

@@ -16,7 +16,7 @@ constexpr int kMostHalvings = 4;
 /// Of a step along which the unbalance does not fall however short it is: what joints do at their kinks stops
 /// a descent at places that are no equilibria, and from beside them it goes on.
 constexpr double kEscape = 0.25;
-/// A scene that moves further than this many times the sag of the bonded one, and as its start has, falls.
+/// A scene falls that moves further than this many times the sag of the bonded one and the way of its start.
 constexpr double kFallingSags = 10.0;
 /// Of the unbalance at most so much may be left after a step if its matrix is to serve the next one, too; a
 /// new matrix costs as much as four steps with an old one (docs/numerics.md).

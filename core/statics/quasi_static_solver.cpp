@@ -73,9 +73,9 @@ struct LaneSearch {
     if (task->before == nullptr && !task->starts_near) settings.skips.kept_factors = false;
     // What is not found from near falls where joints are soft, and later stages stay near.
     const bool ends_near = task->before != nullptr || (task->starts_near && !settings.patient_first);
-    const bool has_slipped = slipped().size() > 0;
-    if (ends_near || has_slipped) settings.most_bold_iterations = 0;
-    if (has_slipped && !task->patiently) settings.most_patient_iterations = settings.most_slipped_iterations;
+    if (ends_near || task->has_slipped()) settings.most_bold_iterations = 0;
+    if (task->has_slipped() && !task->patiently)
+      settings.most_patient_iterations = settings.most_slipped_iterations;
     own.reset();
     if (task->parameters != nullptr) own.emplace(w.system, *task->parameters);
     reached = Solution{};

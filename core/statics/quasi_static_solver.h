@@ -60,6 +60,8 @@ struct StageTask {
   bool starts_near = false;   ///< the start is so near the answer that a factorisation serves several steps
                               ///< even of a stage with nothing before it
   bool keeps_steps = false;   ///< true: the solution has the states at the ends of all steps
+
+  bool has_slipped() const { return slipped != nullptr && slipped->size() > 0; }
 };
 
 /// Solves stages of the variants of one structure, several side by side in SIMD lanes. Not thread-safe: one

@@ -251,6 +251,10 @@ std::size_t row_size(const Column& column, const Sizes& sizes) {
   return size;
 }
 
+Eigen::Index pairs_in_row(const Column& column, const Sizes& sizes) {
+  return static_cast<Eigen::Index>(row_size(column, sizes) / (2 * sizeof(double)));
+}
+
 void write_row(const Column& column, ByteView values, std::span<std::byte> row) {
   const auto require = [&](bool fits) {
     if (!fits) throw std::logic_error(fmt::format("{}: values that do not fit into a row", column.path));

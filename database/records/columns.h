@@ -93,6 +93,9 @@ bool is_zero(ByteView values);
 /// Bytes of a row in the file.
 std::size_t row_size(const Column& column, const Sizes& sizes);
 
+/// The same of a column in chunks, in pairs of numbers: the nodes, or the joints.
+Eigen::Index pairs_in_row(const Column& column, const Sizes& sizes);
+
 /// Fills a row of the file with a record's values. Throws std::logic_error if they do not fit into it.
 void write_row(const Column& column, ByteView values, std::span<std::byte> row);
 

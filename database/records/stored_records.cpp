@@ -5,15 +5,6 @@
 #include "database/records/stored_table.h"
 
 namespace voussoir {
-namespace {
-
-/// Of a column in chunks: the nodes, or the joints.
-Eigen::Index pairs_in_row(const Column& column, const Sizes& sizes) {
-  return static_cast<Eigen::Index>(row_size(column, sizes) / (2 * sizeof(double)));
-}
-
-}  // namespace
-
 StoredRecords::StoredRecords(const Hdf5File& file, const Sizes& sizes) : file_(file), sizes_(sizes) {
   const bool has_fields = file.has(dataset::kField);
   for (const Column& column : record_columns()) {

@@ -1,7 +1,6 @@
 #include "database/records/writer.h"
 
 #include <algorithm>
-#include <cstring>
 #include <set>
 #include <stdexcept>
 
@@ -86,9 +85,10 @@ class Columns {
     Chunked& chunked = chunked_[number_of(column)];
     if (!chunked.dataset) chunked.dataset = output_.add_field_dataset(dataset(column));
     if (column.form == Form::packed) return output_.add_chunk(chunked.dataset, state, row, values);
-    std::vector<std::byte> whole(row_size(column, sizes_));
-    write_row(column, values, whole);
-    output_.add_chunk(chunked.dataset, state, row, packed(whole));
+    Field pairs(2, pairs_in_row(column, sizes_));
+    write_row(column, values,
+              std::as_writable_bytes(std::span(pairs.data(), static_cast<std::size_t>(pairs.size()))));
+    output_.add_chunk(chunked.dataset, state, row, pack_field(pairs));
     chunked.filled.emplace(state, row);
   }
 
@@ -96,16 +96,10 @@ class Columns {
   void fill_up(const Column& column) {
     const Chunked& chunked = chunked_[number_of(column)];
     if (!chunked.dataset) return;
-    const Bytes zero = packed(Bytes(row_size(column, sizes_)));
+    const Bytes zero = pack_field(Field::Zero(2, pairs_in_row(column, sizes_)));
     for (std::size_t state = 0; state < sizes_.states; ++state)
       for (std::size_t row = 0; row < sizes_.records; ++row)
         if (!chunked.filled.contains({state, row})) output_.add_chunk(chunked.dataset, state, row, zero);
-  }
-
-  static Bytes packed(const Bytes& pairs) {
-    Field numbers(2, static_cast<Eigen::Index>(pairs.size() / (2 * sizeof(double))));
-    std::memcpy(numbers.data(), pairs.data(), pairs.size());
-    return pack_field(numbers);
   }
 
   Sizes sizes_;

@@ -15,13 +15,18 @@ namespace {
 
 constexpr char kFewScenes[] = "intact;5,3;4,2;0,2;5,3+0,2";
 
-/// The small bridge on soft joints, as stiff along as across.
-BridgeFile sliding_bridge(const test::TemporaryFolder& folder) {
+/// A file of test::sliding_description's bridge, and a few scenes of it.
+BuildRequest sliding_request(const test::TemporaryFolder& folder) {
   const std::string text = test::text_of(test::example_bridge("small")) +
                            "\n[joints]\nnormal_stiffness_Pa_per_m = 3e7\n"
                            "tangential_stiffness_Pa_per_m = 3e7\nfriction_angle_deg = 25.783100780887047\n";
   std::ofstream(folder / "sliding.toml") << text;
-  return read_bridge_file(folder / "sliding.toml");
+  BuildRequest request;
+  request.bridge = read_bridge_file(folder / "sliding.toml");
+  request.output = folder / "sliding.h5";
+  request.scenes = kFewScenes;
+  request.threads = 1;
+  return request;
 }
 
 }  // namespace
@@ -29,12 +34,8 @@ BridgeFile sliding_bridge(const test::TemporaryFolder& folder) {
 TEST_CASE("Scenes that stand by what they have slid are stored with it and proved right (equilibrium)") {
   const test::TemporaryFolder folder;
   Progress quiet(Progress::Mode::quiet);
-  BuildRequest request;
-  request.bridge = sliding_bridge(folder);
-  request.output = folder / "sliding.h5";
-  request.scenes = kFewScenes;
+  BuildRequest request = sliding_request(folder);
   request.histories = "built,lost";
-  request.threads = 1;
   build_database(request, quasi_static(), quiet);
   const Database database = Database::open(request.output);
   const Model bridge = make_model(request.bridge.description);
@@ -55,11 +56,7 @@ TEST_CASE("Scenes that stand by what they have slid are stored with it and prove
 TEST_CASE("What has slid is taken over into another database, bit by bit (built anew)") {
   const test::TemporaryFolder folder;
   Progress quiet(Progress::Mode::quiet);
-  BuildRequest request;
-  request.bridge = sliding_bridge(folder);
-  request.output = folder / "sliding.h5";
-  request.scenes = kFewScenes;
-  request.threads = 1;
+  BuildRequest request = sliding_request(folder);
   build_database(request, quasi_static(), quiet);
   request.scenes = std::string(kFewScenes) + ";4,1";
   const BuildSummary taken_over = build_database(request, quasi_static(), quiet);

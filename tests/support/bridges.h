@@ -25,6 +25,23 @@ inline BridgeDescription small_description_with_mortar() {
   return description;
 }
 
+/// On joints as stiff along as across and of little friction: without (5,3), or its mirror image (5,5), it
+/// stands by what it has slid.
+inline BridgeDescription sliding_description() {
+  BridgeDescription description = small_description();
+  description.joints.normal_stiffness = description.joints.tangential_stiffness = 3e7;
+  description.joints.friction_angle = 0.45;
+  return description;
+}
+
+/// On joints so soft that it settles by 0.19 m.
+inline BridgeDescription soft_description() {
+  BridgeDescription description = small_description();
+  description.joints.normal_stiffness = 3e6;
+  description.joints.tangential_stiffness = 3e5;
+  return description;
+}
+
 inline Model small_bridge() {
   return make_model(small_description());
 }

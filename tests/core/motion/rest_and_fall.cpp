@@ -9,10 +9,7 @@
 namespace voussoir {
 
 TEST_CASE("Where blocks rest that have slid, field and slip are in balance (the equations of statics)") {
-  BridgeDescription description = test::small_description();
-  description.joints.normal_stiffness = description.joints.tangential_stiffness = 3e7;
-  description.joints.friction_angle = 0.45;
-  const Model bridge = make_model(description);
+  const Model bridge = make_model(test::sliding_description());
   for (const char* const name : {"5,3", "5,5"}) {
     INFO(name);
     const Scene scene = parse_scene(name, bridge.layout);
@@ -28,10 +25,7 @@ TEST_CASE("Where blocks rest that have slid, field and slip are in balance (the 
 }
 
 TEST_CASE("A block that drops by one course has fallen, though soft joints sag far (plain explicit motion)") {
-  BridgeDescription description = test::small_description();
-  description.joints.normal_stiffness = 3e6;
-  description.joints.tangential_stiffness = 3e5;
-  const Model bridge = make_model(description);
+  const Model bridge = make_model(test::soft_description());
   DynamicSolver solver(bridge);
   const DecisionRules rules = when_gone(patient(DecisionRules{}));
   REQUIRE(rules.moving_sags * solver.sag() > mean_block_size(bridge));
