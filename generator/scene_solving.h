@@ -41,7 +41,7 @@ bool keeps_collapse_fields(const Model& bridge, const DynamicSettings& motion = 
 SolverChoice dynamic(const DynamicSettings& motion = {});
 
 /// Solves the scenes and rounds their fields, and what has slipped beforehand, to the storage precision. What
-/// the joints remember at the end is left out where it follows from these: after one step.
+/// the joints remember at the end is left out where it follows from these: after one step or a jump.
 std::vector<Solution> solve_for_storage(const SceneSolver& solver, std::span<const StageTask> scenes);
 
 /// The mirror image of a solution, in the same storage precision and without memory.

@@ -34,6 +34,7 @@ struct StateSolving::Search {
   bool falls_by_one = false;
   bool open_likely = false;
   bool starts_near = false;
+  bool may_jump = true;
 
   StageTask task() const {
     return {.stage = stage,
@@ -44,16 +45,15 @@ struct StateSolving::Search {
             .falls_likely = falls_likely,
             .falls_by_one = falls_by_one,
             .open_likely = open_likely,
-            .starts_near = starts_near};
+            .starts_near = starts_near,
+            .may_jump = may_jump};
   }
 
-  /// Lets what the lost blocks carried go in so many steps. Several begin at the intact field, where most of
-  /// it is held.
-  void lose_in(int count, const Field& intact) {
+  /// Lets what the lost blocks carried go in so many steps. Several begin where most of it is held.
+  void lose_in(int count) {
     if (count == 1) return;
     steps = count;
-    before->displacement = intact;
-    start = intact;
+    start = before->displacement;
   }
 };
 
@@ -70,8 +70,8 @@ std::vector<JointMemory> StateSolving::memory_of_intact(const Field& displacemen
 std::vector<JointMemory> StateSolving::memory_before(const Scene& scene, std::size_t state,
                                                      SceneStates& states,
                                                      const std::vector<JointMemory>& of_intact) const {
-  if (!plan_[state].before)
-    return states[state] ? memory_of_slip(states[state]->slipped) : std::vector<JointMemory>{};
+  if (states[state] && states[state]->slipped.size() > 0) return memory_of_slip(states[state]->slipped);
+  if (!plan_[state].before) return {};
   if (!plan_[state].is_load)
     return scene.removed.empty() && states[kBuilt]
                ? memory_of_intact(states[kBuilt]->displacement, states[kBuilt]->slipped)
@@ -124,10 +124,12 @@ StateSolving::Search StateSolving::one_step_search(const Scene& scene, std::size
     search.starts_near = scene.missing() > 1;  // where what fewer missing blocks change adds up
     return search;
   }
-  search.before.emplace(State{{}, memory_before(scene, state, states, basis.of_intact)});
   const Solution& own = *states[*planned.before];
+  search.before.emplace(State{planned.is_load ? own.displacement : *basis.starts.intact(kBuilt),
+                              memory_before(scene, state, states, basis.of_intact)});
+  search.may_jump = planned.is_load || stands(*states[kBuilt]);  // what falls as built falls in a jump, too
   if (!basis.warm_starts)
-    search.start = planned.is_load ? own.displacement : *basis.starts.intact(kBuilt);
+    search.start = search.before->displacement;
   else if (stands(own))
     search.start = basis.starts.start_after(scene, own.displacement, *planned.before, state);
   else
@@ -138,7 +140,7 @@ StateSolving::Search StateSolving::one_step_search(const Scene& scene, std::size
 StateSolving::Search StateSolving::search_for(const Scene& scene, std::size_t state, SceneStates& states,
                                               const SearchBasis& basis) const {
   Search search = one_step_search(scene, state, states, basis);
-  if (plan_[state].is_loss()) search.lose_in(basis.steps.of(scene), *basis.starts.intact(kBuilt));
+  if (plan_[state].is_loss()) search.lose_in(basis.steps.of(scene));
   return search;
 }
 
@@ -178,7 +180,8 @@ bool StateSolving::lacks_memory(const SceneGroup& group, bool is_image, std::siz
   const Scene& scene = is_image ? *group.image : group.solved;
   const SceneStates& states = is_image ? group.image_states : group.states;
   const Solution& lost = *states[loss];
-  if (!stands(lost) || !lost.memory.empty() || basis.steps.of(scene) == 1) return false;
+  if (!stands(lost) || lost.slipped.size() > 0 || !lost.memory.empty() || basis.steps.of(scene) == 1)
+    return false;
   if (without_search(scene, loss, states, basis)) return false;
   for (std::size_t state = loss + 1; state < plan_.size(); ++state) {
     const bool is_searched = is_image ? !plan_[state].mirrors : group.needs_all || plan_[state].mirrors;
@@ -242,11 +245,13 @@ StepsOfLoss StateSolving::steps_of_loss(const SceneSolver& solver, const SearchB
   }
   const std::vector<Solution> in_one_step = solve_searches(solver, searches);
   StepsOfLoss steps;
-  for (std::size_t i = 0; i < singles.size(); ++i)
-    if (stands(in_one_step[i]) &&
-        differ_in_signal(in_one_step[i].displacement, *basis.starts.find(singles[i], lost),
-                         *basis.starts.intact(kBuilt), bridge_.control_points))
+  for (std::size_t i = 0; i < singles.size(); ++i) {
+    const Solution& one_step = in_one_step[i];
+    const bool jumps = !stands(one_step) || one_step.slipped.size() > 0;
+    if (jumps || differ_in_signal(one_step.displacement, *basis.starts.find(singles[i], lost),
+                                  *basis.starts.intact(kBuilt), bridge_.control_points))
       steps.add(singles[i].removed.front());
+  }
   return steps;
 }
 

@@ -20,7 +20,7 @@ inline constexpr double kSameSignal = 0.01;
 /// they go alone are known by solving their singles in one step, too.
 class StepsOfLoss {
  public:
-  /// This block's signal in one step is another than in kStepsOfLoss.
+  /// This block's signal in one step is another than in kStepsOfLoss, or it needs a jump.
   void add(BlockId block) { needing_many_.insert(block); }
 
   /// Implicit steps in which the scene's blocks go.

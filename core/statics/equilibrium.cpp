@@ -116,6 +116,20 @@ void subtract_triangle_forces(const StageEquations& equations, const Field& disp
   });
 }
 
+void subtract_drag(const StageEquations& equations, const Field& displacement, Field& forces) {
+  if (!equations.drag) return;
+  const Eigen::RowVectorXd stiffness = equations.coefficients->weight.transpose() / equations.drag->reach;
+  forces -= (displacement - equations.drag->place) * stiffness.asDiagonal();
+}
+
+void add_stiffness_of_drag(const StageEquations& equations, TangentTarget tangent) {
+  if (!equations.drag) return;
+  const EquilibriumSystem& system = *equations.system;
+  for (std::size_t i = 0; i < system.component.size(); ++i)
+    tangent.first[static_cast<std::size_t>(system.diagonal_slots[i]) * tangent.stride] +=
+        equations.coefficients->weight[system.component[i] / 2] / equations.drag->reach;
+}
+
 /// The force of joint_response alone.
 Eigen::Vector4d force_in(const StageEquations& equations, std::size_t joint, const JointState& state) {
   const Coefficients& with = *equations.coefficients;
@@ -128,6 +142,7 @@ Eigen::Vector4d force_in(const StageEquations& equations, std::size_t joint, con
 Field all_forces(const StageEquations& equations, const Field& displacement) {
   const EquilibriumSystem& system = *equations.system;
   Field forces = equations.load;
+  subtract_drag(equations, displacement, forces);
   subtract_triangle_forces(equations, displacement, forces);
   for_present_joints(equations, [&](const Joint& joint, std::size_t j) {
     const JointPose pose = joint_pose(system.joints[j], gathered(displacement, corners(joint)));
@@ -241,6 +256,8 @@ Field assemble(const StageEquations& equations, const Field& displacement, doubl
     stiffness += kinematics.gradient.transpose().lazyProduct(turned);
     add_local(system.joint_slots[j], stiffness, tangent);
   });
+  subtract_drag(equations, displacement, forces);
+  add_stiffness_of_drag(equations, tangent);
   pin_removed(equations, tangent);
   clear_held(system, forces);
   return forces;
@@ -268,7 +285,7 @@ std::vector<JointMemory> updated_memory(const StageEquations& equations, const F
 
 Field admissible(const StageEquations& equations, const Field& field) {
   const EquilibriumSystem& system = *equations.system;
-  Field result = field.array().isNaN().select(0.0, field);
+  Field result = without_nan(field);
   for (std::size_t c = 0; c < system.unknown.size(); ++c)
     if (system.unknown[c] < 0)
       result.data()[c] = equations.support_movement.size() > 0 ? equations.support_movement.data()[c] : 0.0;
@@ -283,7 +300,7 @@ std::vector<bool> removal_mask(const Scene& scene, std::size_t block_count) {
 }
 
 double unbalanced_force(const StageEquations& equations, const Field& displacement) {
-  const Field clean = displacement.array().isNaN().select(0.0, displacement);
+  const Field clean = without_nan(displacement);
   return unbalanced_forces(equations, clean).cwiseAbs().maxCoeff() / equations.largest_load;
 }
 

@@ -58,6 +58,13 @@ struct Coefficients {
   }
 };
 
+/// What a very viscous bath would do in one implicit step of time: it holds each node back, with its weight
+/// for each `reach` [m] that the node moves. So what nothing else holds sinks by `reach`.
+struct Drag {
+  double reach;
+  Field place;  ///< that nodes move from; no NaN
+};
+
 /// The equations of one stage of one variant. Shares `system` and `coefficients`, which must outlive it.
 struct StageEquations {
   /// `memory`: of each joint, what the stages before have left; empty: nothing. The stage's load on removed
@@ -75,6 +82,7 @@ struct StageEquations {
   Field load;              ///< weight and load of the stage on present blocks [N]
   double largest_load;     ///< component of the load on the whole bridge [N]: the unit of residuals; 1 if
                            ///< nothing is loaded
+  std::optional<Drag> drag{};
 };
 
 /// What a joint does in this state, by the law that it has.

@@ -28,76 +28,6 @@ constexpr int kFewestSteps = 8;
 constexpr double kProgress = 0.9;
 constexpr double kMovingShare = 0.1;  ///< of the way of the block that has fallen: further means moving away
 
-/// How a phase behaves.
-struct PhaseRules {
-  double largest_step;    ///< in units of the largest displacement so far; loose blocks would jump further
-  double rise;            ///< that a step may make of the worst of the last residuals
-  int patience;           ///< steps after which the phase is given up ..
-  double promising;       ///< .. unless the residual is below this share of the first step's
-  int most_stalled;       ///< steps without progress after which the phase is given up
-  bool descends = false;  ///< every step but the first must leave less unbalance than there was
-};
-
-constexpr int kForever = std::numeric_limits<int>::max();
-/// Of 390 singles of stiff random bridges those that fall take 13 linear systems so, and 11 of the 209 that
-/// stand are left to later searches.
-constexpr int kFewStalled = 5;
-/// Few would do for the reference bridge, but two of 24 other bridges would have no answer intact.
-constexpr int kManyStalled = 30;
-/// Nine of ten standing scenes have a hundredth of the residual after three steps, falling ones more than a
-/// half.
-constexpr PhaseRules kQuick{
-    .largest_step = 0.5, .rise = 1.0, .patience = 3, .promising = 0.3, .most_stalled = kFewStalled};
-/// A residual that may rise lets joints open and close in turn for ever (docs/numerics.md).
-constexpr PhaseRules kPatient{.largest_step = 0.5,
-                              .rise = 1.0,
-                              .patience = kForever,
-                              .promising = 0.0,
-                              .most_stalled = kManyStalled,
-                              .descends = true};
-constexpr PhaseRules kDescending = [] {
-  PhaseRules rules = kPatient;
-  rules.most_stalled = kFewStalled;
-  return rules;
-}();
-constexpr PhaseRules kBold{
-    .largest_step = 2.0, .rise = 3.0, .patience = kForever, .promising = 0.0, .most_stalled = kForever};
-
-const PhaseRules& rules_of(SearchPhase phase) {
-  switch (phase) {
-    case SearchPhase::bold:
-    case SearchPhase::falling:
-      return kBold;
-    case SearchPhase::descending:
-      return kDescending;
-    case SearchPhase::patient:
-      return kPatient;
-    case SearchPhase::warm:
-    case SearchPhase::quick:
-    case SearchPhase::done:
-      break;
-  }
-  return kQuick;
-}
-
-int most_iterations(SearchPhase phase, const QuasiStaticSettings& settings) {
-  switch (phase) {
-    case SearchPhase::warm:
-      return settings.most_warm_iterations;
-    case SearchPhase::bold:
-      return settings.most_bold_iterations;
-    case SearchPhase::falling:
-      return settings.most_falling_iterations;
-    case SearchPhase::descending:
-    case SearchPhase::patient:
-      return settings.most_patient_iterations;
-    case SearchPhase::quick:
-    case SearchPhase::done:
-      break;
-  }
-  return settings.most_iterations;
-}
-
 }  // namespace
 
 NewtonSearch::NewtonSearch(StageEquations equations, const QuasiStaticSettings& settings, const Field* start,
@@ -121,6 +51,7 @@ void NewtonSearch::begin(SearchPhase phase, const Field& start, double bonding) 
   bonding_ = bonding;
   recent_.fill(std::numeric_limits<double>::infinity());
   steps_ = 0;
+  first_step_ = 0.0;
   phase_iterations_ = 0;
   least_norm_ = std::numeric_limits<double>::infinity();
   stalled_ = 0;
@@ -128,6 +59,13 @@ void NewtonSearch::begin(SearchPhase phase, const Field& start, double bonding) 
     evaluate();
   else
     evaluate_forces();
+}
+
+void NewtonSearch::begin_from_rest(SearchPhase phase) {
+  if (most_iterations(phase, *settings_) > 0)
+    begin(phase, at_rest(), 1.0);
+  else
+    phase_ = SearchPhase::done;
 }
 
 void NewtonSearch::begin_next_phase() {
@@ -228,6 +166,7 @@ void NewtonSearch::move(const Field& from, double factor, const Eigen::VectorXd&
 
 void NewtonSearch::note_step(double length) {
   last_step_ = length;
+  if (first_step_ == 0.0) first_step_ = length;
   std::rotate(recent_.begin(), recent_.begin() + 1, recent_.end());
   recent_.back() = norm_;
 }

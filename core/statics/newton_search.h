@@ -8,21 +8,9 @@
 #include "core/statics/broyden.h"
 #include "core/statics/equilibrium.h"
 #include "core/statics/quasi_static_solver.h"
+#include "core/statics/search_phase.h"
 
 namespace voussoir {
-
-/// The phases of a search, in the order in which they are tried, some of them left out by the settings; or
-/// one of those that descend alone.
-enum class SearchPhase {
-  warm,        ///< from a given start
-  descending,  ///< from there on, or at first: the unbalance falling, given up when it falls no more
-  quick,       ///< from rest, given up when it has no hope
-  bold,        ///< goes on with a few bolder steps, which cross what the others cannot; in vain, the search
-               ///< ends where it was before
-  falling,     ///< goes on with bolder steps for longer: does something fall?
-  patient,     ///< likewise, from rest after the others, with all patience: the last word
-  done
-};
 
 /// One scene's search. After construction, and after every `advance` that does not finish it, the target
 /// holds the matrix and `unbalanced` the right-hand side of the next linear system. The matrix is the
@@ -40,6 +28,8 @@ class NewtonSearch {
   /// Is the matrix in the target another one than that of the last linear system?
   bool has_new_matrix() const { return matrix_is_new_; }
   const Field& unbalanced() const { return unbalanced_; }
+  /// Largest component of the first step [m]: how far the tangent there says that it is.
+  double first_step() const { return first_step_; }
 
   /// Takes the linear system's answer: the displacement step at the unknowns, or that the matrix is singular.
   void advance(bool regular, const Eigen::VectorXd& step);
@@ -49,7 +39,7 @@ class NewtonSearch {
 
  private:
   void begin(SearchPhase phase, const Field& start, double bonding);
-  void begin_from_rest(SearchPhase phase) { begin(phase, at_rest(), 1.0); }
+  void begin_from_rest(SearchPhase phase);
   void begin_next_phase();
   void go_on_boldly(SearchPhase phase);  // from where the search is
   void take_step(const Eigen::VectorXd& step);
@@ -90,6 +80,7 @@ class NewtonSearch {
   double bonded_sag_ = 0.0;  ///< largest displacement after the bonded first step from rest [m]; 0 before
   double norm_ = 0.0;        ///< of `unbalanced_`, in units of the largest load
   double first_norm_ = 0.0;  ///< after the start's first step
+  double first_step_ = 0.0;  ///< of the phase [m]; 0 before
   double least_norm_ = 0.0;  ///< that counted as progress
   int stalled_ = 0;          ///< steps since
   int steps_ = 0;            ///< since the start

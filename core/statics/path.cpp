@@ -50,7 +50,7 @@ double dissipated_by_mortar(const StageEquations& equations, const Field& displa
 }
 
 /// Forces that hold the structure near a place, proportional to the way from it.
-struct Drag {
+struct UniformDrag {
   double stiffness = 0.0;  ///< [N/m]
   Field place;
 };
@@ -159,7 +159,7 @@ class PathFollower {
     return change;
   }
 
-  Field unbalance(const StageEquations& equations, const Field& place, const Drag& drag) {
+  Field unbalance(const StageEquations& equations, const Field& place, const UniformDrag& drag) {
     Field forces = assemble(equations, place, 0.0, {tangent_.valuePtr()});
     if (drag.stiffness == 0.0) return forces;
     for (int i = 0; i < system_.unknown_count(); ++i) {
@@ -176,7 +176,7 @@ class PathFollower {
                      support_forces(equations, place).cwiseAbs().maxCoeff()});
   }
 
-  std::optional<Field> newton(const StageEquations& equations, Field place, const Drag& drag) {
+  std::optional<Field> newton(const StageEquations& equations, Field place, const UniformDrag& drag) {
     std::vector<double> recent;
     Field unbalanced = unbalance(equations, place, drag);
     recent.push_back(unbalanced.norm());

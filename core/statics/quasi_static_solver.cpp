@@ -5,7 +5,7 @@
 
 #include "core/statics/equilibrium.h"
 #include "core/statics/lane_factorisation.h"
-#include "core/statics/newton_search.h"
+#include "core/statics/stage_steps.h"
 
 namespace voussoir {
 
@@ -50,78 +50,17 @@ struct QuasiStaticSolver::Workspace {
 namespace {
 
 /// A task under way in a lane.
-struct LaneSearch {
-  const StageTask* task = nullptr;
-  std::size_t number = 0;
-  int step = 0;                     ///< of the task's steps
-  QuasiStaticSettings settings;     ///< the solver's, with the task's patience
-  std::optional<Coefficients> own;  ///< of a variant that is not the solver's model
-  std::optional<NewtonSearch> search;
-  Solution reached;  ///< at the end of the last step; what all steps have cost
+struct LaneTask {
+  template <class... Arguments>
+  LaneTask(std::size_t task, const Arguments&... arguments) : number(task), steps(arguments...) {}
 
-  Eigen::Matrix2Xd slipped() const { return task->slipped != nullptr ? *task->slipped : Eigen::Matrix2Xd(); }
-
-  bool has_old_matrix() const { return search && !search->has_new_matrix(); }
-
-  template <class Workspace>
-  void begin(const StageTask& stage_task, std::size_t stage_number, std::size_t lane, Workspace& w) {
-    task = &stage_task;
-    number = stage_number;
-    step = 0;
-    settings = w.settings;
-    if (task->before == nullptr) settings.descends_near = false;
-    if (task->before == nullptr && !task->starts_near) settings.skips.kept_factors = false;
-    // What is not found from near falls where joints are soft, and later stages stay near.
-    const bool ends_near = task->before != nullptr || (task->starts_near && !settings.patient_first);
-    if (ends_near || task->has_slipped()) settings.most_bold_iterations = 0;
-    if (task->has_slipped() && !task->patiently)
-      settings.most_patient_iterations = settings.most_slipped_iterations;
-    own.reset();
-    if (task->parameters != nullptr) own.emplace(w.system, *task->parameters);
-    reached = Solution{};
-    begin_step(task->before, task->start, lane, w);
-  }
-
-  /// Holds a share of the unbalanced forces back, so that all steps let go equal parts.
-  template <class Workspace>
-  void begin_step(const State* before, const Field* start, std::size_t lane, Workspace& w) {
-    StageEquations equations(w.system, own ? *own : w.nominal, task->stage,
-                             before != nullptr ? before->memory : memory_of_slip(slipped()));
-    const int left = task->steps - ++step;
-    settings.tolerance = left > 0 ? w.settings.step_tolerance : w.settings.tolerance;
-    if (left > 0) hold_back(static_cast<double>(left) / (left + 1), before, equations);
-    search.emplace(std::move(equations), settings, start, w.lane_of_tangents(lane), task->patiently,
-                   step > 1);
-  }
-
-  /// Takes what the search has found; true if that is the task's answer, otherwise the next step begins, from
-  /// where the structure gets if it goes on as in this one.
-  template <class Workspace>
-  bool end_step(std::size_t lane, Workspace& w) {
-    const int before = reached.iterations;
-    const Field from = step > 1                  ? reached.displacement
-                       : task->before != nullptr ? task->before->displacement
-                                                 : Field();
-    std::vector<State> passed = std::move(reached.steps);
-    if (task->keeps_steps && step > 1) passed.push_back(std::move(static_cast<State&>(reached)));
-    reached = search->solution();
-    reached.iterations += before;
-    reached.steps = std::move(passed);
-    if (task->before == nullptr && stands(reached)) reached.slipped = slipped();
-    search.reset();
-    if (step == task->steps || reached.outcome != Outcome::standing) return true;
-    Field start = reached.displacement;
-    if (from.size() > 0) start += reached.displacement - from;
-    begin_step(&reached, &start, lane, w);
-    return false;
-  }
-
-  static void hold_back(double share, const State* before, StageEquations& equations) {
-    Field place = Field::Zero(2, equations.load.cols());
-    if (before != nullptr) place = before->displacement.array().isNaN().select(0.0, before->displacement);
-    equations.load -= share * unbalanced_forces(equations, place);
-  }
+  std::size_t number;
+  StageSteps steps;
 };
+
+bool has_old_matrix(const std::optional<LaneTask>& lane) {
+  return lane && !lane->steps.search().has_new_matrix();
+}
 
 }  // namespace
 
@@ -136,27 +75,27 @@ QuasiStaticSolver& QuasiStaticSolver::operator=(QuasiStaticSolver&&) noexcept = 
 std::vector<Solution> QuasiStaticSolver::solve(std::span<const StageTask> tasks) {
   Workspace& w = *workspace_;
   std::vector<Solution> solutions(tasks.size());
-  std::array<LaneSearch, kLanes> lanes;
+  std::array<std::optional<LaneTask>, kLanes> lanes;
   std::size_t next = 0;
   std::size_t solved = 0;
   while (solved < tasks.size()) {
     const bool refill = w.settings.skips.lane_refill || solved == next;
     for (std::size_t lane = 0; lane < kLanes; ++lane) {
-      if (!lanes[lane].search && refill && next < tasks.size()) {
-        lanes[lane].begin(tasks[next], next, lane, w);
+      if (!lanes[lane] && refill && next < tasks.size()) {
+        lanes[lane].emplace(next, w.system, w.nominal, w.settings, tasks[next], w.lane_of_tangents(lane));
         ++next;
       }
-      if (lanes[lane].search) w.put_right_hand_side(lane, lanes[lane].search->unbalanced());
+      if (lanes[lane]) w.put_right_hand_side(lane, lanes[lane]->steps.search().unbalanced());
     }
-    const bool factorises = std::ranges::none_of(lanes, &LaneSearch::has_old_matrix);
+    const bool factorises = std::ranges::none_of(lanes, has_old_matrix);
     if (factorises) w.factorise();
     w.linear.solve(w.steps);
     for (std::size_t lane = 0; lane < kLanes; ++lane) {
-      std::optional<NewtonSearch>& search = lanes[lane].search;
-      if (!search || (search->has_new_matrix() && !factorises)) continue;
-      search->advance(w.regular[lane], w.get_step(lane));
-      if (!search->finished() || !lanes[lane].end_step(lane, w)) continue;
-      solutions[lanes[lane].number] = std::move(lanes[lane].reached);
+      std::optional<LaneTask>& under_way = lanes[lane];
+      if (!under_way || (under_way->steps.search().has_new_matrix() && !factorises)) continue;
+      if (!under_way->steps.advance(w.regular[lane], w.get_step(lane))) continue;
+      solutions[under_way->number] = under_way->steps.take();
+      under_way.reset();
       ++solved;
     }
   }

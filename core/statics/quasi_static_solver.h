@@ -44,7 +44,7 @@ struct QuasiStaticSettings {
 struct StageTask {
   Stage stage;
   const Field* start = nullptr;   ///< 2 x nodes, near the answer, NaN counts as zero; null: from rest
-  const State* before = nullptr;  ///< the stage before, whose memory counts; null: nothing has slipped
+  const State* before = nullptr;  ///< where the stage before ended; null: nothing has slipped
   const Eigen::Matrix2Xd* slipped = nullptr;  ///< as in Solution, of a stage with nothing before it; null:
                                               ///< nothing has slipped
   const Parameters* parameters = nullptr;     ///< of the variant; null: those of the solver's model
@@ -59,6 +59,7 @@ struct StageTask {
                               ///< worth any (CombinedSolver)
   bool starts_near = false;   ///< the start is so near the answer that a factorisation serves several steps
                               ///< even of a stage with nothing before it
+  bool may_jump = true;       ///< false: a later stage without an equilibrium near is `unresolved` there
   bool keeps_steps = false;   ///< true: the solution has the states at the ends of all steps
 
   bool has_slipped() const { return slipped != nullptr && slipped->size() > 0; }
@@ -77,11 +78,12 @@ class QuasiStaticSolver {
   /// Equilibria at the stages' ends, with the scenes' blocks absent; one solution a task, in their order. A
   /// lane that finishes early takes the next task.
   ///
-  /// A search from a given start that fails begins again from rest; that of a later stage goes on by descent
-  /// from where it got before it does. One without progress goes on as a fall
-  /// with bolder steps: `collapsed`, with the field at the moment when a displacement passes the limit. If
-  /// nothing falls either, a patient search from rest has the last word: `standing` or `unresolved`. A stage
-  /// of several steps ends with the first that does not stand; `start` is for the first.
+  /// Of a stage with nothing before it, a search from a given start that fails begins again from rest. One
+  /// without progress goes on as a fall with bolder steps: `collapsed`, with the field at the moment when a
+  /// displacement passes the limit. If nothing falls either, a patient search from rest has the last word:
+  /// `standing` or `unresolved`. A later stage is followed from where the one before ended, with its jumps
+  /// (stage_steps.h): `collapsed` when a block has moved away, with the field there. `start` is for the first
+  /// step.
   std::vector<Solution> solve(std::span<const StageTask> tasks);
 
   Solution solve(const StageTask& task);

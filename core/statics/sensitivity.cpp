@@ -1,13 +1,10 @@
 #include "core/statics/sensitivity.h"
 
+#include "core/statics/elements.h"
 #include "core/statics/parameter_derivatives.h"
 
 namespace voussoir {
 namespace {
-
-Field without_nan(const Field& field) {
-  return field.array().isNaN().select(0.0, field);
-}
 
 /// Per standard deviation: components x parameters of an epoch.
 ColumnMatrix movements_of(const EquilibriumSystem& system, const UncertainParameters& uncertain) {
@@ -46,17 +43,18 @@ struct SensitivitySolver::Adjoint {
 void append_stage(const EquilibriumSystem& system, const Coefficients& coefficients, const Stage& stage,
                   const Solution& solution, int steps, SolvedHistory& history) {
   for (int step = 1; step <= steps; ++step) {
+    const bool has_slipped = solution.slipped.size() > 0;
     std::vector<JointMemory> memory = memory_of_slip(solution.slipped);
     Field place = Field::Zero(2, system.structure->mesh.node_count());
     if (!history.empty()) {
-      memory = updated_memory(history.back().equations, history.back().displacement);
+      if (!has_slipped) memory = updated_memory(history.back().equations, history.back().displacement);
       place = history.back().displacement;
     }
     const int left = steps - step;
     const Field& end =
         left == 0 ? solution.displacement : solution.steps[static_cast<std::size_t>(step - 1)].displacement;
     history.push_back({StageEquations(system, coefficients, stage, std::move(memory)), without_nan(end),
-                       std::move(place), static_cast<double>(left) / (left + 1)});
+                       std::move(place), static_cast<double>(left) / (left + 1), has_slipped});
   }
 }
 
@@ -117,8 +115,11 @@ std::optional<Eigen::MatrixXd> SensitivitySolver::solve(const SolvedHistory& his
                                                         const Eigen::MatrixXd& readings) {
   const auto parameters = static_cast<Eigen::Index>(uncertain_.of_bridge.size() + uncertain_.of_epoch.size());
   Adjoint adjoint{readings, {}, Eigen::MatrixXd::Zero(parameters, readings.cols())};
-  for (auto step = history.rbegin(); step != history.rend() && !adjoint.is_zero(); ++step)
-    if (!step_back(*step, std::next(step) == history.rend(), adjoint)) return std::nullopt;
+  for (auto step = history.rbegin(); step != history.rend() && !adjoint.is_zero(); ++step) {
+    const bool is_first = step->has_slipped || std::next(step) == history.rend();
+    if (!step_back(*step, is_first, adjoint)) return std::nullopt;
+    if (is_first) break;
+  }
   return adjoint.by_parameters.transpose();
 }
 

@@ -28,11 +28,14 @@ struct SolvedStep {
   Field displacement;        ///< at its end; no NaN
   Field place;               ///< where the step before ended; no NaN
   double held_share = 0.0;   ///< of the forces that are unbalanced there: these are still held back
+  bool has_slipped =
+      false;  ///< what the step begins with is given (Solution::slipped): it depends on nothing
 };
 
 using SolvedHistory = std::vector<SolvedStep>;
 
-/// Adds the steps of a stage that stands. `steps`: as in StageTask; if several, the solution has them.
+/// Adds the steps of a stage that stands. `steps`: as in StageTask; if several, the solution has them. Of a
+/// stage that begins with what has slipped there is one.
 /// System and coefficients outlive the history.
 void append_stage(const EquilibriumSystem& system, const Coefficients& coefficients, const Stage& stage,
                   const Solution& solution, int steps, SolvedHistory& history);

@@ -40,8 +40,9 @@ struct Solution : State {
   std::vector<BlockId>
       moving{};  ///< blocks that had moved away when the scene's collapse was decided, ascending;
                  ///< of a scene in motion that stands those that slid and were caught
-  Eigen::Matrix2Xd slipped{};  ///< of a stage with nothing before it that stands: plastic slip at the ends
-                               ///< of the joints beforehand, as motion has slid them [m]; empty: none
+  Eigen::Matrix2Xd slipped{};  ///< of a stage that stands: plastic slip at the ends of the joints that its
+                               ///< last step begins with [m], as motion has slid them or, in a later stage,
+                               ///< a jump (StageTask); empty: none, or what the stage before has left
   std::vector<State> steps{};  ///< at the ends of all implicit steps but the last, if the task asked for them
 };
 

@@ -1,4 +1,4 @@
-/// @file Databases of bridges that stand by what they have slid in motion.
+/// @file Databases of bridges that stand by what they have slid, in motion or in a jump.
 
 #include <catch2/catch.hpp>
 #include <fstream>
@@ -15,12 +15,19 @@ namespace {
 
 constexpr char kFewScenes[] = "intact;5,3;4,2;0,2;5,3+0,2";
 
-/// A file of test::sliding_description's bridge, and a few scenes of it.
-BuildRequest sliding_request(const test::TemporaryFolder& folder) {
-  const std::string text = test::text_of(test::example_bridge("small")) +
-                           "\n[joints]\nnormal_stiffness_Pa_per_m = 3e7\n"
-                           "tangential_stiffness_Pa_per_m = 3e7\nfriction_angle_deg = 25.783100780887047\n";
-  std::ofstream(folder / "sliding.toml") << text;
+/// Of test::sliding_description's bridge.
+constexpr char kSlidingJoints[] =
+    "\n[joints]\nnormal_stiffness_Pa_per_m = 3e7\ntangential_stiffness_Pa_per_m = 3e7\n"
+    "friction_angle_deg = 25.783100780887047\n";
+
+/// With these (4,2) jumps when it is lost.
+constexpr char kJumpingJoints[] =
+    "\n[joints]\nnormal_stiffness_Pa_per_m = 1e9\ntangential_stiffness_Pa_per_m = 1e9\n"
+    "friction_angle_deg = 34.37746770784939\n";
+
+/// A file of the small bridge with such joints, and a few scenes of it.
+BuildRequest sliding_request(const test::TemporaryFolder& folder, const char* joints = kSlidingJoints) {
+  std::ofstream(folder / "sliding.toml") << test::text_of(test::example_bridge("small")) << joints;
   BuildRequest request;
   request.bridge = read_bridge_file(folder / "sliding.toml");
   request.output = folder / "sliding.h5";
@@ -64,6 +71,30 @@ TEST_CASE("What has slid is taken over into another database, bit by bit (built 
   request.force = true;
   request.threads = 2;
   CHECK(build_database(request, quasi_static(), quiet).digest == taken_over.digest);
+}
+
+TEST_CASE("Losses that jump are stored with what they have slid and proved right (equilibrium)") {
+  const test::TemporaryFolder folder;
+  Progress quiet(Progress::Mode::quiet);
+  BuildRequest request = sliding_request(folder, kJumpingJoints);
+  request.histories = "built,lost";
+  request.scenes = "intact;4,2;4,5;5,1;4,2+5,1";
+  build_database(request, quasi_static(), quiet);
+  const Database database = Database::open(request.output);
+  const Model bridge = make_model(request.bridge.description);
+  const std::size_t lost = 1;
+  for (const char* name : {"4,2", "4,2+5,1"}) {
+    const Solution found =
+        database.solution(*database.find(kNominalVariant, parse_scene(name, bridge.layout)), lost);
+    REQUIRE(stands(found));
+    REQUIRE(found.slipped.size() > 0);
+    CHECK(unbalanced_force(bridge, parse_scene(name, bridge.layout), found.displacement, found.slipped) <
+          1e-4);
+  }
+  VerifyRequest check{request.output};
+  check.threads = 1;
+  check.recompute = 100;
+  CHECK(verify_database(check).problems == std::vector<std::string>{});
 }
 
 }  // namespace voussoir

@@ -4,7 +4,7 @@
 
 #include "core/error.h"
 #include "core/random.h"
-#include "core/statics/quasi_static_solver.h"
+#include "core/solve/combined_solver.h"
 #include "core/structure/uncertain_parameters.h"
 #include "generator/build.h"
 #include "generator/variants.h"
@@ -13,7 +13,7 @@ namespace voussoir {
 namespace {
 
 /// The bridges' equilibria after a stage, side by side; `before` are the states that they start from.
-std::vector<State> solve_all(QuasiStaticSolver& solver, const std::vector<Model>& bridges,
+std::vector<State> solve_all(CombinedSolver& solver, const std::vector<Model>& bridges,
                              const std::vector<Stage>& stages, const std::vector<State>& before,
                              const std::string& name) {
   std::vector<StageTask> tasks;
@@ -114,7 +114,7 @@ IntactTruth solve_intact(const BridgeDescription& description, const SampledTrut
   for (const VariantParameters& parameters :
        sampled_variants(nominal, truth.uncertainty, truth.bridges, truth.seed))
     bridges.push_back(variant_of(nominal, parameters));
-  QuasiStaticSolver solver(nominal);
+  CombinedSolver solver(nominal);
   const std::vector<Stage> at_rest(bridges.size());
   const auto built = solve_all(solver, bridges, at_rest, {}, truth.name);
   const auto before =

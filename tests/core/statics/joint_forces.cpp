@@ -35,7 +35,11 @@ struct Solved {
     std::vector<Solution> solutions = solve_history(solver, history);
     REQUIRE(solutions.size() == history.stages.size());
     REQUIRE(stands(solutions.back()));
-    if (solutions.size() > 1) equations.memory = solutions[solutions.size() - 2].memory;
+    const Solution& last = solutions.back();
+    if (last.slipped.size() > 0)
+      equations.memory = memory_of_slip(last.slipped);
+    else if (solutions.size() > 1)
+      equations.memory = solutions[solutions.size() - 2].memory;
     displacement = test::without_nan(solutions.back().displacement);
   }
 
