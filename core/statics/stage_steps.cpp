@@ -94,7 +94,7 @@ bool StageSteps::advance(bool regular, const Eigen::VectorXd& step) {
   if (!follows_) return accept(std::move(found));
   if (reach_ > 0.0) return follow_jump(std::move(found));
   if (stands(found) && is_near(found.displacement)) return accept(std::move(found));
-  return task_.may_jump ? begin_jump(found) : give_up(found);
+  return task_.may_jump && sag_ > 0.0 ? begin_jump(found) : give_up(found);
 }
 
 /// True if the task is done with what the step has found. Otherwise the next step begins where the structure
