@@ -7,10 +7,6 @@
 namespace voussoir {
 namespace {
 
-Field zero_for_nan(const Field& field) {
-  return field.array().isNaN().select(Field::Zero(2, field.cols()), field);
-}
-
 /// The sum of StartingFields::start_for; `part_of` finds what the intact bridge and the parts of the scene
 /// that stand have of what is summed up, null for others.
 template <class PartOf>
@@ -28,7 +24,7 @@ std::optional<Field> summed_up(const Scene& scene, const PartOf& part_of) {
     const Field* second = part_of(Scene{{pair.removed.back()}});
     if (first != nullptr && second != nullptr) sum += *both - *first - *second + *intact;
   }
-  return zero_for_nan(sum);
+  return without_nan(sum);
 }
 
 }  // namespace
@@ -132,13 +128,13 @@ std::optional<Field> StartingFields::change(const Scene& scene, std::size_t befo
 Field StartingFields::start_after(const Scene& scene, const Field& own, std::size_t before,
                                   std::size_t after) const {
   const auto intact_change = scene.removed.empty() ? std::nullopt : change(Scene{}, before, after);
-  if (!intact_change) return zero_for_nan(own);
+  if (!intact_change) return without_nan(own);
   Field start = own + *intact_change;
   for (const BlockId block : scene.removed) {
     const auto single = scene.missing() > 1 ? change(Scene{{block}}, before, after) : std::nullopt;
     if (single) start += *single - *intact_change;
   }
-  return zero_for_nan(start);
+  return without_nan(start);
 }
 
 }  // namespace voussoir

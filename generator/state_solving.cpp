@@ -78,10 +78,9 @@ std::vector<JointMemory> StateSolving::memory_before(const Scene& scene, std::si
                : of_intact;
   Solution& before = *states[*plan_[state].before];
   if (before.memory.empty()) {
-    const Field& end = before.displacement;
     before.memory = updated_memory(
         equations(scene, *plan_[state].before, memory_before(scene, *plan_[state].before, states, of_intact)),
-        end.array().isNaN().select(0.0, end));
+        without_nan(before.displacement));
   }
   return before.memory;
 }

@@ -1,5 +1,7 @@
 #include "core/motion/decision_rules.h"
 
+#include "core/structure/collapse.h"
+
 namespace voussoir {
 
 DecisionRules patient(DecisionRules rules) {
@@ -18,7 +20,7 @@ DecisionRules patient(DecisionRules rules) {
 }
 
 DecisionRules when_gone(DecisionRules rules) {
-  rules.moving_sags = 30.0;
+  rules.moving_sags = kGoneSags;
   return rules;
 }
 

@@ -14,8 +14,6 @@ namespace {
 constexpr double kOfCritical = 0.9;         ///< default step; the power iteration comes from below
 constexpr double kDampingShare = 0.5;       ///< of the critical damping
 constexpr double kTimeBetweenLooks = 0.01;  ///< [s] between two looks at a scene
-/// Of a mean block: what drops into a gap comes to rest after one course, and softly if joints are soft.
-constexpr double kFallenShare = 0.5;
 /// Of the ramp, for which motions add up: a quarter of gravity acts then. Until half of it, fields of
 /// collapses would be three times as far off (docs/numerics.md).
 constexpr double kEarlyShare = 1.0 / 3.0;
@@ -93,7 +91,7 @@ struct DynamicSolver::Workspace {
 
   /// From so far on blocks have moved away [m].
   double moved_away(const DecisionRules& rules) const {
-    return std::min(rules.moving_sags * natural.sag, kFallenShare * block_size);
+    return std::min(rules.moving_sags * natural.sag, kGoneShare * block_size);
   }
 
   DynamicSettings settings;

@@ -30,8 +30,8 @@ class CombinedSolver {
   explicit CombinedSolver(const Model& model)
       : CombinedSolver(model, acting_settings(SolverSettings::of(SolverKind::quasi_static), model)) {}
 
-  /// Stages with nothing before them: whole scenes under their weight. Later stages are left to Newton: what
-  /// makes no progress is `unresolved`.
+  /// Stages with nothing before them: whole scenes under their weight, of the model itself
+  /// (StageTask::parameters is null: motions have one variant). Later stages are left to Newton.
   std::vector<Solution> solve(std::span<const StageTask> tasks);
 
  private:

@@ -42,11 +42,6 @@ void for_present_triangles(const StageEquations& equations, const Visit& visit) 
   }
 }
 
-/// Zero where the field says nothing.
-inline Field without_nan(const Field& field) {
-  return field.array().isNaN().select(0.0, field);
-}
-
 /// Gives all nodes of removed blocks this value in both directions.
 inline void fill_removed(const StageEquations& equations, double with, Field& field) {
   const Mesh& mesh = equations.system->structure->mesh;

@@ -17,9 +17,6 @@ constexpr double kFirstReach = 1e-2;  ///< of the drag, in sags ..
 constexpr double kLeastReach = 1e-8;  ///< .. at least; below it the structure is given up ..
 constexpr double kReachFactor = 4.0;  ///< .. longer after each step; shorter by its square where one fails
 constexpr int kMostDrags = 200;
-/// What has moved so many sags, or half a mean block, falls: as in motion (DecisionRules::moving_sags).
-constexpr double kFallingSags = 30.0;
-constexpr double kFallenShare = 0.5;
 
 Eigen::Matrix2Xd slip_of(const std::vector<JointMemory>& memory) {
   Eigen::Matrix2Xd slip(2, static_cast<Eigen::Index>(memory.size()));
@@ -65,21 +62,19 @@ StageSteps::StageSteps(const EquilibriumSystem& system, const Coefficients& nomi
   else
     reached_.displacement = Field::Zero(2, system.structure->mesh.node_count());
   if (task.before == nullptr && task.has_slipped()) reached_.memory = memory_of_slip(*task.slipped);
-  reached_.displacement = without_nan(reached_.displacement);
-  origin_ = reached_.displacement;
-  sag_ = largest(origin_);
-  if (task.start != nullptr || follows_) start_ = task.start != nullptr ? *task.start : origin_;
+  sag_ = largest(reached_.displacement);
+  if (task.start != nullptr || follows_) start_ = task.start != nullptr ? *task.start : reached_.displacement;
   begin_step(false);
 }
 
 /// What is held back when a jump begins stays so until it has ended.
 void StageSteps::begin_step(bool has_matrix) {
   StageEquations equations(system_, coefficients(), task_.stage, reached_.memory);
-  const Field place = without_nan(reached_.displacement);
   if (reach_ == 0.0 && left_ > 1)
-    held_ = static_cast<double>(left_ - 1) / left_ * unbalanced_forces(equations, place);
+    held_ = static_cast<double>(left_ - 1) / left_ *
+            unbalanced_forces(equations, without_nan(reached_.displacement));
   if (left_ > 1) equations.load -= held_;
-  if (reach_ > 0.0) equations.drag = Drag{reach_, admissible(equations, place)};
+  if (reach_ > 0.0) equations.drag = Drag{reach_, admissible(equations, reached_.displacement)};
   settings_.tolerance = left_ > 1 || reach_ > 0.0 ? settings_.step_tolerance : tolerance_;
   largest_load_ = equations.largest_load;
   search_.emplace(std::move(equations), settings_, start_.size() > 0 ? &start_ : nullptr, tangent_,
@@ -119,7 +114,6 @@ bool StageSteps::give_up(const Solution& found) {
 }
 
 bool StageSteps::begin_jump(const Solution& found) {
-  jumps_ = true;
   reached_.iterations = found.iterations;
   reach_ = kFirstReach * sag_;
   start_ = reached_.displacement;
@@ -168,8 +162,9 @@ bool StageSteps::is_near(const Field& found) const {
 /// Has something moved away? Then the task is done.
 bool StageSteps::falls() {
   const Structure& structure = *system_.structure;
-  const double far = std::min(kFallingSags * sag_, kFallenShare * mean_block_size(structure));
-  reached_.moving = blocks_moved_beyond(far, structure.mesh, reached_.displacement - origin_);
+  const double far = std::min(kGoneSags * sag_, kGoneShare * mean_block_size(structure));
+  reached_.moving =
+      blocks_moved_beyond(far, structure.mesh, reached_.displacement - task_.before->displacement);
   if (reached_.moving.empty()) return false;
   reached_.outcome = Outcome::collapsed;
   reached_.extent = collapse_extent(structure.layout, reached_.moving);
@@ -182,7 +177,7 @@ bool StageSteps::end() {
   if (!stands(reached_)) {
     reached_.memory.clear();
     reached_.steps.clear();
-  } else if (jumps_) {
+  } else if (drags_ > 0) {
     reached_.slipped = slip_of(memory_before_);
     reached_.steps.clear();
   } else if (task_.before == nullptr && task_.slipped != nullptr) {

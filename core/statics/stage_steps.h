@@ -56,14 +56,12 @@ class StageSteps {
   std::optional<Coefficients> own_;         ///< of a variant that is not the solver's model
   Solution reached_;                        ///< at the end of the last step
   std::vector<JointMemory> memory_before_;  ///< what the last step began with
-  Field origin_;                            ///< where the stage before ended; no NaN
-  double sag_ = 0.0;                        ///< largest displacement there [m]
+  double sag_ = 0.0;                        ///< largest displacement where the stage before ended [m]
   int left_;                                ///< steps, with the one under way
   Field start_;                             ///< of its search; empty: from rest
   Field held_;                              ///< forces that are still held back at its end [N]
-  bool jumps_ = false;                      ///< has done so
   double reach_ = 0.0;                      ///< of the drag [m]; 0: there is none
-  int drags_ = 0;                           ///< steps against drag so far
+  int drags_ = 0;                           ///< steps against drag so far; some: it has jumped
   double largest_load_ = 0.0;               ///< as in StageEquations
   std::optional<NewtonSearch> search_;
 };

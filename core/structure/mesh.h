@@ -20,6 +20,11 @@ constexpr int value(NodeId id) {
 /// Displacements of all nodes [m], 2 x nodes; NaN at the nodes of removed blocks.
 using Field = Eigen::Matrix2Xd;
 
+/// Zero where the field says nothing.
+inline Field without_nan(const Field& field) {
+  return field.array().isNaN().select(0.0, field);
+}
+
 struct Triangle {
   std::array<NodeId, 3> nodes;  ///< counter-clockwise
 };

@@ -151,8 +151,9 @@ std::vector<Column> columns_of_state() {
       column(
           dataset::kSlipped, {states, records, joints, components}, kOfState<&State::slipped>,
           Form::compressed, kInChecksum, "m",
-          "plastic slip at both ends of each joint with which a standing scene's `built` begins; missing if "
-          "none begins with any",
+          "plastic slip at both ends of each joint with which a standing state's last step begins, as motion "
+          "(`built`) or a jump (later states) has slid them; 0: none, or what the state before has left; "
+          "missing if no state begins with any",
           kOptional),
       column(dataset::kOrigin, {states, records}, kOfState<&State::origin>, Form::plain, kInChecksum, "1",
              "0 solved, 1 composed, 2 inherited; missing if all are 0", kOptional)};

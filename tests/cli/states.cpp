@@ -106,7 +106,7 @@ TEST_CASE("query-field shows joints as the solver leaves them that remembers eve
     ++looked_at;
     const StageEquations equations(system, coefficients, history.stages.back().stage, solved[1].memory);
     const std::vector<JointForces> expected =
-        joint_forces(equations, bridge.parameters, test::without_nan(solved.back().displacement));
+        joint_forces(equations, bridge.parameters, without_nan(solved.back().displacement));
     const auto shown = nlohmann::json::parse(
         test::run("query-field", {to_string(scene, bridge.layout), "-d", site.database, "--load", "lorry@1",
                                   "--show", "joints", "--format", "json"})

@@ -45,7 +45,7 @@ void check_same_outcomes(const Built& fields, const Built& outcomes) {
       CHECK(found.displacement.array().isNaN().all());
       proved += found.iterations == 0 ? 1 : 0;
     } else {
-      CHECK(test::without_nan(found.displacement) == test::without_nan(expected.displacement));
+      CHECK(without_nan(found.displacement) == without_nan(expected.displacement));
     }
   }
   CHECK(proved > 0);

@@ -43,7 +43,7 @@ struct Subject {
 };
 
 double apart(const Field& first, const Field& second) {
-  return (test::without_nan(first) - test::without_nan(second)).cwiseAbs().maxCoeff();
+  return (without_nan(first) - without_nan(second)).cwiseAbs().maxCoeff();
 }
 
 }  // namespace

@@ -50,11 +50,6 @@ inline Model reference_bridge() {
   return make_model(reference_bridge_file().description);
 }
 
-/// NaN (nodes of removed blocks) becomes zero, so that fields can be compared and added.
-inline Field without_nan(const Field& field) {
-  return field.array().isNaN().select(0.0, field);
-}
-
 /// What the bridge's control points read [m].
 inline Eigen::VectorXd readings(const Model& bridge, const Field& field) {
   return vertical_displacements(field, bridge.control_points);

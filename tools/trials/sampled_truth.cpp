@@ -12,8 +12,9 @@
 namespace voussoir {
 namespace {
 
-/// The bridges' equilibria after a stage, side by side; `before` are the states that they start from.
-std::vector<State> solve_all(CombinedSolver& solver, const std::vector<Model>& bridges,
+/// The bridges' equilibria after a stage, side by side; `before` are the states that they start from. Those
+/// that have none under their weight are set in motion, each with a solver of its own.
+std::vector<State> solve_all(QuasiStaticSolver& solver, const std::vector<Model>& bridges,
                              const std::vector<Stage>& stages, const std::vector<State>& before,
                              const std::string& name) {
   std::vector<StageTask> tasks;
@@ -24,6 +25,9 @@ std::vector<State> solve_all(CombinedSolver& solver, const std::vector<Model>& b
                      .parameters = &bridges[b].parameters});
   std::vector<State> states;
   for (Solution& solution : solver.solve(tasks)) {
+    const Model& bridge = bridges[states.size()];
+    const StageTask at_rest{.stage = stages[states.size()]};
+    if (before.empty() && !stands(solution)) solution = CombinedSolver(bridge).solve({&at_rest, 1}).front();
     if (solution.outcome != Outcome::standing)
       throw Failure(
           fmt::format("{}: intact bridge {} is {}", name, states.size() + 1, to_string(solution.outcome)));
@@ -114,7 +118,7 @@ IntactTruth solve_intact(const BridgeDescription& description, const SampledTrut
   for (const VariantParameters& parameters :
        sampled_variants(nominal, truth.uncertainty, truth.bridges, truth.seed))
     bridges.push_back(variant_of(nominal, parameters));
-  CombinedSolver solver(nominal);
+  QuasiStaticSolver solver(nominal);
   const std::vector<Stage> at_rest(bridges.size());
   const auto built = solve_all(solver, bridges, at_rest, {}, truth.name);
   const auto before =

@@ -121,8 +121,7 @@ TEST_CASE("Scenes with mortar have the same bits alone and side by side (the sca
   for (std::size_t i = 0; i < scenes.size(); ++i) {
     const DynamicSolution alone = solver.solve(scenes[i]);
     CHECK(alone.solution.outcome == together[i].solution.outcome);
-    CHECK(test::without_nan(alone.solution.displacement) ==
-          test::without_nan(together[i].solution.displacement));
+    CHECK(without_nan(alone.solution.displacement) == without_nan(together[i].solution.displacement));
   }
 }
 

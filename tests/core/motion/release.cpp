@@ -60,14 +60,14 @@ TEST_CASE("Where nothing slips a bridge is as if built so, however its block wen
   const Scene middle{{BlockId{2}}};
   const Field before = loaded.intact().solution.displacement;
   const Field built = QuasiStaticSolver(bridge).solve(middle).displacement;
-  const double change = test::without_nan(built - before).cwiseAbs().maxCoeff();
+  const double change = without_nan(built - before).cwiseAbs().maxCoeff();
   CHECK(change > 0.2 * before.cwiseAbs().maxCoeff());
   for (const Release& release : {Release{}, Release::sudden()}) {
     const DynamicSolution at_rest = loaded.without(middle, release);
     REQUIRE(at_rest.solution.outcome == Outcome::standing);
     // Joints turn by 1e-5, which their law takes into account differently; a millionth of the weight may be
     // unbalanced.
-    CHECK(test::without_nan(at_rest.solution.displacement - built).cwiseAbs().maxCoeff() < 1e-3 * change);
+    CHECK(without_nan(at_rest.solution.displacement - built).cwiseAbs().maxCoeff() < 1e-3 * change);
   }
 }
 
@@ -87,7 +87,7 @@ TEST_CASE("What blocks carried holds their neighbours until it is let go (equili
   const LoadedBridge loaded(bridge, {.patience = 4.0});
   REQUIRE(loaded.intact().solution.outcome == Outcome::standing);
   const Scene scene = parse_scene("4,2+5,5", bridge.layout);
-  const Field before = test::without_nan(loaded.intact().solution.displacement);
+  const Field before = without_nan(loaded.intact().solution.displacement);
   Field held = loaded.without(scene, {.duration = 1e9}).solution.displacement;
   held = held.array().isNaN().select(before, held);
   // Rest leaves 1e-7 of the weight unbalanced; blocks that stand on soft neighbours follow by ten times that.

@@ -82,7 +82,7 @@ TEST_CASE("What friction holds where it has slid stands with that slip (equilibr
     rules.freer_until = rules.freer_from;
     const DynamicSolution moved = motion.solve(std::span(&scene, 1), when_gone(rules)).front();
     CHECK(stands(moved.solution));
-    const Field difference = test::without_nan(moved.solution.displacement - found.displacement);
+    const Field difference = without_nan(moved.solution.displacement - found.displacement);
     CHECK(difference.cwiseAbs().maxCoeff() < 0.1 * motion.sag());
   }
 }
@@ -236,7 +236,7 @@ TEST_CASE("Scenes that are said to have no answer get what is found without pati
   CHECK(brief[2].outcome == Outcome::unresolved);
   for (const std::size_t i : {0, 1}) {
     CHECK(brief[i].outcome == patient[i].outcome);
-    CHECK(test::without_nan(brief[i].displacement) == test::without_nan(patient[i].displacement));
+    CHECK(without_nan(brief[i].displacement) == without_nan(patient[i].displacement));
   }
 }
 
@@ -248,6 +248,6 @@ TEST_CASE("The combined solver's answers do not depend on their company, to the 
   for (const std::size_t i : {std::size_t{0}, std::size_t{3}, std::size_t{7}, scenes.size() - 1}) {
     const Solution alone = solver.solve(from_rest({scenes[i]})).front();
     CHECK(alone.outcome == together[i].outcome);
-    CHECK(test::without_nan(alone.displacement) == test::without_nan(together[i].displacement));
+    CHECK(without_nan(alone.displacement) == without_nan(together[i].displacement));
   }
 }

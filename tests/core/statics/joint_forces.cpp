@@ -40,7 +40,7 @@ struct Solved {
       equations.memory = memory_of_slip(last.slipped);
     else if (solutions.size() > 1)
       equations.memory = solutions[solutions.size() - 2].memory;
-    displacement = test::without_nan(solutions.back().displacement);
+    displacement = without_nan(solutions.back().displacement);
   }
 
   std::vector<JointForces> joints() const { return joint_forces(equations, bridge.parameters, displacement); }

@@ -115,8 +115,8 @@ TEST_CASE("Bolder steps find equilibria that the searches before them miss (slow
     const Solution found = solver.solve(scenes[i], intact);
     REQUIRE(found.outcome == Outcome::standing);
     REQUIRE(motions[i].solution.outcome == Outcome::standing);
-    const Field field = test::without_nan(found.displacement);
-    const Field expected = test::without_nan(motions[i].solution.displacement);
+    const Field field = without_nan(found.displacement);
+    const Field expected = without_nan(motions[i].solution.displacement);
     CHECK((field - expected).cwiseAbs().maxCoeff() < 0.005 * expected.cwiseAbs().maxCoeff());
   }
 }
@@ -134,6 +134,6 @@ TEST_CASE("Bolder steps in vain leave a search where it was (the search without 
   REQUIRE(expected.outcome == Outcome::unresolved);
   CHECK(found.outcome == Outcome::unresolved);
   CHECK(found.iterations > expected.iterations);
-  CHECK(test::without_nan(found.displacement) == test::without_nan(expected.displacement));
+  CHECK(without_nan(found.displacement) == without_nan(expected.displacement));
   CHECK(found.residual == Approx(expected.residual));
 }

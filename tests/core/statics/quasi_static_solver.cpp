@@ -94,10 +94,10 @@ TEST_CASE("Loads too small to be squared are carried like any other (proportiona
   const Model bridge = make_model(description);
   const Solution tiny = QuasiStaticSolver(bridge).solve(scene);
   REQUIRE(tiny.outcome == Outcome::standing);
-  const Field scaled = test::without_nan(usual.displacement) * 1e-300;
+  const Field scaled = without_nan(usual.displacement) * 1e-300;
   // Turns and strains of 1e-5 under usual gravity make the answer depart from proportionality by a few of
   // them.
-  CHECK((test::without_nan(tiny.displacement) - scaled).cwiseAbs().maxCoeff() <
+  CHECK((without_nan(tiny.displacement) - scaled).cwiseAbs().maxCoeff() <
         2e-4 * scaled.cwiseAbs().maxCoeff());
 }
 
@@ -108,12 +108,11 @@ TEST_CASE("A dead load equal to the weight does what twice the gravity does (sup
   weight.row(1) = -Coefficients(EquilibriumSystem(once), once.parameters).weight.transpose();
   const Scene scene = parse_scene("4,2", once.layout);
   QuasiStaticSolver solver(once);
-  const Field loaded =
-      test::without_nan(solver.solve({.stage = {.scene = scene, .load = weight}}).displacement);
+  const Field loaded = without_nan(solver.solve({.stage = {.scene = scene, .load = weight}}).displacement);
   Parameters twice = once.parameters;
   twice.gravity *= 2.0;
   const Field heavy =
-      test::without_nan(solver.solve({.stage = {.scene = scene}, .parameters = &twice}).displacement);
+      without_nan(solver.solve({.stage = {.scene = scene}, .parameters = &twice}).displacement);
   CHECK((loaded - heavy).cwiseAbs().maxCoeff() < 1e-9 * heavy.cwiseAbs().maxCoeff());
 }
 
@@ -134,12 +133,12 @@ TEST_CASE("A stage in two steps lets go what a lost block's joints carried, half
   REQUIRE(second.outcome == Outcome::standing);
   CHECK(steps.iterations > std::max(first.iterations, second.iterations));
   CHECK(steps.iterations <= first.iterations + second.iterations);  // the first ends sooner
-  const Field expected = test::without_nan(second.displacement);
+  const Field expected = without_nan(second.displacement);
   // Newton leaves 1e-8 of a node's load unbalanced.
-  CHECK((test::without_nan(steps.displacement) - expected).cwiseAbs().maxCoeff() <
+  CHECK((without_nan(steps.displacement) - expected).cwiseAbs().maxCoeff() <
         1e-8 * expected.cwiseAbs().maxCoeff());
   const Solution once = solver.solve({.stage = whole, .start = &intact.displacement, .before = &intact});
-  CHECK((test::without_nan(once.displacement) - expected).cwiseAbs().maxCoeff() >
+  CHECK((without_nan(once.displacement) - expected).cwiseAbs().maxCoeff() >
         1e-4 * expected.cwiseAbs().maxCoeff());  // a sliver slides on the way and stops
 }
 
@@ -160,7 +159,7 @@ TEST_CASE("Stages of one, two and more steps side by side have the bits of each 
     CHECK(alone.outcome == together[i].outcome);
     CHECK(alone.iterations == together[i].iterations);
     CHECK(alone.memory == together[i].memory);
-    CHECK(test::without_nan(alone.displacement) == test::without_nan(together[i].displacement));
+    CHECK(without_nan(alone.displacement) == without_nan(together[i].displacement));
   }
 }
 
@@ -187,9 +186,9 @@ TEST_CASE("Kept factors change no field of a later stage (the tangent factorised
     REQUIRE(kept[i].outcome == Outcome::standing);
     REQUIRE(renewed[i].outcome == Outcome::standing);
     CHECK(kept[i].iterations != renewed[i].iterations);
-    const Field expected = test::without_nan(renewed[i].displacement);
+    const Field expected = without_nan(renewed[i].displacement);
     // Either leaves 1e-8 of a node's load unbalanced.
-    CHECK((test::without_nan(kept[i].displacement) - expected).cwiseAbs().maxCoeff() <
+    CHECK((without_nan(kept[i].displacement) - expected).cwiseAbs().maxCoeff() <
           1e-8 * expected.cwiseAbs().maxCoeff());
   }
 }
@@ -211,8 +210,8 @@ TEST_CASE("What a loss's steps leave unbalanced is let go in the next (all steps
     const Solution found = usual.solve(task), expected = strict.solve(task);
     REQUIRE(found.outcome == Outcome::standing);
     CHECK(found.residual <= settings.tolerance);
-    const Field change = test::without_nan(expected.displacement) - test::without_nan(intact.displacement);
-    CHECK((test::without_nan(found.displacement) - test::without_nan(expected.displacement)).lpNorm<1>() <
+    const Field change = without_nan(expected.displacement) - without_nan(intact.displacement);
+    CHECK((without_nan(found.displacement) - without_nan(expected.displacement)).lpNorm<1>() <
           1e-4 * change.lpNorm<1>());
     CHECK(found.iterations < 0.9 * expected.iterations);
   }
@@ -223,8 +222,8 @@ TEST_CASE("A mirrored scene has the mirrored field", "[solver]") {
   QuasiStaticSolver solver(bridge);
   for (const char* name : {"intact", "10,4", "2,6", "4,10+2,6", "10,12"}) {
     const Scene scene = parse_scene(name, bridge.layout);
-    const Field direct = test::without_nan(solver.solve(mirrored(scene, *bridge.symmetry)).displacement);
-    const Field image = test::without_nan(mirrored(solver.solve(scene).displacement, *bridge.symmetry));
+    const Field direct = without_nan(solver.solve(mirrored(scene, *bridge.symmetry)).displacement);
+    const Field image = without_nan(mirrored(solver.solve(scene).displacement, *bridge.symmetry));
     INFO(name);
     CHECK((direct - image).cwiseAbs().maxCoeff() < 1e-12 * image.cwiseAbs().maxCoeff());
   }
@@ -262,12 +261,11 @@ TEST_CASE("The answer depends on the scene, not on the start or on earlier scene
   const Model bridge = test::small_bridge();
   QuasiStaticSolver solver(bridge);
   const Scene scene = parse_scene("4,2", bridge.layout);
-  const Field first = test::without_nan(solver.solve(scene).displacement);
+  const Field first = without_nan(solver.solve(scene).displacement);
   const Field intact = solver.solve(Scene{}).displacement;
   solver.solve(parse_scene("0,5", bridge.layout));
-  CHECK((test::without_nan(solver.solve(scene).displacement) - first).norm() == 0.0);
-  const Field warm =
-      test::without_nan(solver.solve({.stage = {.scene = scene}, .start = &intact}).displacement);
+  CHECK((without_nan(solver.solve(scene).displacement) - first).norm() == 0.0);
+  const Field warm = without_nan(solver.solve({.stage = {.scene = scene}, .start = &intact}).displacement);
   CHECK((warm - first).cwiseAbs().maxCoeff() < 1e-9 * first.cwiseAbs().maxCoeff());
 }
 
@@ -313,7 +311,7 @@ TEST_CASE("Scenes solved side by side have the very bits of scenes solved alone"
     INFO(to_string(tasks[i].stage.scene, bridge.layout));
     CHECK(alone.outcome == together[i].outcome);
     CHECK(alone.iterations == together[i].iterations);
-    CHECK(test::without_nan(alone.displacement) == test::without_nan(together[i].displacement));
+    CHECK(without_nan(alone.displacement) == without_nan(together[i].displacement));
   }
 }
 
@@ -339,8 +337,8 @@ TEST_CASE("Lanes with different joints and blocks have the very bits of each alo
     alone.parameters = variants[v];
     const Solution expected = QuasiStaticSolver(alone).solve(scene);
     CHECK(expected.outcome == Outcome::standing);
-    CHECK(test::without_nan(expected.displacement) == test::without_nan(together[v].displacement));
+    CHECK(without_nan(expected.displacement) == without_nan(together[v].displacement));
     for (std::size_t other = 0; other < v; ++other)
-      CHECK(test::without_nan(together[other].displacement) != test::without_nan(together[v].displacement));
+      CHECK(without_nan(together[other].displacement) != without_nan(together[v].displacement));
   }
 }

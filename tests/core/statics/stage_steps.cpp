@@ -53,8 +53,8 @@ TEST_CASE("Where a loss has no equilibrium near, the bridge jumps to where motio
   const LoadedBridge loaded(bridge);
   const DynamicSolution motion = loaded.without(scene);
   REQUIRE(stands(motion.solution));
-  const Field jumped = test::without_nan(loss.lost.displacement - loss.intact.displacement);
-  const Field moved = test::without_nan(motion.solution.displacement - loaded.intact().solution.displacement);
+  const Field jumped = without_nan(loss.lost.displacement - loss.intact.displacement);
+  const Field moved = without_nan(motion.solution.displacement - loaded.intact().solution.displacement);
   // Motion and implicit steps differ by 1 % of the signal at most where nothing jumps (docs/numerics.md).
   CHECK((jumped - moved).cwiseAbs().maxCoeff() < 0.02 * moved.cwiseAbs().maxCoeff());
 }

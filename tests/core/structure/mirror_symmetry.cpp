@@ -17,7 +17,7 @@ TEST_CASE("Slip is mirrored so that forces are (image joints found by the nodes)
   const Scene scene = parse_scene("4,2", bridge.layout);
   const auto joints = static_cast<Eigen::Index>(bridge.joints.size());
   // Pressed against each other by the weight, the joints stick with what is not slip.
-  const Field field = test::without_nan(QuasiStaticSolver(bridge).solve(scene).displacement);
+  const Field field = without_nan(QuasiStaticSolver(bridge).solve(scene).displacement);
   const Eigen::Matrix2Xd slip = Eigen::Matrix2Xd::NullaryExpr(
       2, joints,
       [](Eigen::Index end, Eigen::Index joint) { return 1e-6 * std::sin(1.0 + 0.7 * joint + 2.0 * end); });

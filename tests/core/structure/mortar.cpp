@@ -118,8 +118,7 @@ TEST_CASE("A bridge whose mortar is said to be none is the dry bridge to the las
   const Scene scene{.removed = {*a.layout.find({3, 1})}};
   CHECK((first.solve(scene).displacement.array().isNaN() == second.solve(scene).displacement.array().isNaN())
             .all());
-  CHECK(test::without_nan(first.solve(scene).displacement) ==
-        test::without_nan(second.solve(scene).displacement));
+  CHECK(without_nan(first.solve(scene).displacement) == without_nan(second.solve(scene).displacement));
 }
 
 TEST_CASE("Movements are read, and what they cannot be is refused", "[mortar][bridge-file]") {
