@@ -25,7 +25,11 @@ void count(const RecordedState& state, const RecordKey& key, const BlockLayout& 
   if (state.extent == CollapseExtent::local) ++counts.local_collapses;
 }
 
-std::string intact_text(const std::optional<Outcome>& intact) {
+std::string intact_text(const StateOutcomes& counts) {
+  if (counts.by_slip)
+    return "    the intact bridge stands only by what its joints have slid, which depends on how it was "
+           "loaded\n";
+  const std::optional<Outcome>& intact = counts.intact;
   if (!intact || *intact == Outcome::standing) return {};
   return fmt::format(
       "    the intact bridge {}, so that what its scenes change is not known. Is the bridge as it is meant?\n"
@@ -49,7 +53,7 @@ std::string state_text(const StateOutcomes& counts) {
         fmt::format("    {}, residual {:.1e}\n", counts.unresolved[i].scene, counts.unresolved[i].residual);
   if (counts.unresolved.size() > kMostUnresolved)
     text += fmt::format("    and {} more\n", counts.unresolved.size() - kMostUnresolved);
-  return text + intact_text(counts.intact);
+  return text + intact_text(counts);
 }
 
 nlohmann::ordered_json state_json(const StateOutcomes& counts) {
@@ -64,7 +68,8 @@ nlohmann::ordered_json state_json(const StateOutcomes& counts) {
           {"inherited", counts.inherited},
           {"unresolved", counts.unresolved.size()},
           {"unresolved_scenes", unresolved},
-          {"intact", counts.intact ? nlohmann::ordered_json(to_string(*counts.intact)) : nullptr}};
+          {"intact", counts.intact ? nlohmann::ordered_json(to_string(*counts.intact)) : nullptr},
+          {"stands_by_slip", counts.by_slip}};
 }
 
 }  // namespace
@@ -78,8 +83,9 @@ void OutcomeCounts::add(const Record& record, const BlockLayout& layout) {
   ++scenes;
   for (std::size_t state = 0; state < states.size(); ++state) {
     count(record.states.at(state), record.key, layout, states[state]);
-    if (record.key.variant == kNominalVariant && record.key.scene.removed.empty())
-      states[state].intact = record.states[state].outcome;
+    if (record.key.variant != kNominalVariant || !record.key.scene.removed.empty()) continue;
+    states[state].intact = record.states[state].outcome;
+    states[state].by_slip = !record.states[state].slipped.empty();
   }
 }
 
@@ -103,8 +109,10 @@ OutcomeCounts count_outcomes(const Database& database) {
         count(state, key, database.layout(), counts.states[place]);
       }
       const auto intact = table.find(Scene{});
-      if (variant == std::size_t{kNominalVariant} && intact)
-        counts.states[place].intact = static_cast<Outcome>(table.outcome[*intact]);
+      if (variant != std::size_t{kNominalVariant} || !intact) continue;
+      counts.states[place].intact = static_cast<Outcome>(table.outcome[*intact]);
+      counts.states[place].by_slip =
+          !database.record(table.first_record + *intact).states[place].slipped.empty();
     }
   return counts;
 }

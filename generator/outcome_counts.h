@@ -27,6 +27,7 @@ struct StateOutcomes {
   std::size_t inherited = 0;        ///< and with this one
   std::vector<UnresolvedScene> unresolved;
   std::optional<Outcome> intact;  ///< of the intact nominal bridge, if it is among the scenes
+  bool by_slip = false;           ///< that one stands only by what its joints have slid
 };
 
 struct OutcomeCounts {
@@ -44,12 +45,13 @@ OutcomeCounts count_outcomes(const Database& database);
 
 /// Lines for people, indented by two blanks; at most twenty unresolved scenes of a history are listed.
 /// States are named if there are several; those with loads have a line each. An intact bridge that does not
-/// stand is said: a bridge file is more often wrong than a bridge.
+/// stand is said, as a bridge file is more often wrong than a bridge, and so is one that stands only by what
+/// its joints have slid.
 std::string to_text(const OutcomeCounts& counts);
 
 /// {"scenes", "standing", "collapsed", "arch_collapses", "local_collapses", "composed",
-/// "inherited", "unresolved", "unresolved_scenes": [{"scene", "residual"}], "intact": its outcome or null} of
-/// the first state, and "states":
+/// "inherited", "unresolved", "unresolved_scenes": [{"scene", "residual"}], "intact": its outcome or null,
+/// "stands_by_slip"} of the first state, and "states":
 /// [{"state", the same}] of all.
 nlohmann::ordered_json to_json(const OutcomeCounts& counts);
 

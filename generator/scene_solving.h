@@ -24,6 +24,9 @@ struct SolverChoice {
   /// One that finds equilibria only, quickly: for what is compared with others and not kept. May be empty: no
   /// model error is then estimated.
   std::function<SceneSolver(const Model&)> make_equilibrium_solver{};
+  /// One whose motions are loaded slowly: where friction leaves open what joints slide, it finds another
+  /// answer. Given if the one before is.
+  std::function<SceneSolver(const Model&)> make_slow_solver{};
 };
 
 /// The program's own solvers (core/solve).

@@ -7,6 +7,8 @@
 namespace voussoir {
 namespace {
 
+constexpr double kSlowRamp = 2.0;  ///< [s] in which gravity grows; some periods of the longest bridges
+
 SceneSolver combined_solver(const SolverSettings& settings, const Model& model) {
   const auto solver = std::make_shared<CombinedSolver>(model, settings);
   return [solver](std::span<const StageTask> tasks) { return solver->solve(tasks); };
@@ -35,6 +37,8 @@ SceneSolver stated_solver(const Model& model, const std::string& settings) {
 }
 
 SolverChoice solver_with(const SolverSettings& settings) {
+  SolverSettings slow = settings;
+  slow.motion.ramp = kSlowRamp;
   return {[settings](const Model& model) { return to_text(acting_settings(settings, model)); },
           [settings](const Model& model, const std::string& stated) {
             return acting_solver(parse_settings(stated, settings), model);
@@ -43,7 +47,8 @@ SolverChoice solver_with(const SolverSettings& settings) {
             const auto solver =
                 std::make_shared<QuasiStaticSolver>(model, acting_settings(settings, model).newton);
             return [solver](std::span<const StageTask> tasks) { return solver->solve(tasks); };
-          }};
+          },
+          [slow](const Model& model) { return acting_solver(acting_settings(slow, model), model); }};
 }
 
 SolverChoice quasi_static(const DynamicSettings& motion) {

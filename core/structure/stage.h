@@ -15,4 +15,7 @@ struct Stage {
       support_movement{};  ///< displacements of the components that supports hold [m], 2 x nodes; empty: none
 };
 
+/// The stage `to` on the way: temperature and supports have gone this share of it from `from`.
+Stage on_the_way(const Stage& from, Stage to, double share);
+
 }  // namespace voussoir

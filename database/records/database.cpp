@@ -262,4 +262,9 @@ ByteView Database::dataset_bytes(const char* path) const {
   return implementation_->file.view(path).bytes;
 }
 
+bool stands_by_slip(const Database& database) {
+  const auto intact = database.find(Scene{});
+  return intact && !database.record(*intact).states.front().slipped.empty();
+}
+
 }  // namespace voussoir

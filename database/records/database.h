@@ -86,4 +86,8 @@ class Database {
   std::unique_ptr<Implementation> implementation_;
 };
 
+/// Does the intact bridge stand, in the first state, only by what its joints have slid (Solution::slipped)?
+/// Not said, and so false, without fields.
+bool stands_by_slip(const Database& database);
+
 }  // namespace voussoir

@@ -13,6 +13,7 @@ struct Source {
   std::string database;      ///< file
   std::string bridge;        ///< name
   std::string digest;        ///< of the database's content
+  bool stands_by_slip;       ///< as the database says of it
 };
 
 enum class ReportFormat { text, json, csv };

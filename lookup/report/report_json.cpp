@@ -160,6 +160,7 @@ std::string json_report(const Answer& answer, const LookupSettings& settings, co
        {{"file", source.database},
         {"bridge", source.bridge},
         {"digest", source.digest},
+        {"stands_by_slip", source.stands_by_slip},
         {"scenes_searched", answer.searched},
         {"scenes_unresolved", answer.unresolved}}}};
   if (!answer.candidates.empty()) result["first_candidate"] = standing(answer);

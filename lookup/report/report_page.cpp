@@ -149,11 +149,13 @@ std::string search_in_words(const LookupSettings& settings) {
 
 std::string assumptions_html(const Answer& answer, const LookupSettings& settings,
                              const Comparison& comparison, const Source& source) {
+  std::string bridge = answer.bridge
+                           ? "not exactly known: parameters of joints and blocks, temperature and supports "
+                             "are uncertain as the bridge file states, with half to twice that scatter"
+                           : "taken as exactly known";
+  if (source.stands_by_slip) bridge += fmt::format("; {}", kStandsBySlip);
   Terms terms = {
-      {"Bridge", answer.bridge
-                     ? "not exactly known: parameters of joints and blocks, temperature and supports "
-                       "are uncertain as the bridge file states, with half to twice that scatter"
-                     : "taken as exactly known"},
+      {"Bridge", std::move(bridge)},
       {"Measurements",
        fmt::format("{}: {}", source.measurements, readings_in_words(comparison, answer.readings))},
       {"History", history_in_words(comparison.history)},

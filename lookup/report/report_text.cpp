@@ -48,6 +48,7 @@ void write_heading(Text& text, const Answer& answer, const Comparison& compariso
                                     ? "not exactly known: joints, stone, temperature and supports are "
                                       "uncertain as the bridge file states"
                                     : "taken as exactly known");
+  if (source.stands_by_slip) text.line("              {}", kStandsBySlip);
   if (answer.bridge) text.line("Evidence:     {}", evidence_in_words(comparison));
 }
 

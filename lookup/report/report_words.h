@@ -27,6 +27,10 @@ std::string headline(const Answer& answer, const Library& library);
 /// likeliest scene, "best match" without probabilities.
 std::string_view standing(const Answer& answer);
 
+/// Of a bridge that Source::stands_by_slip.
+inline constexpr std::string_view kStandsBySlip =
+    "it stands intact only by what its joints have slid, which depends on how it was loaded";
+
 /// "at most 9.7 % of the displacement (uniform noise, estimated)"
 std::string noise_in_words(const NoiseEstimate& noise);
 

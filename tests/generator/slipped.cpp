@@ -2,9 +2,11 @@
 
 #include <catch2/catch.hpp>
 #include <fstream>
+#include <nlohmann/json.hpp>
 
 #include "database/records/database.h"
 #include "generator/build.h"
+#include "generator/outcome_counts.h"
 #include "generator/verify.h"
 #include "tests/support/bridges.h"
 #include "tests/support/file_text.h"
@@ -58,6 +60,27 @@ TEST_CASE("Scenes that stand by what they have slid are stored with it and prove
   check.threads = 1;
   check.recompute = 100;
   CHECK(verify_database(check).problems == std::vector<std::string>{});
+}
+
+TEST_CASE(
+    "That an intact bridge stands by what it has slid is said, by the build and from the file (written "
+    "out)") {
+  const test::TemporaryFolder folder;
+  std::ofstream(folder / "slid.toml") << test::kSlidBridge;
+  BuildRequest request;
+  request.bridge = read_bridge_file(folder / "slid.toml");
+  request.output = folder / "slid.h5";
+  request.scenes = "intact;9,2";
+  request.known_bridge = true;
+  Progress quiet(Progress::Mode::quiet);
+  const BuildSummary summary = build_database(request, quasi_static(), quiet);
+  const Database database = Database::open(request.output);
+  CHECK(stands_by_slip(database));
+  for (const OutcomeCounts& counts : {summary.outcomes, count_outcomes(database)}) {
+    CHECK_THAT(to_text(counts), Catch::Contains("intact bridge stands only by what its joints have slid"));
+    CHECK(to_json(counts)["stands_by_slip"] == true);
+    CHECK(to_json(counts)["intact"] == "standing");
+  }
 }
 
 TEST_CASE("What has slid is taken over into another database, bit by bit (built anew)") {

@@ -15,7 +15,7 @@ using voussoir::test::SyntheticLibrary;
 
 namespace {
 
-const Source kSource = {"m.csv", "bridge.h5", "made up", "0123456789abcdef0123456789abcdef"};
+const Source kSource = {"m.csv", "bridge.h5", "made up", "0123456789abcdef0123456789abcdef", false};
 
 /// A setting for each search.
 std::vector<LookupSettings> each_search() {
@@ -95,6 +95,24 @@ TEST_CASE("A scene is called most likely only if no other is likelier, whatever 
     }
   CHECK(likeliest >= 40);
   CHECK(others >= 10);
+}
+
+TEST_CASE("A bridge that stands by what it has slid is called so wherever an answer is (written out)") {
+  const SyntheticLibrary library(4, 9);
+  Random random(12);
+  const Measurements measured =
+      library.measure(library.row_of({{BlockId{29}}}), 0.02, NoiseShape::uniform, random);
+  const Comparison comparison = absolute_readings(library.library(), measured);
+  const Answer answer = locate_damage(comparison, {});
+  for (const bool slid : {false, true}) {
+    Source source = kSource;
+    source.stands_by_slip = slid;
+    for (const std::string& words :
+         {text_report(answer, comparison, source), page_report(answer, {}, comparison, source)})
+      CHECK((words.find("stands intact only by what its joints have slid") != std::string::npos) == slid);
+    CHECK(nlohmann::json::parse(json_report(answer, {}, comparison, source))["database"]["stands_by_slip"] ==
+          slid);
+  }
 }
 
 TEST_CASE("A single is not beaten by the many pairs that fit its noise as well") {

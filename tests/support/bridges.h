@@ -34,6 +34,32 @@ inline BridgeDescription sliding_description() {
   return description;
 }
 
+/// A random one (tools/benchmark bridges, seed 3600): intact, it stands only by what it has slid.
+inline constexpr char kSlidBridge[] = R"(name = "slid"
+[wall]
+length_m = 6.462595373147162
+courses = 10
+course_height_m = 0.47528522660557576
+block_length_m = 1.4521562689005196
+bond = "stack"
+[[spans]]
+centre_x_m = 3.2312976865735816
+centre_y_m = 1.0509631945006541
+intrados_radius_m = 1.6297080835471154
+ring_thickness_m = 0.17854444326507057
+voussoirs = 26
+[material]
+young_modulus_Pa = 52514082838.163956
+[joints]
+normal_stiffness_Pa_per_m = 627944553.1411244
+tangential_stiffness_Pa_per_m = 915250188.8370724
+friction_angle_deg = 38.51903700870821
+)";
+
+inline BridgeDescription slid_description() {
+  return parse_bridge_file(kSlidBridge, "slid").description;
+}
+
 /// On joints so soft that it settles by 0.19 m.
 inline BridgeDescription soft_description() {
   BridgeDescription description = small_description();

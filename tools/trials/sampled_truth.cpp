@@ -61,6 +61,22 @@ std::vector<Stage> stages_of_epoch(const Model& bridge, const SampledTruth& trut
   return stages;
 }
 
+/// A bridge warms and its supports move slowly, so that joints slide on the way: in so many parts.
+constexpr int kPartsOfWay = 16;
+
+/// The bridges' equilibria after they have gone from one epoch to the next.
+std::vector<State> go_to_epoch(QuasiStaticSolver& solver, const std::vector<Model>& bridges,
+                               const std::vector<Stage>& from, const std::vector<Stage>& to,
+                               std::vector<State> states, const std::string& name) {
+  for (int part = 1; part <= kPartsOfWay; ++part) {
+    std::vector<Stage> stages;
+    for (std::size_t b = 0; b < bridges.size(); ++b)
+      stages.push_back(on_the_way(from[b], to[b], static_cast<double>(part) / kPartsOfWay));
+    states = solve_all(solver, bridges, stages, states, name);
+  }
+  return states;
+}
+
 std::vector<double> shown(const State& state, const Model& bridge) {
   const Eigen::VectorXd vertical = vertical_displacements(state.displacement, bridge.control_points);
   return {vertical.begin(), vertical.end()};
@@ -120,11 +136,11 @@ IntactTruth solve_intact(const BridgeDescription& description, const SampledTrut
     bridges.push_back(variant_of(nominal, parameters));
   QuasiStaticSolver solver(nominal);
   const std::vector<Stage> at_rest(bridges.size());
+  const std::vector<Stage> first = stages_of_epoch(nominal, truth, between, 1);
+  const std::vector<Stage> second = stages_of_epoch(nominal, truth, between, 2);
   const auto built = solve_all(solver, bridges, at_rest, {}, truth.name);
-  const auto before =
-      solve_all(solver, bridges, stages_of_epoch(nominal, truth, between, 1), built, truth.name);
-  const auto after =
-      solve_all(solver, bridges, stages_of_epoch(nominal, truth, between, 2), before, truth.name);
+  const auto before = go_to_epoch(solver, bridges, at_rest, first, built, truth.name);
+  const auto after = go_to_epoch(solver, bridges, first, second, before, truth.name);
   IntactTruth result{truth.name, {}};
   for (std::size_t b = 0; b < bridges.size(); ++b)
     result.bridges.push_back({shown(before[b], nominal), shown(after[b], nominal)});

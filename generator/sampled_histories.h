@@ -1,0 +1,87 @@
+#pragma once
+/// @file Bridges that are drawn at random, brought to rest and then into an epoch of their own.
+
+#include "core/structure/uncertain_parameters.h"
+#include "generator/sensitivities.h"
+#include "generator/state_solving.h"
+
+namespace voussoir {
+
+/// Parts in which a bridge warms and its supports move into an epoch: joints slide on the way. In one part
+/// the reference bridge's displacements are off by 20 micrometres (root mean square, of a change of 1130), in
+/// eight by 0.2; those of a bridge that stands by what it has slid (seed 1059) by 105 and 7 (of 1000).
+inline constexpr int kPartsOfEpoch = 8;
+
+/// A bridge that is drawn at random, and an epoch.
+struct SampledBridge {
+  Eigen::VectorXd of_bridge, of_epoch;  ///< theta
+  Parameters parameters;
+  Stage epoch;
+  bool slowly;  ///< loaded slowly where it must be set in motion
+};
+
+SampledBridge draw_bridge(const Model& bridge, const UncertainParameters& uncertain, std::uint64_t seed);
+
+/// What the control points of a scene have moved in each state of the plan [m]; empty where it does not
+/// stand.
+using Settled = std::vector<Eigen::VectorXd>;
+
+struct SampledScene {
+  Settled at_rest;   ///< at the temperature and with the supports of the file
+  Settled in_epoch;  ///< where the epoch begins after the scene was built and before blocks go or loads come
+};
+
+/// The nominal bridge's answers.
+struct NominalScenes {
+  const std::vector<Scene>& scenes;        ///< the intact bridge first
+  const std::vector<SceneStates>& states;  ///< of each scene
+};
+
+/// Solves scenes of sampled bridges. One a thread; what is given outlives it. The solver can find equilibria
+/// alone (SolverChoice).
+class SampledHistories {
+ public:
+  SampledHistories(const SensitivityStudy& study, const NominalScenes& nominal)
+      : study_(study), nominal_(nominal), equilibrium_(study.solver.make_equilibrium_solver(study.bridge)) {}
+
+  /// Of each bridge these scenes (places in the nominal ones, the intact one first), one after the other.
+  ///
+  /// An intact bridge that finds no equilibrium in which nothing has slipped is set in motion, as the nominal
+  /// one would be; where that stands by what it has slipped only, each is.
+  std::vector<SampledScene> solve(std::span<const SampledBridge> bridges,
+                                  const std::vector<std::size_t>& scenes) const;
+
+ private:
+  /// A scene of a sampled bridge.
+  struct Case {
+    const SampledBridge* bridge;
+    std::size_t scene;
+    std::size_t intact;  ///< the case of the same bridge without missing blocks
+  };
+  using Found = std::vector<std::vector<Solution>>;  ///< of each case and state
+
+  /// Stages of some of the cases, solved side by side.
+  struct Batch {
+    std::vector<StageTask> tasks;
+    std::vector<std::size_t> places;  ///< of their cases
+
+    void add(std::size_t place, StageTask&& task);
+    /// Nothing if what comes before does not stand.
+    void add_next(std::size_t place, Stage&& stage, const Solution& before, const Parameters& parameters);
+  };
+
+  void build_intact(const std::vector<Case>& cases, Found& found) const;
+  void build_others(const std::vector<Case>& cases, Found& found) const;
+  void enter_epochs(const std::vector<Case>& cases, const Found& at_rest, Found& found) const;
+  void go_on(const std::vector<Case>& cases, bool in_epoch, Found& found) const;
+  Solution set_in_motion(const SampledBridge& bridge) const;
+  Stage stage_of(const Case& one, Stage conditions) const;
+  void solve(const Batch& batch, std::size_t state, Found& found) const;
+  Settled settled(const std::vector<Solution>& states) const;
+
+  const SensitivityStudy& study_;
+  NominalScenes nominal_;
+  SceneSolver equilibrium_;
+};
+
+}  // namespace voussoir
