@@ -162,13 +162,13 @@ std::optional<Sensitivities> sensitivities_of(const Build& build, const KnownRec
     if (key.variant == kNominalVariant) scenes.push_back(key.scene);
   return find_sensitivities({build.bridge(), build.request.bridge.description.uncertainty, build.states,
                              build.solver, build.provenance.solver_settings, build.request.threads},
-                            scenes, known);
+                            scenes, known, build.progress);
 }
 
 std::vector<ModelError> model_errors_of(const Build& build) {
   if (build.request.shard) return std::vector<ModelError>(kept_states(build.states).size());
   return estimate_model_errors(
-      {build.request.bridge.description, build.bridge(), build.states, build.solver});
+      {build.request.bridge.description, build.bridge(), build.states, build.solver}, build.progress);
 }
 
 void write(const Build& build, const KnownRecords& known, BuildSummary& summary) {
@@ -219,7 +219,8 @@ void run(const Build& build, std::optional<Database> old, BuildSummary& summary)
   if (old) summary.reused = reuse(build, std::move(*old), known);
   BuildPlan plan = plan_of(build, known);
   summary.computed = plan.records();
-  build.progress.start(summary.resumed + summary.reused + summary.computed, summary.resumed + summary.reused);
+  build.progress.start(summary.resumed + summary.reused + summary.computed, summary.resumed + summary.reused,
+                       "scenes");
   run_plan(std::move(plan),
            {build.bridges, build.solver, build.provenance.solver_settings, build.request.rules, build.states,
             build.fields, most_missing_of_starts(build.wanted), build.request.threads, build.progress},

@@ -49,7 +49,8 @@ struct Samples {
 /// The scenes of each bridge solved, bridge after bridge.
 std::vector<SampledScene> solve_scenes(const SensitivityStudy& study, const NominalScenes& nominal,
                                        std::span<const SampledBridge> bridges,
-                                       const std::vector<std::size_t>& scenes, std::size_t at_once) {
+                                       const std::vector<std::size_t>& scenes, std::size_t at_once,
+                                       Progress& progress) {
   const std::size_t groups = (bridges.size() + at_once - 1) / at_once;
   std::vector<std::vector<SampledScene>> of_group(groups);
   oneapi::tbb::enumerable_thread_specific<SampledHistories> solvers(
@@ -58,6 +59,7 @@ std::vector<SampledScene> solve_scenes(const SensitivityStudy& study, const Nomi
     const std::size_t first = group * at_once;
     const std::size_t count = std::min(at_once, bridges.size() - first);
     of_group[group] = solvers.local().solve(bridges.subspan(first, count), scenes);
+    progress.advance(count);
   });
   std::vector<SampledScene> solved;
   for (auto& group : of_group) std::ranges::move(group, std::back_inserter(solved));
@@ -65,19 +67,21 @@ std::vector<SampledScene> solve_scenes(const SensitivityStudy& study, const Nomi
 }
 
 Samples solve_samples(const SensitivityStudy& study, const UncertainParameters& uncertain,
-                      const FirstOrder& first_order) {
+                      const FirstOrder& first_order, Progress& progress) {
   Samples samples;
   for (std::size_t i = 0; i < kSampledBridges; ++i)
     samples.bridges.push_back(draw_bridge(study.bridge, uncertain, kFirstSampledSeed + i));
   samples.scenes = sampled_scenes(first_order);
   const NominalScenes nominal{first_order.scenes, first_order.states};
   const std::span<const SampledBridge> bridges = samples.bridges;
-  samples.few = solve_scenes(study, nominal, bridges.first(kBridgesWithSingles), samples.scenes, 1);
+  progress.start(kSampledBridges, 0, "sampled bridges");
+  samples.few = solve_scenes(study, nominal, bridges.first(kBridgesWithSingles), samples.scenes, 1, progress);
   for (std::size_t i = 0; i < kBridgesWithSingles; ++i)
     samples.intact.push_back(samples.few[i * samples.scenes.size()]);
   std::ranges::move(
-      solve_scenes(study, nominal, bridges.subspan(kBridgesWithSingles), {kIntact}, kBridgesAtOnce),
+      solve_scenes(study, nominal, bridges.subspan(kBridgesWithSingles), {kIntact}, kBridgesAtOnce, progress),
       std::back_inserter(samples.intact));
+  progress.finish();
   return samples;
 }
 
@@ -158,13 +162,13 @@ class StateResidual {
 
 std::vector<FirstOrderResidual> first_order_residuals(const SensitivityStudy& study,
                                                       const UncertainParameters& uncertain,
-                                                      const FirstOrder& first_order) {
+                                                      const FirstOrder& first_order, Progress& progress) {
   const std::vector<std::size_t> kept = kept_states(study.states);
   const auto points = static_cast<Eigen::Index>(study.bridge.control_points.size());
   std::vector<FirstOrderResidual> residuals(
       kept.size(), {Eigen::MatrixXd::Zero(points, points), Eigen::MatrixXd::Zero(points, points)});
   if (!study.solver.make_equilibrium_solver) return residuals;
-  const Samples samples = solve_samples(study, uncertain, first_order);
+  const Samples samples = solve_samples(study, uncertain, first_order, progress);
   for (std::size_t k = 0; k < kept.size(); ++k)
     if (first_order.derivatives[k][kIntact].size() > 0)
       residuals[k] = StateResidual(study, first_order, samples, kept[k], first_order.derivatives[k]).find();

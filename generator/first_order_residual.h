@@ -27,6 +27,6 @@ struct FirstOrder {
 /// SolverChoice) they are zero.
 std::vector<FirstOrderResidual> first_order_residuals(const SensitivityStudy& study,
                                                       const UncertainParameters& uncertain,
-                                                      const FirstOrder& first_order);
+                                                      const FirstOrder& first_order, Progress& progress);
 
 }  // namespace voussoir

@@ -79,12 +79,16 @@ ModelError error_of_state(const std::vector<Settlements>& coarse, const std::vec
 }
 
 /// Of each kept state: how far the mesh puts it off.
-std::vector<ModelError> errors_of_mesh(const ErrorProbes& probes) {
+std::vector<ModelError> errors_of_mesh(const ErrorProbes& probes, Progress& progress) {
   BridgeDescription finer = probes.description;
   ++finer.mesh.refinement;
   const std::vector<Scene> singles = probed_singles(probes.bridge.layout);
+  progress.start(2, 0, "meshes for the model's error");
   const auto coarse = solve_probes(probes, probes.bridge, probes.description, singles);
+  progress.advance(1);
   const auto fine = solve_probes(probes, make_model(finer), finer, singles);
+  progress.advance(1);
+  progress.finish();
   std::vector<ModelError> errors;
   for (std::size_t state = 0; state < coarse.front().size(); ++state)
     errors.push_back(error_of_state(coarse, fine, state));
@@ -93,12 +97,12 @@ std::vector<ModelError> errors_of_mesh(const ErrorProbes& probes) {
 
 }  // namespace
 
-std::vector<ModelError> estimate_model_errors(const ErrorProbes& probes) {
+std::vector<ModelError> estimate_model_errors(const ErrorProbes& probes, Progress& progress) {
   const std::vector<std::size_t> kept = kept_states(probes.states);
   std::vector<ModelError> errors(kept.size());
   if (!probes.solver.make_equilibrium_solver) return errors;
   if (4.0 * static_cast<double>(probes.bridge.mesh.triangles.size()) <= kFinestPieces)
-    errors = errors_of_mesh(probes);
+    errors = errors_of_mesh(probes, progress);
   for (std::size_t i = 0; i < kept.size(); ++i) {
     if (history_of(probes.states[kept[i]].name) != kLostState) continue;
     errors[i].share = std::hypot(errors[i].share, kShareOfSuddenRelease);

@@ -5,6 +5,7 @@
 #include "core/solve/state_plan.h"
 #include "database/records/model_error.h"
 #include "database/records/record.h"
+#include "generator/progress.h"
 #include "generator/scene_solving.h"
 
 namespace voussoir {
@@ -31,6 +32,6 @@ struct ErrorProbes {
 /// their signals with those of this mesh; for states that blocks were lost before, adds the squares of what a
 /// sudden release changes. One value for each kept state; the mesh's is zero where nothing can be compared
 /// because the bridge does not stand or is large.
-std::vector<ModelError> estimate_model_errors(const ErrorProbes& probes);
+std::vector<ModelError> estimate_model_errors(const ErrorProbes& probes, Progress& progress);
 
 }  // namespace voussoir

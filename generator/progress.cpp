@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <utility>
 
 namespace voussoir {
 namespace {
@@ -21,11 +22,13 @@ std::string duration_text(double seconds) {
 
 }  // namespace
 
-std::string progress_text(std::size_t done, std::size_t total, std::size_t done_since_start, double seconds) {
-  const std::string count = fmt::format("{} of {} scenes", done, total);
+std::string progress_text(std::size_t done, std::size_t total, const std::string& what,
+                          std::size_t done_since_start, double seconds) {
+  const std::string count = fmt::format("{} of {} {}", done, total, what);
   if (done_since_start == 0 || seconds <= 0.0) return count;
   const double rate = static_cast<double>(done_since_start) / seconds;
-  return fmt::format("{}, {:.0f} scenes/s, {} left", count, rate,
+  const std::string rate_text = rate < 10.0 ? fmt::format("{:.2g}", rate) : fmt::format("{:.0f}", rate);
+  return fmt::format("{}, {}/s, {} left", count, rate_text,
                      duration_text(static_cast<double>(total - done) / rate));
 }
 
@@ -41,16 +44,17 @@ void Progress::say(const std::string& message) {
   if (mode_ != Mode::quiet) fmt::print(stderr, "{}{}\n", terminal_ ? kClearLine : "", message);
 }
 
-void Progress::start(std::size_t total, std::size_t done) {
+void Progress::start(std::size_t total, std::size_t done, std::string what) {
   const std::scoped_lock lock(mutex_);
+  what_ = std::move(what);
   total_ = total;
   done_ = done_before_ = done;
   started_ = shown_ = Clock::now();
 }
 
-void Progress::advance(std::size_t scenes) {
+void Progress::advance(std::size_t more) {
   const std::scoped_lock lock(mutex_);
-  done_ += scenes;
+  done_ += more;
   show_if_due();
 }
 
@@ -63,7 +67,7 @@ void Progress::show_if_due() {
 void Progress::show(Clock::time_point now) {
   shown_ = now;
   const double seconds = std::chrono::duration<double>(now - started_).count();
-  const std::string text = progress_text(done_, total_, done_ - done_before_, seconds);
+  const std::string text = progress_text(done_, total_, what_, done_ - done_before_, seconds);
   if (terminal_)
     fmt::print(stderr, "{}{} {}", kClearLine, progress_bar(done_, total_, kBarWidth), text);
   else

@@ -18,9 +18,9 @@ class Progress {
   /// A message on a line of its own; nothing in quiet mode.
   void say(const std::string& message);
 
-  /// `done` of `total` scenes are there already; the rate counts what comes from now on.
-  void start(std::size_t total, std::size_t done);
-  void advance(std::size_t scenes);
+  /// `done` of `total` are there already; the rate counts what comes from now on. `what` they are: "scenes".
+  void start(std::size_t total, std::size_t done, std::string what);
+  void advance(std::size_t more);
   /// Ends the bar's line.
   void finish();
 
@@ -33,6 +33,7 @@ class Progress {
   Mode mode_;
   bool terminal_;
   std::mutex mutex_;
+  std::string what_;
   std::size_t total_ = 0;
   std::size_t done_ = 0;
   std::size_t done_before_ = 0;
@@ -40,8 +41,9 @@ class Progress {
   Clock::time_point shown_{};
 };
 
-/// "1234 of 22579 scenes, 210 scenes/s, 1 min 42 s left"
-std::string progress_text(std::size_t done, std::size_t total, std::size_t done_since_start, double seconds);
+/// "1234 of 22579 scenes, 210/s, 1 min 42 s left"
+std::string progress_text(std::size_t done, std::size_t total, const std::string& what,
+                          std::size_t done_since_start, double seconds);
 
 /// "[#####-----]", `width` characters between the brackets.
 std::string progress_bar(std::size_t done, std::size_t total, int width);

@@ -45,16 +45,20 @@ std::vector<SceneStates> states_of(const SensitivityStudy& study, const std::vec
 
 /// Of each kept state and each scene.
 Derivatives derivatives_of(const SensitivityStudy& study, const SensitivityEquations& equations,
-                           const std::vector<Scene>& scenes, const std::vector<SceneStates>& states) {
+                           const std::vector<Scene>& scenes, const std::vector<SceneStates>& states,
+                           Progress& progress) {
   const std::vector<std::size_t> kept = kept_states(study.states);
   Derivatives derivatives(kept.size(), std::vector<Eigen::MatrixXd>(scenes.size()));
   oneapi::tbb::enumerable_thread_specific<SceneDerivatives> workers(
       [&] { return SceneDerivatives(study, equations); });
+  progress.start(scenes.size(), 0, "scenes' sensitivities");
   Crew(study.threads).for_each_index(scenes.size(), [&](std::size_t i) {
     SceneDerivatives& worker = workers.local();
     for (std::size_t state = 0; state < kept.size(); ++state)
       derivatives[state][i] = worker.of(scenes[i], kept[state], states[i], states.front());
+    progress.advance(1);
   });
+  progress.finish();
   return derivatives;
 }
 
@@ -71,7 +75,8 @@ Eigen::MatrixXd projected(const Eigen::MatrixXd& scene, const Eigen::MatrixXd& b
 }  // namespace
 
 std::optional<Sensitivities> find_sensitivities(const SensitivityStudy& study,
-                                                const std::vector<Scene>& scenes, const KnownRecords& known) {
+                                                const std::vector<Scene>& scenes, const KnownRecords& known,
+                                                Progress& progress) {
   fix_order_of_sums();
   const SensitivityEquations equations(study.bridge, study.uncertainty);
   Sensitivities result;
@@ -81,11 +86,11 @@ std::optional<Sensitivities> find_sensitivities(const SensitivityStudy& study,
   const std::vector<SceneStates> states = states_of(study, result.scenes, known);
   const std::optional<Solution>& intact = states.front()[kBuilt];
   if (!intact || !stands(*intact)) return std::nullopt;
-  auto derivatives = derivatives_of(study, equations, result.scenes, states);
+  auto derivatives = derivatives_of(study, equations, result.scenes, states, progress);
   const auto of_bridge = static_cast<Eigen::Index>(equations.uncertain.of_bridge.size());
   result.basis = sensitivity_basis(derivatives, of_bridge, study.threads);
   const auto residuals =
-      first_order_residuals(study, equations.uncertain, {result.scenes, states, derivatives});
+      first_order_residuals(study, equations.uncertain, {result.scenes, states, derivatives}, progress);
   result.make_room(derivatives.size(), static_cast<Eigen::Index>(study.bridge.control_points.size()));
   result.residuals = residuals;
   Crew(study.threads).for_each_index(result.scenes.size(), [&](std::size_t i) {

@@ -5,6 +5,7 @@
 #include "core/solve/state_plan.h"
 #include "database/records/sensitivities.h"
 #include "generator/known_records.h"
+#include "generator/progress.h"
 #include "generator/scene_solving.h"
 #include "generator/sensitivity_basis.h"
 
@@ -27,6 +28,7 @@ struct SensitivityStudy {
 /// A state of which the stored field is in equilibrium after one implicit step, too, has the derivatives of
 /// this step; of others the loss is solved again in all its steps.
 std::optional<Sensitivities> find_sensitivities(const SensitivityStudy& study,
-                                                const std::vector<Scene>& scenes, const KnownRecords& known);
+                                                const std::vector<Scene>& scenes, const KnownRecords& known,
+                                                Progress& progress);
 
 }  // namespace voussoir

@@ -14,7 +14,8 @@ TEST_CASE(
   const SolverChoice solver = quasi_static();
   const std::vector<std::string> names = {"built", "lost", "built:crown", "lost:crown"};
   const StatePlan states = plan_states(names, bridge, description);
-  const std::vector<ModelError> errors = estimate_model_errors({description, bridge, states, solver});
+  Progress quiet(Progress::Mode::quiet);
+  const std::vector<ModelError> errors = estimate_model_errors({description, bridge, states, solver}, quiet);
   REQUIRE(errors.size() == names.size());
   for (const std::size_t state : {0U, 2U}) {
     CHECK(errors[state].share + errors[state].common > 0.0);
@@ -35,7 +36,9 @@ TEST_CASE("A bridge whose mesh is too fine to be refined keeps the error of a su
   description.mesh.refinement = 4;
   const Model bridge = make_model(description);
   const StatePlan states = plan_states({"built", "lost"}, bridge, description);
-  const std::vector<ModelError> errors = estimate_model_errors({description, bridge, states, quasi_static()});
+  Progress quiet(Progress::Mode::quiet);
+  const std::vector<ModelError> errors =
+      estimate_model_errors({description, bridge, states, quasi_static()}, quiet);
   CHECK(errors == std::vector<ModelError>{{}, {kShareOfSuddenRelease, kCommonOfSuddenRelease, {}}});
 }
 
