@@ -167,8 +167,8 @@ std::optional<Sensitivities> sensitivities_of(const Build& build, const KnownRec
 
 std::vector<ModelError> model_errors_of(const Build& build) {
   if (build.request.shard) return std::vector<ModelError>(kept_states(build.states).size());
-  return estimate_model_errors(
-      {build.request.bridge.description, build.bridge(), build.states, build.solver}, build.progress);
+  return estimate_model_errors({build.request.bridge.description, build.bridge(), build.states, build.solver},
+                               build.progress);
 }
 
 void write(const Build& build, const KnownRecords& known, BuildSummary& summary) {
