@@ -8,13 +8,11 @@
 
 #include "generator/error_fit.h"
 #include "generator/parallel.h"
-#include "generator/sampled_histories.h"
 #include "generator/scene_list.h"
 
 namespace voussoir {
 namespace {
 
-constexpr std::size_t kIntact = 0;  // the first scene
 constexpr std::size_t kBridgesAtOnce = 8;
 
 /// As few columns as have the covariance of these errors, each of variance 1.
@@ -29,12 +27,12 @@ Eigen::MatrixXd factor_of(const std::vector<Eigen::VectorXd>& errors, Eigen::Ind
 /// Scenes, the intact one and some singles, that stand in all states.
 std::vector<std::size_t> sampled_scenes(const FirstOrder& first_order) {
   std::vector<std::size_t> standing;
-  for (std::size_t scene = 1; scene < first_order.scenes.size(); ++scene)
+  for (std::size_t scene = 1; scene < first_order.nominal.scenes.size(); ++scene)
     if (std::ranges::all_of(first_order.derivatives,
                             [&](const auto& state) { return state[scene].size() > 0; }))
       standing.push_back(scene);
   std::vector<std::size_t> scenes = evenly_chosen(standing, kSampledSingles);
-  scenes.insert(scenes.begin(), kIntact);
+  scenes.insert(scenes.begin(), kIntactScene);
   return scenes;
 }
 
@@ -72,15 +70,15 @@ Samples solve_samples(const SensitivityStudy& study, const UncertainParameters& 
   for (std::size_t i = 0; i < kSampledBridges; ++i)
     samples.bridges.push_back(draw_bridge(study.bridge, uncertain, kFirstSampledSeed + i));
   samples.scenes = sampled_scenes(first_order);
-  const NominalScenes nominal{first_order.scenes, first_order.states};
   const std::span<const SampledBridge> bridges = samples.bridges;
   progress.start(kSampledBridges, 0, "sampled bridges");
-  samples.few = solve_scenes(study, nominal, bridges.first(kBridgesWithSingles), samples.scenes, 1, progress);
+  samples.few = solve_scenes(study, first_order.nominal, bridges.first(kBridgesWithSingles), samples.scenes,
+                             1, progress);
   for (std::size_t i = 0; i < kBridgesWithSingles; ++i)
     samples.intact.push_back(samples.few[i * samples.scenes.size()]);
-  std::ranges::move(
-      solve_scenes(study, nominal, bridges.subspan(kBridgesWithSingles), {kIntact}, kBridgesAtOnce, progress),
-      std::back_inserter(samples.intact));
+  std::ranges::move(solve_scenes(study, first_order.nominal, bridges.subspan(kBridgesWithSingles),
+                                 {kIntactScene}, kBridgesAtOnce, progress),
+                    std::back_inserter(samples.intact));
   progress.finish();
   return samples;
 }
@@ -93,8 +91,8 @@ class StateResidual {
       : study_(study), first_order_(first_order), samples_(samples), state_(state), slopes_(slopes) {}
 
   FirstOrderResidual find() const {
-    const Eigen::VectorXd intact = nominal(kIntact);
-    const Eigen::MatrixXd& slope = slopes_[kIntact];
+    const Eigen::VectorXd intact = nominal(kIntactScene);
+    const Eigen::MatrixXd& slope = slopes_[kIntactScene];
     std::vector<Eigen::VectorXd> of_bridge, of_epoch;
     for (std::size_t i = 0; i < kSampledBridges; ++i) {
       const SampledBridge& bridge = samples_.bridges[i];
@@ -112,7 +110,7 @@ class StateResidual {
 
  private:
   Eigen::VectorXd nominal(std::size_t scene) const {
-    return vertical_displacements(first_order_.states[scene][state_]->displacement,
+    return vertical_displacements(first_order_.nominal.states[scene][state_]->displacement,
                                   study_.bridge.control_points);
   }
 
@@ -132,10 +130,10 @@ class StateResidual {
         const auto in_epoch = signal_of(intact.in_epoch, single.in_epoch);
         if (!at_rest || !in_epoch) continue;
         const SampledBridge& bridge = samples_.bridges[i];
-        const Eigen::MatrixXd slope = slopes_[samples_.scenes[j]] - slopes_[kIntact];
+        const Eigen::MatrixXd slope = slopes_[samples_.scenes[j]] - slopes_[kIntactScene];
         const Eigen::MatrixXd by_bridge = slope.leftCols(bridge.of_bridge.size());
         const Eigen::MatrixXd by_epoch = slope.rightCols(bridge.of_epoch.size());
-        const Eigen::VectorXd signal = nominal(samples_.scenes[j]) - nominal(kIntact);
+        const Eigen::VectorXd signal = nominal(samples_.scenes[j]) - nominal(kIntactScene);
         add(by_bridge, *at_rest - signal - by_bridge * bridge.of_bridge, of_bridge);
         add(by_epoch, *in_epoch - *at_rest - by_epoch * bridge.of_epoch, of_epoch);
       }
@@ -170,7 +168,7 @@ std::vector<FirstOrderResidual> first_order_residuals(const SensitivityStudy& st
   if (!study.solver.make_equilibrium_solver) return residuals;
   const Samples samples = solve_samples(study, uncertain, first_order, progress);
   for (std::size_t k = 0; k < kept.size(); ++k)
-    if (first_order.derivatives[k][kIntact].size() > 0)
+    if (first_order.derivatives[k][kIntactScene].size() > 0)
       residuals[k] = StateResidual(study, first_order, samples, kept[k], first_order.derivatives[k]).find();
   return residuals;
 }

@@ -3,8 +3,7 @@
 
 #include "core/structure/uncertain_parameters.h"
 #include "database/records/sensitivities.h"
-#include "generator/sensitivities.h"
-#include "generator/state_solving.h"
+#include "generator/sampled_histories.h"
 
 namespace voussoir {
 
@@ -18,9 +17,8 @@ inline constexpr std::size_t kBridgesWithSingles = 6;
 inline constexpr std::size_t kSampledSingles = 24;
 
 struct FirstOrder {
-  const std::vector<Scene>& scenes;        ///< the intact bridge first
-  const std::vector<SceneStates>& states;  ///< of each scene: those of the nominal bridge
-  const Derivatives& derivatives;
+  NominalScenes nominal;
+  const Derivatives& derivatives;  ///< of its scenes
 };
 
 /// One for each kept state. A bridge that does not stand is left out. Without a solver of equilibria (see

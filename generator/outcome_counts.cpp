@@ -111,8 +111,7 @@ OutcomeCounts count_outcomes(const Database& database) {
       const auto intact = table.find(Scene{});
       if (variant != std::size_t{kNominalVariant} || !intact) continue;
       counts.states[place].intact = static_cast<Outcome>(table.outcome[*intact]);
-      counts.states[place].by_slip =
-          !database.record(table.first_record + *intact).states[place].slipped.empty();
+      counts.states[place].by_slip = database.stands_by_slip(place);
     }
   return counts;
 }

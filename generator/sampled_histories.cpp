@@ -1,15 +1,6 @@
 #include "generator/sampled_histories.h"
 
 namespace voussoir {
-namespace {
-
-constexpr std::size_t kIntact = 0;  // the first scene
-
-bool has_slipped(const Solution& solution) {
-  return solution.slipped.size() > 0;
-}
-
-}  // namespace
 
 SampledBridge draw_bridge(const Model& bridge, const UncertainParameters& uncertain, std::uint64_t seed) {
   const auto of_bridge = static_cast<Eigen::Index>(uncertain.of_bridge.size());
@@ -43,14 +34,14 @@ std::vector<SampledScene> SampledHistories::solve(std::span<const SampledBridge>
 }
 
 void SampledHistories::build_intact(const std::vector<Case>& cases, Found& found) const {
-  const Solution& nominal = *nominal_.states[kIntact][kBuilt];
+  const Solution& nominal = *nominal_.states[kIntactScene][kBuilt];
   Batch batch;
   for (std::size_t i = 0; i < cases.size(); ++i)
-    if (cases[i].scene == kIntact && !has_slipped(nominal))
+    if (cases[i].scene == kIntactScene && !has_slipped(nominal))
       batch.add(i, {.stage = {}, .start = &nominal.displacement, .parameters = &cases[i].bridge->parameters});
   solve(batch, kBuilt, found);
   for (std::size_t i = 0; i < cases.size(); ++i)
-    if (cases[i].scene == kIntact && !stands(found[i][kBuilt]))
+    if (cases[i].scene == kIntactScene && !stands(found[i][kBuilt]))
       found[i][kBuilt] = set_in_motion(*cases[i].bridge);
 }
 
@@ -59,7 +50,7 @@ void SampledHistories::build_others(const std::vector<Case>& cases, Found& found
   Batch batch;
   for (std::size_t i = 0; i < cases.size(); ++i) {
     const Case& one = cases[i];
-    if (one.scene == kIntact) continue;
+    if (one.scene == kIntactScene) continue;
     const Solution& intact = found[one.intact][kBuilt];
     StageTask task{.stage = {.scene = nominal_.scenes[one.scene]},
                    .start = &nominal_.states[one.scene][kBuilt]->displacement,
@@ -74,9 +65,7 @@ void SampledHistories::build_others(const std::vector<Case>& cases, Found& found
 }
 
 Solution SampledHistories::set_in_motion(const SampledBridge& bridge) const {
-  Model model = study_.bridge;
-  model.parameters = bridge.parameters;
-  model.symmetry.reset();
+  const Model model = with_parameters(study_.bridge, bridge.parameters);
   const SceneSolver solver = bridge.slowly ? study_.solver.make_slow_solver(model)
                                            : study_.solver.make_solver(model, study_.settings);
   const StageTask intact{.stage = {.scene = {}}};
@@ -103,7 +92,7 @@ void SampledHistories::go_on(const std::vector<Case>& cases, bool in_epoch, Foun
     Batch batch;
     for (std::size_t i = 0; i < cases.size(); ++i) {
       const Case& one = cases[i];
-      if (planned.is_loss() && one.scene == kIntact) {
+      if (planned.is_loss() && one.scene == kIntactScene) {
         found[i][state] = found[i][kBuilt];
         continue;
       }

@@ -31,6 +31,9 @@ struct SampledScene {
   Settled in_epoch;  ///< where the epoch begins after the scene was built and before blocks go or loads come
 };
 
+/// The place of the intact bridge among all scenes that are sampled.
+inline constexpr std::size_t kIntactScene = 0;
+
 /// The nominal bridge's answers.
 struct NominalScenes {
   const std::vector<Scene>& scenes;        ///< the intact bridge first

@@ -36,7 +36,7 @@ class Examination {
   /// joints remember of these.
   std::optional<SceneGroup> many_steps() const {
     const bool is_searched = lost_ && !fields_.empty() && states_[*lost_] && stands(*states_[*lost_]);
-    if (!is_searched || states_[*lost_]->slipped.size() > 0 || checked_.basis.steps.of(key_.scene) == 1)
+    if (!is_searched || has_slipped(*states_[*lost_]) || checked_.basis.steps.of(key_.scene) == 1)
       return std::nullopt;
     SceneGroup group{.solved = key_.scene, .states = states_, .image = {}};
     group.states[*lost_].reset();

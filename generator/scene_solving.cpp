@@ -10,7 +10,7 @@ std::vector<Solution> solve_for_storage(const SceneSolver& solver, std::span<con
     solutions[i].displacement = to_storage_precision(solutions[i].displacement);
     solutions[i].slipped =
         stands(solutions[i]) ? to_storage_precision(solutions[i].slipped) : Eigen::Matrix2Xd();
-    const bool follows = scenes[i].steps == 1 || solutions[i].slipped.size() > 0;
+    const bool follows = scenes[i].steps == 1 || has_slipped(solutions[i]);
     if (follows) solutions[i].memory.clear();  // it is that of the field before rounding
   }
   return solutions;

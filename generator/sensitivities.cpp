@@ -90,7 +90,7 @@ std::optional<Sensitivities> find_sensitivities(const SensitivityStudy& study,
   const auto of_bridge = static_cast<Eigen::Index>(equations.uncertain.of_bridge.size());
   result.basis = sensitivity_basis(derivatives, of_bridge, study.threads);
   const auto residuals =
-      first_order_residuals(study, equations.uncertain, {result.scenes, states, derivatives}, progress);
+      first_order_residuals(study, equations.uncertain, {{result.scenes, states}, derivatives}, progress);
   result.make_room(derivatives.size(), static_cast<Eigen::Index>(study.bridge.control_points.size()));
   result.residuals = residuals;
   Crew(study.threads).for_each_index(result.scenes.size(), [&](std::size_t i) {

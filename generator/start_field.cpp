@@ -44,7 +44,7 @@ std::vector<Scene> starting_subsets(const Scene& scene) {
 void StartingFields::add(const Scene& scene, std::size_t state, const Solution& solution) {
   if (scene.missing() > 2) return;
   if (solution.outcome == Outcome::standing) standing_[{scene, state}] = solution.displacement;
-  if (state == kBuilt && stands(solution) && solution.slipped.size() > 0) slipped_[scene] = solution.slipped;
+  if (state == kBuilt && stands(solution) && has_slipped(solution)) slipped_[scene] = solution.slipped;
   if (solution.outcome == Outcome::collapsed) falling_[{scene, state}] = solution.moving;
   if (solution.outcome == Outcome::unresolved) open_.emplace(scene, state);
 }

@@ -70,7 +70,7 @@ std::vector<JointMemory> StateSolving::memory_of_intact(const Field& displacemen
 std::vector<JointMemory> StateSolving::memory_before(const Scene& scene, std::size_t state,
                                                      SceneStates& states,
                                                      const std::vector<JointMemory>& of_intact) const {
-  if (states[state] && states[state]->slipped.size() > 0) return memory_of_slip(states[state]->slipped);
+  if (states[state] && has_slipped(*states[state])) return memory_of_slip(states[state]->slipped);
   if (!plan_[state].before) return {};
   if (!plan_[state].is_load)
     return scene.removed.empty() && states[kBuilt]
@@ -179,8 +179,7 @@ bool StateSolving::lacks_memory(const SceneGroup& group, bool is_image, std::siz
   const Scene& scene = is_image ? *group.image : group.solved;
   const SceneStates& states = is_image ? group.image_states : group.states;
   const Solution& lost = *states[loss];
-  if (!stands(lost) || lost.slipped.size() > 0 || !lost.memory.empty() || basis.steps.of(scene) == 1)
-    return false;
+  if (!stands(lost) || has_slipped(lost) || !lost.memory.empty() || basis.steps.of(scene) == 1) return false;
   if (without_search(scene, loss, states, basis)) return false;
   for (std::size_t state = loss + 1; state < plan_.size(); ++state) {
     const bool is_searched = is_image ? !plan_[state].mirrors : group.needs_all || plan_[state].mirrors;
@@ -246,7 +245,7 @@ StepsOfLoss StateSolving::steps_of_loss(const SceneSolver& solver, const SearchB
   StepsOfLoss steps;
   for (std::size_t i = 0; i < singles.size(); ++i) {
     const Solution& one_step = in_one_step[i];
-    const bool jumps = !stands(one_step) || one_step.slipped.size() > 0;
+    const bool jumps = !stands(one_step) || has_slipped(one_step);
     if (jumps || differ_in_signal(one_step.displacement, *basis.starts.find(singles[i], lost),
                                   *basis.starts.intact(kBuilt), bridge_.control_points))
       steps.add(singles[i].removed.front());

@@ -55,7 +55,7 @@ std::string report_one(Desk& desk) {
   const std::string& file = desk.options.measurements.front();
   const auto [comparison, settings, answer] = ask(desk, file);
   const voussoir::Source source{file, desk.database.path().string(), desk.database.bridge_name(),
-                                desk.database.digest(), stands_by_slip(desk.database)};
+                                desk.database.digest(), desk.database.stands_by_slip()};
   if (const auto& page = desk.options.page)
     voussoir::write_file(*page, page->extension() == ".svg"
                                     ? voussoir::picture_report(answer, comparison)

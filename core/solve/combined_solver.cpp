@@ -163,7 +163,7 @@ std::vector<Solution> CombinedSolver::polish(std::vector<StageTask> tasks,
   for (std::size_t k = 0; k < tasks.size(); ++k) tasks[k].start = &resting[k].displacement;
   take(places_where(tasks.size(), [&](std::size_t k) { return !tasks[k].has_slipped(); }));
   const auto open = places_where(
-      tasks.size(), [&](std::size_t k) { return !stands(polished[k]) && resting[k].slipped.size() > 0; });
+      tasks.size(), [&](std::size_t k) { return !stands(polished[k]) && has_slipped(resting[k]); });
   for (const std::size_t k : open) tasks[k].slipped = &resting[k].slipped;
   take(open);
   return polished;

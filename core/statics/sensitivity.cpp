@@ -43,18 +43,18 @@ struct SensitivitySolver::Adjoint {
 void append_stage(const EquilibriumSystem& system, const Coefficients& coefficients, const Stage& stage,
                   const Solution& solution, int steps, SolvedHistory& history) {
   for (int step = 1; step <= steps; ++step) {
-    const bool has_slipped = solution.slipped.size() > 0;
     std::vector<JointMemory> memory = memory_of_slip(solution.slipped);
     Field place = Field::Zero(2, system.structure->mesh.node_count());
     if (!history.empty()) {
-      if (!has_slipped) memory = updated_memory(history.back().equations, history.back().displacement);
+      if (!has_slipped(solution))
+        memory = updated_memory(history.back().equations, history.back().displacement);
       place = history.back().displacement;
     }
     const int left = steps - step;
     const Field& end =
         left == 0 ? solution.displacement : solution.steps[static_cast<std::size_t>(step - 1)].displacement;
     history.push_back({StageEquations(system, coefficients, stage, std::move(memory)), without_nan(end),
-                       std::move(place), static_cast<double>(left) / (left + 1), has_slipped});
+                       std::move(place), static_cast<double>(left) / (left + 1), has_slipped(solution)});
   }
 }
 

@@ -50,4 +50,9 @@ inline bool stands(const Solution& solution) {
   return solution.outcome == Outcome::standing;
 }
 
+/// Has anything slipped when the solution's last step begins, beyond what the stage before has left?
+inline bool has_slipped(const Solution& solution) {
+  return solution.slipped.size() > 0;
+}
+
 }  // namespace voussoir

@@ -21,4 +21,10 @@ Model make_model(const BridgeDescription& description) {
   return with_nominal_parameters(make_structure(description), description);
 }
 
+Model with_parameters(Model bridge, Parameters parameters) {
+  bridge.parameters = std::move(parameters);
+  bridge.symmetry.reset();
+  return bridge;
+}
+
 }  // namespace voussoir

@@ -158,10 +158,8 @@ Eigen::VectorXd sampled_theta(std::size_t count, std::uint64_t seed) {
 
 Model sampled(const Model& bridge, const Uncertainty& uncertainty, std::uint64_t seed) {
   const UncertainParameters uncertain = uncertain_parameters(bridge, uncertainty);
-  Model result = bridge;
-  result.parameters = parameters_at(bridge, uncertain, sampled_theta(uncertain.of_bridge.size(), seed));
-  result.symmetry.reset();
-  return result;
+  return with_parameters(bridge,
+                         parameters_at(bridge, uncertain, sampled_theta(uncertain.of_bridge.size(), seed)));
 }
 
 Field movement_of(const Structure& structure, const UncertainAction& action, double value) {

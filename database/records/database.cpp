@@ -262,9 +262,12 @@ ByteView Database::dataset_bytes(const char* path) const {
   return implementation_->file.view(path).bytes;
 }
 
-bool stands_by_slip(const Database& database) {
-  const auto intact = database.find(Scene{});
-  return intact && !database.record(*intact).states.front().slipped.empty();
+/// Records are opened only where some state has slid: that takes a program longer than its start.
+bool Database::stands_by_slip(std::size_t state) const {
+  implementation_->check_state(state);
+  if (!implementation_->file.has(dataset::kSlipped)) return false;
+  const auto intact = find(Scene{});
+  return intact && !record(*intact).states[state].slipped.empty();
 }
 
 }  // namespace voussoir

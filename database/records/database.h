@@ -77,6 +77,9 @@ class Database {
   /// Displacement of all nodes [m]; throws Failure without fields.
   Field field(std::size_t row, std::size_t state = 0) const;
   Solution solution(std::size_t row, std::size_t state = 0) const;
+  /// Does the intact bridge stand only by what its joints have slid (Solution::slipped)? Not said, and so
+  /// false, without fields.
+  bool stands_by_slip(std::size_t state = 0) const;
   ByteView dataset_bytes(
       const char* path) const;  ///< a contiguous dataset (database/records/schema.h) as it stands
 
@@ -85,9 +88,5 @@ class Database {
   explicit Database(std::unique_ptr<Implementation> implementation);
   std::unique_ptr<Implementation> implementation_;
 };
-
-/// Does the intact bridge stand, in the first state, only by what its joints have slid (Solution::slipped)?
-/// Not said, and so false, without fields.
-bool stands_by_slip(const Database& database);
 
 }  // namespace voussoir

@@ -34,13 +34,6 @@ struct Sampling {
     return SampledHistories(study, {scenes, states}).solve(drawn, all);
   }
 
-  Model variant(const SampledBridge& sample) const {
-    Model model = bridge;
-    model.parameters = sample.parameters;
-    model.symmetry.reset();
-    return model;
-  }
-
   SolverChoice solver = quasi_static();
   Uncertainty uncertainty;
   Model bridge;
@@ -87,7 +80,7 @@ TEST_CASE("Sampled bridges are built, enter their epoch and lose blocks in it (s
   for (std::size_t i = 0; i < found.size(); ++i) {
     const SampledBridge& sample = sampling.drawn[i / 3];
     const Scene& scene = sampling.scenes[i % 3];
-    const Model bridge = sampling.variant(sample);
+    const Model bridge = with_parameters(sampling.bridge, sample.parameters);
     QuasiStaticSolver solver(bridge);
     const auto end_of = [&](const std::vector<NamedStage>& stages) {
       return solve_history(solver, {"", stages}).back();
@@ -110,19 +103,19 @@ TEST_CASE(
   const Sampling sampling(test::slid_description(), {Scene{}}, {19, 110});  // both slide
   const Solution& nominal = *sampling.states[0][kBuilt];
   REQUIRE(stands(nominal));
-  REQUIRE(nominal.slipped.size() > 0);
+  REQUIRE(has_slipped(nominal));
   CHECK_FALSE(sampling.drawn[0].slowly);
   CHECK(sampling.drawn[1].slowly);
   const std::vector<SampledScene> found = sampling.solve();
   for (std::size_t i = 0; i < found.size(); ++i) {
     const SampledBridge& sample = sampling.drawn[i];
-    const Model bridge = sampling.variant(sample);
+    const Model bridge = with_parameters(sampling.bridge, sample.parameters);
     SolverSettings settings = SolverSettings::of(SolverKind::quasi_static);
     if (sample.slowly) settings.motion.ramp = 2.0;
     const StageTask built{.stage = {}};
     const Solution at_rest =
         CombinedSolver(bridge, acting_settings(settings, bridge)).solve({&built, 1}).front();
-    REQUIRE(at_rest.slipped.size() > 0);
+    REQUIRE(has_slipped(at_rest));
     CHECK(difference(found[i].at_rest[0], bridge, at_rest) < 1e-5);
     QuasiStaticSolver solver(bridge);
     Solution in_epoch = at_rest;

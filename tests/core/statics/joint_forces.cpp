@@ -36,7 +36,7 @@ struct Solved {
     REQUIRE(solutions.size() == history.stages.size());
     REQUIRE(stands(solutions.back()));
     const Solution& last = solutions.back();
-    if (last.slipped.size() > 0)
+    if (has_slipped(last))
       equations.memory = memory_of_slip(last.slipped);
     else if (solutions.size() > 1)
       equations.memory = solutions[solutions.size() - 2].memory;
