@@ -34,7 +34,7 @@ int run(BuildOptions& options) {
     return std::cout.flush() ? 0 : 1;
   }
   Progress progress(options.quiet ? Progress::Mode::quiet : Progress::Mode::automatic);
-  if (!options.collapse_fields && !options.request.rules.collapse_fields)
+  if (!options.collapse_fields && description.collapse_fields && !options.request.rules.collapse_fields)
     progress.say(
         "of scenes that fall only that and what falls is kept: motion follows softer joints than these, of "
         "which fields would be (--collapses field keeps them)");

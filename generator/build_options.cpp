@@ -126,9 +126,9 @@ void add_kept_options(CLI::App& app, Words& words) {
   app.add_option(
          "--collapses", words.collapses,
          "field: scenes that fall are followed in motion and have the field at a stated moment; outcome: "
-         "only whether and what falls is found, without motion where it can be proved, in shorter motions "
-         "elsewhere (faster); auto: field where motion can follow the joints as they are, outcome where "
-         "they are so stiff that it follows softer ones, of which fields would be")
+         "only whether and what falls is found, without motion where it can be proved, in motions of fewer "
+         "blocks where that will do (faster); auto: as the bridge file says (key collapses; outcome if it "
+         "does not), and outcome where joints are so stiff that motion follows softer ones")
       ->check(CLI::IsMember({"auto", "field", "outcome"}))
       ->capture_default_str();
 }
@@ -192,8 +192,9 @@ void parse_build_options(int argc, char** argv, BuildOptions& options) {
 }
 
 SolverChoice settle_collapses(const Model& bridge, BuildOptions& options) {
-  const bool fields =
-      options.collapse_fields ? *options.collapse_fields : keeps_collapse_fields(bridge, options.motion);
+  const bool fields = options.collapse_fields
+                          ? *options.collapse_fields
+                          : keeps_collapse_fields(options.request.bridge.description, bridge, options.motion);
   options.request.rules.collapse_fields = fields;
   if (options.solver == SolverKind::dynamic) return dynamic(options.motion);
   return quasi_static_with(fields, options.motion);

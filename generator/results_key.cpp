@@ -95,10 +95,12 @@ std::string support_text(const SupportDescription& supports) {
 
 std::string physics_text(const BridgeDescription& description) {
   const auto& [name, wall, spans, parts, blocks, material, joints, mortar, regions, fill, supports,
-               control_points, mesh, gravity, joint_tolerance, loads, movements, uncertainty] = description;
-  static_cast<void>(movements);    // no scene is solved under them
-  static_cast<void>(uncertainty);  // no solution depends on it
-  static_cast<void>(loads);        // whose states are told apart by load case
+               control_points, mesh, gravity, joint_tolerance, loads, movements, uncertainty,
+               collapse_fields] = description;
+  static_cast<void>(movements);        // no scene is solved under them
+  static_cast<void>(uncertainty);      // no solution depends on it
+  static_cast<void>(collapse_fields);  // stands among the settings
+  static_cast<void>(loads);            // whose states are told apart by load case
   static_cast<void>(name);
   static_cast<void>(control_points);
   std::string text = wall_text(wall);

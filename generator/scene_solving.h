@@ -39,8 +39,10 @@ SolverChoice quasi_static(const DynamicSettings& motion = {});
 SolverChoice for_outcomes(const DynamicSettings& motion = {});
 /// Of these two the one for databases with fields of collapses or without.
 SolverChoice quasi_static_with(bool collapse_fields, const DynamicSettings& motion = {});
-/// Are fields of collapses kept if nobody says? Where motion can follow the joints as they are.
-bool keeps_collapse_fields(const Model& bridge, const DynamicSettings& motion = {});
+/// Are fields of collapses kept if no option says? Where the description wants them and motion can follow the
+/// joints as they are.
+bool keeps_collapse_fields(const BridgeDescription& description, const Model& bridge,
+                           const DynamicSettings& motion = {});
 SolverChoice dynamic(const DynamicSettings& motion = {});
 
 /// Solves the scenes and rounds their fields, and what has slipped beforehand, to the storage precision. What

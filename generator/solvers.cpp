@@ -67,8 +67,9 @@ SolverChoice quasi_static_with(bool collapse_fields, const DynamicSettings& moti
   return collapse_fields ? quasi_static(motion) : for_outcomes(motion);
 }
 
-bool keeps_collapse_fields(const Model& bridge, const DynamicSettings& motion) {
-  return !softens_joints(motion, bridge);
+bool keeps_collapse_fields(const BridgeDescription& description, const Model& bridge,
+                           const DynamicSettings& motion) {
+  return description.collapse_fields && !softens_joints(motion, bridge);
 }
 
 SolverChoice dynamic(const DynamicSettings& motion) {

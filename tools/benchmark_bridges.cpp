@@ -102,7 +102,7 @@ void follow(const Model& model, std::span<const Scene> scenes, std::span<const O
 
 BridgeRow measure(const BridgeDescription& description, const BridgeOptions& options, std::uint64_t seed) {
   const Model model = make_model(description);
-  DefaultBuild build(model);
+  DefaultBuild build(description, model);
   const std::vector<Scene> scenes = drawn_scenes(model, options.scenes, seed);
   BridgeRow row{
       .name = description.name, .blocks = model.block_count(), .scenes = static_cast<int>(scenes.size())};
@@ -169,6 +169,7 @@ BridgeDescription random_bridge(std::uint64_t seed) {
   Draw draw(seed);
   BridgeDescription bridge;
   bridge.name = fmt::format("random {}", seed);
+  bridge.collapse_fields = false;
   const int spans = draw.whole(1, 3);
   SpanDescription span;
   span.intrados_radius = draw.between(1.0, 5.0);

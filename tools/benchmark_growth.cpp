@@ -40,7 +40,7 @@ std::vector<Scene> spread_singles(const Model& model, int count, bool only_wall)
 /// Newton alone, singles from the intact field.
 class Equilibria {
  public:
-  explicit Equilibria(const Model& model) : solver_(model) {}
+  Equilibria(const BridgeDescription&, const Model& model) : solver_(model) {}
   void solve_intact() { intact_ = solver_.solve(Scene{}).displacement; }
   std::vector<Solution> solve(std::span<const Scene> scenes) {
     std::vector<StageTask> tasks;
@@ -54,9 +54,10 @@ class Equilibria {
 };
 
 template <class Solver>
-GrowthPoint measure(double x, const Model& model, const std::vector<Scene>& singles) {
+GrowthPoint measure(double x, const BridgeDescription& bridge, const Model& model,
+                    const std::vector<Scene>& singles) {
   const double before = megabytes_in_use();
-  Solver solver(model);
+  Solver solver(bridge, model);
   GrowthPoint point{.x = x, .blocks = model.block_count(), .megabytes = megabytes_in_use() - before};
   solver.solve_intact();
   const double begin = processor_seconds();
@@ -147,20 +148,23 @@ std::vector<Growth> measure_growth(int most_spans, int scenes,
     progress(growth);
   };
   for (int spans = 1; spans <= most_spans; spans *= 2) {
-    const Model model = make_model(viaduct(spans));
-    add(all[0], measure<Equilibria>(model.block_count(), model, spread_singles(model, kViaductScenes, true)));
+    const BridgeDescription bridge = viaduct(spans);
+    const Model model = make_model(bridge);
+    add(all[0],
+        measure<Equilibria>(model.block_count(), bridge, model, spread_singles(model, kViaductScenes, true)));
   }
   for (const double stiffness : decades(7, 12)) {
     BridgeDescription bridge;
     bridge.joints.normal_stiffness = stiffness;
     bridge.joints.tangential_stiffness = 0.1 * stiffness;
     const Model model = make_model(bridge);
-    add(all[1], measure<DefaultBuild>(stiffness, model, spread_singles(model, scenes, false)));
+    add(all[1], measure<DefaultBuild>(stiffness, bridge, model, spread_singles(model, scenes, false)));
   }
   for (const double piece : decades(-6, -1)) {
     const BridgeDescription bridge = with_smallest_piece(piece);
     const Model model = make_model(bridge);
-    add(all[2], measure<DefaultBuild>(smallest_piece(bridge), model, spread_singles(model, scenes, false)));
+    add(all[2],
+        measure<DefaultBuild>(smallest_piece(bridge), bridge, model, spread_singles(model, scenes, false)));
   }
   return all;
 }

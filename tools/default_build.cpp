@@ -10,9 +10,9 @@ SceneSolver default_solver(const Model& model, const PlanRules& rules) {
 
 }  // namespace
 
-DefaultBuild::DefaultBuild(const Model& model)
+DefaultBuild::DefaultBuild(const BridgeDescription& description, const Model& model)
     : plan_({PlannedState{.name = "built"}}),
-      rules_{.collapse_fields = keeps_collapse_fields(model)},
+      rules_{.collapse_fields = keeps_collapse_fields(description, model)},
       solver_(default_solver(model, rules_)),
       states_(model, plan_),
       basis_(states_.basis(solver_, {}, rules_)) {}

@@ -10,8 +10,8 @@ namespace voussoir {
 
 class DefaultBuild {
  public:
-  /// The model outlives it.
-  explicit DefaultBuild(const Model& model);
+  /// The model is that of the description, and outlives it.
+  DefaultBuild(const BridgeDescription& description, const Model& model);
 
   /// The intact bridge as built, from which all later scenes start.
   Solution solve_intact();

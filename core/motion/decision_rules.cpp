@@ -24,4 +24,9 @@ DecisionRules when_gone(DecisionRules rules) {
   return rules;
 }
 
+DecisionRules near_by(DecisionRules rules) {
+  rules.moving_sags = 6.0;  // by two, which the whole bridge has, three scenes would fall that stand
+  return rules;
+}
+
 }  // namespace voussoir

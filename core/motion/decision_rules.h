@@ -29,4 +29,7 @@ DecisionRules patient(DecisionRules rules);
 /// have sagged fifteen times as far as bonded.
 DecisionRules when_gone(DecisionRules rules);
 
+/// Rules for a patch of a bridge (core/structure/patch.h): more has to move before it counts as a fall.
+DecisionRules near_by(DecisionRules rules);
+
 }  // namespace voussoir

@@ -12,9 +12,11 @@
 #include "core/motion/pace.h"
 #include "core/statics/skips.h"
 #include "core/statics/solution.h"
-#include "core/structure/model.h"
+#include "core/structure/patch.h"
 
 namespace voussoir {
+
+struct FollowedBridge;
 
 /// Times in seconds of the bridge's own time.
 struct DynamicSettings {
@@ -80,6 +82,15 @@ class DynamicSolver {
 
   DynamicSolution solve(const Scene& scene);
 
+  /// voussoir::patch_around of the bridge with the joints that motion follows.
+  Patch patch_around(const Scene& scene, int neighbours) const;
+
+  /// What becomes of a scene in a patch around its missing blocks, whose rim goes to where it is in
+  /// `surroundings` (2 x nodes of the bridge) as gravity grows; in implicit steps only. Without a field;
+  /// `moving` are blocks of the bridge.
+  Solution solve_in(const Patch& patch, const Scene& scene, const Field& surroundings,
+                    const DecisionRules& rules) const;
+
   const Pace& pace() const;
   double step() const;           ///< of most blocks [s]
   double critical_step() const;  ///< of all blocks [s]
@@ -88,8 +99,7 @@ class DynamicSolver {
   double sag() const;            ///< of the bonded bridge [m]
 
  private:
-  struct Workspace;
-  std::unique_ptr<Workspace> workspace_;
+  std::unique_ptr<FollowedBridge> followed_;
 };
 
 }  // namespace voussoir

@@ -22,6 +22,7 @@ struct MotionModel {
               double contact_damping);
 
   double step() const { return pace.step; }
+  bool carries(std::size_t block) const { return !carried_blocks.empty() && carried_blocks[block]; }
 
   const Structure* structure;  ///< outlives this
   Pace pace;
@@ -38,8 +39,10 @@ struct MotionModel {
   std::vector<PlaneModuli> moduli;             ///< of each block
   std::vector<double> thickness;               ///< of each block [m]
   std::vector<TriangleShape> triangles;
-  double weight = 0.0;             ///< of the whole bridge [N]
-  std::vector<double> per_weight;  ///< per block: 1 / its weight [1/N]
+  double weight = 0.0;                 ///< of the whole bridge [N]
+  std::vector<double> per_weight;      ///< per block: 1 / its weight [1/N]
+  std::vector<bool> carried_blocks{};  ///< per block: supports that hold all of it take it along ..
+  Field carried{};                     ///< .. to here as gravity grows to all of it [m], 2 x nodes
 };
 
 /// The frame of a block: its centre, how far it has turned, and their rates.

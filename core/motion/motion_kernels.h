@@ -177,6 +177,17 @@ VOUSSOIR_INLINE T place_nodes(const BlockBody& body, const BlockFrame<T>& frame,
   return longest;
 }
 
+/// Moves a block that supports hold altogether to where they are when this share of gravity acts, so slowly
+/// that it has no speed of its own.
+template <class T>
+VOUSSOIR_INLINE void carry(const BlockBody& body, const Field& carried, const T& share,
+                           const MotionView<T>& view) {
+  for (int node = body.nodes.begin; node < body.nodes.end; ++node) {
+    view.deformed[node] = {share * carried(0, node), share * carried(1, node)};
+    view.rates[node] = {T{}, T{}};
+  }
+}
+
 /// Adds a block's weight to the forces on its nodes.
 template <class T>
 VOUSSOIR_INLINE void add_weight(const BlockBody& body, T pull, const MotionView<T>& view) {
@@ -240,7 +251,10 @@ VOUSSOIR_INLINE T move_block(const MotionModel& model, std::size_t b, const Bloc
   const Resultant<T> sum = resultant(body, frame.centre, view);
   report_balance(body, sum, model.per_weight[b], motion);
   deform(body, model.responses.data() + model.response_of_block[b], step, frame.rotation, view);
-  if (!body.held) move_frame(body, sum, step, frame);
+  if (!body.held)
+    move_frame(body, sum, step, frame);
+  else if (model.carries(b))
+    carry(body, model.carried, motion.load, view);
   return place_nodes(body, frame, view);
 }
 

@@ -1,6 +1,7 @@
 #include "core/solve/combined_solver.h"
 
 #include "core/motion/early_motion.h"
+#include "core/solve/near_falls.h"
 #include "core/structure/collapse.h"
 #include "core/structure/neighbours.h"
 
@@ -62,6 +63,7 @@ CombinedSolver::CombinedSolver(const Model& model, const SolverSettings& setting
 std::vector<Solution> CombinedSolver::solve(std::span<const StageTask> tasks) {
   std::vector<Solution> solutions = search(tasks);
   insist(tasks, Whom::intact, solutions);
+  look_nearby(tasks, solutions);
   follow(settings_.motion.decision, tasks, false, solutions);
   insist(tasks, Whom::all, solutions);
   follow(settings_.patient, tasks, true, solutions);
@@ -77,6 +79,14 @@ std::vector<Solution> CombinedSolver::search(std::span<const StageTask> tasks) {
   std::vector<Solution> solutions(tasks.size());
   for (std::size_t k = 0; k < found.size(); ++k) solutions[places[k]] = std::move(found[k]);
   return solutions;
+}
+
+/// Takes the falls that show near the missing blocks.
+void CombinedSolver::look_nearby(std::span<const StageTask> tasks, std::vector<Solution>& solutions) const {
+  if (!settings_.falls_nearby) return;
+  for (const std::size_t place : open_places(tasks, solutions, false))
+    if (auto fall = fall_nearby(tasks[place], motion_, settings_.motion.decision))
+      solutions[place] = std::move(*fall);
 }
 
 /// Takes the equilibria that Newton's method finds with all patience, from rest. All other scenes start from

@@ -18,7 +18,8 @@ namespace voussoir {
 /// patience; and if that finds none, a block creeps, held by nearly enough friction, and the motion is
 /// followed until it has come to rest or moved away. A pair apart that falls by one of its blocks (StageTask)
 /// begins to move where its singles' motions add up to. Scenes that are said to fall are set in motion first;
-/// those that are said to have no answer get no patience.
+/// those that are said to have no answer get no patience. Where no fields of falls are wanted, a scene
+/// is set in motion near its missing blocks before all of it is (near_falls.h).
 ///
 /// A solution depends on its scene and start only, to the last bit. Not thread-safe: one solver a thread. The
 /// model must outlive the solver. `residual` is a nodal one for standing scenes and that of DynamicSolution
@@ -36,6 +37,7 @@ class CombinedSolver {
 
  private:
   std::vector<Solution> search(std::span<const StageTask> tasks);
+  void look_nearby(std::span<const StageTask> tasks, std::vector<Solution>& solutions) const;
   enum class Whom { intact, all };
   void insist(std::span<const StageTask> tasks, Whom whom, std::vector<Solution>& solutions);
   bool falls_late(const StageTask& task, const DecisionRules& rules) const;

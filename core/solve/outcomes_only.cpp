@@ -26,6 +26,8 @@ SolverSettings for_outcomes(SolverSettings settings, const Model& model) {
   settings.motion.moment *= share;
   shorten(share, settings.motion.decision);
   shorten(share, settings.patient);
+  settings.falls_nearby =
+      settings.newton.skips.near_falls && settings.motion.integrator == Integrator::implicit_blocks;
   return settings;
 }
 

@@ -138,11 +138,13 @@ void visit_motion(Settings& settings, const Visit& visit) {
 
 template <class Settings, class Visit>
 void visit_settings(Settings& settings, const Visit& visit) {
-  auto& [kind, newton, motion, patient] = settings;
+  auto& [kind, newton, motion, patient, falls_nearby] = settings;
   visit("solver", kind);
   if (kind == SolverKind::quasi_static) visit_newton(newton, visit);
   visit_motion(motion, visit);
-  if (kind == SolverKind::quasi_static) visit_rules("patient", patient, visit);
+  if (kind != SolverKind::quasi_static) return;
+  visit_rules("patient", patient, visit);
+  visit("falls_nearby", falls_nearby);
 }
 
 /// Lines "key = value" by their keys.

@@ -20,6 +20,8 @@ struct SolverSettings {
   QuasiStaticSettings newton{};  ///< of the quasi-static kind
   DynamicSettings motion{};      ///< of scenes in motion
   DecisionRules patient{};       ///< of the quasi-static kind: for what neither rests nor falls soon
+  bool falls_nearby = false;     ///< of the quasi-static kind: scenes are set in motion near their missing
+                                 ///< blocks first (near_falls.h), which shows no field of what falls
 
   /// Newton and motion with these settings of the motion; Newton has its skips.
   static SolverSettings of(SolverKind kind, const DynamicSettings& motion = {});

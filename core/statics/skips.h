@@ -22,6 +22,8 @@ struct Skips {
   bool early_motions = true;  ///< the motion of a pair of which one block's absence alone lets something fall
                               ///< begins where its singles' motions add up to after a third of the ramp.
                               ///< Changes fields of such collapses by some 1e-4
+  bool near_falls = true;     ///< where only outcomes are wanted, a scene is set in motion near its missing
+                              ///< blocks before all of it is. Changes which blocks are said to move
 };
 
 }  // namespace voussoir

@@ -210,6 +210,9 @@ struct BridgeDescription {
   std::vector<LoadDescription> loads;
   std::vector<MovementDescription> movements;
   Uncertainty uncertainty;
+  bool collapse_fields =
+      true;  ///< a database keeps fields of scenes that fall, as the paper does, where motion
+             ///< can follow the joints as they are. A file that says nothing wants none
 };
 
 /// What the supports and the axis of symmetry of a bridge refer to.

@@ -161,6 +161,8 @@ BridgeDescription interpret(const toml::table& root, const std::string& file,
     return TomlSection(file, top.table(key), fmt::format(" in [{}]", key));
   };
   top.text("name", description.name);
+  description.collapse_fields = false;
+  top.choice("collapses", description.collapse_fields, {{"outcome", false}, {"field", true}});
   top.not_negative("gravity_m_s2", description.gravity);
   read_wall(section("wall"), description.wall);
   read_material(section("material"), description.material);

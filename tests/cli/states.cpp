@@ -161,13 +161,16 @@ TEST_CASE("Of scenes that fall a database may keep only that: nothing is shown o
   CHECK(test::run("query-field", {"-d", site.database, "2,1"}).exit_code == 0);
 }
 
-TEST_CASE("Fields of what falls are kept by default where motion follows the joints as they are") {
+TEST_CASE(
+    "Fields of what falls are kept by default where the file wants them and motion follows the joints as "
+    "they are") {
   const test::TemporaryFolder folder;
   const char* const soft = "normal_stiffness_Pa_per_m = 1e9\ntangential_stiffness_Pa_per_m = 1e8\n";
   const char* const stiff = "normal_stiffness_Pa_per_m = 1e11\ntangential_stiffness_Pa_per_m = 1e10\n";
-  const auto built = [&](const char* joints, const std::vector<std::string>& options) {
+  const char* const wants_fields = "collapses = \"field\"\n";
+  const auto built = [&](const char* wish, const char* joints, const std::vector<std::string>& options) {
     std::ofstream(folder / "bridge.toml")
-        << std::ifstream(test::example_bridge("small")).rdbuf() << "\n[joints]\n"
+        << wish << std::ifstream(test::example_bridge("small")).rdbuf() << "\n[joints]\n"
         << joints;
     std::vector<std::string> arguments = {(folder / "bridge.toml").string(),
                                           "-o",
@@ -183,14 +186,16 @@ TEST_CASE("Fields of what falls are kept by default where motion follows the joi
   const auto of_what_falls = [&] {
     return test::run("query-field", {"-d", (folder / "b.h5").string(), "0,4", "--at", "control"}).exit_code;
   };
-  REQUIRE(built(soft, {}).exit_code == 0);
+  REQUIRE(built("", soft, {}).exit_code == 0);
+  CHECK(of_what_falls() == 1);
+  REQUIRE(built(wants_fields, soft, {}).exit_code == 0);
   CHECK(of_what_falls() == 0);
-  const test::ProgramResult by_default = built(stiff, {});
+  const test::ProgramResult by_default = built(wants_fields, stiff, {});
   INFO(by_default.err);
   REQUIRE(by_default.exit_code == 0);
   CHECK_THAT(by_default.err, Catch::Contains("--collapses field keeps them"));
   CHECK(of_what_falls() == 1);
-  REQUIRE(built(stiff, {"--collapses", "field"}).exit_code == 0);
+  REQUIRE(built("", stiff, {"--collapses", "field"}).exit_code == 0);
   CHECK(of_what_falls() == 0);
 }
 

@@ -15,6 +15,11 @@ using Catch::Matchers::Contains;
 
 namespace {
 
+std::vector<double> numbers_of(const Uncertainty& u) {
+  return {u.joint_stiffness, u.common_stiffness, u.stiffness_ratio, u.friction,      u.young_modulus,
+          u.density,         u.temperature,      u.foot_movement,   u.foot_rotation, u.side_movement};
+}
+
 /// All numbers of a description, in the order in which the header names them.
 std::vector<double> numbers_of(const BridgeDescription& d) {
   std::vector<double> numbers = {d.wall.length,
@@ -41,16 +46,9 @@ std::vector<double> numbers_of(const BridgeDescription& d) {
                                  d.gravity,
                                  d.joint_tolerance,
                                  d.material.thermal_expansion,
-                                 d.uncertainty.joint_stiffness,
-                                 d.uncertainty.common_stiffness,
-                                 d.uncertainty.stiffness_ratio,
-                                 d.uncertainty.friction,
-                                 d.uncertainty.young_modulus,
-                                 d.uncertainty.density,
-                                 d.uncertainty.temperature,
-                                 d.uncertainty.foot_movement,
-                                 d.uncertainty.foot_rotation,
-                                 d.uncertainty.side_movement};
+                                 double(d.collapse_fields)};
+  const std::vector<double> uncertain = numbers_of(d.uncertainty);
+  numbers.insert(numbers.end() - 1, uncertain.begin(), uncertain.end());
   for (const SpanDescription& span : d.spans)
     numbers.insert(numbers.end(), {span.centre_x, span.centre_y, span.intrados_radius, span.ring_thickness,
                                    double(span.voussoirs)});
@@ -60,13 +58,15 @@ std::vector<double> numbers_of(const BridgeDescription& d) {
 }  // namespace
 
 TEST_CASE(
-    "The reference bridge file says what the defaults say, and so does an empty file but for small pieces",
+    "The reference bridge file says what the defaults say, and so does an empty file but for small pieces "
+    "and fields of what falls",
     "[bridge-file]") {
   BridgeDescription expected;
-  for (const auto& [file, smallest_block] :
-       {std::pair(reference_bridge_file().description, 0.0),
-        std::pair(parse_bridge_file("", "empty.toml").description, 0.1)}) {
+  for (const auto& [file, smallest_block, fields] :
+       {std::tuple(reference_bridge_file().description, 0.0, true),
+        std::tuple(parse_bridge_file("", "empty.toml").description, 0.1, false)}) {
     expected.wall.smallest_block = smallest_block;
+    expected.collapse_fields = fields;
     CHECK(file.name == expected.name);
     CHECK(numbers_of(file) == numbers_of(expected));
   }
@@ -114,11 +114,12 @@ const std::vector<Key> kKeys = {{"[wall]\nlength_m = 30.0", 0, 30.0},
                                 {"[uncertainty]\nfoot_movement_m = 0.002", 31, 2e-3},
                                 {"[uncertainty]\nfoot_rotation_rad = 2e-4", 32, 2e-4},
                                 {"[uncertainty]\nside_movement_m = 1e-3", 33, 1e-3},
-                                {"[[spans]]\ncentre_x_m = 9.0", 34, 9.0},
-                                {"[[spans]]\ncentre_y_m = 1.5", 35, 1.5},
-                                {"[[spans]]\nintrados_radius_m = 3.0", 36, 3.0},
-                                {"[[spans]]\nring_thickness_m = 0.4", 37, 0.4},
-                                {"[[spans]]\nvoussoirs = 21", 38, 21.0}};
+                                {"collapses = \"field\"", 34, 1.0},
+                                {"[[spans]]\ncentre_x_m = 9.0", 35, 9.0},
+                                {"[[spans]]\ncentre_y_m = 1.5", 36, 1.5},
+                                {"[[spans]]\nintrados_radius_m = 3.0", 37, 3.0},
+                                {"[[spans]]\nring_thickness_m = 0.4", 38, 0.4},
+                                {"[[spans]]\nvoussoirs = 21", 39, 21.0}};
 
 }  // namespace
 

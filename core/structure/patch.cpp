@@ -1,0 +1,136 @@
+#include "core/structure/patch.h"
+
+#include <algorithm>
+
+namespace voussoir {
+namespace {
+
+constexpr int kNowhere = -1;
+
+/// Blocks within so many neighbours of those that are in.
+std::vector<bool> grown(std::vector<bool> in, int neighbours, const Structure& bridge) {
+  for (int k = 0; k < neighbours; ++k) {
+    const std::vector<bool> before = in;
+    for (const Joint& joint : bridge.joints) {
+      const auto a = static_cast<std::size_t>(value(joint.first));
+      const auto b = static_cast<std::size_t>(value(joint.second));
+      if (before[a]) in[b] = true;
+      if (before[b]) in[a] = true;
+    }
+  }
+  return in;
+}
+
+struct Cut {
+  std::vector<int> block;  ///< of each block of the bridge, that of the patch, or kNowhere
+  std::vector<int> node;
+};
+
+template <class Id>
+Id mapped(Id id, const std::vector<int>& places) {
+  return Id{places[static_cast<std::size_t>(value(id))]};
+}
+
+void add_block(std::size_t b, const Model& bridge, Patch& patch, Cut& cut) {
+  const Mesh& from = bridge.mesh;
+  Mesh& to = patch.model.mesh;
+  cut.block[b] = static_cast<int>(patch.blocks.size());
+  patch.blocks.push_back(BlockId{static_cast<int>(b)});
+  patch.model.layout.blocks.push_back(bridge.layout.blocks[b]);
+  patch.model.parameters.blocks.push_back(bridge.parameters.blocks[b]);
+  if (!bridge.parameters.contact_share.empty())
+    patch.model.parameters.contact_share.push_back(bridge.parameters.contact_share[b]);
+  const auto begin = static_cast<int>(patch.nodes.size());
+  for (int n = from.block_nodes[b].begin; n < from.block_nodes[b].end; ++n) {
+    cut.node[static_cast<std::size_t>(n)] = static_cast<int>(patch.nodes.size());
+    patch.nodes.push_back(NodeId{n});
+  }
+  to.block_nodes.push_back({begin, static_cast<int>(patch.nodes.size())});
+  const auto first_triangle = static_cast<int>(to.triangles.size());
+  for (int t = from.block_triangles[b].begin; t < from.block_triangles[b].end; ++t) {
+    Triangle triangle = from.triangles[static_cast<std::size_t>(t)];
+    for (NodeId& node : triangle.nodes) node = mapped(node, cut.node);
+    to.triangles.push_back(triangle);
+  }
+  to.block_triangles.push_back({first_triangle, static_cast<int>(to.triangles.size())});
+  const auto first_edge = static_cast<int>(to.edges.size());
+  for (int e = from.block_edges[b].begin; e < from.block_edges[b].end; ++e) {
+    const BoundaryEdge& edge = from.edges[static_cast<std::size_t>(e)];
+    to.edges.push_back({mapped(edge.from, cut.node), mapped(edge.to, cut.node)});
+  }
+  to.block_edges.push_back({first_edge, static_cast<int>(to.edges.size())});
+}
+
+void add_joints(const Model& bridge, const Cut& cut, Patch& patch) {
+  for (std::size_t j = 0; j < bridge.joints.size(); ++j) {
+    Joint joint = bridge.joints[j];
+    joint.first = mapped(joint.first, cut.block);
+    joint.second = mapped(joint.second, cut.block);
+    if (value(joint.first) == kNowhere || value(joint.second) == kNowhere) continue;
+    for (BoundaryEdge* edge : {&joint.first_edge, &joint.second_edge})
+      *edge = {mapped(edge->from, cut.node), mapped(edge->to, cut.node)};
+    patch.model.joints.push_back(joint);
+    patch.model.parameters.joints.push_back(bridge.parameters.joints[j]);
+  }
+}
+
+void add_supports(const Model& bridge, const Cut& cut, Patch& patch) {
+  for (Support support : bridge.supports) {
+    for (NodeId& node : support.nodes) node = mapped(node, cut.node);
+    std::erase(support.nodes, NodeId{kNowhere});
+    if (!support.nodes.empty()) patch.model.supports.push_back(std::move(support));
+  }
+  Support rim{.name = "rim", .nodes = {}, .holds_x = true, .holds_y = true};
+  for (const BlockId block : patch.rim) {
+    const IndexRange& range = patch.model.mesh.block_nodes[static_cast<std::size_t>(value(block))];
+    for (int n = range.begin; n < range.end; ++n) rim.nodes.push_back(NodeId{n});
+  }
+  if (!rim.nodes.empty()) patch.model.supports.push_back(std::move(rim));
+}
+
+}  // namespace
+
+Scene Patch::scene_of(const Scene& bridge) const {
+  Scene result;
+  for (const BlockId block : bridge.removed)
+    if (const auto at = std::ranges::lower_bound(blocks, block); at != blocks.end() && *at == block)
+      result.removed.push_back(BlockId{static_cast<int>(at - blocks.begin())});
+  return result;
+}
+
+Field Patch::field_of(const Field& bridge) const {
+  Field result(2, static_cast<Eigen::Index>(nodes.size()));
+  for (std::size_t n = 0; n < nodes.size(); ++n)
+    result.col(static_cast<Eigen::Index>(n)) = bridge.col(value(nodes[n]));
+  return result;
+}
+
+Patch patch_around(const Scene& scene, int neighbours, const Model& bridge) {
+  std::vector<bool> within(bridge.layout.size(), false);
+  for (const BlockId block : scene.removed) within[static_cast<std::size_t>(value(block))] = true;
+  within = grown(std::move(within), neighbours, bridge);
+  const std::vector<bool> with_rim = grown(within, 1, bridge);
+  Patch patch;
+  patch.blocks_of_bridge = bridge.block_count();
+  Cut cut{std::vector<int>(bridge.layout.size(), kNowhere),
+          std::vector<int>(static_cast<std::size_t>(bridge.mesh.node_count()), kNowhere)};
+  for (std::size_t b = 0; b < with_rim.size(); ++b) {
+    if (!with_rim[b]) continue;
+    add_block(b, bridge, patch, cut);
+    if (!within[b]) patch.rim.push_back(BlockId{cut.block[b]});
+  }
+  patch.model.mesh.nodes = patch.field_of(bridge.mesh.nodes);
+  Parameters& parameters = patch.model.parameters;
+  parameters.gravity = bridge.parameters.gravity;
+  parameters.contact = bridge.parameters.contact;
+  if (bridge.parameters.laid_mass.size() > 0) {
+    parameters.laid_mass.resize(static_cast<Eigen::Index>(patch.nodes.size()));
+    for (std::size_t n = 0; n < patch.nodes.size(); ++n)
+      parameters.laid_mass[static_cast<Eigen::Index>(n)] = bridge.parameters.laid_mass[value(patch.nodes[n])];
+  }
+  add_joints(bridge, cut, patch);
+  add_supports(bridge, cut, patch);
+  return patch;
+}
+
+}  // namespace voussoir
