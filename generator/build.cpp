@@ -267,6 +267,7 @@ BuildSummary build(const BuildRequest& request, const SolverChoice& solver, Prog
   summary.output = request.output;
   summary.blocks = build.bridge().layout.size();
   summary.small_pieces = build.bridge().layout.small_pieces;
+  summary.collapse_fields = request.rules.collapse_fields;
   ExistingDatabase existing = examine(build);
   summary.changes = existing.changes;
   if (existing.up_to_date) {

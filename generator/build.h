@@ -34,6 +34,7 @@ struct BuildSummary {
   std::size_t blocks = 0;    ///< of the bridge
   SmallPieces small_pieces;  ///< what the wall's smallest block made of them
   OutcomeCounts outcomes;
+  bool collapse_fields = true;       ///< does it keep fields of what falls? (PlanRules)
   std::size_t computed = 0;          ///< records made by this run (with those that only start others)
   std::size_t resumed = 0;           ///< records kept from an interrupted build
   std::size_t reused = 0;            ///< records taken over from the file that was replaced

@@ -128,6 +128,10 @@ std::string to_text(const OutcomeCounts& counts) {
   return text;
 }
 
+std::string collapses_text(bool keeps_fields) {
+  return keeps_fields ? "" : "  collapses   whether and what falls, without fields\n";
+}
+
 nlohmann::ordered_json to_json(const OutcomeCounts& counts) {
   nlohmann::ordered_json json = {{"scenes", counts.scenes}};
   if (!counts.states.empty()) json.update(state_json(counts.states.front()));

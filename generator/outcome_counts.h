@@ -49,6 +49,9 @@ OutcomeCounts count_outcomes(const Database& database);
 /// its joints have slid.
 std::string to_text(const OutcomeCounts& counts);
 
+/// A line more for a database without fields of what falls; nothing otherwise.
+std::string collapses_text(bool keeps_fields);
+
 /// {"scenes", "standing", "collapsed", "arch_collapses", "local_collapses", "composed",
 /// "inherited", "unresolved", "unresolved_scenes": [{"scene", "residual"}], "intact": its outcome or null,
 /// "stands_by_slip"} of the first state, and "states":

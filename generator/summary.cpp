@@ -33,7 +33,7 @@ std::string blocks_text(const BuildSummary& summary) {
 std::string to_text(const BuildSummary& summary) {
   return fmt::format("{}: {} scenes ({})\n", summary.output.string(), summary.outcomes.scenes,
                      origin_text(summary)) +
-         blocks_text(summary) + to_text(summary.outcomes) +
+         blocks_text(summary) + to_text(summary.outcomes) + collapses_text(summary.collapse_fields) +
          fmt::format("  time        {:.1f} s\n  size        {:.1f} MB\n  digest      {}\n", summary.seconds,
                      static_cast<double>(summary.bytes) * 1e-6, summary.digest);
 }
@@ -45,7 +45,8 @@ std::string to_json(const BuildSummary& summary) {
                {"joined_pieces", summary.small_pieces.joined},
                {"small_pieces", summary.small_pieces.left}});
   json.update(to_json(summary.outcomes));
-  json.update({{"computed", summary.computed},
+  json.update({{"collapses", summary.collapse_fields ? "field" : "outcome"},
+               {"computed", summary.computed},
                {"resumed", summary.resumed},
                {"reused", summary.reused},
                {"merged", summary.merged},

@@ -11,8 +11,8 @@ namespace voussoir {
 std::string to_text(const BuildSummary& summary);
 
 /// One line of JSON for programs: {"ok": true, "file", "up_to_date", "blocks",
-/// "joined_pieces", "small_pieces", what OutcomeCounts has, "computed",
-/// "resumed", "reused", "merged", "changes", "seconds", "bytes", "digest"}.
+/// "joined_pieces", "small_pieces", what OutcomeCounts has, "collapses": "field" or "outcome",
+/// "computed", "resumed", "reused", "merged", "changes", "seconds", "bytes", "digest"}.
 std::string to_json(const BuildSummary& summary);
 
 /// The same for a build that failed: {"ok": false, "error": ...}.

@@ -29,7 +29,7 @@ std::string to_text(const VerifyReport& report, const std::filesystem::path& dat
   text += fmt::format(
       "  fields      {} checked, largest unbalanced force {:.1e} of a weight (up to {:.1e} is round-off)\n",
       report.fields, report.largest_unbalance, report.most_unbalance);
-  if (!report.collapse_fields) text += "  collapses   whether and what falls, without fields\n";
+  text += collapses_text(report.collapse_fields);
   text += fmt::format("  mirrored    {} pairs compared\n", report.mirror_pairs);
   if (report.recomputed > 0)
     text += fmt::format("  recomputed  {} scenes, largest difference {:.1e} m\n", report.recomputed,

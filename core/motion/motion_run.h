@@ -1,6 +1,6 @@
 #pragma once
-/// @file Scenes of a followed bridge set in motion, several side by side, until something decides what becomes
-/// of each.
+/// @file Scenes of a followed bridge set in motion, several side by side, until something decides what
+/// becomes of each.
 
 #include <algorithm>
 #include <array>

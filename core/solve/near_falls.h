@@ -2,10 +2,10 @@
 /// @file Falls that show near the missing blocks, whatever the rest of the bridge does.
 ///
 /// Most of what falls does so beside the missing blocks. So what has no equilibrium near its start is set in
-/// motion in a patch around them first, of some fifteen blocks, whose rim goes where the start says: that takes
-/// the same time whatever the size of the bridge. Only a fall is believed, and only one that goes further than
-/// the whole bridge's would have to; what does not fall there is left to the whole bridge. Measured on random
-/// bridges (docs/numerics.md).
+/// motion in a patch around them first, of some fifteen blocks, whose rim goes where the start says: that
+/// takes the same time whatever the size of the bridge. Only a fall is believed, and only one that goes
+/// further than the whole bridge's would have to; what does not fall there is left to the whole bridge.
+/// Measured on random bridges (docs/numerics.md).
 
 #include <optional>
 

@@ -11,10 +11,10 @@ namespace voussoir {
 /// Some blocks of a bridge with what lies between them. Those that touch what was left out are its rim, which
 /// a support holds, so that it can be moved as in the bridge.
 struct Patch {
-  Model model;                   ///< without control points and symmetry
-  std::vector<BlockId> blocks;   ///< in the bridge, ascending: block k of the patch is blocks[k]
-  std::vector<NodeId> nodes;     ///< likewise
-  std::vector<BlockId> rim;      ///< in the patch, ascending
+  Model model;                  ///< without control points and symmetry
+  std::vector<BlockId> blocks;  ///< in the bridge, ascending: block k of the patch is blocks[k]
+  std::vector<NodeId> nodes;    ///< likewise
+  std::vector<BlockId> rim;     ///< in the patch, ascending
   int blocks_of_bridge = 0;
 
   double share_of_blocks() const { return static_cast<double>(blocks.size()) / blocks_of_bridge; }

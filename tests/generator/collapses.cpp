@@ -3,6 +3,7 @@
 #include "core/statics/mechanism.h"
 #include "database/records/database.h"
 #include "generator/build.h"
+#include "generator/summary.h"
 #include "generator/verify.h"
 #include "tests/support/bridges.h"
 #include "tests/support/temporary_folder.h"
@@ -61,6 +62,9 @@ TEST_CASE("With outcomes only, the same scenes fall as in motion, and those that
   const Built outcomes = build(folder, bridge, scenes, false);
   check_same_outcomes(fields, outcomes);
   CHECK(fields.summary.digest != outcomes.summary.digest);
+  CHECK_THAT(to_text(outcomes.summary), Catch::Contains("without fields"));
+  CHECK_THAT(to_json(outcomes.summary), Catch::Contains("\"collapses\":\"outcome\""));
+  CHECK_THAT(to_text(fields.summary), !Catch::Contains("without fields"));
 
   const VerifyReport report = verify_database({.database = outcomes.path, .recompute = 40});
   CHECK(report.ok());

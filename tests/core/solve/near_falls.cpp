@@ -30,8 +30,8 @@ TEST_CASE("What falls near the missing blocks falls in the whole bridge, to the 
           "[combined][patch]") {
   const Model bridge = test::reference_bridge();
   std::vector<Scene> scenes;
-  for (const char* name :
-       {"0,1", "0,4", "0,7", "0,10", "0,15", "11,10", "9,8", "12,10", "10,1", "6,4+8,1", "11,4+11,3", "0,3+7,9"})
+  for (const char* name : {"0,1", "0,4", "0,7", "0,10", "0,15", "11,10", "9,8", "12,10", "10,1", "6,4+8,1",
+                           "11,4+11,3", "0,3+7,9"})
     scenes.push_back(parse_scene(name, bridge.layout));
   const Field intact = QuasiStaticSolver(bridge).solve(Scene{}).displacement;
   const std::vector<StageTask> tasks = tasks_of(scenes, intact);
@@ -53,9 +53,10 @@ TEST_CASE("What falls near the missing blocks falls in the whole bridge, to the 
   CHECK(found >= 6);
 }
 
-TEST_CASE("Nothing is looked for nearby without a start, of later stages, or where a patch is most "
-          "of the bridge",
-          "[combined][patch]") {
+TEST_CASE(
+    "Nothing is looked for nearby without a start, of later stages, or where a patch is most "
+    "of the bridge",
+    "[combined][patch]") {
   const Model bridge = test::reference_bridge();
   const DynamicSolver motion(bridge);
   const Field start = Field::Zero(2, bridge.mesh.node_count());

@@ -31,8 +31,9 @@ Scene grown(Scene scene, int neighbours, const Structure& bridge) {
 
 }  // namespace
 
-TEST_CASE("A patch has all blocks within so many neighbours, and those beside them as its rim (blocks_beside)",
-          "[patch]") {
+TEST_CASE(
+    "A patch has all blocks within so many neighbours, and those beside them as its rim (blocks_beside)",
+    "[patch]") {
   const Model bridge = test::small_bridge();
   for (const Scene& scene : all_scenes(bridge.layout.size(), 2)) {
     if (scene.removed.empty()) continue;
