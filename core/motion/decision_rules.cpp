@@ -25,7 +25,8 @@ DecisionRules when_gone(DecisionRules rules) {
 }
 
 DecisionRules near_by(DecisionRules rules) {
-  rules.moving_sags = 6.0;  // by two, which the whole bridge has, three scenes would fall that stand
+  rules.moving_sags =
+      6.0;  // by two, as in the whole bridge, 21 of 99 would fall that rest (docs/numerics.md)
   return rules;
 }
 

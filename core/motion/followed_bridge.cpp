@@ -57,8 +57,6 @@ Pace pace_in(const Patch& patch, Pace pace) {
 
 }  // namespace
 
-/// For each block the share of its joints' stiffness that steps of the settings can follow; empty if all can
-/// be followed as they are.
 std::vector<double> softened_shares(const Model& bridge, const std::vector<BlockBody>& bodies,
                                     const DynamicSettings& settings) {
   if (settings.integrator != Integrator::implicit_blocks || settings.least_step == 0.0) return {};

@@ -81,12 +81,15 @@ std::vector<Solution> CombinedSolver::search(std::span<const StageTask> tasks) {
   return solutions;
 }
 
-/// Takes the falls that show near the missing blocks.
+/// Takes the falls that show near the missing blocks. What falls late is left to the whole bridge: a rim that
+/// goes that far would itself count as moved away.
 void CombinedSolver::look_nearby(std::span<const StageTask> tasks, std::vector<Solution>& solutions) const {
   if (!settings_.falls_nearby) return;
-  for (const std::size_t place : open_places(tasks, solutions, false))
-    if (auto fall = fall_nearby(tasks[place], motion_, settings_.motion.decision))
-      solutions[place] = std::move(*fall);
+  const DecisionRules& rules = settings_.motion.decision;
+  for (const std::size_t place : open_places(tasks, solutions, false)) {
+    if (falls_late(tasks[place], rules)) continue;
+    if (auto fall = fall_nearby(tasks[place], motion_, rules)) solutions[place] = std::move(*fall);
+  }
 }
 
 /// Takes the equilibria that Newton's method finds with all patience, from rest. All other scenes start from

@@ -1,25 +1,14 @@
 #include "core/structure/patch.h"
 
 #include <algorithm>
+#include <iterator>
+
+#include "core/structure/neighbours.h"
 
 namespace voussoir {
 namespace {
 
 constexpr int kNowhere = -1;
-
-/// Blocks within so many neighbours of those that are in.
-std::vector<bool> grown(std::vector<bool> in, int neighbours, const Structure& bridge) {
-  for (int k = 0; k < neighbours; ++k) {
-    const std::vector<bool> before = in;
-    for (const Joint& joint : bridge.joints) {
-      const auto a = static_cast<std::size_t>(value(joint.first));
-      const auto b = static_cast<std::size_t>(value(joint.second));
-      if (before[a]) in[b] = true;
-      if (before[b]) in[a] = true;
-    }
-  }
-  return in;
-}
 
 struct Cut {
   std::vector<int> block;  ///< of each block of the bridge, that of the patch, or kNowhere
@@ -31,11 +20,19 @@ Id mapped(Id id, const std::vector<int>& places) {
   return Id{places[static_cast<std::size_t>(value(id))]};
 }
 
-void add_block(std::size_t b, const Model& bridge, Patch& patch, Cut& cut) {
+/// Both ascending, with no block in both.
+std::vector<BlockId> merged(const std::vector<BlockId>& some, const std::vector<BlockId>& others) {
+  std::vector<BlockId> all;
+  std::ranges::merge(some, others, std::back_inserter(all));
+  return all;
+}
+
+void add_block(BlockId block, const Model& bridge, Patch& patch, Cut& cut) {
+  const auto b = static_cast<std::size_t>(value(block));
   const Mesh& from = bridge.mesh;
   Mesh& to = patch.model.mesh;
   cut.block[b] = static_cast<int>(patch.blocks.size());
-  patch.blocks.push_back(BlockId{static_cast<int>(b)});
+  patch.blocks.push_back(block);
   patch.model.layout.blocks.push_back(bridge.layout.blocks[b]);
   patch.model.parameters.blocks.push_back(bridge.parameters.blocks[b]);
   if (!bridge.parameters.contact_share.empty())
@@ -106,19 +103,15 @@ Field Patch::field_of(const Field& bridge) const {
 }
 
 Patch patch_around(const Scene& scene, int neighbours, const Model& bridge) {
-  std::vector<bool> within(bridge.layout.size(), false);
-  for (const BlockId block : scene.removed) within[static_cast<std::size_t>(value(block))] = true;
-  within = grown(std::move(within), neighbours, bridge);
-  const std::vector<bool> with_rim = grown(within, 1, bridge);
+  Scene within = scene;
+  for (int k = 0; k < neighbours; ++k) within.removed = merged(within.removed, blocks_beside(within, bridge));
+  const std::vector<BlockId> rim = blocks_beside(within, bridge);
   Patch patch;
   patch.blocks_of_bridge = bridge.block_count();
   Cut cut{std::vector<int>(bridge.layout.size(), kNowhere),
           std::vector<int>(static_cast<std::size_t>(bridge.mesh.node_count()), kNowhere)};
-  for (std::size_t b = 0; b < with_rim.size(); ++b) {
-    if (!with_rim[b]) continue;
-    add_block(b, bridge, patch, cut);
-    if (!within[b]) patch.rim.push_back(BlockId{cut.block[b]});
-  }
+  for (const BlockId block : merged(within.removed, rim)) add_block(block, bridge, patch, cut);
+  for (const BlockId block : rim) patch.rim.push_back(mapped(block, cut.block));
   patch.model.mesh.nodes = patch.field_of(bridge.mesh.nodes);
   Parameters& parameters = patch.model.parameters;
   parameters.gravity = bridge.parameters.gravity;

@@ -54,6 +54,24 @@ TEST_CASE("What falls near the missing blocks falls in the whole bridge, to the 
 }
 
 TEST_CASE(
+    "Where a start has moved so far that only what is far away falls, the whole bridge says so (its motions)",
+    "[combined][patch]") {
+  const Model bridge = test::reference_bridge();
+  const std::vector<Scene> scenes = {parse_scene("0,10", bridge.layout), parse_scene("0,4", bridge.layout)};
+  const Field sagging = 10.0 * QuasiStaticSolver(bridge).solve(Scene{}).displacement;
+  const std::vector<StageTask> tasks = tasks_of(scenes, sagging);
+  const auto expected = CombinedSolver(bridge, outcomes(bridge, false)).solve(tasks);
+  const auto found = CombinedSolver(bridge, outcomes(bridge, true)).solve(tasks);
+  for (std::size_t i = 0; i < tasks.size(); ++i) {
+    INFO(to_string(scenes[i], bridge.layout));
+    CHECK(expected[i].outcome == Outcome::collapsed);
+    CHECK(found[i].outcome == expected[i].outcome);
+    CHECK(found[i].moving == expected[i].moving);
+    CHECK(found[i].iterations == expected[i].iterations);
+  }
+}
+
+TEST_CASE(
     "Nothing is looked for nearby without a start, of later stages, or where a patch is most "
     "of the bridge",
     "[combined][patch]") {

@@ -45,10 +45,10 @@ std::vector<double> numbers_of(const BridgeDescription& d) {
                                  double(d.mesh.split_at_corners),
                                  d.gravity,
                                  d.joint_tolerance,
-                                 d.material.thermal_expansion,
-                                 double(d.collapse_fields)};
+                                 d.material.thermal_expansion};
   const std::vector<double> uncertain = numbers_of(d.uncertainty);
-  numbers.insert(numbers.end() - 1, uncertain.begin(), uncertain.end());
+  numbers.insert(numbers.end(), uncertain.begin(), uncertain.end());
+  numbers.push_back(double(d.collapse_fields));
   for (const SpanDescription& span : d.spans)
     numbers.insert(numbers.end(), {span.centre_x, span.centre_y, span.intrados_radius, span.ring_thickness,
                                    double(span.voussoirs)});
