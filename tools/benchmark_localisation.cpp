@@ -7,6 +7,7 @@
 #include "core/error.h"
 #include "lookup/readings/simulate.h"
 #include "lookup/search/exhaustive_search.h"
+#include "tools/random_truth.h"
 
 namespace voussoir {
 namespace {
@@ -41,16 +42,17 @@ double draw_level(Random& random) {
 }
 
 /// A scene whose number of missing blocks is 0, 1 or 2 with equal chances.
-std::size_t draw_scene(const std::vector<Eligible>& by_missing, Random& random) {
-  const auto& rows = by_missing[random.below(static_cast<std::uint32_t>(by_missing.size()))].rows;
-  return rows[random.below(static_cast<std::uint32_t>(rows.size()))];
+std::size_t draw_scene(const SceneTable& table, const std::vector<Eligible>& by_missing, Random& random) {
+  return random_truth(table, by_missing[random.below(static_cast<std::uint32_t>(by_missing.size()))], random);
 }
 
 }  // namespace
 
 std::size_t row_of(const Library& library, const std::string& text) {
-  if (const auto row = library.table.find(parse_scene(text, library.layout))) return *row;
-  throw Failure(fmt::format("the database has no scene {}", text));
+  const auto row = library.table.find(parse_scene(text, library.layout));
+  if (!row) throw Failure(fmt::format("the database has no scene {}", text));
+  expect_displacements(library, *row);
+  return *row;
 }
 
 Posterior posterior_of(const Library& library, const Measurements& measured, const Eligible& eligible,
@@ -162,7 +164,7 @@ Calibration calibrate(const Library& library, NoiseShape drawn, NoiseShape assum
   Calibration result{{}, 0.0, unfinished_bins()};
   Random random(seed);
   for (int trial = 0; trial < trials; ++trial) {
-    const std::size_t truth = draw_scene(by_missing, random);
+    const std::size_t truth = draw_scene(library.table, by_missing, random);
     NoiseModel noise{drawn, draw_level(random)};
     const Measurements measured = simulate_readings(library.table.row(truth), noise, random);
     noise.shape = assumed;

@@ -29,8 +29,8 @@ struct CaseResult {
   std::vector<int> generations;  ///< to convergence, of the trials that found the truth, sorted
 };
 
-/// The library's row of a scene such as "10,4". Throws InputError for a scene that the bridge does not have,
-/// Failure if the library has it not.
+/// The library's row of a scene such as "10,4", of which displacements are known. Throws InputError for a
+/// scene that the bridge does not have, Failure if the library has it not or only its outcome.
 std::size_t row_of(const Library& library, const std::string& scene);
 
 /// The probabilities of the eligible scenes. With `noise` default-constructed nothing is known of the noise.

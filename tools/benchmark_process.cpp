@@ -17,13 +17,15 @@ namespace {
 
 constexpr double kLevel = 0.05;  // of the simulated noise
 
-/// Readings of a scene with two missing blocks, in a file that goes when this does.
+/// Readings of a scene that stands, of the reference one with two missing blocks, in a file that goes when
+/// this does. The bridge without missing blocks stands.
 class TemporaryReadings {
  public:
   explicit TemporaryReadings(const Library& library)
       : path_(std::filesystem::temp_directory_path() / fmt::format("voussoir-{}.csv", ::getpid())) {
     Random random(1);
-    const std::size_t row = library.table.rows / 2;
+    std::size_t row = library.table.rows / 2;
+    while (row > 0 && !library.table.stands(row)) --row;
     NoiseModel noise{NoiseShape::uniform, kLevel};
     noise.silence = 0.0;
     write_file(path_, to_csv(simulate_readings(library.table.row(row), noise, random), library.points));

@@ -105,6 +105,14 @@ Library library_of_channels(const Database& database, std::size_t base,
   return library;
 }
 
+void expect_displacements(const Library& library, std::size_t row) {
+  if (library.table.has_displacements(row)) return;
+  throw Failure(fmt::format(
+      "of scene {} the database says only that it falls, without displacements to read: expected one that "
+      "stands, or a database built with --collapses field, and of three missing blocks --without inherited",
+      to_string(library.table.scene(row), library.layout)));
+}
+
 std::span<const double> intact_predictions(const SceneTable& table) {
   for (std::size_t row = 0; row < table.rows; ++row)
     if (table.scene(row).removed.empty()) return table.row(row);

@@ -45,6 +45,9 @@ struct Channel {
 /// have.
 Library library_of_channels(const Database& database, std::size_t base, const std::vector<Channel>& channels);
 
+/// Throws Failure naming the scene and what was expected if of this one only the outcome is known.
+void expect_displacements(const Library& library, std::size_t row);
+
 /// The row of the intact bridge. Throws Failure if there is none.
 std::span<const double> intact_predictions(const SceneTable& table);
 

@@ -91,13 +91,8 @@ ReadingsFile blank_file(const SensorList& list, ReadingKind kind, const std::vec
 ReadingsFile simulate_file(const ReadingsFile& blank, const Comparison& comparison, std::size_t row,
                            const NoiseModel& noise, const Levelling& levelling, Random& random) {
   const std::vector<double> origin = origin_of(comparison);
-  const SceneTable& table = comparison.library.table;
-  if (!table.has_displacements(row))
-    throw Failure(
-        "of this scene the database says only that it falls, without displacements to read: expected one "
-        "that stands, or a database built with --collapses field, and of three missing blocks "
-        "--without inherited");
-  const std::span<const double> prediction = table.row(row);
+  expect_displacements(comparison.library, row);
+  const std::span<const double> prediction = comparison.library.table.row(row);
   std::vector<double> truth(prediction.size());
   for (std::size_t i = 0; i < truth.size(); ++i) truth[i] = prediction[i] - origin[i];
   Measurements measured = simulate_readings(truth, noise, random);

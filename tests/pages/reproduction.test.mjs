@@ -9,7 +9,7 @@ import {open, parseCsv, rowsOf, run, startBrowser, Workshop} from './workshop.mj
 let shop, browser, made;
 
 before(async () => {
-  shop = new Workshop();
+  shop = new Workshop('--collapses', 'field');
   made = shop.reproduce('paper');
   browser = await startBrowser();
 });
@@ -28,6 +28,12 @@ test('The page loads without errors and fetches nothing, in light, dark and on a
     assert.deepEqual(page.faults, []);
     assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth));
   }
+});
+
+test('A database without fields of what falls is told what a case of the paper needs', () => {
+  const outcomes = new Workshop();
+  assert.throws(() => outcomes.reproduce('paper'), /of scene 0,6 .*expected one that stands, or a database built with --collapses field/);
+  outcomes.remove();
 });
 
 test('Every figure has its CSV file, and its table on the page says the same', async () => {

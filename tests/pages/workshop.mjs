@@ -22,12 +22,13 @@ export function run(program, ...args) {
   return execFileSync(join(programs, program), args, {encoding: 'utf8', maxBuffer: 1 << 28, stdio: ['ignore', 'pipe', 'pipe']});
 }
 
-// A folder with the small bridge's database and what the programs make of it.
+// A folder with the small bridge's database, built with these options, and what the programs make of it.
 export class Workshop {
-  constructor() {
+  constructor(...options) {
     this.folder = mkdtempSync(join(tmpdir(), 'voussoir-pages-'));
     this.database = this.path('small.h5');
-    run('build-database', join(source, 'examples', 'bridges', 'small.toml'), '-o', this.database, '--quiet', '--known-bridge');
+    run('build-database', join(source, 'examples', 'bridges', 'small.toml'), '-o', this.database, '--quiet', '--known-bridge',
+        ...options);
   }
   path(name) { return join(this.folder, name); }
   read(name) { return readFileSync(this.path(name), 'utf8'); }
