@@ -25,7 +25,7 @@ std::span<const BuildSwitch> build_switches() {
                   [](PlanRules&, Skips& skips) { skips.likely_falls = false; }},
       BuildSwitch{"mirror-images", kSameDisplacement,
                   [](PlanRules& rules, Skips&) { rules.mirror_images = false; }},
-      // of random bridges, one outcome in a thousand (docs/numerics.md)
+      // of random bridges, one outcome in a thousand (docs/speed.md)
       BuildSwitch{"near-falls", kNothing, [](PlanRules&, Skips& skips) { skips.near_falls = false; }},
       BuildSwitch{"settled-contacts", kSameDisplacement,
                   [](PlanRules&, Skips& skips) { skips.settled_contacts = false; }},

@@ -29,7 +29,8 @@ struct BridgeRow {
   int blocks = 0;
   int scenes = 0;
   int standing = 0, collapsed = 0, unresolved = 0;
-  double seconds = 0.0;  ///< of all scenes, without making the solver
+  double intact = 0.0;   ///< [s] of the intact bridge, without making the solver
+  double singles = 0.0;  ///< [s] of the other scenes
   double beside = 0.0;   ///< [s] a scene and block of the reference bridge, measured last before
   double worst = 0.0;    ///< [s] of one scene, solved alone
   std::string worst_scene{};
@@ -38,7 +39,13 @@ struct BridgeRow {
                      ///< or blocks are far away
   std::vector<std::string> otherwise{};  ///< those of them that end otherwise there
 
-  double per_scene_and_block() const { return seconds / (scenes * static_cast<double>(blocks)); }
+  /// [s] of a scene of a build with all singles, of which those drawn stand for all, and the intact bridge is
+  /// one.
+  double per_scene() const {
+    const double of_singles = scenes > 1 ? singles / (scenes - 1) : 0.0;
+    return (intact + blocks * of_singles) / (blocks + 1);
+  }
+  double per_scene_and_block() const { return per_scene() / blocks; }
   double times_the_reference() const { return per_scene_and_block() / beside; }
 };
 

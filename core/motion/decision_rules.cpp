@@ -25,8 +25,7 @@ DecisionRules when_gone(DecisionRules rules) {
 }
 
 DecisionRules near_by(DecisionRules rules) {
-  rules.moving_sags =
-      6.0;  // by two, as in the whole bridge, 21 of 99 would fall that rest (docs/numerics.md)
+  rules.moving_sags = 6.0;  // by two, as in the whole bridge, 21 of 99 would fall that rest (docs/speed.md)
   return rules;
 }
 

@@ -5,7 +5,7 @@
 /// motion in a patch around them first, of some fifteen blocks, whose rim goes where the start says: that
 /// takes the same time whatever the size of the bridge. Only a fall is believed, and only one that goes
 /// further than the whole bridge's would have to; what does not fall there is left to the whole bridge.
-/// Measured on random bridges (docs/numerics.md).
+/// Measured on random bridges (docs/speed.md).
 
 #include <optional>
 

@@ -4,7 +4,7 @@
 /// Then motion need not show a field at a stated moment, and may decide sooner: gravity grows in as many
 /// periods of the bridge as it does of the reference bridge, which are shorter where joints are stiff; and
 /// falls are looked for near the missing blocks first (near_falls.h). What stands is Newton's. What this
-/// changes and gains was measured on random bridges (docs/numerics.md).
+/// changes and gains was measured on random bridges (docs/speed.md).
 
 #include "core/solve/settings.h"
 

@@ -194,7 +194,7 @@ SolverSettings SolverSettings::of(SolverKind kind, const DynamicSettings& motion
 SolverSettings acting_settings(SolverSettings settings, const Model& model) {
   // That three steps show whether there is a way was measured on joints much softer than blocks, and ten
   // times as soft along as across. Where they are stiffer, bridges that stand take up to fifty, and motion
-  // might pass an equilibrium (docs/numerics.md).
+  // might pass an equilibrium (docs/speed.md).
   constexpr double kStiffJoints = 0.1;
   constexpr double kStiffAlong = 0.2;
   settings.motion = acting_settings(settings.motion, model);

@@ -15,7 +15,7 @@ constexpr int kManyStalled = 30;
 /// half.
 constexpr PhaseRules kQuick{
     .largest_step = 0.5, .rise = 1.0, .patience = 3, .promising = 0.3, .most_stalled = kFewStalled};
-/// A residual that may rise lets joints open and close in turn for ever (docs/numerics.md).
+/// A residual that may rise lets joints open and close in turn for ever (docs/speed.md).
 constexpr PhaseRules kPatient{.largest_step = 0.5,
                               .rise = 1.0,
                               .patience = kForever,
