@@ -78,8 +78,12 @@ const Pace& DynamicSolver::pace() const {
 double DynamicSolver::step() const {
   return pace().step;
 }
+bool DynamicSolver::softens_joints() const {
+  return followed_->joints.softer != nullptr;
+}
+
 double DynamicSolver::critical_step() const {
-  return followed_->critical;
+  return followed_->joints.critical_step;
 }
 double DynamicSolver::frequency() const {
   return followed_->natural.frequency;

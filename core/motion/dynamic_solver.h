@@ -91,6 +91,7 @@ class DynamicSolver {
   Solution solve_in(const Patch& patch, const Scene& scene, const Field& surroundings,
                     const DecisionRules& rules) const;
 
+  bool softens_joints() const;  ///< does it follow softer joints than the bridge has (softening.h)?
   const Pace& pace() const;
   double step() const;           ///< of most blocks [s]
   double critical_step() const;  ///< of all blocks [s]

@@ -12,6 +12,11 @@ namespace {
 
 constexpr double kOfCritical = 0.9;    ///< default step; the power iteration comes from below
 constexpr double kDampingShare = 0.5;  ///< of the critical damping
+/// Of a step that each block alone allows between neighbours that stand still a bridge allows a half and
+/// more. But a thin corner gives way more the shorter a step is: there one shortens the other, down to what
+/// the mass of the corner's node allows (docs/speed.md).
+constexpr double kOfLeastStep = 0.4;
+constexpr double kFurther = 1.1;  ///< softened so much for a step that the bridge allows at least that share
 /// Of the ramp, for which motions add up: a quarter of gravity acts then. Until half of it, fields of
 /// collapses would be three times as far off (docs/numerics.md).
 constexpr double kEarlyShare = 1.0 / 3.0;
@@ -39,13 +44,6 @@ Pace acting_pace(const Model& model, const std::vector<BlockBody>& bodies, const
   return pace;
 }
 
-/// The bridge with such joints; nothing if its own are.
-std::unique_ptr<Model> softened_bridge(const Model& bridge, const std::vector<BlockBody>& bodies,
-                                       const DynamicSettings& settings) {
-  const std::vector<double> shares = softened_shares(bridge, bodies, settings);
-  return shares.empty() ? nullptr : std::make_unique<Model>(softened(bridge, shares));
-}
-
 /// The pace of the blocks of a patch.
 Pace pace_in(const Patch& patch, Pace pace) {
   if (pace.quick.empty()) return pace;
@@ -65,6 +63,22 @@ std::vector<double> softened_shares(const Model& bridge, const std::vector<Block
   return as_it_is ? std::vector<double>{} : shares;
 }
 
+FollowedJoints followed_joints(const Model& bridge, const std::vector<BlockBody>& bodies,
+                               const DynamicSettings& settings) {
+  const auto critical_of = [&](const Model& model) {
+    return critical_step(model, bodies, settings.integrator, settings.contact_damping);
+  };
+  std::vector<double> shares = softened_shares(bridge, bodies, settings);
+  if (shares.empty()) return {nullptr, critical_of(bridge)};
+  for (double step = settings.least_step;;) {
+    auto softer = std::make_unique<Model>(softened(bridge, shares));
+    const double critical = critical_of(*softer);
+    if (critical >= kOfLeastStep * settings.least_step) return {std::move(softer), critical};
+    step *= kFurther;
+    shares = softening(bridge, bodies, settings.contact_damping, step);
+  }
+}
+
 FollowedBridge::FollowedBridge(const Model& bridge_, const EquilibriumSystem& system,
                                const DynamicSettings& settings_)
     : FollowedBridge(bridge_, make_block_bodies(bridge_, settings_.inertia), system, settings_) {}
@@ -72,20 +86,19 @@ FollowedBridge::FollowedBridge(const Model& bridge_, const EquilibriumSystem& sy
 FollowedBridge::FollowedBridge(const Model& bridge_, const std::vector<BlockBody>& bodies,
                                const EquilibriumSystem& system, const DynamicSettings& settings_)
     : settings(settings_),
-      softer(softened_bridge(bridge_, bodies, settings)),
-      bridge(softer ? softer.get() : &bridge_),
+      joints(followed_joints(bridge_, bodies, settings)),
+      bridge(joints.softer ? joints.softer.get() : &bridge_),
       natural(natural_motion(*bridge, system)),
-      critical(critical_step(*bridge, bodies, settings.integrator, settings.contact_damping)),
-      model(*bridge, bodies, acting_pace(*bridge, bodies, settings, critical),
+      model(*bridge, bodies, acting_pace(*bridge, bodies, settings, joints.critical_step),
             settings.damping.value_or(2.0 * kDampingShare * natural.frequency), settings.contact_damping),
       margin(search_margin(bridge_)),
       block_size(mean_block_size(bridge_)) {}
 
 FollowedBridge::FollowedBridge(const FollowedBridge& whole, const Patch& patch, Field carried)
     : settings(whole.settings),
+      joints{nullptr, whole.joints.critical_step},
       bridge(&patch.model),
       natural(whole.natural),
-      critical(whole.critical),
       model(patch.model, make_block_bodies(patch.model, settings.inertia), pace_in(patch, whole.model.pace),
             whole.model.damping, whole.model.contact_damping),
       margin(whole.margin),

@@ -16,6 +16,15 @@ inline constexpr double kTimeBetweenLooks = 0.01;  ///< [s] between two looks at
 std::vector<double> softened_shares(const Model& bridge, const std::vector<BlockBody>& bodies,
                                     const DynamicSettings& settings);
 
+struct FollowedJoints {
+  std::unique_ptr<Model> softer;  ///< the bridge with softer joints; null: they are followed as they are
+  double critical_step = 0.0;     ///< [s] with them
+};
+
+/// Joints softened as softened_shares says, and on until the bridge as a whole allows about such steps.
+FollowedJoints followed_joints(const Model& bridge, const std::vector<BlockBody>& bodies,
+                               const DynamicSettings& settings);
+
 struct FollowedBridge {
   /// `system`: of the bridge, which must outlive this. Throws InputError for a step above the critical one.
   FollowedBridge(const Model& bridge, const EquilibriumSystem& system, const DynamicSettings& settings);
@@ -35,10 +44,9 @@ struct FollowedBridge {
   double moved_away(const DecisionRules& rules) const;
 
   DynamicSettings settings;
-  std::unique_ptr<Model> softer;  ///< what is followed if it is not the bridge
-  const Model* bridge;            ///< what is followed
+  FollowedJoints joints;
+  const Model* bridge;  ///< what is followed
   NaturalMotion natural;
-  double critical;  ///< step [s]
   MotionModel model;
   double margin;      ///< search_margin
   double block_size;  ///< [m]

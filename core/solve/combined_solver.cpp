@@ -139,7 +139,8 @@ std::vector<DynamicSolution> CombinedSolver::move(std::span<const StageTask> tas
 }
 
 /// Sets the scenes that are still open in motion, which begins with nothing slipped: takes the collapses,
-/// polishes what rests; with all patience what rests for certain.
+/// polishes what rests; with all patience what rests for certain. A bridge with softer joints rests where its
+/// own joints may have no equilibrium near.
 void CombinedSolver::follow(const DecisionRules& rules, std::span<const StageTask> tasks, bool patiently,
                             std::vector<Solution>& solutions) {
   const std::vector<std::size_t> open = open_places(tasks, solutions, patiently);
@@ -152,7 +153,7 @@ void CombinedSolver::follow(const DecisionRules& rules, std::span<const StageTas
     if (motions[k].solution.outcome == Outcome::collapsed) {
       solutions[open[k]] = std::move(motions[k].solution);
     } else {
-      const bool rests = patiently && motions[k].solution.outcome == Outcome::standing;
+      const bool rests = patiently && !motion_.softens_joints() && stands(motions[k].solution);
       tasks_at_rest.push_back(
           {.stage = tasks[open[k]].stage, .slipped = tasks[open[k]].slipped, .patiently = rests});
       resting.push_back(std::move(motions[k].solution));

@@ -23,6 +23,30 @@ Model column(double normal_stiffness) {
   return make_model(bridge);
 }
 
+/// Three arches, one of whose extrados leaves a stone of the spandrel a corner of 7 mm, between stiff joints
+/// (seed 1008 of benchmark-bridges).
+BridgeDescription bridge_with_a_corner() {
+  BridgeDescription bridge;
+  bridge.wall = {.length = 37.54176826530192,
+                 .courses = 14,
+                 .course_height = 0.47970932536228234,
+                 .block_length = 0.5965398461375865,
+                 .bond = Bond::stack,
+                 .smallest_block = kSmallestBlock};
+  const SpanDescription span{.centre_y = 0.9367398489360967,
+                             .intrados_radius = 3.3591525501936483,
+                             .ring_thickness = 0.6126147726620681,
+                             .voussoirs = 19};
+  bridge.spans = {span, span, span};
+  bridge.spans[0].centre_x = 9.591080436269651;
+  bridge.spans[1].centre_x = 18.770884132650963;
+  bridge.spans[2].centre_x = 27.950687829032276;
+  bridge.material.young_modulus = 2.495596111883537e9;
+  bridge.joints.normal_stiffness = 2.374785484402586e10;
+  bridge.joints.tangential_stiffness = 3.6716654705212906e7;
+  return bridge;
+}
+
 }  // namespace
 
 TEST_CASE("Joints are softened until a block alone allows the step (its critical step, and none longer)",
@@ -54,6 +78,18 @@ TEST_CASE("Joints are softened until a block alone allows the step (its critical
         Approx(soft.parameters.joints[0].tangential_stiffness /
                stiff.parameters.joints[0].tangential_stiffness));
   CHECK(soft.parameters.joints[0].friction_angle == stiff.parameters.joints[0].friction_angle);
+}
+
+TEST_CASE("A corner of 7 mm does not shorten steps without end (near half of what each block alone allows)",
+          "[motion]") {
+  const Model bridge = make_model(bridge_with_a_corner());
+  const DynamicSettings settings;
+  const std::vector<BlockBody> bodies = make_block_bodies(bridge, settings.inertia);
+  const Model as_blocks_alone_ask =
+      softened(bridge, softening(bridge, bodies, settings.contact_damping, settings.least_step));
+  REQUIRE(critical_step(as_blocks_alone_ask, bodies, settings.integrator, settings.contact_damping) <
+          0.2 * settings.least_step);
+  CHECK(DynamicSolver(bridge, settings).critical_step() > 0.4 * settings.least_step);
 }
 
 TEST_CASE("The reference bridge's joints are soft enough for every step (bit by bit)", "[motion]") {
