@@ -225,10 +225,9 @@ std::vector<BridgeRow> measure_bridges(const BridgeOptions& options,
 
 std::string to_markdown(const std::vector<BridgeRow>& rows) {
   std::string text =
-      "| bridge | blocks | scenes | standing | collapsed | unresolved | intact [ms] | ms a scene | us a "
-      "scene "
-      "and block | times the reference | worst scene [ms] | unresolved scenes "
-      "|\n|---|---|---|---|---|---|---|---|---|---|---|---|\n";
+      "| bridge | blocks | scenes | standing | collapsed | unresolved | intact [ms] | ms a scene "
+      "| us a scene and block | times the reference | worst scene [ms] | unresolved scenes |\n"
+      "|---|---|---|---|---|---|---|---|---|---|---|---|\n";
   for (const BridgeRow& row : rows) {
     std::vector<std::string> named = row.unresolved_scenes;
     if (named.size() > kMostNamed) {

@@ -72,16 +72,16 @@ Solution DynamicSolver::solve_in(const Patch& patch, const Scene& scene, const F
   return found;
 }
 
+bool DynamicSolver::softens_joints() const {
+  return followed_->joints.softer != nullptr;
+}
+
 const Pace& DynamicSolver::pace() const {
   return followed_->model.pace;
 }
 double DynamicSolver::step() const {
   return pace().step;
 }
-bool DynamicSolver::softens_joints() const {
-  return followed_->joints.softer != nullptr;
-}
-
 double DynamicSolver::critical_step() const {
   return followed_->joints.critical_step;
 }

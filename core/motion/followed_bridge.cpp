@@ -44,6 +44,23 @@ Pace acting_pace(const Model& model, const std::vector<BlockBody>& bodies, const
   return pace;
 }
 
+/// Joints softened as softened_shares says, and on until the bridge as a whole allows about such steps.
+FollowedJoints followed_joints(const Model& bridge, const std::vector<BlockBody>& bodies,
+                               const DynamicSettings& settings) {
+  const auto critical_of = [&](const Model& model) {
+    return critical_step(model, bodies, settings.integrator, settings.contact_damping);
+  };
+  std::vector<double> shares = softened_shares(bridge, bodies, settings);
+  if (shares.empty()) return {nullptr, critical_of(bridge)};
+  for (double step = settings.least_step;;) {
+    auto softer = std::make_unique<Model>(softened(bridge, shares));
+    const double critical = critical_of(*softer);
+    if (critical >= kOfLeastStep * settings.least_step) return {std::move(softer), critical};
+    step *= kFurther;
+    shares = softening(bridge, bodies, settings.contact_damping, step);
+  }
+}
+
 /// The pace of the blocks of a patch.
 Pace pace_in(const Patch& patch, Pace pace) {
   if (pace.quick.empty()) return pace;
@@ -61,22 +78,6 @@ std::vector<double> softened_shares(const Model& bridge, const std::vector<Block
   std::vector<double> shares = softening(bridge, bodies, settings.contact_damping, settings.least_step);
   const bool as_it_is = std::ranges::all_of(shares, [](double share) { return share == 1.0; });
   return as_it_is ? std::vector<double>{} : shares;
-}
-
-FollowedJoints followed_joints(const Model& bridge, const std::vector<BlockBody>& bodies,
-                               const DynamicSettings& settings) {
-  const auto critical_of = [&](const Model& model) {
-    return critical_step(model, bodies, settings.integrator, settings.contact_damping);
-  };
-  std::vector<double> shares = softened_shares(bridge, bodies, settings);
-  if (shares.empty()) return {nullptr, critical_of(bridge)};
-  for (double step = settings.least_step;;) {
-    auto softer = std::make_unique<Model>(softened(bridge, shares));
-    const double critical = critical_of(*softer);
-    if (critical >= kOfLeastStep * settings.least_step) return {std::move(softer), critical};
-    step *= kFurther;
-    shares = softening(bridge, bodies, settings.contact_damping, step);
-  }
 }
 
 FollowedBridge::FollowedBridge(const Model& bridge_, const EquilibriumSystem& system,

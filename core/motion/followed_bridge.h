@@ -21,10 +21,6 @@ struct FollowedJoints {
   double critical_step = 0.0;     ///< [s] with them
 };
 
-/// Joints softened as softened_shares says, and on until the bridge as a whole allows about such steps.
-FollowedJoints followed_joints(const Model& bridge, const std::vector<BlockBody>& bodies,
-                               const DynamicSettings& settings);
-
 struct FollowedBridge {
   /// `system`: of the bridge, which must outlive this. Throws InputError for a step above the critical one.
   FollowedBridge(const Model& bridge, const EquilibriumSystem& system, const DynamicSettings& settings);
