@@ -26,7 +26,8 @@ struct DynamicSettings {
                                ///< several times that (pace.h) ..
   int most_parts = 8;          ///< .. at most so many; 1: all blocks take the same implicit steps
   double least_step = 2e-4;  ///< joints of a block that alone would need shorter implicit steps are softened
-                             ///< until it does not (softening.h); 0: none are
+                             ///< until it does not (softening.h), and on until the bridge needs none much
+                             ///< shorter; 0: none are
   double ramp = 0.3;         ///< gravity grows from 0 as 3 x^2 - 2 x^3, x = time / ramp; 0: at once
   std::optional<double>
       damping;  ///< force per mass and velocity [1/s]; empty: half-critical of the lowest frequency

@@ -157,8 +157,7 @@ PairSuccess success_of_pairs(const Subject& subject, bool with_arch_block) {
   const Trial trial(library, 2);
   std::vector<std::size_t> truths;
   for (const std::size_t row : trial.eligible().rows)
-    if (library.table.has_displacements(row) &&
-        arch_block(library.table.scene(row), library.layout).has_value() == with_arch_block)
+    if (arch_block(library.table.scene(row), library.layout).has_value() == with_arch_block)
       truths.push_back(row);
   PairSuccess result;
   Random random(subject.settings.seed);

@@ -28,7 +28,11 @@ Subject::Subject(const Database& of, PaperCases shown, const ReproductionSetting
       cases(std::move(shown)),
       settings(with),
       few(rows_with_at_most_one(of.table())),
-      few_index(build_search_index(few.vertical, few.points)) {}
+      few_index(build_search_index(few.vertical, few.points)) {
+  const Library library = all();
+  for (const std::size_t row : eligible_rows(library.table, {0, 1, 2}).rows)
+    expect_displacements(library, row);
+}
 
 std::size_t Subject::row(const std::string& scene) const {
   return row_of(all(), scene);

@@ -27,6 +27,7 @@ struct Subject {
   SceneTable few;  ///< the first rows of the table: intact and one missing block
   SearchIndexData few_index;
 
+  /// Throws Failure if of a scene only the outcome is known: the paper reads scenes that fall, too.
   Subject(const Database& of, PaperCases shown, const ReproductionSettings& with);
 
   /// All scenes, or only those with at most one missing block, which is quicker.
