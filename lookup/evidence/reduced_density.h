@@ -49,7 +49,8 @@ struct ScenePrediction {
   const double* prediction;
   std::array<const ReducedLoss*, kMostLosses> losses;
   double least;
-  float* logs;  ///< log p(readings | scene, case), kappa marginalised, of all cases looked at so far
+  float at_points;  ///< 1: what is beyond its losses is uncertain at each point, too; else 0
+  float* logs;      ///< log p(readings | scene, case), kappa marginalised, of all cases looked at so far
 };
 
 /// Of kFloatLanes scenes with so many losses, in the first directions, and in a few where that matters;

@@ -202,10 +202,13 @@ VOUSSOIR_INLINE void fill(const ReducedQuestion& q, Scenes<Lanes> scenes, Reduce
   add_up<Lanes, kCount>(
       scenes, kSize, [](const auto& loss) VOUSSOIR_INLINE_WORK { return loss.model_error.data(); },
       to.model_error);
+  Lanes at_points{};
+  for (std::size_t k = 0; k < scenes.size(); ++k) at_points[k] = static_cast<Number>(scenes[k].at_points);
+  const Lanes square_at_points = at_points * to.mean_square;
   std::size_t at = 0;
   for (std::size_t i = 0; i < N; ++i)
     for (std::size_t j = 0; j <= i; ++j, ++at)
-      to.loose[at] = to.beyond[i] * to.beyond[j] + to.mean_square * static_cast<Number>(q.points[at]);
+      to.loose[at] = to.beyond[i] * to.beyond[j] + square_at_points * static_cast<Number>(q.points[at]);
 }
 
 }  // namespace voussoir

@@ -233,7 +233,7 @@ std::optional<SceneLoss> scene_loss(const UnknownBridge& bridge, const Observati
   loss.beyond = loss.signal;
   for (const Loss* one : loss.known) loss.beyond -= one->signal;
   const Index changed = bridge.has_first_epoch() ? loss.signal.size() / 2 : loss.signal.size();
-  loss.mean_square_beyond = loss.beyond.squaredNorm() / static_cast<double>(changed);
+  if (!known.all) loss.square_at_points = loss.beyond.squaredNorm() / static_cast<double>(changed);
   return loss;
 }
 
@@ -260,8 +260,7 @@ MatrixXd scene_noise(const UnknownBridge& bridge, const SceneLoss& loss) {
   const double square = bridge.spread * bridge.spread;
   noise.noalias() += square * loss.beyond * loss.beyond.transpose();
   for (Index k = 0; k < noise.rows(); ++k)
-    if (bridge.rows[static_cast<std::size_t>(k)].after != 0.0)
-      noise(k, k) += square * loss.mean_square_beyond;
+    if (bridge.rows[static_cast<std::size_t>(k)].after != 0.0) noise(k, k) += square * loss.square_at_points;
   return noise;
 }
 

@@ -9,10 +9,12 @@
 /// bridge.
 ///
 /// The factors of two or three blocks are those of the intact bridge and what each block changes alone,
-/// unless the database has the scene's own; the model's errors in both add up. Of what a scene's signal is
-/// beyond that of its blocks with known factors, the whole counts as uncertain as signals typically are: by
-/// one factor, and once more at each point by itself. So scenes without factors (that collapse, or with a
-/// block whose loss alone makes a collapse) are told less sharply, not excluded.
+/// unless the database has the scene's own; the model's errors in both add up. What a scene's signal is
+/// beyond that of its blocks with known factors counts as uncertain as signals typically are: by one factor,
+/// and where not all blocks have factors once more at each point by itself. So scenes without factors (that
+/// collapse, or with a block whose loss alone makes a collapse) are told less sharply, not excluded. Blocks
+/// that touch change much together: at each point by itself that would widen the covariance in all
+/// directions, and another scene, which explains less, would be likelier.
 
 #include <Eigen/Core>
 #include <array>
@@ -115,6 +117,7 @@ inline constexpr std::size_t kMostLosses = 3;
 struct KnownLosses {
   std::array<std::size_t, kMostLosses> place{};
   std::size_t count = 0;
+  bool all = true;  ///< does the scene lack no block besides?
 };
 
 /// Of a scene that has factors of its own, its place in UnknownBridge::losses.
@@ -124,18 +127,23 @@ inline KnownLosses known_losses(const UnknownBridge& bridge, const SceneTable& t
   if (!bridge.several.empty())
     if (const auto own = place_of_several(bridge, table.scene(row))) return {{*own}, 1};
   KnownLosses found;
-  for (const std::int32_t block : table.removed.subspan(row * table.most_missing, table.most_missing))
-    if (block >= 0 && bridge.losses[static_cast<std::size_t>(block)].known() && found.count < kMostLosses)
+  for (const std::int32_t block : table.removed.subspan(row * table.most_missing, table.most_missing)) {
+    if (block < 0) continue;
+    if (bridge.losses[static_cast<std::size_t>(block)].known() && found.count < kMostLosses)
       found.place[found.count++] = static_cast<std::size_t>(block);
+    else
+      found.all = false;
+  }
   return found;
 }
 
 /// What one scene lacks, in rows of y.
 struct SceneLoss {
-  std::vector<const Loss*> known;   ///< with factors: of its blocks, or its own
-  Eigen::VectorXd signal;           ///< [m] less what the intact bridge shows
-  Eigen::VectorXd beyond;           ///< [m] of it what is not that of the known losses
-  double mean_square_beyond = 0.0;  ///< [m2] of that, over the rows after
+  std::vector<const Loss*> known;  ///< with factors: of its blocks, or its own
+  Eigen::VectorXd signal;          ///< [m] less what the intact bridge shows
+  Eigen::VectorXd beyond;          ///< [m] of it what is not that of the known losses
+  double square_at_points = 0.0;  ///< [m2] mean square of that over the rows after, if not all blocks' losses
+                                  ///< are known; otherwise 0
 };
 
 /// Nothing if the scene is impossible: a block with a reading is missing.
@@ -150,7 +158,8 @@ Eigen::MatrixXd epoch_columns(const UnknownBridge& bridge, const SceneLoss& loss
 Eigen::MatrixXd other_columns(const UnknownBridge& bridge, const SceneLoss& loss);
 
 /// Everything that adds to the covariance of a scene's readings in the bridge's case, but for A A^T: noise,
-/// E E^T and what else is uncertain; and its signal beyond known losses, by one factor and at each point.
+/// E E^T and what else is uncertain; and its signal beyond known losses, by one factor and, of unknown ones,
+/// at each point.
 Eigen::MatrixXd scene_noise(const UnknownBridge& bridge, const SceneLoss& loss);
 
 }  // namespace voussoir

@@ -77,13 +77,13 @@ void store_noise(const UnknownBridge& bridge, const SceneLoss& loss, const CaseT
   noise.resize(one.noise.size());
   for (std::size_t i = 0; i < one.noise.size(); ++i)
     noise[i] = one.noise[i] + conditions * work.epoch[i] + work.always[i];
-  if (loss.mean_square_beyond > 0.0) {
+  if (!loss.beyond.isZero(0.0)) {
     const double square = one.spread * one.spread;
     for (std::size_t i = 0; i < bridge.rows.size(); ++i) {
       const double own = square * loss.beyond[static_cast<Index>(i)];
       double* const to = noise.data() + lower_size(i);
       for (std::size_t j = 0; j <= i; ++j) to[j] += own * loss.beyond[static_cast<Index>(j)];
-      if (bridge.rows[i].after != 0.0) to[i] += square * loss.mean_square_beyond;
+      if (bridge.rows[i].after != 0.0) to[i] += square * loss.square_at_points;
     }
   }
 }

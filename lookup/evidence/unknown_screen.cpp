@@ -292,7 +292,7 @@ ReducedQuestion UnknownScreen::question() const {
 }
 
 ScenePrediction UnknownScreen::scene(const ScreenedRow& row, const KnownLosses& known) const {
-  ScenePrediction result{table_.row(row.row).data(), {&none_}, row.least, row.logs};
+  ScenePrediction result{table_.row(row.row).data(), {&none_}, row.least, known.all ? 0.0F : 1.0F, row.logs};
   for (std::size_t k = 0; k < known.count; ++k) result.losses[k] = &losses_[known.place[k]];
   return result;
 }

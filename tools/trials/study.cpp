@@ -19,7 +19,8 @@ struct LookFor {
 };
 
 constexpr std::array kLookFor = {LookFor{"singles among singles", 1, false},
-                                 LookFor{"singles among all", 1, true}, LookFor{"pairs among all", 2, true}};
+                                 LookFor{"singles among all", 1, true},
+                                 LookFor{"pairs among pairs", 2, false}, LookFor{"pairs among all", 2, true}};
 
 Asking asking_for(const Database& database, const SensorList& sensors, const LookFor& search,
                   const StudySettings& settings, bool known_bridge) {
