@@ -46,9 +46,11 @@ struct Question {
   /// Two losses and more change something beyond the sum of their own, as those of blocks that touch do.
   void change_together() {
     const std::size_t points = library.points.size();
-    for (std::size_t row = 0; row < library.table.rows; ++row)
-      for (std::size_t i = 0; i < points && library.table.scene(row).missing() > 1; ++i)
+    for (std::size_t row = 0; row < library.table.rows; ++row) {
+      if (library.table.scene(row).missing() < 2) continue;
+      for (std::size_t i = 0; i < points; ++i)
         library.vertical[row * points + i] += 6e-5 * std::sin(static_cast<double>(row + 3 * i));
+    }
     library.make_index();
   }
   Observation observation(const Nuisance& nuisance = {}) const {
@@ -178,8 +180,10 @@ class TwoEpochs {
       beyond.setZero();
     } else {
       for (const BlockId block : scene_.removed) {
-        all_known = all_known && from().find(0, {{block}});
-        if (!from().find(0, {{block}})) continue;
+        if (!from().find(0, {{block}})) {
+          all_known = false;
+          continue;
+        }
         add_loss(signal_of(block));
         beyond -= signal_of(block);
       }
