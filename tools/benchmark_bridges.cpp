@@ -4,12 +4,11 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cmath>
-#include <numbers>
 
 #include "core/motion/dynamic_solver.h"
 #include "core/random.h"
 #include "tools/default_build.h"
+#include "tools/random_bridge.h"
 #include "tools/timing.h"
 
 namespace voussoir {
@@ -19,22 +18,6 @@ constexpr std::size_t kTogether = 16;  // scenes handed over at a time
 constexpr std::size_t kMostNamed = 5;  // unresolved scenes in the table
 constexpr int kBeside = 5;             // bridges between two measurements of the reference
 constexpr double kLongest = 10.0;      // [s] of a bridge's own time that a scene is followed
-
-/// Uniform numbers from a seed.
-class Draw {
- public:
-  explicit Draw(std::uint64_t seed) : random_(seed) {}
-  double between(double least, double most) { return least + (most - least) * random_.uniform(); }
-  double even_in_logarithm(double least, double most) {
-    return std::exp(between(std::log(least), std::log(most)));
-  }
-  int whole(int least, int most) {
-    return least + static_cast<int>(random_.below(static_cast<std::uint32_t>(most - least + 1)));
-  }
-
- private:
-  Random random_;
-};
 
 std::vector<Scene> drawn_scenes(const Model& model, int count, std::uint64_t seed) {
   std::vector<Scene> scenes = all_scenes(static_cast<std::size_t>(model.block_count()), 1);
@@ -164,41 +147,6 @@ std::string in_motion(std::span<const BridgeRow> rows) {
 }
 
 }  // namespace
-
-BridgeDescription random_bridge(std::uint64_t seed) {
-  Draw draw(seed);
-  BridgeDescription bridge;
-  bridge.name = fmt::format("random {}", seed);
-  bridge.collapse_fields = false;
-  const int spans = draw.whole(1, 3);
-  SpanDescription span;
-  span.intrados_radius = draw.between(1.0, 5.0);
-  span.ring_thickness = draw.between(0.08, 0.25) * span.intrados_radius;
-  span.centre_y = draw.between(0.0, 1.5);
-  span.voussoirs = draw.whole(9, 41);
-  WallDescription& wall = bridge.wall;
-  wall.course_height = draw.between(0.2, 0.6);
-  wall.block_length = draw.between(0.4, 1.5);
-  wall.bond = draw.whole(0, 1) == 0 ? Bond::running : Bond::stack;
-  wall.smallest_block = kSmallestBlock;
-  const double abutment = draw.between(0.5, 2.0) * span.intrados_radius;
-  const double pier = draw.between(0.0, 0.5) * span.intrados_radius;
-  const double cover = draw.between(0.2, 1.0) * span.intrados_radius;
-  const double pitch = 2.0 * span.extrados_radius() + pier;
-  wall.length = 2.0 * abutment + spans * pitch - pier;
-  wall.courses =
-      static_cast<int>(std::ceil((span.centre_y + span.extrados_radius() + cover) / wall.course_height));
-  bridge.spans.clear();
-  for (int i = 0; i < spans; ++i) {
-    span.centre_x = abutment + span.extrados_radius() + i * pitch;
-    bridge.spans.push_back(span);
-  }
-  bridge.material.young_modulus = draw.even_in_logarithm(2e9, 6e10);
-  bridge.joints.normal_stiffness = draw.even_in_logarithm(1e8, 3e10);
-  bridge.joints.tangential_stiffness = draw.even_in_logarithm(2e7, 3e9);
-  bridge.joints.friction_angle = draw.between(25.0, 45.0) * std::numbers::pi / 180.0;
-  return bridge;
-}
 
 std::vector<BridgeRow> measure_bridges(const BridgeOptions& options,
                                        const std::function<void(const BridgeRow&)>& progress) {
