@@ -30,16 +30,6 @@ std::pair<double, double> moments(const std::vector<double>& values) {
   return {mean, std::sqrt(squares / n)};
 }
 
-Trial trial(std::size_t bridge, bool first, double likeliest) {
-  Trial result;
-  result.bridge = bridge;
-  result.first = first;
-  result.likeliest = likeliest;
-  result.verdict = first ? Verdict::located : Verdict::cannot_tell;
-  result.bins = unfinished_bins();
-  return result;
-}
-
 /// The small bridge, its own rows in a second variant as the truth.
 struct Site {
   test::TemporaryFolder folder;
@@ -104,82 +94,6 @@ TEST_CASE("A sensor on a block that is gone is silent, in every kind of readings
   }
 }
 
-TEST_CASE("Shares of trials come with the standard error between bridges (worked out by hand)") {
-  // Bridge 0: 3 of 4 count, bridge 1: 1 of 4, bridge 2: 2 of 2. Share 0.6; sum of squares of k - 0.6 n:
-  // 0.6^2 + 1.4^2 + 0.8^2 = 2.96, times 3 / 2, root, over 10.
-  std::vector<Trial> trials;
-  for (const auto& [bridge, first] : std::vector<std::pair<std::size_t, bool>>{{0, true},
-                                                                               {0, true},
-                                                                               {0, true},
-                                                                               {0, false},
-                                                                               {1, true},
-                                                                               {1, false},
-                                                                               {1, false},
-                                                                               {1, false},
-                                                                               {2, true},
-                                                                               {2, true}})
-    trials.push_back(trial(bridge, first, 0.95));
-  const TrialRates rates = rates_of(trials);
-  CHECK(rates.trials == 10);
-  CHECK(rates.bridges == 3);
-  CHECK(rates.first.value == Approx(0.6));
-  CHECK(rates.first.standard_error == Approx(std::sqrt(2.96 * 1.5) / 10.0));
-  CHECK(rates.wrong_and_sure.value == Approx(0.4));
-  CHECK(rates.alarm.value == Approx(0.6));
-  CHECK(rates.verdicts[static_cast<std::size_t>(Verdict::located)] == 6);
-  CHECK(rates.verdicts[static_cast<std::size_t>(Verdict::cannot_tell)] == 4);
-}
-
-TEST_CASE("One trial a bridge has the standard error of independent trials (binomial)") {
-  std::vector<Trial> trials;
-  for (std::size_t bridge = 0; bridge < 200; ++bridge) trials.push_back(trial(bridge, bridge % 4 == 0, 0.5));
-  const Share first = rates_of(trials).first;
-  CHECK(first.value == Approx(0.25));
-  CHECK(first.standard_error == Approx(std::sqrt(0.25 * 0.75 / 199.0)));
-}
-
-TEST_CASE("A set of exactly 95 % holds truths drawn by their probabilities in exactly 95 % (closed form)") {
-  Posterior posterior;
-  posterior.probability = {0.0, {1, 3, 5, 7}, {0.3, 0.6, 0.02, 0.08}};
-  posterior.credible = {3, 1, 7};
-  CHECK(held_by_exact_set(3, posterior) == 1.0);
-  CHECK(held_by_exact_set(1, posterior) == 1.0);
-  CHECK(held_by_exact_set(7, posterior) == Approx(0.05 / 0.08));
-  CHECK(held_by_exact_set(5, posterior) == 0.0);
-  double held = 0.0;
-  for (const std::size_t row : posterior.probability.rows)
-    held += posterior.probability[row] * held_by_exact_set(row, posterior);
-  CHECK(held == Approx(kCredibleShare));
-  posterior.probability.values = {0.01, 0.99, 0.0, 0.0};
-  posterior.credible = {3};
-  CHECK(held_by_exact_set(3, posterior) == Approx(kCredibleShare / 0.99));
-}
-
-TEST_CASE("Bins of several series joined are those of all answers at once") {
-  Posterior answer;
-  answer.probability = {0.0, {0, 1, 2}, {0.05, 0.15, 0.8}};
-  std::vector<ReliabilityBin> first = unfinished_bins(), second = unfinished_bins(), both = unfinished_bins();
-  for (auto* bins : {&first, &both}) add_to_bins(answer, 2, *bins);
-  answer.probability = {0.0, {0, 1, 2}, {0.0005, 0.1995, 0.8}};
-  for (auto* bins : {&second, &both}) add_to_bins(answer, 1, *bins);
-  for (auto* bins : {&first, &second, &both}) finish_bins(*bins);
-  std::vector<StudyRow> rows(3);
-  rows[0].rates.bins = first;
-  rows[1].rates.bins = second;
-  rows[2].rates.bins = second;
-  rows[2].known_bridge = true;
-  const std::vector<ReliabilityBin> joined = joined_bins(rows, false);
-  CHECK(joined[8].scenes == 2);
-  CHECK(joined[8].frequency == Approx(0.5));
-  CHECK(joined[0].scenes == 1);
-  for (std::size_t i = 0; i < both.size(); ++i) {
-    CHECK(joined[i].scenes == both[i].scenes);
-    CHECK(joined[i].mean_probability == Approx(both[i].mean_probability));
-    CHECK(joined[i].frequency == Approx(both[i].frequency));
-    CHECK(joined[i].standard_error == Approx(both[i].standard_error));
-  }
-}
-
 TEST_CASE("True bridges are the variants of a file; one without variants is refused") {
   const Site site;
   const Database database = site.write({1.0, 1.1, 0.8}, "bridges.h5");
@@ -207,6 +121,7 @@ TEST_CASE("A study of bridges that are the database's own finds every block and 
     INFO(to_text(row));
     CHECK(row.rates.trials == (row.looked_for == "singles among singles" ? 38 : 6));
     if (row.known_bridge) CHECK(row.rates.first.value == 1.0);
+    if (row.known_bridge) CHECK(row.rates.names_sound.value == 0.0);
   }
   const auto json = nlohmann::json::parse(to_json({"own.h5", "digest", "small", {"own"}, settings}, rows));
   REQUIRE(json["rows"].size() == rows.size());
@@ -231,6 +146,24 @@ TEST_CASE("Trials do not depend on what else is asked; other seeds draw other er
   };
   CHECK(likeliest(1) == likeliest(1));
   CHECK(likeliest(1) != likeliest(2));
+}
+
+TEST_CASE("A verdict that names a block that is there is counted, one that names a missing one is not") {
+  const Site site;
+  const Database database = site.write({1.0, 1.0}, "own.h5");
+  const SensorList sensors = control_point_sensors(database.control_points());
+  Asking asking{database, sensors, {}, true};
+  asking.lookup.prior.missing = {1};
+  const TrueBridge bridge = read_true_bridges(database).front();
+  Random random(1);
+  const ReadingsFile readings =
+      take_readings({bridge.intact, bridge.damaged[3].lost}, ReadingsTaken::change, 1e-6, random);
+  const auto if_true = [&](std::size_t damaged) {
+    return ask(asking, readings, database.find(bridge.damaged[damaged].scene).value());
+  };
+  REQUIRE(if_true(3).verdict == Verdict::located);
+  CHECK_FALSE(if_true(3).names_sound);
+  CHECK(if_true(5).names_sound);
 }
 
 TEST_CASE("Between two epochs intact bridges stay as they are, or rise with the warmth") {

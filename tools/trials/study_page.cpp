@@ -84,12 +84,24 @@ Figure success_figure(const std::vector<StudyRow>& rows, ReadingsTaken taken) {
           .table = std::move(table)};
 }
 
+/// A share and its standard error.
+void add_share(const Share& share, std::vector<TableCell>& cells) {
+  cells.emplace_back(kPerCent * share.value);
+  cells.emplace_back(kPerCent * share.standard_error);
+}
+
+std::vector<std::string> columns() {
+  std::vector<std::string> names = {"truth", "looked for", "readings", "sigma [mm]", "bridge", "trials"};
+  for (const char* share : {"first [%]", "in the 95 % set [%]", "in a set of exactly 95 % [%]",
+                            "wrong, over 90 % [%]", "called damaged [%]", "names a sound block [%]"})
+    names.insert(names.end(), {share, "+-"});
+  names.insert(names.end(), {"scenes in the 95 % set", "Brier"});
+  for (const Verdict verdict : all_verdicts()) names.emplace_back(to_string(verdict));
+  return names;
+}
+
 Table table_of(const std::vector<StudyRow>& rows) {
-  Table table{{"truth", "looked for", "readings", "sigma [mm]", "bridge", "trials", "first [%]", "+-",
-               "in the 95 % set [%]", "+-", "in a set of exactly 95 % [%]", "+-", "scenes in it",
-               "wrong, over 90 % [%]", "+-", "called damaged [%]", "+-", "Brier"},
-              {}};
-  for (const Verdict verdict : all_verdicts()) table.columns.emplace_back(to_string(verdict));
+  Table table{columns(), {}};
   for (const StudyRow& row : rows) {
     const TrialRates& rates = row.rates;
     std::vector<TableCell> cells = {row.truth,
@@ -98,15 +110,10 @@ Table table_of(const std::vector<StudyRow>& rows) {
                                     kMillimetres * row.sigma,
                                     bridge_word(row),
                                     static_cast<double>(rates.trials)};
-    for (const Share& share : {rates.first, rates.in_credible, rates.in_exact}) {
-      cells.emplace_back(kPerCent * share.value);
-      cells.emplace_back(kPerCent * share.standard_error);
-    }
+    for (const Share& share : {rates.first, rates.in_credible, rates.in_exact, rates.wrong_and_sure,
+                               rates.alarm, rates.names_sound})
+      add_share(share, cells);
     cells.emplace_back(rates.mean_set_size);
-    for (const Share& share : {rates.wrong_and_sure, rates.alarm}) {
-      cells.emplace_back(kPerCent * share.value);
-      cells.emplace_back(kPerCent * share.standard_error);
-    }
     cells.emplace_back(rates.mean_brier);
     for (const std::size_t count : rates.verdicts) cells.emplace_back(static_cast<double>(count));
     table.rows.push_back(std::move(cells));

@@ -48,6 +48,7 @@ nlohmann::ordered_json row_json(const StudyRow& row) {
           {"in_exact_95", share_json(row.rates.in_exact)},
           {"wrong_and_sure", share_json(row.rates.wrong_and_sure)},
           {"called_damaged", share_json(row.rates.alarm)},
+          {"names_sound_block", share_json(row.rates.names_sound)},
           {"stated_of_95_set", row.rates.mean_in_set},
           {"mean_set_size", row.rates.mean_set_size},
           {"mean_brier", row.rates.mean_brier},
@@ -63,22 +64,23 @@ std::string heading_text() {
   for (const Verdict verdict : all_verdicts())
     verdicts += fmt::format("{}{}", verdicts.empty() ? "" : "/", to_string(verdict));
   return fmt::format(
-      "{:<22} {:<21} {:<10} {:>5} {:>7} {:>6} {:>13} {:>13} {:>13} {:>6} {:>7} {:>13} {:>13} {:>6} {:>6}  "
-      "{}\n",
+      "{:<22} {:<21} {:<10} {:>5} {:>7} {:>6} {:>13} {:>13} {:>13} {:>6} {:>7} {:>13} {:>13} {:>13} {:>6} "
+      "{:>6} "
+      " {}\n",
       "truth", "looked for", "readings", "sigma", "bridge", "trials", "first", "95 % set", "exactly 95 %",
-      "stated", "size", "wrong > 90 %", "called damaged", "Brier", "ms", verdicts);
+      "stated", "size", "wrong > 90 %", "called damaged", "names sound", "Brier", "ms", verdicts);
 }
 
 std::string to_text(const StudyRow& row) {
   const TrialRates& rates = row.rates;
   return fmt::format(
-      "{:<22} {:<21} {:<10} {:>5.2g} {:>7} {:>6} {:>13} {:>13} {:>13} {:>6.3f} {:>7.1f} {:>13} {:>13} "
+      "{:<22} {:<21} {:<10} {:>5.2g} {:>7} {:>6} {:>13} {:>13} {:>13} {:>6.3f} {:>7.1f} {:>13} {:>13} {:>13} "
       "{:>6.3f} {:>6.1f}  {}\n",
       row.truth, row.looked_for, to_string(row.taken), kMillimetres * row.sigma,
       row.known_bridge ? "known" : "unknown", rates.trials, share_text(rates.first),
       share_text(rates.in_credible), share_text(rates.in_exact), rates.mean_in_set, rates.mean_set_size,
-      share_text(rates.wrong_and_sure), share_text(rates.alarm), rates.mean_brier, row.milliseconds,
-      fmt::join(rates.verdicts, "/"));
+      share_text(rates.wrong_and_sure), share_text(rates.alarm), share_text(rates.names_sound),
+      rates.mean_brier, row.milliseconds, fmt::join(rates.verdicts, "/"));
 }
 
 std::vector<ReliabilityBin> joined_bins(const std::vector<StudyRow>& rows, bool known_bridge) {

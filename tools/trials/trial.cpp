@@ -52,6 +52,12 @@ void add(const std::vector<ReliabilityBin>& bins, std::vector<ReliabilityBin>& s
   }
 }
 
+bool names_sound_block(const Posterior& posterior, const Scene& truth) {
+  return std::ranges::any_of(likely_blocks(posterior, kCertain), [&](BlockId block) {
+    return std::ranges::find(truth.removed, block) == truth.removed.end();
+  });
+}
+
 bool is_alarm(Verdict verdict) {
   return verdict == Verdict::located || verdict == Verdict::damaged_unlocated;
 }
@@ -82,6 +88,8 @@ Trial ask(const Asking& asking, const ReadingsFile& readings, std::size_t truth)
   trial.likeliest = set.empty() ? 0.0 : posterior.probability[set.front()];
   trial.brier = brier_score(posterior, truth);
   trial.verdict = verdict_of(answer);
+  trial.names_sound =
+      trial.verdict == Verdict::located && names_sound_block(posterior, asking.database.table().scene(truth));
   trial.bins = unfinished_bins();
   add_to_bins(posterior, truth, trial.bins);
   return trial;
@@ -95,6 +103,7 @@ TrialRates rates_of(const std::vector<Trial>& trials) {
                    .wrong_and_sure = share_of(
                        trials, [](const Trial& trial) { return !trial.first && trial.likeliest > kCertain; }),
                    .alarm = share_of(trials, [](const Trial& trial) { return is_alarm(trial.verdict); }),
+                   .names_sound = share_of(trials, [](const Trial& trial) { return trial.names_sound; }),
                    .bins = unfinished_bins()};
   std::map<std::size_t, int> bridges;
   for (const Trial& trial : trials) {

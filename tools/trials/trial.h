@@ -30,6 +30,7 @@ struct Trial {
   double likeliest = 0.0;    ///< probability of the likeliest scene
   double brier = 0.0;        ///< sum over all scenes of (probability - whether it is the truth)^2
   Verdict verdict = Verdict::cannot_tell;
+  bool names_sound = false;          ///< the verdict is located, and a block that it names is there
   std::vector<ReliabilityBin> bins;  ///< of this trial's probabilities, unfinished
 };
 
@@ -55,6 +56,7 @@ struct TrialRates {
   Share in_exact;        ///< 95 % if all probabilities are right
   Share wrong_and_sure;  ///< the likeliest scene is not the truth and has more than kCertain
   Share alarm;           ///< the verdict says that blocks are missing
+  Share names_sound;     ///< it names a block that is there
   double mean_set_size = 0.0;
   double mean_in_set = 0.0;  ///< how often the sets hold the truth if all probabilities are right
   double mean_brier = 0.0;
