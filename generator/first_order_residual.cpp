@@ -52,7 +52,7 @@ std::vector<SampledScene> solve_scenes(const SensitivityStudy& study, const Nomi
   const std::size_t groups = (bridges.size() + at_once - 1) / at_once;
   std::vector<std::vector<SampledScene>> of_group(groups);
   oneapi::tbb::enumerable_thread_specific<SampledHistories> solvers(
-      [&] { return SampledHistories(study, nominal); });
+      [&] { return SampledHistories(study, nominal.scenes); });
   Crew(study.threads).for_each_index(groups, [&](std::size_t group) {
     const std::size_t first = group * at_once;
     const std::size_t count = std::min(at_once, bridges.size() - first);

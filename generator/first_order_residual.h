@@ -16,6 +16,12 @@ inline constexpr std::uint64_t kFirstSampledSeed = 0x5eed0001;
 inline constexpr std::size_t kBridgesWithSingles = 6;
 inline constexpr std::size_t kSampledSingles = 24;
 
+/// The nominal bridge's answers.
+struct NominalScenes {
+  const std::vector<Scene>& scenes;        ///< the intact bridge first
+  const std::vector<SceneStates>& states;  ///< of each scene
+};
+
 struct FirstOrder {
   NominalScenes nominal;
   const Derivatives& derivatives;  ///< of its scenes

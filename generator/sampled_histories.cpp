@@ -1,5 +1,7 @@
 #include "generator/sampled_histories.h"
 
+#include "core/solve/settling.h"
+
 namespace voussoir {
 
 SampledBridge draw_bridge(const Model& bridge, const UncertainParameters& uncertain, std::uint64_t seed) {
@@ -33,33 +35,31 @@ std::vector<SampledScene> SampledHistories::solve(std::span<const SampledBridge>
   return result;
 }
 
+/// Each from rest, as if it were alone: near the nominal bridge's field there may be an equilibrium where
+/// friction holds what no history leads to.
 void SampledHistories::build_intact(const std::vector<Case>& cases, Found& found) const {
-  const Solution& nominal = *nominal_.states[kIntactScene][kBuilt];
   Batch batch;
   for (std::size_t i = 0; i < cases.size(); ++i)
-    if (cases[i].scene == kIntactScene && !has_slipped(nominal))
-      batch.add(i, {.stage = {}, .start = &nominal.displacement, .parameters = &cases[i].bridge->parameters});
-  solve(batch, kBuilt, found);
-  for (std::size_t i = 0; i < cases.size(); ++i)
-    if (cases[i].scene == kIntactScene && !stands(found[i][kBuilt]))
-      found[i][kBuilt] = set_in_motion(*cases[i].bridge);
+    if (cases[i].scene == kIntactScene)
+      batch.add(i, {.stage = {}, .parameters = &cases[i].bridge->parameters});
+  std::vector<Solution> built = settle(batch.tasks, equilibrium_(batch.tasks), equilibrium_);
+  for (std::size_t k = 0; k < built.size(); ++k) {
+    const std::size_t i = batch.places[k];
+    found[i][kBuilt] = stands(built[k]) ? std::move(built[k]) : set_in_motion(*cases[i].bridge);
+  }
 }
 
-/// Where the intact bridge has slid, the others start with its slip where it stands.
+/// From the intact bridge, with what that has slid.
 void SampledHistories::build_others(const std::vector<Case>& cases, Found& found) const {
   Batch batch;
   for (std::size_t i = 0; i < cases.size(); ++i) {
     const Case& one = cases[i];
-    if (one.scene == kIntactScene) continue;
     const Solution& intact = found[one.intact][kBuilt];
-    StageTask task{.stage = {.scene = nominal_.scenes[one.scene]},
-                   .start = &nominal_.states[one.scene][kBuilt]->displacement,
-                   .parameters = &one.bridge->parameters};
-    if (has_slipped(intact)) {
-      task.start = &intact.displacement;
-      task.slipped = &intact.slipped;
-    }
-    batch.add(i, std::move(task));
+    if (one.scene == kIntactScene || !stands(intact)) continue;
+    batch.add(i, {.stage = {.scene = scenes_[one.scene]},
+                  .start = &intact.displacement,
+                  .slipped = has_slipped(intact) ? &intact.slipped : nullptr,
+                  .parameters = &one.bridge->parameters});
   }
   solve(batch, kBuilt, found);
 }
@@ -107,7 +107,7 @@ void SampledHistories::go_on(const std::vector<Case>& cases, bool in_epoch, Foun
 }
 
 Stage SampledHistories::stage_of(const Case& one, Stage conditions) const {
-  conditions.scene = nominal_.scenes[one.scene];
+  conditions.scene = scenes_[one.scene];
   return conditions;
 }
 

@@ -34,23 +34,19 @@ struct SampledScene {
 /// The place of the intact bridge among all scenes that are sampled.
 inline constexpr std::size_t kIntactScene = 0;
 
-/// The nominal bridge's answers.
-struct NominalScenes {
-  const std::vector<Scene>& scenes;        ///< the intact bridge first
-  const std::vector<SceneStates>& states;  ///< of each scene
-};
-
 /// Solves scenes of sampled bridges. One a thread; what is given outlives it. The solver can find equilibria
 /// alone (SolverChoice).
 class SampledHistories {
  public:
-  SampledHistories(const SensitivityStudy& study, const NominalScenes& nominal)
-      : study_(study), nominal_(nominal), equilibrium_(study.solver.make_equilibrium_solver(study.bridge)) {}
+  SampledHistories(const SensitivityStudy& study, const std::vector<Scene>& scenes)
+      : study_(study), scenes_(scenes), equilibrium_(study.solver.make_equilibrium_solver(study.bridge)) {}
 
-  /// Of each bridge these scenes (places in the nominal ones, the intact one first), one after the other.
+  /// Of each bridge these scenes (places in all of them, the intact one first), one after the other.
   ///
-  /// An intact bridge that finds no equilibrium in which nothing has slipped is set in motion, as the nominal
-  /// one would be; where that stands by what it has slipped only, each is.
+  /// Every intact bridge is found as if it were alone: from rest, in motion if there is no equilibrium in
+  /// which nothing has slipped, and where it settles (core/solve/settling.h). Near the nominal bridge's field
+  /// there may be an equilibrium that no history leads to: those of random bridge 5000, with joints of
+  /// scatter 0.2, are 1.6 to 3.6 mm apart of 4 mm.
   std::vector<SampledScene> solve(std::span<const SampledBridge> bridges,
                                   const std::vector<std::size_t>& scenes) const;
 
@@ -83,7 +79,7 @@ class SampledHistories {
   Settled settled(const std::vector<Solution>& states) const;
 
   const SensitivityStudy& study_;
-  NominalScenes nominal_;
+  const std::vector<Scene>& scenes_;
   SceneSolver equilibrium_;
 };
 

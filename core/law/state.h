@@ -29,6 +29,9 @@ struct JointMemory {
 /// Dry joints with this plastic slip at their two ends [m], 2 x joints.
 std::vector<JointMemory> memory_of_slip(const Eigen::Matrix2Xd& slip);
 
+/// The plastic slip that dry joints remember [m], 2 x joints.
+Eigen::Matrix2Xd slip_of(const std::vector<JointMemory>& memory);
+
 struct State {
   Field displacement;               ///< [m], 2 x nodes; NaN at nodes of removed blocks
   std::vector<JointMemory> memory;  ///< of each joint; empty: nothing has slipped

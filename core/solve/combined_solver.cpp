@@ -2,6 +2,7 @@
 
 #include "core/motion/early_motion.h"
 #include "core/solve/near_falls.h"
+#include "core/solve/settling.h"
 #include "core/structure/collapse.h"
 #include "core/structure/neighbours.h"
 
@@ -67,7 +68,8 @@ std::vector<Solution> CombinedSolver::solve(std::span<const StageTask> tasks) {
   follow(settings_.motion.decision, tasks, false, solutions);
   insist(tasks, Whom::all, solutions);
   follow(settings_.patient, tasks, true, solutions);
-  return solutions;
+  return settle(tasks, std::move(solutions),
+                [&](std::span<const StageTask> stages) { return newton_.solve(stages); });
 }
 
 /// Newton's equilibria; `unresolved` where there is none, or where a fall is likelier.

@@ -18,13 +18,6 @@ constexpr double kLeastReach = 1e-8;  ///< .. at least; below it the structure i
 constexpr double kReachFactor = 4.0;  ///< .. longer after each step; shorter by its square where one fails
 constexpr int kMostDrags = 200;
 
-Eigen::Matrix2Xd slip_of(const std::vector<JointMemory>& memory) {
-  Eigen::Matrix2Xd slip(2, static_cast<Eigen::Index>(memory.size()));
-  for (std::size_t j = 0; j < memory.size(); ++j)
-    slip.col(static_cast<Eigen::Index>(j)) << memory[j].slip_0, memory[j].slip_1;
-  return slip;
-}
-
 /// Where a structure is followed, a search ends near its start or not at all.
 QuasiStaticSettings settings_of(const StageTask& task, bool follows, QuasiStaticSettings settings) {
   if (task.before == nullptr) settings.descends_near = false;

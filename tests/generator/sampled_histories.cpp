@@ -31,7 +31,7 @@ struct Sampling {
     std::vector<std::size_t> all;
     for (std::size_t i = 0; i < scenes.size(); ++i) all.push_back(i);
     const SensitivityStudy study{bridge, uncertainty, plan, solver, settings, 1};
-    return SampledHistories(study, {scenes, states}).solve(drawn, all);
+    return SampledHistories(study, scenes).solve(drawn, all);
   }
 
   SolverChoice solver = quasi_static();
