@@ -18,6 +18,7 @@ constexpr int kPairs = 20;
 constexpr double kScatter = 0.2;      // of the joints of intact bridges
 constexpr double kWarmer = 20.0;      // [K]
 constexpr double kSettlement = 1e-3;  // [m]
+constexpr double kSofter = 0.9;       // of the stiffness of all joints
 
 /// All trials of one run.
 struct Run {
@@ -78,6 +79,7 @@ void try_intact(Run& run) {
     intact(fmt::format("joints {}", scatter), scattered_joints(scatter), {});
   intact("20 K warmer", scattered_joints(kScatter), {.warmer = kWarmer});
   intact("foot 1 mm lower", scattered_joints(kScatter), {.settlement = kSettlement});
+  intact("joints a tenth softer", scattered_joints(kScatter), {.joint_stiffness = kSofter});
   intact("everything", run.bridge.description.uncertainty, {.at_random = true});
 }
 

@@ -10,7 +10,7 @@ constexpr int kMost = 1000000;
 void add_asking_options(CLI::App& app, IrregularOptions& options) {
   add_choice(app, "--conditions", options.settings.conditions,
              {{"known", Conditions::known}, {"uncertain", Conditions::uncertain}},
-             "of --irregular: what the lookup is told of temperature and supports");
+             "of --irregular: what the lookup is told of temperature, supports and joints of an epoch");
   add_choice(app, "--evidence", options.evidence,
              {{"first-order", ScatterEvidence::first_order}, {"variants", ScatterEvidence::variants}},
              "of --irregular: what the lookup takes for evidence of how bridges scatter");

@@ -195,6 +195,12 @@ Coefficients::Coefficients(const EquilibriumSystem& system, const Parameters& pa
   }
 }
 
+Coefficients with_joint_stiffness(Coefficients coefficients, double factor) {
+  for (JointStiffness& joint : coefficients.joints)
+    joint = {factor * joint.normal, factor * joint.tangential, factor * joint.cap};
+  return coefficients;
+}
+
 StageEquations::StageEquations(const EquilibriumSystem& system_, const Coefficients& coefficients_,
                                const Stage& stage, std::vector<JointMemory> memory_)
     : system(&system_),

@@ -58,6 +58,9 @@ struct Coefficients {
   }
 };
 
+/// The same with p_n and p_t of all dry joints multiplied by this.
+Coefficients with_joint_stiffness(Coefficients coefficients, double factor);
+
 /// What a very viscous bath would do in one implicit step of time: it holds each node back, with its weight
 /// for each `reach` [m] that the node moves. So what nothing else holds sinks by `reach`.
 struct Drag {

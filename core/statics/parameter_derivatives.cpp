@@ -145,11 +145,14 @@ ColumnMatrix forces_by_parameters(const StageEquations& equations, const Field& 
   const std::vector<CornerForces> joints = forces_of_joints(equations, displacement);
   Entries entries;
   Eigen::Index column = 0;
-  for (const UncertainAction& action : uncertain.of_bridge) {
-    const double sigma = action.parameter.sigma;
+  const auto add_joints = [&](const UncertainAction& action) {
     for (const std::size_t j : action.joints)
       add_forces(system, corners(system.structure->joints[j]),
-                 Vector8d(-sigma * derivative(joints[j], action.quantity)), column, entries);
+                 Vector8d(-action.parameter.sigma * derivative(joints[j], action.quantity)), column, entries);
+  };
+  for (const UncertainAction& action : uncertain.of_bridge) {
+    const double sigma = action.parameter.sigma;
+    add_joints(action);
     if (action.quantity == UncertainQuantity::density) add_weight(equations, sigma, column, entries);
     if (action.quantity == UncertainQuantity::young_modulus)
       add_modulus(equations, displacement, sigma, column, entries);
@@ -157,6 +160,7 @@ ColumnMatrix forces_by_parameters(const StageEquations& equations, const Field& 
   }
   for (std::size_t i = 0; i < uncertain.of_epoch.size(); ++i) {
     const UncertainAction& action = uncertain.of_epoch[i];
+    add_joints(action);
     if (action.quantity == UncertainQuantity::temperature)
       add_temperature(equations, displacement, action.parameter.sigma, column, entries);
     else

@@ -53,7 +53,7 @@ class StageSteps {
   bool follows_;                            ///< step by step; otherwise a step ends wherever it does
   QuasiStaticSettings settings_;            ///< those given, with the task's patience
   double tolerance_;                        ///< of the last step
-  std::optional<Coefficients> own_;         ///< of a variant that is not the solver's model
+  std::optional<Coefficients> own_;         ///< of a variant or stage with joints unlike the solver's model
   Solution reached_;                        ///< at the end of the last step
   std::vector<JointMemory> memory_before_;  ///< what the last step began with
   double sag_ = 0.0;                        ///< largest displacement where the stage before ended [m]

@@ -112,7 +112,7 @@ UncertainParameters uncertain_parameters(const Structure& structure, const Uncer
   add_factor(result.of_bridge, UncertainQuantity::density, "density", uncertainty.density);
   add_own_stiffness(structure, uncertainty.joint_stiffness, result.of_bridge);
 
-  add_of_epoch(result.of_epoch, UncertainQuantity::temperature, "temperature", "K", uncertainty.temperature);
+  add_of_epoch(result.of_epoch, UncertainQuantity::temperature, kTemperature, "K", uncertainty.temperature);
   for (std::size_t s = 0; s < structure.supports.size(); ++s) {
     const Support& support = structure.supports[s];
     const double sigma = support.is_foot ? uncertainty.foot_movement : uncertainty.side_movement;
@@ -124,6 +124,10 @@ UncertainParameters uncertain_parameters(const Structure& structure, const Uncer
       add_of_epoch(result.of_epoch, UncertainQuantity::rotation, support.name + " rotation", "rad",
                    uncertainty.foot_rotation, s);
   }
+  if (uncertainty.epoch_stiffness > 0.0 && !joints.empty())
+    result.of_epoch.push_back({UncertainQuantity::stiffness,
+                               {kEpochStiffness, "1", log_deviation(uncertainty.epoch_stiffness), true},
+                               joints});
   return result;
 }
 
@@ -143,6 +147,8 @@ Stage in_epoch(Stage stage, const Structure& structure, const UncertainParameter
     const double value = action.parameter.sigma * theta[static_cast<Eigen::Index>(i)];
     if (action.quantity == UncertainQuantity::temperature)
       stage.temperature += value;
+    else if (action.quantity == UncertainQuantity::stiffness)
+      stage.joint_stiffness *= std::exp(value);
     else
       stage.support_movement += movement_of(structure, action, value);
   }

@@ -2,10 +2,11 @@
 /// @file The uncertain parameters of a bridge, in a fixed order, and what values of them make of it.
 ///
 /// Of the bridge: the common factors (stiffness, p_t / p_n, friction, Young's modulus, density) and then the
-/// own factor of each pair of blocks that meet, on all their joints. Of an epoch: the temperature and then
-/// what each support can do. A factor is exp(s theta), s = sqrt(ln(1 + c^2)) with its coefficient of
-/// variation c, so that theta = 0 is the bridge as its file states it; a joint's own is exp(s theta - s^2/2),
-/// whose mean is 1. What is known exactly (standard deviation 0) is no parameter.
+/// own factor of each pair of blocks that meet, on all their joints. Of an epoch: the temperature, what each
+/// support can do, and a factor on the stiffness of all joints, as damp and frost may change it. A factor is
+/// exp(s theta), s = sqrt(ln(1 + c^2)) with its coefficient of variation c, so that theta = 0 is the bridge
+/// as its file states it; a joint's own is exp(s theta - s^2/2), whose mean is 1. What is known exactly
+/// (standard deviation 0) is no parameter.
 
 #include <Eigen/Core>
 #include <cstdint>
@@ -15,6 +16,10 @@
 #include "core/structure/uncertain_parameter.h"
 
 namespace voussoir {
+
+/// Names of parameters of an epoch that are not a support's.
+inline constexpr char kTemperature[] = "temperature";
+inline constexpr char kEpochStiffness[] = "joint stiffness";
 
 /// What a parameter acts on.
 enum class UncertainQuantity {
@@ -52,8 +57,8 @@ UncertainParameters uncertain_parameters(const Structure& structure, const Uncer
 Parameters parameters_at(const Model& bridge, const UncertainParameters& uncertain,
                          const Eigen::VectorXd& theta);
 
-/// The stage in an epoch in which the parameters of an epoch have these values: with its temperature and the
-/// movements of the supports. Precondition: one value for each of them.
+/// The stage in an epoch in which the parameters of an epoch have these values: with its temperature, the
+/// movements of the supports and the joints' stiffness. Precondition: one value for each of them.
 Stage in_epoch(Stage stage, const Structure& structure, const UncertainParameters& uncertain,
                const Eigen::VectorXd& theta);
 

@@ -23,6 +23,7 @@ Uncertainty read_uncertainty(TomlSection section) {
   section.number("foot_movement_m", uncertainty.foot_movement, 0.0, 1.0, true);
   section.number("foot_rotation_rad", uncertainty.foot_rotation, 0.0, 0.1, true);
   section.number("side_movement_m", uncertainty.side_movement, 0.0, 1.0, true);
+  read_variation(section, "epoch_stiffness_cv", uncertainty.epoch_stiffness);
   section.refuse_unknown_keys();
   return uncertainty;
 }

@@ -41,7 +41,8 @@ enum class Epochs {
   both     ///< the first's are displacements since the bridge carried nothing, and teach what it is like
 };
 
-/// Temperature and movements of supports, which every epoch has of its own.
+/// Temperature, movements of supports and a factor on the joints' stiffness, which every epoch has of its
+/// own.
 enum class Conditions {
   uncertain,  ///< as the bridge file states, or less (kConditionSizes)
   known       ///< they are those of the model, or readings have been corrected for them

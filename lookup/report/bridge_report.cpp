@@ -6,13 +6,14 @@
 #include <cmath>
 #include <numeric>
 
+#include "core/structure/uncertain_parameters.h"
+
 namespace voussoir {
 namespace {
 
 using Eigen::Index;
 using Eigen::VectorXd;
 
-constexpr std::string_view kTemperature = "temperature";
 constexpr std::string_view kJointPrefix = "stiffness ";
 
 /// Parameters of the bridge and those of epochs lie one behind the other.
@@ -39,16 +40,19 @@ std::vector<Cause> causes_of(const BridgeAnswer& bridge, const ReadingFactors& f
     const double size = part.cwiseProduct(counts).norm() / std::sqrt(std::max(1.0, counts.sum()));
     causes.push_back({std::move(name), all.isZero(0.0) ? 0.0 : part.dot(all) / all.squaredNorm(), size});
   };
-  VectorXd temperature = VectorXd::Zero(counts.size()), supports = temperature;
+  VectorXd temperature = VectorXd::Zero(counts.size()), supports = temperature, joints = temperature;
   for (Index i = 0; i < posterior.from_epochs.cols(); ++i) {
     const std::string& name =
         factors.parameters()[first_of_epochs(factors) + static_cast<std::size_t>(i)].name;
-    (name == kTemperature ? temperature : supports) += posterior.from_epochs.col(i);
+    (name == kTemperature      ? temperature
+     : name == kEpochStiffness ? joints
+                               : supports) += posterior.from_epochs.col(i);
   }
   add("missing blocks", posterior.signal);
   add("the bridge itself", posterior.from_bridge);
   add("temperature", temperature);
   add("supports", supports);
+  add(kEpochStiffness, joints);
   add("what is left", posterior.left);
   return causes;
 }

@@ -94,7 +94,7 @@ std::string evidence_in_words(const Comparison& comparison) {
   return sampled.has_first_order
              ? fmt::format(
                    "derivatives of the stored bridge, and what they leave of {} sampled bridges that "
-                   "were solved in full; temperature and supports by derivatives alone",
+                   "were solved in full; temperature, supports and changes of joints by derivatives alone",
                    sampled.count)
              : fmt::format(
                    "{} sampled bridges that were solved in full, alone: what none of them shows counts "

@@ -92,7 +92,8 @@ Figure parameters_figure(const Answer& answer, const ReadingFactors& factors) {
       "parameters",
       "What the readings say of the bridge",
       "Standard deviations before and after, and the mean after; before it is zero. What the whole bridge "
-      "shares, the joints that the readings move farthest, then temperature and supports.",
+      "shares, the joints that the readings move farthest, then those of the time of the readings: "
+      "temperature, supports and joints.",
       "",
       table,
       false,
@@ -150,8 +151,9 @@ std::string search_in_words(const LookupSettings& settings) {
 std::string assumptions_html(const Answer& answer, const LookupSettings& settings,
                              const Comparison& comparison, const Source& source) {
   std::string bridge = answer.bridge
-                           ? "not exactly known: parameters of joints and blocks, temperature and supports "
-                             "are uncertain as the bridge file states, with half to twice that scatter"
+                           ? "not exactly known: parameters of joints and blocks, temperature, supports "
+                             "and how joints change from time to time are uncertain as the bridge file "
+                             "states, with half to twice that scatter"
                            : "taken as exactly known";
   if (source.stands_by_slip) bridge += fmt::format("; {}", kStandsBySlip);
   Terms terms = {

@@ -53,6 +53,7 @@ std::vector<Stage> stages_of_epoch(const Model& bridge, const SampledTruth& trut
           sampled_theta(uncertain.of_epoch.size(), series_seed(epochs, static_cast<std::uint64_t>(b))));
     } else if (epoch > 1) {
       stage.temperature = between.warmer;
+      stage.joint_stiffness = between.joint_stiffness;
       if (between.settlement != 0.0)
         stage.support_movement = rigid_movement(bridge, 0, {0.0, -between.settlement}, 0.0);
     }
@@ -107,7 +108,8 @@ Uncertainty scattered_joints(double scatter) {
           .temperature = 0.0,
           .foot_movement = 0.0,
           .foot_rotation = 0.0,
-          .side_movement = 0.0};
+          .side_movement = 0.0,
+          .epoch_stiffness = 0.0};
 }
 
 DamagedTruth solve_damaged(const BridgeFile& bridge, const SampledTruth& truth, const std::string& scenes,

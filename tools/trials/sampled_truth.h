@@ -27,10 +27,11 @@ DamagedTruth solve_damaged(const BridgeFile& bridge, const SampledTruth& truth, 
 
 /// What happens to an intact bridge between two epochs.
 struct Between {
-  double warmer = 0.0;      ///< [K] the whole bridge
-  double settlement = 0.0;  ///< [m] of the first foot
-  bool at_random =
-      false;  ///< instead, each epoch has its own temperature and movements, as uncertain as they are
+  double warmer = 0.0;           ///< [K] the whole bridge
+  double settlement = 0.0;       ///< [m] of the first foot
+  double joint_stiffness = 1.0;  ///< share of it that all joints keep
+  bool at_random = false;        ///< instead, each epoch has its own temperature, movements and stiffness of
+                                 ///< joints, as uncertain as they are
 };
 
 /// Solves the intact bridges at two times, the second from the state of the first. Throws Failure if one does

@@ -14,11 +14,13 @@ using namespace voussoir;
 
 namespace {
 
-/// Solved so tightly that differences of parameters by 3e-5 standard deviations have six digits.
+/// Solved so tightly that differences of parameters by 3e-5 standard deviations have six digits. With kept
+/// matrices what a search leaves goes with the parameter's step, in loads by up to 3e-6 of the difference.
 QuasiStaticSettings tight() {
   QuasiStaticSettings settings;
   settings.tolerance = settings.step_tolerance = 1e-12;
   settings.round_off = 1e-15;
+  settings.skips.kept_factors = false;
   return settings;
 }
 

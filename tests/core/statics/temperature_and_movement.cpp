@@ -133,3 +133,36 @@ TEST_CASE(
   const Solution again = solver.solve(StageTask{.stage = {}});
   CHECK(again.displacement == still.displacement);
 }
+
+TEST_CASE(
+    "Joints that have gone soft or stiff in a stage are those of a bridge with such joints (that bridge)",
+    "[stage]") {
+  const BridgeDescription description = test::small_description();
+  const Model bridge = make_model(description);
+  BridgeDescription soft_description = description;
+  soft_description.joints.normal_stiffness *= 0.8;
+  soft_description.joints.tangential_stiffness *= 0.8;
+  const Model soft = make_model(soft_description);
+  QuasiStaticSolver solver(bridge), soft_solver(soft);
+  const StageTask in_epoch{.stage = {.joint_stiffness = 0.8}};
+  const Solution expected = soft_solver.solve(StageTask{});
+  REQUIRE(stands(expected));
+  for (const Parameters* own : {static_cast<const Parameters*>(nullptr), &bridge.parameters}) {
+    StageTask task = in_epoch;
+    task.parameters = own;
+    const Solution found = solver.solve(task);
+    REQUIRE(stands(found));
+    CHECK((found.displacement - expected.displacement).cwiseAbs().maxCoeff() < 1e-10);
+  }
+  // A stage that comes later bears on the softer joints, too, and the next one on the bridge's own again.
+  const Solution built = solver.solve(StageTask{});
+  const Solution later = solver.solve(
+      StageTask{.stage = {.joint_stiffness = 0.8}, .start = &built.displacement, .before = &built});
+  REQUIRE(stands(later));
+  const double sank =
+      vertical_displacements(later.displacement - built.displacement, bridge.control_points).sum();
+  const double expected_sank =
+      vertical_displacements(expected.displacement - built.displacement, bridge.control_points).sum();
+  CHECK(sank == Approx(expected_sank).epsilon(0.05));
+  CHECK(solver.solve(StageTask{}).displacement == built.displacement);
+}

@@ -16,8 +16,9 @@ using Catch::Matchers::Contains;
 namespace {
 
 std::vector<double> numbers_of(const Uncertainty& u) {
-  return {u.joint_stiffness, u.common_stiffness, u.stiffness_ratio, u.friction,      u.young_modulus,
-          u.density,         u.temperature,      u.foot_movement,   u.foot_rotation, u.side_movement};
+  return {u.joint_stiffness, u.common_stiffness, u.stiffness_ratio, u.friction,
+          u.young_modulus,   u.density,          u.temperature,     u.foot_movement,
+          u.foot_rotation,   u.side_movement,    u.epoch_stiffness};
 }
 
 /// All numbers of a description, in the order in which the header names them.
@@ -114,12 +115,13 @@ const std::vector<Key> kKeys = {{"[wall]\nlength_m = 30.0", 0, 30.0},
                                 {"[uncertainty]\nfoot_movement_m = 0.002", 31, 2e-3},
                                 {"[uncertainty]\nfoot_rotation_rad = 2e-4", 32, 2e-4},
                                 {"[uncertainty]\nside_movement_m = 1e-3", 33, 1e-3},
-                                {"collapses = \"field\"", 34, 1.0},
-                                {"[[spans]]\ncentre_x_m = 9.0", 35, 9.0},
-                                {"[[spans]]\ncentre_y_m = 1.5", 36, 1.5},
-                                {"[[spans]]\nintrados_radius_m = 3.0", 37, 3.0},
-                                {"[[spans]]\nring_thickness_m = 0.4", 38, 0.4},
-                                {"[[spans]]\nvoussoirs = 21", 39, 21.0}};
+                                {"[uncertainty]\nepoch_stiffness_cv = 0.02", 34, 0.02},
+                                {"collapses = \"field\"", 35, 1.0},
+                                {"[[spans]]\ncentre_x_m = 9.0", 36, 9.0},
+                                {"[[spans]]\ncentre_y_m = 1.5", 37, 1.5},
+                                {"[[spans]]\nintrados_radius_m = 3.0", 38, 3.0},
+                                {"[[spans]]\nring_thickness_m = 0.4", 39, 0.4},
+                                {"[[spans]]\nvoussoirs = 21", 40, 21.0}};
 
 }  // namespace
 
@@ -234,7 +236,8 @@ const std::vector<Limits> kLimits = {{"[wall]\nlength_m = ", 1e-3, 1e5, true},
                                      {"[uncertainty]\ntemperature_K = ", 0.0, 100.0, true},
                                      {"[uncertainty]\nfoot_movement_m = ", 0.0, 1.0, true},
                                      {"[uncertainty]\nfoot_rotation_rad = ", 0.0, 0.1, true},
-                                     {"[uncertainty]\nside_movement_m = ", 0.0, 1.0, true}};
+                                     {"[uncertainty]\nside_movement_m = ", 0.0, 1.0, true},
+                                     {"[uncertainty]\nepoch_stiffness_cv = ", 0.0, 1.0, true}};
 
 /// Does the key take this value? The bridge may still be refused for a ring that its wall cannot hold or for
 /// too many blocks, which are other checks.

@@ -50,7 +50,7 @@ TEST_CASE("The reference bridge has five common factors, one of each pair of blo
   for (const UncertainAction& action : uncertain.of_epoch) names.push_back(action.parameter.name);
   CHECK(names == std::vector<std::string>{"temperature", "foot 1 dx", "foot 1 dy", "foot 1 rotation",
                                           "foot 2 dx", "foot 2 dy", "foot 2 rotation", "left side dx",
-                                          "right side dx"});
+                                          "right side dx", "joint stiffness"});
   std::set<std::string> all;
   std::vector<int> uses(bridge.joints.size(), 0);
   for (const UncertainParameter& parameter : uncertain.all()) {
@@ -153,8 +153,20 @@ TEST_CASE("The same seed draws the same bridge, another seed another one", "[unc
 }
 
 TEST_CASE("What is known exactly is no parameter", "[uncertainty]") {
-  const Uncertainty nothing{0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
+  const Uncertainty nothing{0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
   CHECK(uncertain_parameters(test::small_bridge(), nothing).all().empty());
+}
+
+TEST_CASE("In an epoch all joints are softer or stiffer by one factor (by hand)", "[uncertainty]") {
+  const Model bridge = test::small_bridge();
+  const UncertainParameters uncertain = uncertain_parameters(bridge, {});
+  const std::size_t count = uncertain.of_epoch.size(),
+                    place = place_of(uncertain.of_epoch, "joint stiffness");
+  const Stage softer = in_epoch({}, bridge, uncertain, unit(count, place, -2.0));
+  CHECK(softer.joint_stiffness == Approx(std::exp(-2.0 * deviation(0.05))));
+  CHECK(softer.temperature == 0.0);
+  CHECK(softer.support_movement.isZero(0.0));
+  CHECK(in_epoch({}, bridge, uncertain, unit(count, 0, 1.0)).joint_stiffness == 1.0);
 }
 
 TEST_CASE("A foot moves and turns as a rigid body about its middle (by hand)", "[uncertainty]") {
