@@ -45,8 +45,8 @@ class SampledHistories {
   ///
   /// Every intact bridge is found as if it were alone: from rest, in motion if there is no equilibrium in
   /// which nothing has slipped, and where it settles (core/solve/settling.h). Near the nominal bridge's field
-  /// there may be an equilibrium that no history leads to: those of random bridge 5000, with joints of
-  /// scatter 0.2, are 1.6 to 3.6 mm apart of 4 mm.
+  /// there may be an equilibrium that no history leads to: those of random bridge 5000 are up to 3.6 mm of 4
+  /// away.
   std::vector<SampledScene> solve(std::span<const SampledBridge> bridges,
                                   const std::vector<std::size_t>& scenes) const;
 

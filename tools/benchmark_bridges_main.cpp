@@ -3,7 +3,6 @@
 #include <filesystem>
 #include <iostream>
 
-#include "core/structure/bridge_file.h"
 #include "core/text_file.h"
 #include "lookup/command_line.h"
 #include "tools/benchmark_bridges.h"

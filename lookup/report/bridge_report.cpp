@@ -50,7 +50,7 @@ std::vector<Cause> causes_of(const BridgeAnswer& bridge, const ReadingFactors& f
   }
   add("missing blocks", posterior.signal);
   add("the bridge itself", posterior.from_bridge);
-  add("temperature", temperature);
+  add(kTemperature, temperature);
   add("supports", supports);
   add(kEpochStiffness, joints);
   add("what is left", posterior.left);
