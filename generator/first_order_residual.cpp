@@ -2,10 +2,10 @@
 
 #include <oneapi/tbb/enumerable_thread_specific.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
+#include "generator/covariance_factor.h"
 #include "generator/error_fit.h"
 #include "generator/parallel.h"
 #include "generator/scene_list.h"
@@ -15,13 +15,12 @@ namespace {
 
 constexpr std::size_t kBridgesAtOnce = 8;
 
-/// As few columns as have the covariance of these errors, each of variance 1.
+/// Columns that have the covariance of these errors, each of variance 1.
 Eigen::MatrixXd factor_of(const std::vector<Eigen::VectorXd>& errors, Eigen::Index points) {
   Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(points, points);
   for (const Eigen::VectorXd& error : errors)
     covariance += error * error.transpose() / static_cast<double>(errors.size());
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> directions(covariance);
-  return directions.eigenvectors() * directions.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal();
+  return covariance_factor(covariance);
 }
 
 /// Scenes, the intact one and some singles, that stand in all states.

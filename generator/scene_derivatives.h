@@ -8,10 +8,10 @@ namespace voussoir {
 
 /// What all threads share.
 struct SensitivityEquations {
-  SensitivityEquations(const Model& bridge, const Uncertainty& uncertainty)
+  SensitivityEquations(const Model& bridge, UncertainParameters parameters)
       : system(bridge),
         coefficients(system, bridge.parameters),
-        uncertain(uncertain_parameters(bridge, uncertainty)),
+        uncertain(std::move(parameters)),
         readings(vertical_readings(bridge, bridge.control_points)) {}
 
   EquilibriumSystem system;

@@ -10,6 +10,7 @@
 #include "generator/parallel.h"
 #include "generator/scene_derivatives.h"
 #include "generator/scene_list.h"
+#include "generator/unevenness.h"
 
 namespace voussoir {
 namespace {
@@ -78,7 +79,7 @@ std::optional<Sensitivities> find_sensitivities(const SensitivityStudy& study,
                                                 const std::vector<Scene>& scenes, const KnownRecords& known,
                                                 Progress& progress) {
   fix_order_of_sums();
-  const SensitivityEquations equations(study.bridge, study.uncertainty);
+  const SensitivityEquations equations(study.bridge, uncertain_parameters(study.bridge, study.uncertainty));
   Sensitivities result;
   result.parameters = equations.uncertain.all();
   if (result.parameters.empty()) return std::nullopt;
@@ -93,6 +94,7 @@ std::optional<Sensitivities> find_sensitivities(const SensitivityStudy& study,
       first_order_residuals(study, equations.uncertain, {{result.scenes, states}, derivatives}, progress);
   result.make_room(derivatives.size(), static_cast<Eigen::Index>(study.bridge.control_points.size()));
   result.residuals = residuals;
+  result.unevenness = find_unevenness(study, states.front());
   Crew(study.threads).for_each_index(result.scenes.size(), [&](std::size_t i) {
     for (std::size_t state = 0; state < derivatives.size(); ++state) {
       const Eigen::MatrixXd scene = std::move(derivatives[state][i]);

@@ -5,12 +5,27 @@
 #include "core/error.h"
 #include "database/records/stored_bridge.h"
 #include "generator/scene_derivatives.h"
+#include "generator/unevenness.h"
 
 namespace voussoir {
 namespace {
 
 double largest(const Eigen::MatrixXd& matrix) {
   return matrix.size() == 0 ? 0.0 : matrix.cwiseAbs().maxCoeff();
+}
+
+/// By the covariance of all states: its factor's columns may be turned.
+bool is_same_unevenness(const std::vector<Eigen::MatrixXd>& found,
+                        const std::vector<Eigen::MatrixXd>& expected) {
+  if (found.size() != expected.size()) return false;
+  for (std::size_t i = 0; i < found.size(); ++i)
+    for (std::size_t j = 0; j <= i; ++j) {
+      const Eigen::MatrixXd right = expected[i] * expected[j].transpose();
+      if (found[i].rows() != expected[i].rows() || found[j].rows() != expected[j].rows() ||
+          largest(found[i] * found[j].transpose() - right) > kSameSensitivity * largest(right))
+        return false;
+    }
+  return true;
 }
 
 }  // namespace
@@ -25,9 +40,12 @@ SensitivityCheck check_sensitivities(const Database& database, const Model& brid
   const std::string settings = database.provenance().solver_settings;
   const SolverChoice solver{.settings = {}, .make_solver = stated_solver};
   const SensitivityStudy study{bridge, uncertainty, plan, solver, settings};
-  const SensitivityEquations equations(bridge, uncertainty);
+  const SensitivityEquations equations(bridge, uncertain_parameters(bridge, uncertainty));
   SceneDerivatives derivatives(study, equations);
   const SceneStates intact = stored_states(database, *intact_row, plan);
+  if (!is_same_unevenness(stored->unevenness, find_unevenness(study, intact)))
+    check.problems.push_back(
+        "what unevenly softened joints change of the intact bridge is not that of its field");
   const std::size_t count = std::min(kCheckedSensitivities, stored->scenes.size());
   for (std::size_t i = 0; i < count; ++i) {
     const Scene& scene = stored->scenes[i * stored->scenes.size() / count];

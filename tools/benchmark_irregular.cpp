@@ -18,7 +18,7 @@ constexpr int kPairs = 20;
 constexpr double kScatter = 0.2;      // of the joints of intact bridges
 constexpr double kWarmer = 20.0;      // [K]
 constexpr double kSettlement = 1e-3;  // [m]
-constexpr double kSofter = 0.9;       // of the stiffness of all joints
+constexpr double kSofter = 0.9;       // of the joints' stiffness
 
 /// All trials of one run.
 struct Run {
@@ -80,6 +80,8 @@ void try_intact(Run& run) {
   intact("20 K warmer", scattered_joints(kScatter), {.warmer = kWarmer});
   intact("foot 1 mm lower", scattered_joints(kScatter), {.settlement = kSettlement});
   intact("joints a tenth softer", scattered_joints(kScatter), {.joint_stiffness = kSofter});
+  intact("left half a tenth softer", scattered_joints(kScatter),
+         {.joint_stiffness = kSofter, .softened_part = 0.5});
   intact("everything", run.bridge.description.uncertainty, {.at_random = true});
 }
 

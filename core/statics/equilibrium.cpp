@@ -195,9 +195,12 @@ Coefficients::Coefficients(const EquilibriumSystem& system, const Parameters& pa
   }
 }
 
-Coefficients with_joint_stiffness(Coefficients coefficients, double factor) {
-  for (JointStiffness& joint : coefficients.joints)
-    joint = {factor * joint.normal, factor * joint.tangential, factor * joint.cap};
+Coefficients with_joint_stiffness(Coefficients coefficients, const Eigen::ArrayXd& shares) {
+  for (std::size_t j = 0; j < coefficients.joints.size(); ++j) {
+    JointStiffness& joint = coefficients.joints[j];
+    const double share = shares[static_cast<Eigen::Index>(j)];
+    joint = {share * joint.normal, share * joint.tangential, share * joint.cap};
+  }
   return coefficients;
 }
 

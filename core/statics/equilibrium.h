@@ -58,8 +58,8 @@ struct Coefficients {
   }
 };
 
-/// The same with p_n and p_t of all dry joints multiplied by this.
-Coefficients with_joint_stiffness(Coefficients coefficients, double factor);
+/// The same with this share of p_n and p_t of each joint that is dry.
+Coefficients with_joint_stiffness(Coefficients coefficients, const Eigen::ArrayXd& shares);
 
 /// What a very viscous bath would do in one implicit step of time: it holds each node back, with its weight
 /// for each `reach` [m] that the node moves. So what nothing else holds sinks by `reach`.

@@ -50,7 +50,7 @@ StageSteps::StageSteps(const EquilibriumSystem& system, const Coefficients& nomi
       tolerance_(settings.tolerance),
       left_(task.steps) {
   if (task.parameters != nullptr) own_.emplace(system, *task.parameters);
-  if (task.stage.joint_stiffness != 1.0)
+  if (task.stage.joint_stiffness.size() > 0)
     own_ = with_joint_stiffness(own_ ? *std::move(own_) : nominal, task.stage.joint_stiffness);
   if (task.before != nullptr)
     static_cast<State&>(reached_) = *task.before;

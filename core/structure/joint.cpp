@@ -50,6 +50,11 @@ std::array<Point, 2> ends_of(const Joint& joint, const Mesh& mesh) {
   return {from + joint.first_at[0] * along, from + joint.first_at[1] * along};
 }
 
+Point middle_of(const Joint& joint, const Mesh& mesh) {
+  const auto [first, last] = ends_of(joint, mesh);
+  return 0.5 * (first + last);
+}
+
 std::vector<Joint> find_joints(const Mesh& mesh, double tolerance) {
   const std::vector<PlacedEdge> edges = edges_by_left_end(mesh);
   std::vector<Joint> joints;

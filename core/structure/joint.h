@@ -26,6 +26,9 @@ struct Joint {
 /// The stretch's two ends [m], on the first edge.
 std::array<Point, 2> ends_of(const Joint& joint, const Mesh& mesh);
 
+/// The middle of the stretch [m].
+Point middle_of(const Joint& joint, const Mesh& mesh);
+
 /// All stretches longer than `tolerance` [m] where edges of different blocks run against each other within
 /// it.
 std::vector<Joint> find_joints(const Mesh& mesh, double tolerance);

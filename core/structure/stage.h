@@ -13,12 +13,13 @@ struct Stage {
   double temperature = 0.0;  ///< of all blocks [K] over that at which the bridge was built
   Field
       support_movement{};  ///< displacements of the components that supports hold [m], 2 x nodes; empty: none
-  double joint_stiffness = 1.0;  ///< share of the parameters' p_n and p_t of all joints. Only Newton's method
-                                 ///< (QuasiStaticSolver) follows what it does, and only of dry joints
+  Eigen::ArrayXd joint_stiffness{};  ///< share of the parameters' p_n and p_t of each joint; empty: all of
+                                     ///< it. Only Newton's method (QuasiStaticSolver) follows what it does,
+                                     ///< and only of dry joints
 };
 
-/// The stage `to` on the way: temperature, supports and (in its logarithm) the joints' stiffness have gone
-/// this share of it from `from`.
+/// The stage `to` on the way: temperature, supports and (in their logarithms) the joints' stiffnesses have
+/// gone this share of it from `from`.
 Stage on_the_way(const Stage& from, Stage to, double share);
 
 }  // namespace voussoir

@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 
 #include "core/geometry/box.h"
@@ -37,28 +39,6 @@ void add_factor(std::vector<UncertainAction>& actions, UncertainQuantity quantit
 void add_of_epoch(std::vector<UncertainAction>& actions, UncertainQuantity quantity, const std::string& name,
                   const char* unit, double sigma, std::size_t support = 0) {
   if (sigma > 0.0) actions.push_back({quantity, {name, unit, sigma, true}, {}, support, false});
-}
-
-/// Each pair of blocks that meet has one factor for all stretches of their joint, in the order of the first
-/// of these.
-void add_own_stiffness(const Structure& structure, double variation, std::vector<UncertainAction>& actions) {
-  std::map<std::pair<BlockId, BlockId>, std::size_t> places;
-  std::vector<std::vector<std::size_t>> stretches;
-  for (std::size_t j = 0; j < structure.joints.size(); ++j) {
-    const auto blocks = std::minmax(structure.joints[j].first, structure.joints[j].second);
-    const auto [place, is_new] = places.try_emplace(blocks, stretches.size());
-    if (is_new) stretches.emplace_back();
-    stretches[place->second].push_back(j);
-  }
-  const auto label = [&](BlockId block) {
-    return structure.layout.blocks[static_cast<std::size_t>(value(block))].label;
-  };
-  for (std::vector<std::size_t>& joints : stretches) {
-    const Joint& joint = structure.joints[joints.front()];
-    add_factor(actions, UncertainQuantity::stiffness,
-               fmt::format("stiffness {}/{}", label(joint.first), label(joint.second)), variation,
-               std::move(joints), true);
-  }
 }
 
 double factor_of(const UncertainAction& action, double theta) {
@@ -98,6 +78,29 @@ std::vector<UncertainParameter> UncertainParameters::all() const {
   return parameters;
 }
 
+/// Pairs come in the order of their first stretches.
+std::vector<UncertainAction> own_stiffness(const Structure& structure, double variation) {
+  std::vector<UncertainAction> actions;
+  std::map<std::pair<BlockId, BlockId>, std::size_t> places;
+  std::vector<std::vector<std::size_t>> stretches;
+  for (std::size_t j = 0; j < structure.joints.size(); ++j) {
+    const auto blocks = std::minmax(structure.joints[j].first, structure.joints[j].second);
+    const auto [place, is_new] = places.try_emplace(blocks, stretches.size());
+    if (is_new) stretches.emplace_back();
+    stretches[place->second].push_back(j);
+  }
+  const auto label = [&](BlockId block) {
+    return structure.layout.blocks[static_cast<std::size_t>(value(block))].label;
+  };
+  for (std::vector<std::size_t>& joints : stretches) {
+    const Joint& joint = structure.joints[joints.front()];
+    add_factor(actions, UncertainQuantity::stiffness,
+               fmt::format("stiffness {}/{}", label(joint.first), label(joint.second)), variation,
+               std::move(joints), true);
+  }
+  return actions;
+}
+
 UncertainParameters uncertain_parameters(const Structure& structure, const Uncertainty& uncertainty) {
   UncertainParameters result;
   const std::vector<std::size_t> joints = all_joints(structure);
@@ -110,7 +113,8 @@ UncertainParameters uncertain_parameters(const Structure& structure, const Uncer
   }
   add_factor(result.of_bridge, UncertainQuantity::young_modulus, "young modulus", uncertainty.young_modulus);
   add_factor(result.of_bridge, UncertainQuantity::density, "density", uncertainty.density);
-  add_own_stiffness(structure, uncertainty.joint_stiffness, result.of_bridge);
+  std::ranges::move(own_stiffness(structure, uncertainty.joint_stiffness),
+                    std::back_inserter(result.of_bridge));
 
   add_of_epoch(result.of_epoch, UncertainQuantity::temperature, kTemperature, "K", uncertainty.temperature);
   for (std::size_t s = 0; s < structure.supports.size(); ++s) {
@@ -148,7 +152,8 @@ Stage in_epoch(Stage stage, const Structure& structure, const UncertainParameter
     if (action.quantity == UncertainQuantity::temperature)
       stage.temperature += value;
     else if (action.quantity == UncertainQuantity::stiffness)
-      stage.joint_stiffness *= std::exp(value);
+      stage.joint_stiffness =
+          Eigen::ArrayXd::Constant(static_cast<Eigen::Index>(structure.joints.size()), std::exp(value));
     else
       stage.support_movement += movement_of(structure, action, value);
   }

@@ -52,6 +52,10 @@ struct UncertainParameters {
 
 UncertainParameters uncertain_parameters(const Structure& structure, const Uncertainty& uncertainty);
 
+/// An action on the stiffness of each pair of blocks that meet, on all stretches of their joint; none if the
+/// coefficient of variation is 0.
+std::vector<UncertainAction> own_stiffness(const Structure& structure, double variation);
+
 /// The bridge's parameters if the standardised uncertain ones have these values. Precondition: one value for
 /// each parameter of the bridge.
 Parameters parameters_at(const Model& bridge, const UncertainParameters& uncertain,

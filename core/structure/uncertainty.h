@@ -18,13 +18,15 @@ struct Uncertainty {
   double foot_rotation = 1e-4;    ///< [rad] of each foot in an epoch, about its middle
   double side_movement = 0.5e-3;  ///< [m] of each held side in an epoch
   double epoch_stiffness = 0.05;  ///< [-] of p_n and p_t of all joints alike in an epoch
+  double epoch_unevenness =
+      0.03;  ///< [-] of p_n and p_t of each joint in an epoch, alike where joints are near
 
   friend bool operator==(const Uncertainty&, const Uncertainty&) = default;
 };
 
 /// Is anything of the bridge or of an epoch not known exactly?
 inline bool is_uncertain(const Uncertainty& uncertainty) {
-  return uncertainty != Uncertainty{0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
+  return uncertainty != Uncertainty{0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
 }
 
 }  // namespace voussoir

@@ -9,6 +9,18 @@ void read_variation(TomlSection& section, const char* key, double& target) {
   section.number(key, target, 0.0, kMostVariation, true);
 }
 
+constexpr char kUnevenness[] = "epoch_unevenness_cv";
+
+/// Unevenness has no parameters of its own, beside which alone nothing could be told.
+void read_unevenness(TomlSection& section, Uncertainty& uncertainty) {
+  Uncertainty others = uncertainty;
+  others.epoch_unevenness = 0.0;
+  if (!is_uncertain(others)) uncertainty.epoch_unevenness = 0.0;
+  read_variation(section, kUnevenness, uncertainty.epoch_unevenness);
+  if (uncertainty.epoch_unevenness > 0.0 && !is_uncertain(others))
+    section.refuse(kUnevenness, "expected 0, as all else is known exactly");
+}
+
 }  // namespace
 
 Uncertainty read_uncertainty(TomlSection section) {
@@ -24,6 +36,7 @@ Uncertainty read_uncertainty(TomlSection section) {
   section.number("foot_rotation_rad", uncertainty.foot_rotation, 0.0, 0.1, true);
   section.number("side_movement_m", uncertainty.side_movement, 0.0, 1.0, true);
   read_variation(section, "epoch_stiffness_cv", uncertainty.epoch_stiffness);
+  read_unevenness(section, uncertainty);
   section.refuse_unknown_keys();
   return uncertainty;
 }

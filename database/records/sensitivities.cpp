@@ -117,6 +117,17 @@ void append_residual(const Sensitivities& from, std::vector<DatasetValue>& datas
   share.finish({states, 4}, datasets);
 }
 
+void append_unevenness(const Sensitivities& from, std::vector<DatasetValue>& datasets) {
+  if (from.unevenness.empty()) return;
+  Filling<double> unevenness{
+      dataset::kUnevenness, ElementType::float64, "m",
+      "what some joints' softening in an epoch more than others' changes of the intact "
+      "bridge: independent columns, the same in all states"};
+  for (const Eigen::MatrixXd& state : from.unevenness) unevenness.add(state);
+  const Eigen::MatrixXd& first = from.unevenness.front();
+  unevenness.finish({from.unevenness.size(), extent(first.rows()), extent(first.cols())}, datasets);
+}
+
 // Reading.
 
 std::span<const double> finite_numbers(const Hdf5File& file, const char* path, const Shape& shape) {
@@ -202,6 +213,12 @@ void read_residuals(const Hdf5File& file, const SensitivitySizes& sizes, Sensiti
   }
 }
 
+void read_unevenness(const Hdf5File& file, const SensitivitySizes& sizes, Sensitivities& into) {
+  if (!file.has(dataset::kUnevenness)) return;
+  const StackedMatrices found = read_matrices(file, dataset::kUnevenness, {sizes.states}, sizes.points);
+  for (std::size_t state = 0; state < sizes.states; ++state) into.unevenness.emplace_back(found[state]);
+}
+
 void read_factors(const Hdf5File& file, const SensitivitySizes& sizes, Sensitivities& into) {
   const std::uint64_t scenes = into.scenes.size();
   const auto known = read_flags(file, dataset::kSensitivityKnown, {sizes.states, scenes});
@@ -267,6 +284,7 @@ std::vector<DatasetValue> sensitivity_datasets(const Sensitivities& sensitivitie
   append_scenes(sensitivities, datasets);
   append_factors(sensitivities, datasets);
   append_residual(sensitivities, datasets);
+  append_unevenness(sensitivities, datasets);
   return datasets;
 }
 
@@ -279,6 +297,7 @@ std::optional<Sensitivities> read_sensitivities(const Hdf5File& file, const Sens
   result.scenes = read_scenes(file, sizes.blocks);
   read_factors(file, sizes, result);
   read_residuals(file, sizes, result);
+  read_unevenness(file, sizes, result);
   return result;
 }
 

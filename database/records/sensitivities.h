@@ -64,7 +64,11 @@ struct Sensitivities {
   StackedMatrices bridge;           ///< states x scenes: A, zero where nothing is known
   StackedMatrices epoch;            ///< states x scenes: E
   std::vector<FirstOrderResidual> residuals;  ///< of each state of the database
-  std::optional<StoredSignals> signals;       ///< as a file keeps them
+  /// What some joints' softening in an epoch more than others' changes of the intact bridge's displacements
+  /// [m], an error of its own in every epoch: of each state, points x columns that are independent and the
+  /// same in all states. Empty: joints soften alike.
+  std::vector<Eigen::MatrixXd> unevenness;
+  std::optional<StoredSignals> signals;  ///< as a file keeps them
 
   Eigen::Index of_bridge() const { return basis.rows(); }  ///< parameters of the bridge
   Eigen::Index of_epoch() const { return static_cast<Eigen::Index>(parameters.size()) - basis.rows(); }

@@ -45,6 +45,7 @@ DIGEST_ORDER = [
     "sensitivity/parameter_of_epoch", "sensitivity/basis", "sensitivity/removed", "sensitivity/known",
     "sensitivity/bridge_factors", "sensitivity/epoch_factors", "sensitivity/residual_bridge",
     "sensitivity/residual_epoch", "sensitivity/residual_share",
+    "sensitivity/unevenness",
     "variants/young_modulus", "variants/poisson_ratio", "variants/density",
     "variants/normal_stiffness", "variants/tangential_stiffness", "variants/friction_coefficient",
     "scenes/checksum",

@@ -61,8 +61,8 @@ SceneGaussian scene_gaussian(const UnknownBridge& bridge, const Observation& obs
 
 /// What all others let expect of reading i is off by (C^-1 r)_i / (C^-1)_ii, which has the variance
 /// 1 / (C^-1)_ii. The epochs' parameters have the mean E^T C^-1 r and the covariance I - E^T C^-1 E.
-void add_part(const SceneGaussian& scene, const MatrixXd& scatter, double kappa, double weight,
-              BridgePosterior& result) {
+void add_part(const UnknownBridge& bridge, const SceneGaussian& scene, const MatrixXd& scatter, double kappa,
+              double weight, BridgePosterior& result) {
   const Index n = scene.difference.size();
   BridgePart part{weight, kappa, scene.bridge, Eigen::LLT<MatrixXd>(scene.noise + kappa * scatter), {}};
   const auto lower = part.covariance.matrixL();
@@ -73,6 +73,7 @@ void add_part(const SceneGaussian& scene, const MatrixXd& scatter, double kappa,
   const MatrixXd fall = lower.solve(scene.epoch);
   result.bridge_mean += weight * part.mean;
   result.epoch_mean += weight * epoch;
+  result.from_unevenness += weight * (bridge.unevenness * pulled);
   result.epoch_covariance.diagonal().array() += weight;
   result.epoch_covariance += weight * (epoch * epoch.transpose() - fall.transpose() * fall);
   const MatrixXd inverse = lower.solve(MatrixXd::Identity(n, n));
@@ -90,7 +91,8 @@ void explain(const UnknownBridge& bridge, const SceneGaussian& scene, BridgePost
   const MatrixXd each = scene.epoch * result.epoch_mean.asDiagonal();
   result.from_epochs = each.rightCols(parameters);
   if (bridge.epochs > 1) result.from_epochs += each.leftCols(parameters);
-  result.left = scene.difference - result.from_bridge - result.from_epochs.rowwise().sum();
+  result.left =
+      scene.difference - result.from_bridge - result.from_epochs.rowwise().sum() - result.from_unevenness;
 }
 
 BridgePosterior empty_posterior(const UnknownBridge& bridge) {
@@ -98,6 +100,7 @@ BridgePosterior empty_posterior(const UnknownBridge& bridge) {
   BridgePosterior result;
   result.chance = 0.0;
   result.others = VectorXd::Zero(bridge.reading.size());
+  result.from_unevenness = VectorXd::Zero(bridge.reading.size());
   result.bridge_mean = VectorXd::Zero(bridge.factors->of_bridge());
   result.epoch_mean = VectorXd::Zero(epochs);
   result.epoch_covariance = MatrixXd::Zero(epochs, epochs);
@@ -121,7 +124,7 @@ BridgePosterior bridge_posterior(const UnknownBridge& bridge, const Observation&
     const MatrixXd scatter = matrix_of(outer_product(scene.bridge), scene.bridge.rows());
     for (const Part& part : parts) {
       if (part.scene != i) continue;
-      add_part(scene, scatter, kScatterFactors[part.kappa], part.weight, result);
+      add_part(bridge, scene, scatter, kScatterFactors[part.kappa], part.weight, result);
       result.scatter[part.kappa] += part.weight;
     }
   }

@@ -35,13 +35,14 @@ struct BridgePosterior {
   Eigen::MatrixXd epoch_covariance;
 
   // Of the likeliest scene; rows are those of y [m].
-  Eigen::VectorXd signal;       ///< what the missing blocks change, as the nominal bridge shows it
-  Eigen::VectorXd from_bridge;  ///< expected of the parameters of the bridge
-  Eigen::MatrixXd from_epochs;  ///< and of those of the epochs: a column for each parameter
-  Eigen::VectorXd left;         ///< of y
-  Eigen::VectorXd others;       ///< y less what all other readings let expect, in standard deviations of that
-  double chance = 1.0;  ///< of readings as far from what the scenes let expect as these, or farther: even
-                        ///< between 0 and 1 over many questions if the model is right (chi square)
+  Eigen::VectorXd signal;           ///< what the missing blocks change, as the nominal bridge shows it
+  Eigen::VectorXd from_bridge;      ///< expected of the parameters of the bridge
+  Eigen::MatrixXd from_epochs;      ///< and of those of the epochs: a column for each parameter
+  Eigen::VectorXd from_unevenness;  ///< of joints that soften unevenly
+  Eigen::VectorXd left;             ///< of y
+  Eigen::VectorXd others;  ///< y less what all other readings let expect, in standard deviations of that
+  double chance = 1.0;     ///< of readings as far from what the scenes let expect as these, or farther: even
+                           ///< between 0 and 1 over many questions if the model is right (chi square)
 };
 
 /// Scenes are possible ones, likeliest first.

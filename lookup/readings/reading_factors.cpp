@@ -124,6 +124,22 @@ FirstOrderResidual residual_of(const ReadingFactors& factors) {
   return result;
 }
 
+/// What a load adds differs by what the same joints do in both states.
+MatrixXd unevenness_of(const ReadingFactors& factors) {
+  const std::vector<MatrixXd>& states = factors.sensitivities->unevenness;
+  const auto channels = static_cast<Index>(factors.channels.size());
+  if (states.empty()) return MatrixXd::Zero(channels, channels);
+  MatrixXd columns(channels, states.front().cols());
+  for (Index i = 0; i < channels; ++i) {
+    const Channel& channel = factors.channels[static_cast<std::size_t>(i)];
+    const auto point = static_cast<Index>(channel.point);
+    columns.row(i) = channel.loaded
+                         ? (states[*channel.loaded].row(point) - states[factors.base].row(point)).eval()
+                         : states[factors.base].row(point).eval();
+  }
+  return columns * columns.transpose();
+}
+
 }  // namespace
 
 SceneFactors ReadingFactors::of(const Scene& scene) const {
@@ -140,11 +156,12 @@ SceneFactors ReadingFactors::of(const Scene& scene) const {
 
 std::shared_ptr<const ReadingFactors> reading_factors(const Sensitivities& sensitivities, std::size_t base,
                                                       std::vector<Channel> channels, std::size_t blocks) {
-  ReadingFactors result{&sensitivities, base, std::move(channels), {}, {}, {}, {}, {}, {}};
+  ReadingFactors result{&sensitivities, base, std::move(channels), {}, {}, {}, {}, {}, {}, {}};
   result.intact = factors_of(result, {});
   if (!result.intact.known()) return nullptr;
   result.intact_product = product_with_itself(result.intact.bridge);
   result.residual = residual_of(result);
+  result.unevenness = unevenness_of(result);
   result.blocks.resize(blocks);
   const Losses losses(result);
   for_each_index_on_threads(blocks, hardware_threads(), [&](std::size_t block) {

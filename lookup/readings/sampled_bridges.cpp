@@ -278,6 +278,7 @@ SampledBridges sampled_bridges(const Database& database) {
   if (sensitivities != nullptr) {
     first_order.emplace(first_order_of(database, variants));
     made.parameters = sensitivities->parameters;
+    made.unevenness = sensitivities->unevenness;
     made.basis = MatrixXd::Zero(sensitivities->basis.rows(), sensitivities->basis.cols() + samples);
     made.basis.leftCols(sensitivities->basis.cols()) = sensitivities->basis;
   }

@@ -56,7 +56,7 @@ std::vector<NamedStage> with_epoch(std::vector<NamedStage> stages, const Stage& 
     NamedStage next = without(epoch, scene);
     next.stage.temperature *= part / static_cast<double>(kPartsOfEpoch);
     next.stage.support_movement *= part / static_cast<double>(kPartsOfEpoch);
-    next.stage.joint_stiffness = std::pow(epoch.joint_stiffness, part / static_cast<double>(kPartsOfEpoch));
+    next.stage.joint_stiffness = epoch.joint_stiffness.pow(part / static_cast<double>(kPartsOfEpoch));
     stages.push_back(std::move(next));
   }
   return stages;

@@ -6,7 +6,7 @@
 #include <catch2/catch.hpp>
 
 #include "core/solve/history.h"
-#include "core/structure/uncertain_parameters.h"
+#include "core/structure/uneven_stiffness.h"
 #include "database/records/stored_bridge.h"
 #include "generator/build.h"
 #include "generator/sensitivity_check.h"
@@ -86,6 +86,43 @@ TEST_CASE("A database's sensitivities predict what a little more stiffness and h
       ++compared;
     }
   CHECK(compared >= 8);
+}
+
+TEST_CASE("Unevenness is what single joints' stiffness does, as far as joints vary together (solved anew)",
+          "[sensitivity][many-solutions]") {
+  const test::TemporaryFolder folder;
+  build(folder / "small.h5", 2);
+  const Database database = Database::open(folder / "small.h5");
+  const std::vector<Eigen::MatrixXd>& found = database.sensitivities()->unevenness;
+  REQUIRE(found.size() == 2);
+  const Model bridge = test::small_bridge();
+  const UnevenStiffness uneven = uneven_stiffness(bridge, {});
+  QuasiStaticSettings exact;
+  exact.tolerance = 1e-11;
+  QuasiStaticSolver solver(bridge, exact);
+  const auto settled = [&](std::size_t pair, double step) {
+    Stage stage{.joint_stiffness = Eigen::ArrayXd::Ones(static_cast<Eigen::Index>(bridge.joints.size()))};
+    for (const std::size_t joint : uneven.joints[pair].joints)
+      stage.joint_stiffness[static_cast<Eigen::Index>(joint)] = std::exp(step);
+    const Solution solution = solver.solve(StageTask{.stage = stage});
+    REQUIRE(stands(solution));
+    return vertical_displacements(solution.displacement, bridge.control_points);
+  };
+  const double step = 1e-4;
+  const auto pairs = static_cast<Eigen::Index>(uneven.joints.size());
+  Eigen::MatrixXd derivatives(static_cast<Eigen::Index>(bridge.control_points.size()), pairs),
+      correlations(pairs, pairs);
+  for (Eigen::Index i = 0; i < pairs; ++i) {
+    const auto pair = static_cast<std::size_t>(i);
+    derivatives.col(i) =
+        uneven.joints[pair].parameter.sigma * (settled(pair, step) - settled(pair, -step)) / (2.0 * step);
+    for (Eigen::Index j = 0; j < pairs; ++j)
+      correlations(i, j) = uneven.correlation(pair, static_cast<std::size_t>(j));
+  }
+  const Eigen::MatrixXd expected = derivatives * correlations * derivatives.transpose();
+  for (const Eigen::MatrixXd& one : found)  // the intact bridge is the same before and after a loss
+    for (const Eigen::MatrixXd& other : found)
+      CHECK((one * other.transpose() - expected).norm() < 1e-5 * expected.norm());
 }
 
 TEST_CASE("Sensitivities and digest are the same for all numbers of threads",

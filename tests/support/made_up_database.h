@@ -126,6 +126,7 @@ inline Sensitivities made_up_sensitivities(const Model& bridge, const std::vecto
       if (state + 1 < states || i % 5 != 4)
         made.set(state, i, SceneFactors{numbers(points, 2), numbers(points, 2)});
     made.residuals[state] = {numbers(points, 4), numbers(points, 5), 0.1, 0.2, 0.3, 0.4};
+    made.unevenness.push_back(numbers(points, 6));
   }
   return made;
 }

@@ -205,6 +205,32 @@ TEST_CASE("A foot that settles takes the points above it along, those of the oth
   CHECK(std::abs(change(right)) < 3e-4);
 }
 
+TEST_CASE(
+    "Where half of the joints soften half of the bridge sinks, mirrored on the other side if those do") {
+  const BridgeDescription description = test::small_bridge_file().description;
+  const Model bridge = make_model(description);
+  REQUIRE(bridge.symmetry);
+  const SampledTruth nominal{"joints", scattered_joints(0.0), 1, 1};
+  const auto sinking = [&](const Between& between) {
+    const IntactBridge truth = solve_intact(description, nominal, between).bridges[0];
+    std::vector<double> sunk;
+    for (std::size_t i = 0; i < truth.before.size(); ++i) sunk.push_back(truth.before[i] - truth.after[i]);
+    return sunk;
+  };
+  const std::vector<double> all = sinking({.joint_stiffness = 0.9}),
+                            left = sinking({.joint_stiffness = 0.9, .softened_part = 0.5}),
+                            none = sinking({.joint_stiffness = 0.9, .softened_part = -1.0});
+  double of_left = 0.0, of_right = 0.0, of_all = 0.0;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const double x = bridge.control_points[i].position.x();
+    (x < 0.5 * description.wall.length ? of_left : of_right) += left[i];
+    of_all += all[i];
+    CHECK(none[i] == Approx(0.0).margin(1e-12));
+  }
+  CHECK(of_left > 3.0 * std::abs(of_right));
+  CHECK(of_left + of_right == Approx(0.5 * of_all).epsilon(0.1));
+}
+
 TEST_CASE("Epochs at random are others for each bridge and epoch, the same in every run") {
   const BridgeDescription description = test::small_bridge_file().description;
   const SampledTruth truth{"everything", {}, 2, 1};

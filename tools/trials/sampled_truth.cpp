@@ -1,11 +1,12 @@
 #include "tools/trials/sampled_truth.h"
 
+#include <cmath>
 #include <set>
 
 #include "core/error.h"
 #include "core/random.h"
 #include "core/solve/combined_solver.h"
-#include "core/structure/uncertain_parameters.h"
+#include "core/structure/uneven_stiffness.h"
 #include "generator/build.h"
 #include "generator/variants.h"
 
@@ -38,22 +39,36 @@ std::vector<State> solve_all(QuasiStaticSolver& solver, const std::vector<Model>
 
 constexpr std::uint64_t kEpochs =
     1u << 30;  // beyond the numbers of bridges, which have seeds of the same series
+constexpr std::uint64_t kUnevenness = 1;  // of the seeds of an epoch
+
+/// The share of its stiffness that each joint keeps.
+Eigen::ArrayXd softened_joints(const Model& bridge, const Between& between) {
+  const auto x = bridge.mesh.nodes.row(0);
+  const double end = std::lerp(x.minCoeff(), x.maxCoeff(), between.softened_part);
+  Eigen::ArrayXd shares = Eigen::ArrayXd::Ones(static_cast<Eigen::Index>(bridge.joints.size()));
+  for (std::size_t j = 0; j < bridge.joints.size(); ++j)
+    if (middle_of(bridge.joints[j], bridge.mesh).x() <= end)
+      shares[static_cast<Eigen::Index>(j)] = between.joint_stiffness;
+  return shares;
+}
 
 /// What an epoch does to the bridges.
 std::vector<Stage> stages_of_epoch(const Model& bridge, const SampledTruth& truth, const Between& between,
                                    int epoch) {
   const UncertainParameters uncertain = uncertain_parameters(bridge, truth.uncertainty);
+  const UnevenStiffness uneven = uneven_stiffness(bridge, truth.uncertainty);
   std::vector<Stage> stages;
   for (int b = 0; b < truth.bridges; ++b) {
     Stage stage;
     if (between.at_random) {
       const std::uint64_t epochs = series_seed(truth.seed, kEpochs + static_cast<std::uint64_t>(epoch));
-      stage = in_epoch(
-          stage, bridge, uncertain,
-          sampled_theta(uncertain.of_epoch.size(), series_seed(epochs, static_cast<std::uint64_t>(b))));
+      const std::uint64_t seed = series_seed(epochs, static_cast<std::uint64_t>(b));
+      stage = in_epoch(stage, bridge, uncertain, sampled_theta(uncertain.of_epoch.size(), seed));
+      const Eigen::ArrayXd shares = sampled_shares(bridge, uneven, series_seed(seed, kUnevenness));
+      stage.joint_stiffness = stage.joint_stiffness.size() > 0 ? stage.joint_stiffness * shares : shares;
     } else if (epoch > 1) {
       stage.temperature = between.warmer;
-      stage.joint_stiffness = between.joint_stiffness;
+      stage.joint_stiffness = softened_joints(bridge, between);
       if (between.settlement != 0.0)
         stage.support_movement = rigid_movement(bridge, 0, {0.0, -between.settlement}, 0.0);
     }
@@ -109,7 +124,8 @@ Uncertainty scattered_joints(double scatter) {
           .foot_movement = 0.0,
           .foot_rotation = 0.0,
           .side_movement = 0.0,
-          .epoch_stiffness = 0.0};
+          .epoch_stiffness = 0.0,
+          .epoch_unevenness = 0.0};
 }
 
 DamagedTruth solve_damaged(const BridgeFile& bridge, const SampledTruth& truth, const std::string& scenes,

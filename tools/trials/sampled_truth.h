@@ -29,7 +29,8 @@ DamagedTruth solve_damaged(const BridgeFile& bridge, const SampledTruth& truth, 
 struct Between {
   double warmer = 0.0;           ///< [K] the whole bridge
   double settlement = 0.0;       ///< [m] of the first foot
-  double joint_stiffness = 1.0;  ///< share of it that all joints keep
+  double joint_stiffness = 1.0;  ///< share of it that joints keep,
+  double softened_part = 1.0;    ///< those in this share of the bridge's length, from the left
   bool at_random = false;        ///< instead, each epoch has its own temperature, movements and stiffness of
                                  ///< joints, as uncertain as they are
 };

@@ -144,7 +144,9 @@ TEST_CASE(
   soft_description.joints.tangential_stiffness *= 0.8;
   const Model soft = make_model(soft_description);
   QuasiStaticSolver solver(bridge), soft_solver(soft);
-  const StageTask in_epoch{.stage = {.joint_stiffness = 0.8}};
+  const auto joints = static_cast<Eigen::Index>(bridge.joints.size());
+  const Stage softer{.joint_stiffness = Eigen::ArrayXd::Constant(joints, 0.8)};
+  const StageTask in_epoch{.stage = softer};
   const Solution expected = soft_solver.solve(StageTask{});
   REQUIRE(stands(expected));
   for (const Parameters* own : {static_cast<const Parameters*>(nullptr), &bridge.parameters}) {
@@ -156,8 +158,8 @@ TEST_CASE(
   }
   // A stage that comes later bears on the softer joints, too, and the next one on the bridge's own again.
   const Solution built = solver.solve(StageTask{});
-  const Solution later = solver.solve(
-      StageTask{.stage = {.joint_stiffness = 0.8}, .start = &built.displacement, .before = &built});
+  const Solution later =
+      solver.solve(StageTask{.stage = softer, .start = &built.displacement, .before = &built});
   REQUIRE(stands(later));
   const double sank =
       vertical_displacements(later.displacement - built.displacement, bridge.control_points).sum();

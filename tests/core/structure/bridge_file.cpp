@@ -18,7 +18,7 @@ namespace {
 std::vector<double> numbers_of(const Uncertainty& u) {
   return {u.joint_stiffness, u.common_stiffness, u.stiffness_ratio, u.friction,
           u.young_modulus,   u.density,          u.temperature,     u.foot_movement,
-          u.foot_rotation,   u.side_movement,    u.epoch_stiffness};
+          u.foot_rotation,   u.side_movement,    u.epoch_stiffness, u.epoch_unevenness};
 }
 
 /// All numbers of a description, in the order in which the header names them.
@@ -116,12 +116,13 @@ const std::vector<Key> kKeys = {{"[wall]\nlength_m = 30.0", 0, 30.0},
                                 {"[uncertainty]\nfoot_rotation_rad = 2e-4", 32, 2e-4},
                                 {"[uncertainty]\nside_movement_m = 1e-3", 33, 1e-3},
                                 {"[uncertainty]\nepoch_stiffness_cv = 0.02", 34, 0.02},
-                                {"collapses = \"field\"", 35, 1.0},
-                                {"[[spans]]\ncentre_x_m = 9.0", 36, 9.0},
-                                {"[[spans]]\ncentre_y_m = 1.5", 37, 1.5},
-                                {"[[spans]]\nintrados_radius_m = 3.0", 38, 3.0},
-                                {"[[spans]]\nring_thickness_m = 0.4", 39, 0.4},
-                                {"[[spans]]\nvoussoirs = 21", 40, 21.0}};
+                                {"[uncertainty]\nepoch_unevenness_cv = 0.06", 35, 0.06},
+                                {"collapses = \"field\"", 36, 1.0},
+                                {"[[spans]]\ncentre_x_m = 9.0", 37, 9.0},
+                                {"[[spans]]\ncentre_y_m = 1.5", 38, 1.5},
+                                {"[[spans]]\nintrados_radius_m = 3.0", 39, 3.0},
+                                {"[[spans]]\nring_thickness_m = 0.4", 40, 0.4},
+                                {"[[spans]]\nvoussoirs = 21", 41, 21.0}};
 
 }  // namespace
 
@@ -188,6 +189,13 @@ TEST_CASE("Bad bridge files are refused with file, line and what was expected", 
   CHECK_THAT(message("[wall]\ncourses = 120\n[mesh]\nrefinement = 5\n"),
              Contains("b.toml:1:") && Contains("refinement of 5"));
   CHECK_THAT(message("[control_points]\ntop = false\narch = false\n"), Contains("no control points"));
+  const std::string known =
+      "[uncertainty]\njoint_stiffness_cv = 0\ncommon_stiffness_cv = 0\nstiffness_ratio_cv = 0\nfriction_cv = "
+      "0\nyoung_modulus_cv = 0\ndensity_cv = 0\ntemperature_K = 0\nfoot_movement_m = 0\nfoot_rotation_rad = "
+      "0\nside_movement_m = 0\nepoch_stiffness_cv = 0\n";
+  CHECK_THAT(message(known + "epoch_unevenness_cv = 0.01\n"),
+             Contains("b.toml:13:") && Contains("expected 0, as all else is known exactly"));
+  CHECK_FALSE(is_uncertain(parse_bridge_file(known, "b.toml").description.uncertainty));
   CHECK_THAT(message("= 3"), Contains("b.toml:1:"));
 }
 
@@ -237,7 +245,8 @@ const std::vector<Limits> kLimits = {{"[wall]\nlength_m = ", 1e-3, 1e5, true},
                                      {"[uncertainty]\nfoot_movement_m = ", 0.0, 1.0, true},
                                      {"[uncertainty]\nfoot_rotation_rad = ", 0.0, 0.1, true},
                                      {"[uncertainty]\nside_movement_m = ", 0.0, 1.0, true},
-                                     {"[uncertainty]\nepoch_stiffness_cv = ", 0.0, 1.0, true}};
+                                     {"[uncertainty]\nepoch_stiffness_cv = ", 0.0, 1.0, true},
+                                     {"[uncertainty]\nepoch_unevenness_cv = ", 0.0, 1.0, true}};
 
 /// Does the key take this value? The bridge may still be refused for a ring that its wall cannot hold or for
 /// too many blocks, which are other checks.

@@ -10,12 +10,15 @@ TEST_CASE(
     "On the way temperature, supports and joints have gone their share, and all else is as at the end (by "
     "hand)") {
   Stage warm{.scene = {{BlockId{3}}}, .load = Field::Constant(2, 2, 7.0), .temperature = 10.0};
-  Stage moved{
-      .temperature = -2.0, .support_movement = Field::Constant(2, 2, 4e-3), .joint_stiffness = 0.0625};
+  Stage moved{.temperature = -2.0,
+              .support_movement = Field::Constant(2, 2, 4e-3),
+              .joint_stiffness = Eigen::ArrayXd::Constant(3, 0.0625)};
   const Stage to_moved = on_the_way(warm, moved, 0.25);
   CHECK(to_moved.temperature == Approx(7.0));
   CHECK(to_moved.support_movement.isApprox(Field::Constant(2, 2, 1e-3)));
-  CHECK(to_moved.joint_stiffness == Approx(0.5));
+  REQUIRE(to_moved.joint_stiffness.size() == 3);
+  CHECK(to_moved.joint_stiffness.isApprox(Eigen::ArrayXd::Constant(3, 0.5)));
+  CHECK(on_the_way({}, warm, 0.25).joint_stiffness.size() == 0);
   CHECK(to_moved.scene == Scene{});
   CHECK(to_moved.load.size() == 0);
   const Stage to_warm = on_the_way(moved, warm, 0.25);

@@ -95,6 +95,7 @@ TEST_CASE("Sensitivities are read back as they were written, to the last bit") {
     CHECK(stored->residuals[state].epoch_share == expected.epoch_share);
     CHECK(stored->residuals[state].epoch_common == expected.epoch_common);
   }
+  CHECK(stored->unevenness == small.made.unevenness);
   CHECK_FALSE(stored->find(0, Scene{{BlockId{1}, BlockId{2}}}));
   CHECK_FALSE(stored->find(kStates - 1, small.made.scenes[4]));
   CHECK(stored->of_bridge() == 3);
@@ -113,6 +114,7 @@ TEST_CASE("A bridge without parameters of an epoch, or of its own, is read back 
         known.set(state, i, {Eigen::MatrixXd(scene->bridge.rows(), 0), scene->epoch.leftCols(1)});
     known.residuals[state].bridge.resize(known.bridge.rows(), 0);
   }
+  known.unevenness.clear();
   const Database database = small.write(known);
   const Sensitivities* stored = database.sensitivities();
   REQUIRE(stored != nullptr);
@@ -120,6 +122,7 @@ TEST_CASE("A bridge without parameters of an epoch, or of its own, is read back 
   CHECK(stored->find(0, Scene{})->bridge.cols() == 0);
   CHECK(stored->find(0, Scene{})->epoch == known.find(0, Scene{})->epoch);
   CHECK(stored->residuals[1].bridge.cols() == 0);
+  CHECK(stored->unevenness.empty());
   CHECK(are_factors_sound(*stored));
   CHECK(are_signals_right(*stored));
 }
@@ -153,6 +156,9 @@ TEST_CASE("Sensitivities that do not fit together are refused and named") {
   wrong = small.made;
   wrong.bridge.own(wrong.scenes.size() + 2)(0, 1) = std::numeric_limits<double>::quiet_NaN();
   CHECK_THAT(small.refusal(wrong), Catch::Contains("bridge_factors' holds a number that is not finite"));
+  wrong = small.made;
+  wrong.unevenness[1](2, 3) = std::numeric_limits<double>::infinity();
+  CHECK_THAT(small.refusal(wrong), Catch::Contains("unevenness' holds a number that is not finite"));
 }
 
 TEST_CASE("Datasets of sensitivities of another type or shape are refused and named") {
@@ -160,8 +166,8 @@ TEST_CASE("Datasets of sensitivities of another type or shape are refused and na
        {dataset::kUncertainName, dataset::kUncertainUnit, dataset::kUncertainSigma,
         dataset::kUncertainOfEpoch, dataset::kSensitivityBasis, dataset::kSensitivityRemoved,
         dataset::kSensitivityKnown, dataset::kBridgeFactors, dataset::kEpochFactors, dataset::kResidualBridge,
-        dataset::kResidualEpoch, dataset::kResidualShare, dataset::kSignalFirst, dataset::kSignalOwn,
-        dataset::kSignalIntact, dataset::kSignalLead, dataset::kSignalEpoch}) {
+        dataset::kResidualEpoch, dataset::kResidualShare, dataset::kUnevenness, dataset::kSignalFirst,
+        dataset::kSignalOwn, dataset::kSignalIntact, dataset::kSignalLead, dataset::kSignalEpoch}) {
     INFO(path);
     SmallDatabase small;
     static_cast<void>(small.write(small.made));

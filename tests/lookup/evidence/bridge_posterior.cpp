@@ -34,7 +34,8 @@ struct Readings {
   }
 };
 
-/// Mean and covariance of all parameters, given the readings; kappa by kappa, as far as it `counts`.
+/// Mean and covariance of all parameters and of what joints have softened by, given the readings; kappa by
+/// kappa, as far as it `counts`.
 struct Joint {
   VectorXd mean;
   MatrixXd covariance;
@@ -43,9 +44,10 @@ struct Joint {
 Joint joint_gaussian(const Sensitivities& from, const VectorXd& reading, const ScatterLogs& counts) {
   const FactorsView of = from.find(0, {}).value();
   const FirstOrderResidual& residual = from.residuals[0];
-  const Index n = reading.size(), m = of.bridge.cols(), e = of.epoch.cols();
+  const MatrixXd& uneven = from.unevenness[0];
+  const Index n = reading.size(), m = of.bridge.cols(), e = of.epoch.cols() + uneven.cols();
   MatrixXd design(n, m + e);
-  design << of.bridge, of.epoch;
+  design << of.bridge, of.epoch, uneven;
   const MatrixXd noise = kSigma * kSigma * MatrixXd::Identity(n, n) +
                          residual.bridge * residual.bridge.transpose() +
                          4.0 * residual.epoch * residual.epoch.transpose();  // heavy tails: twice as wide
@@ -90,7 +92,9 @@ TEST_CASE("Means and spreads of the parameters are those of the joint Gaussian")
     CHECK(posterior.epoch_mean[i] == Approx(mean[at]).epsilon(1e-6).margin(1e-9));
     CHECK(posterior.epoch_covariance(i, i) == Approx(covariance(at, at)).epsilon(1e-6));
   }
-  const VectorXd sum =
-      posterior.signal + posterior.from_bridge + posterior.from_epochs.rowwise().sum() + posterior.left;
+  const MatrixXd& uneven = readings.sensitivities.unevenness[0];
+  CHECK(posterior.from_unevenness.isApprox(uneven * mean.tail(uneven.cols()), 1e-6));
+  const VectorXd sum = posterior.signal + posterior.from_bridge + posterior.from_epochs.rowwise().sum() +
+                       posterior.from_unevenness + posterior.left;
   CHECK((sum - bridge.reading).norm() < 1e-15);
 }

@@ -45,6 +45,7 @@ inline Sensitivities made_up_sensitivities_of(const SyntheticLibrary& library, E
   }
   result.residuals = {
       {numbers(points, 2, 0.05 * size), numbers(points, 1, 0.05 * size), 0.1, 0.05, 0.2, 0.07}};
+  result.unevenness = {numbers(points, 3, 0.3 * size)};
   return result;
 }
 

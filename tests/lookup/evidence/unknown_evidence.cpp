@@ -88,8 +88,11 @@ SceneFactors changed_by(const Sensitivities& from, const Scene& scene) {
 /// independent causes.
 class TwoEpochs {
  public:
-  TwoEpochs(const Question& question, std::size_t row, double kappa, double datum)
-      : question_(question), scene_(question.library.table.scene(row)), p_(points()) {
+  TwoEpochs(const Question& question, std::size_t row, double kappa, double datum, double conditions)
+      : question_(question),
+        scene_(question.library.table.scene(row)),
+        p_(points()),
+        conditions_(conditions) {
     intact_ = displacements(0);
     signal_ = displacements(row) - intact_;
     mean.resize(2 * p_);
@@ -123,13 +126,15 @@ class TwoEpochs {
     const SceneFactors intact = stored(from(), {}).value();
     const SceneFactors change = widened(changed_by(from(), scene_));
     add(intact.bridge, intact.bridge + change.bridge, kappa);
-    add_each(intact.epoch, intact.epoch + change.epoch);
+    add_each(conditions_ * intact.epoch, conditions_ * (intact.epoch + change.epoch));
   }
 
   void add_common(double datum) {
     const FirstOrderResidual& residual = from().residuals[0];
     add(residual.bridge, residual.bridge);
-    add_each(2.0 * residual.epoch, 2.0 * residual.epoch);  // with heavy tails
+    const double left = conditions_ * std::max(1.0, 2.0 * conditions_);  // with heavy tails
+    add_each(left * residual.epoch, left * residual.epoch);
+    add_each(from().unevenness[0], from().unevenness[0]);
     MatrixXd level = datum * MatrixXd::Ones(p_, 1);
     level(0, 0) = 0.0;  // no reading there
     add_each(level, level);
@@ -165,8 +170,9 @@ class TwoEpochs {
       double norm = 0.0;
       const VectorXd signal = signal_of(block).tail(p_ - 1);
       for (const double one : signal) norm += std::isnan(one) ? 0.0 : one * one;
-      shares.push_back(std::sqrt(
-          (of.bridge.bottomRows(p_ - 1).squaredNorm() + of.epoch.bottomRows(p_ - 1).squaredNorm()) / norm));
+      shares.push_back(std::sqrt((of.bridge.bottomRows(p_ - 1).squaredNorm() +
+                                  conditions_ * conditions_ * of.epoch.bottomRows(p_ - 1).squaredNorm()) /
+                                 norm));
     }
     std::sort(shares.begin(), shares.end());
     return shares[shares.size() / 2];
@@ -200,14 +206,16 @@ class TwoEpochs {
   const Question& question_;
   Scene scene_;
   Index p_;
+  double conditions_;
   VectorXd intact_, signal_;
 };
 
 /// log density of what was read.
-double oracle(const Question& question, std::size_t row, double kappa, double datum, Epochs epochs) {
+double oracle(const Question& question, std::size_t row, double kappa, double datum, Epochs epochs,
+              double conditions) {
   const auto p = static_cast<Index>(question.library.points.size());
   const Comparison& c = question.comparison;
-  TwoEpochs dense(question, row, kappa, datum);
+  TwoEpochs dense(question, row, kappa, datum, conditions);
   const Index n = p - 1;
   const bool both = is_change(c.kind) && epochs == Epochs::both;
   MatrixXd take = MatrixXd::Zero(both ? 2 * n : n, 2 * p);
@@ -242,17 +250,22 @@ TEST_CASE("The evidence of an unknown bridge is that of the dense Gaussian of bo
     ReadingKind kind;
     Epochs epochs;
     double datum;
+    double conditions = 1.0;
   };
-  const auto& [kind, epochs, datum] = GENERATE(values<Case>({{ReadingKind::absolute, Epochs::change, 0.0},
-                                                             {ReadingKind::absolute, Epochs::change, 1e-4},
-                                                             {ReadingKind::change, Epochs::change, 0.0},
-                                                             {ReadingKind::change, Epochs::change, 1e-4},
-                                                             {ReadingKind::change, Epochs::both, 0.0},
-                                                             {ReadingKind::change, Epochs::both, 1e-4}}));
+  const auto& [kind, epochs, datum, conditions] =
+      GENERATE(values<Case>({{ReadingKind::absolute, Epochs::change, 0.0},
+                             {ReadingKind::absolute, Epochs::change, 1e-4},
+                             {ReadingKind::change, Epochs::change, 0.0},
+                             {ReadingKind::change, Epochs::change, 1e-4},
+                             {ReadingKind::change, Epochs::change, 0.0, 0.03},
+                             {ReadingKind::change, Epochs::both, 0.0},
+                             {ReadingKind::change, Epochs::both, 1e-4},
+                             {ReadingKind::change, Epochs::both, 0.0, 0.0}}));
   const Question question(kind);
   const SceneTable& table = question.library.table;
   const Observation observation = question.observation({0.0, datum, 0.0});
-  const UnknownBridge bridge = unknown_bridge(question.comparison, observation, {}, {.epochs = epochs});
+  const UnknownBridge bridge =
+      unknown_bridge(question.comparison, observation, {0.0, conditions}, {.epochs = epochs});
   const auto rows = all_rows(table);
   const auto logs = scatter_logs(bridge, observation, table, rows, 2);
   std::size_t compared = 0;
@@ -265,7 +278,8 @@ TEST_CASE("The evidence of an unknown bridge is that of the dense Gaussian of bo
     if (std::isnan(predicted[0])) continue;  // the oracle has no prediction for the point without a reading
     CAPTURE(to_string(table.scene(row), question.library.layout));
     for (std::size_t k = 0; k < kScatterFactors.size(); ++k)
-      REQUIRE(logs[row][k] == Approx(oracle(question, row, kScatterFactors[k], datum, epochs)).epsilon(1e-8));
+      REQUIRE(logs[row][k] ==
+              Approx(oracle(question, row, kScatterFactors[k], datum, epochs, conditions)).epsilon(1e-8));
     ++compared;
   }
   CHECK(compared > 60);
@@ -286,7 +300,7 @@ TEST_CASE(
     const auto logs = scatter_logs(bridge, observation, table, rows, 1);
     for (std::size_t k = 0; k < kScatterFactors.size(); ++k)
       REQUIRE(logs[0][k] ==
-              Approx(oracle(question, row, kScatterFactors[k], 0.0, Epochs::change)).epsilon(1e-8));
+              Approx(oracle(question, row, kScatterFactors[k], 0.0, Epochs::change, 1.0)).epsilon(1e-8));
     ++compared;
   }
   CHECK(compared >= 8);
