@@ -87,9 +87,9 @@ void add_bridge_options(CLI::App& app, LocateDamageOptions& options) {
   add_choice<Conditions>(
       app, "--conditions", options.settings.conditions,
       {{"uncertain", Conditions::uncertain}, {"known", Conditions::known}},
-      "temperature, movements of the supports and what joints soften by between two times: uncertain "
-      "(default) as the bridge file states, or known: the model's, or the readings have been corrected for "
-      "them");
+      "temperature, movements of the supports and what all joints soften by alike between two times: "
+      "uncertain (default) as the bridge file states, or known: the model's, or the readings have been "
+      "corrected for them");
 }
 
 void add_noise_options(CLI::App& app, LocateDamageOptions& options) {
