@@ -23,15 +23,11 @@ Eigen::MatrixXd derivatives_of(const SensitivityStudy& study, const UnevenStiffn
   return all;
 }
 
-/// The covariance of the rows. Correlations are many, so they are made where they are needed.
+/// The covariance of the rows.
 Eigen::MatrixXd covariance_of(const Eigen::MatrixXd& derivatives, const UnevenStiffness& uneven) {
   Eigen::MatrixXd spread(derivatives.rows(), derivatives.cols());
-  Eigen::VectorXd correlations(derivatives.cols());
-  for (Eigen::Index i = 0; i < derivatives.cols(); ++i) {
-    for (Eigen::Index j = 0; j < derivatives.cols(); ++j)
-      correlations[j] = uneven.correlation(static_cast<std::size_t>(i), static_cast<std::size_t>(j));
-    spread.col(i).noalias() = derivatives * correlations;
-  }
+  for (Eigen::Index i = 0; i < derivatives.cols(); ++i)
+    spread.col(i).noalias() = derivatives * uneven.correlations(static_cast<std::size_t>(i));
   return spread * derivatives.transpose();
 }
 

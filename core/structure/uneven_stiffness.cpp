@@ -9,6 +9,12 @@ double UnevenStiffness::correlation(std::size_t one, std::size_t other) const {
   return std::exp(-(places[one] - places[other]).norm() / length);
 }
 
+Eigen::VectorXd UnevenStiffness::correlations(std::size_t one) const {
+  return Eigen::VectorXd::NullaryExpr(static_cast<Eigen::Index>(joints.size()), [&](Eigen::Index other) {
+    return correlation(one, static_cast<std::size_t>(other));
+  });
+}
+
 UnevenStiffness uneven_stiffness(const Structure& structure, const Uncertainty& uncertainty) {
   UnevenStiffness uneven{own_stiffness(structure, uncertainty.epoch_unevenness), {}, 1.0};
   for (const UncertainAction& pair : uneven.joints)
@@ -22,8 +28,7 @@ Eigen::ArrayXd sampled_shares(const Structure& structure, const UnevenStiffness&
   const auto pairs = static_cast<Eigen::Index>(uneven.joints.size());
   Eigen::MatrixXd correlations(pairs, pairs);
   for (Eigen::Index i = 0; i < pairs; ++i)
-    for (Eigen::Index j = 0; j < pairs; ++j)
-      correlations(i, j) = uneven.correlation(static_cast<std::size_t>(i), static_cast<std::size_t>(j));
+    correlations.col(i) = uneven.correlations(static_cast<std::size_t>(i));
   const Eigen::VectorXd theta = correlations.llt().matrixL() * sampled_theta(uneven.joints.size(), seed);
   Eigen::ArrayXd shares = Eigen::ArrayXd::Ones(static_cast<Eigen::Index>(structure.joints.size()));
   for (Eigen::Index i = 0; i < pairs; ++i) {

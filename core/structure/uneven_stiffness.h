@@ -19,6 +19,8 @@ struct UnevenStiffness {
   double length = 1.0;                  ///< [m]
 
   double correlation(std::size_t one, std::size_t other) const;
+  /// Of one with each. All of them at once are many: as many as joints squared.
+  Eigen::VectorXd correlations(std::size_t one) const;
 };
 
 UnevenStiffness uneven_stiffness(const Structure& structure, const Uncertainty& uncertainty);

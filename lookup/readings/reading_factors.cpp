@@ -137,7 +137,7 @@ MatrixXd unevenness_of(const ReadingFactors& factors) {
                          ? (states[*channel.loaded].row(point) - states[factors.base].row(point)).eval()
                          : states[factors.base].row(point).eval();
   }
-  return columns * columns.transpose();
+  return product_with_itself(columns);
 }
 
 }  // namespace
