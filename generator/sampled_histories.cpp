@@ -8,9 +8,10 @@ SampledBridge draw_bridge(const Model& bridge, const UncertainParameters& uncert
   const auto of_bridge = static_cast<Eigen::Index>(uncertain.of_bridge.size());
   const auto of_epoch = static_cast<Eigen::Index>(uncertain.of_epoch.size());
   const Eigen::VectorXd theta = sampled_theta(static_cast<std::size_t>(of_bridge + of_epoch), seed);
-  return {.of_bridge = theta.head(of_bridge),
+  const Eigen::VectorXd parameters = uncertain.correlation_factor * theta.head(of_bridge);
+  return {.of_bridge = parameters,
           .of_epoch = theta.tail(of_epoch),
-          .parameters = parameters_at(bridge, uncertain, theta.head(of_bridge)),
+          .parameters = parameters_at(bridge, uncertain, parameters),
           .epoch = in_epoch({}, bridge, uncertain, theta.tail(of_epoch)),
           .slowly = seed % 2 == 0};
 }

@@ -89,7 +89,7 @@ std::optional<Sensitivities> find_sensitivities(const SensitivityStudy& study,
   if (!intact || !stands(*intact)) return std::nullopt;
   auto derivatives = derivatives_of(study, equations, result.scenes, states, progress);
   const auto of_bridge = static_cast<Eigen::Index>(equations.uncertain.of_bridge.size());
-  result.basis = sensitivity_basis(derivatives, of_bridge, study.threads);
+  result.basis = sensitivity_basis(derivatives, equations.uncertain.correlation_factor, study.threads);
   const auto residuals =
       first_order_residuals(study, equations.uncertain, {{result.scenes, states}, derivatives}, progress);
   result.make_room(derivatives.size(), static_cast<Eigen::Index>(study.bridge.control_points.size()));

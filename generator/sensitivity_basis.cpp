@@ -17,13 +17,19 @@ using Eigen::MatrixXd;
 constexpr std::size_t kSignalsAtOnce = 32;  // whose copies are in memory
 constexpr std::size_t kRowsAtOnce = 32;     // of their sum, by one thread
 
+/// Derivatives by the independent parameters.
+MatrixXd by_independent(const MatrixXd& derivatives, const MatrixXd& factor) {
+  return derivatives.leftCols(factor.rows()) * factor.triangularView<Eigen::Lower>();
+}
+
 /// What the intact bridge's displacements depend on; none where they are not known.
-MatrixXd directions_of_intact(const Derivatives& derivatives, Index of_bridge) {
+MatrixXd directions_of_intact(const Derivatives& derivatives, const MatrixXd& factor) {
+  const Index of_bridge = factor.rows();
   MatrixXd all(0, of_bridge);
   for (const auto& state : derivatives) {
     if (state.front().size() == 0) continue;
     all.conservativeResize(all.rows() + state.front().rows(), Eigen::NoChange);
-    all.bottomRows(state.front().rows()) = state.front().leftCols(of_bridge);
+    all.bottomRows(state.front().rows()) = by_independent(state.front(), factor);
   }
   if (all.size() == 0) return MatrixXd(of_bridge, 0);
   const Eigen::BDCSVD<MatrixXd> svd(all, Eigen::ComputeThinV);
@@ -38,7 +44,7 @@ MatrixXd complement(const MatrixXd& directions) {
 }
 
 /// Signals' derivatives, each of norm 1: parameters x points.
-std::vector<MatrixXd> signals_of(const Derivatives& derivatives, Index of_bridge, Crew& crew,
+std::vector<MatrixXd> signals_of(const Derivatives& derivatives, const MatrixXd& factor, Crew& crew,
                                  std::size_t first) {
   const std::size_t scenes = derivatives.front().size();
   const std::size_t end = std::min(first + kSignalsAtOnce, derivatives.size() * scenes);
@@ -47,7 +53,7 @@ std::vector<MatrixXd> signals_of(const Derivatives& derivatives, Index of_bridge
     const auto& state = derivatives[(first + i) / scenes];
     const MatrixXd& scene = state[(first + i) % scenes];
     if (scene.size() == 0 || state.front().size() == 0) return;
-    const MatrixXd signal = (scene - state.front()).leftCols(of_bridge).transpose();
+    const MatrixXd signal = by_independent(scene - state.front(), factor).transpose();
     if (signal.squaredNorm() > 0.0) signals[i] = filled_up(signal / signal.norm());
   });
   return signals;
@@ -59,13 +65,13 @@ struct Gram {
   double signals = 0.0;
 };
 
-Gram gram_of_signals(const Derivatives& derivatives, Index of_bridge, int threads) {
-  const auto size = static_cast<std::size_t>(of_bridge);
+Gram gram_of_signals(const Derivatives& derivatives, const MatrixXd& factor, int threads) {
+  const auto size = static_cast<std::size_t>(factor.rows());
   Crew crew(threads);
   Gram gram{LowerTriangle(lower_size(size), 0.0)};
   for (std::size_t first = 0; first < derivatives.size() * derivatives.front().size();
        first += kSignalsAtOnce) {
-    const std::vector<MatrixXd> signals = signals_of(derivatives, of_bridge, crew, first);
+    const std::vector<MatrixXd> signals = signals_of(derivatives, factor, crew, first);
     crew.for_each_index((size + kRowsAtOnce - 1) / kRowsAtOnce, [&](std::size_t part) {
       const LowerRows rows{part * kRowsAtOnce, std::min(size, (part + 1) * kRowsAtOnce)};
       for (const MatrixXd& signal : signals)
@@ -94,16 +100,17 @@ MatrixXd leading_directions(const MatrixXd& gram, double allowed) {
 
 }  // namespace
 
-MatrixXd sensitivity_basis(const Derivatives& derivatives, Index of_bridge, int threads) {
-  const MatrixXd of_intact = directions_of_intact(derivatives, of_bridge);
-  const Gram gram = gram_of_signals(derivatives, of_bridge, threads);
+MatrixXd sensitivity_basis(const Derivatives& derivatives, const MatrixXd& correlation_factor, int threads) {
+  const MatrixXd of_intact = directions_of_intact(derivatives, correlation_factor);
+  const Gram gram = gram_of_signals(derivatives, correlation_factor, threads);
   const MatrixXd others = complement(of_intact);
   const MatrixXd of_others =
-      others.transpose() * (matrix_of(gram.lower, of_bridge).selfadjointView<Eigen::Lower>() * others);
+      others.transpose() *
+      (matrix_of(gram.lower, correlation_factor.rows()).selfadjointView<Eigen::Lower>() * others);
   const MatrixXd of_signals = others * leading_directions(of_others, kLeftOfSignals * gram.signals);
-  MatrixXd basis(of_bridge, of_intact.cols() + of_signals.cols());
-  basis << of_intact, of_signals;
-  return basis;
+  MatrixXd directions(correlation_factor.rows(), of_intact.cols() + of_signals.cols());
+  directions << of_intact, of_signals;
+  return correlation_factor.triangularView<Eigen::Lower>() * directions;
 }
 
 }  // namespace voussoir

@@ -17,8 +17,10 @@ inline constexpr double kLeftOfSignals = 1e-3;
 /// those of the intact bridge come first. Empty ones are not known.
 using Derivatives = std::vector<std::vector<Eigen::MatrixXd>>;
 
-/// Orthonormal directions of the bridge's parameters, `of_bridge` of them: see kLeastDeviation and
-/// kLeftOfSignals. The same bits on any number of threads (0: one for each core).
-Eigen::MatrixXd sensitivity_basis(const Derivatives& derivatives, Eigen::Index of_bridge, int threads = 0);
+/// The bridge's parameters along orthonormal directions of the independent ones that the factor (L) makes
+/// them of: L V, a column a direction; see kLeastDeviation and kLeftOfSignals. The same bits on any number of
+/// threads (0: one for each core).
+Eigen::MatrixXd sensitivity_basis(const Derivatives& derivatives, const Eigen::MatrixXd& correlation_factor,
+                                  int threads = 0);
 
 }  // namespace voussoir

@@ -12,7 +12,7 @@ Eigen::MatrixXd derivatives_of(const SensitivityStudy& study, const UnevenStiffn
                                const SceneStates& intact) {
   const std::vector<std::size_t> kept = kept_states(study.states);
   const auto points = static_cast<Eigen::Index>(study.bridge.control_points.size());
-  const SensitivityEquations equations(study.bridge, {uneven.joints, {}});
+  const SensitivityEquations equations(study.bridge, {uneven.joints, {}, {}});
   SceneDerivatives derivatives(study, equations);
   Eigen::MatrixXd all = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(kept.size()) * points,
                                               static_cast<Eigen::Index>(uneven.joints.size()));
@@ -23,21 +23,14 @@ Eigen::MatrixXd derivatives_of(const SensitivityStudy& study, const UnevenStiffn
   return all;
 }
 
-/// The covariance of the rows.
-Eigen::MatrixXd covariance_of(const Eigen::MatrixXd& derivatives, const UnevenStiffness& uneven) {
-  Eigen::MatrixXd spread(derivatives.rows(), derivatives.cols());
-  for (Eigen::Index i = 0; i < derivatives.cols(); ++i)
-    spread.col(i).noalias() = derivatives * uneven.correlations(static_cast<std::size_t>(i));
-  return spread * derivatives.transpose();
-}
-
 }  // namespace
 
 std::vector<Eigen::MatrixXd> find_unevenness(const SensitivityStudy& study, const SceneStates& intact) {
   const UnevenStiffness uneven = uneven_stiffness(study.bridge, study.uncertainty);
   if (uneven.joints.empty()) return {};
+  const Eigen::MatrixXd derivatives = derivatives_of(study, uneven, intact);
   const Eigen::MatrixXd columns =
-      covariance_factor(covariance_of(derivatives_of(study, uneven, intact), uneven));
+      covariance_factor(derivatives * uneven.correlations * derivatives.transpose());
   const auto points = static_cast<Eigen::Index>(study.bridge.control_points.size());
   std::vector<Eigen::MatrixXd> unevenness;
   for (Eigen::Index first = 0; first < columns.rows(); first += points)

@@ -5,6 +5,7 @@
 #include "core/error.h"
 #include "core/random.h"
 #include "core/structure/uncertain_parameters.h"
+#include "database/records/order_of_sums.h"
 
 namespace voussoir {
 namespace {
@@ -75,10 +76,12 @@ Model variant_of(const Model& bridge, const VariantParameters& parameters) {
 
 std::vector<VariantParameters> sampled_variants(const Model& bridge, const Uncertainty& uncertainty,
                                                 int count, std::uint64_t seed) {
+  fix_order_of_sums();
+  const UncertainParameters uncertain = uncertain_parameters(bridge, uncertainty);
   std::vector<VariantParameters> variants;
   for (int number = 0; number < count; ++number)
     variants.push_back(variant_parameters(
-        sampled(bridge, uncertainty, series_seed(seed, static_cast<std::uint64_t>(number))).parameters));
+        sampled_parameters(bridge, uncertain, series_seed(seed, static_cast<std::uint64_t>(number)))));
   return variants;
 }
 

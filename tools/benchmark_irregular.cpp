@@ -77,6 +77,7 @@ void try_intact(Run& run) {
   };
   for (const double scatter : options.scatters)
     intact(fmt::format("joints {}", scatter), scattered_joints(scatter), {});
+  intact("parts softer and stiffer", scattered_joints(kScatter, kScatter), {});
   intact("20 K warmer", scattered_joints(kScatter), {.warmer = kWarmer});
   intact("foot 1 mm lower", scattered_joints(kScatter), {.settlement = kSettlement});
   intact("joints a tenth softer", scattered_joints(kScatter), {.joint_stiffness = kSofter});

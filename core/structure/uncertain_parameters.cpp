@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -9,17 +10,13 @@
 
 #include "core/geometry/box.h"
 #include "core/random.h"
+#include "core/structure/joint_correlation.h"
 
 namespace voussoir {
 namespace {
 
 bool turns(const Support& support) {
   return support.holds_y && support.nodes.size() > 1;
-}
-
-/// Standard deviation of the logarithm of a lognormal factor with this coefficient of variation.
-double log_deviation(double variation) {
-  return std::sqrt(std::log1p(variation * variation));
 }
 
 std::vector<std::size_t> all_joints(const Structure& structure) {
@@ -30,10 +27,9 @@ std::vector<std::size_t> all_joints(const Structure& structure) {
 
 /// Adds a factor unless it is known exactly.
 void add_factor(std::vector<UncertainAction>& actions, UncertainQuantity quantity, const std::string& name,
-                double variation, std::vector<std::size_t> joints = {}, bool has_mean_one = false) {
+                double variation, std::vector<std::size_t> joints = {}) {
   if (variation > 0.0)
-    actions.push_back(
-        {quantity, {name, "1", log_deviation(variation), false}, std::move(joints), 0, has_mean_one});
+    actions.push_back({quantity, {name, "1", log_deviation(variation), false}, std::move(joints)});
 }
 
 void add_of_epoch(std::vector<UncertainAction>& actions, UncertainQuantity quantity, const std::string& name,
@@ -63,6 +59,24 @@ void apply(const UncertainAction& action, double theta, Parameters& parameters) 
   }
 }
 
+/// The variance of a factor's logarithm is that of the pair's own part and of what it shares with others.
+void add_own_stiffness(const Structure& structure, const Uncertainty& uncertainty,
+                       UncertainParameters& result) {
+  const double alone = log_deviation(uncertainty.joint_stiffness);
+  const double shared = log_deviation(uncertainty.regional_stiffness);
+  std::vector<UncertainAction> own = own_stiffness(structure, std::hypot(alone, shared));
+  const auto common = static_cast<Eigen::Index>(result.of_bridge.size());
+  const auto pairs = static_cast<Eigen::Index>(own.size());
+  result.correlation_factor = Eigen::MatrixXd::Identity(common + pairs, common + pairs);
+  if (shared > 0.0 && pairs > 0) {
+    const double share = shared * shared / (alone * alone + shared * shared);
+    const Eigen::MatrixXd correlations = share * joint_correlations(structure, first_joints(own)) +
+                                         (1.0 - share) * Eigen::MatrixXd::Identity(pairs, pairs);
+    result.correlation_factor.bottomRightCorner(pairs, pairs) = correlations.llt().matrixL();
+  }
+  std::ranges::move(own, std::back_inserter(result.of_bridge));
+}
+
 Point middle(const Support& support, const Mesh& mesh) {
   Box box;
   for (const NodeId node : support.nodes) box.extend(mesh.position(node));
@@ -78,9 +92,14 @@ std::vector<UncertainParameter> UncertainParameters::all() const {
   return parameters;
 }
 
+double log_deviation(double variation) {
+  return std::sqrt(std::log1p(variation * variation));
+}
+
 /// Pairs come in the order of their first stretches.
-std::vector<UncertainAction> own_stiffness(const Structure& structure, double variation) {
+std::vector<UncertainAction> own_stiffness(const Structure& structure, double deviation) {
   std::vector<UncertainAction> actions;
+  if (deviation == 0.0) return actions;
   std::map<std::pair<BlockId, BlockId>, std::size_t> places;
   std::vector<std::vector<std::size_t>> stretches;
   for (std::size_t j = 0; j < structure.joints.size(); ++j) {
@@ -94,11 +113,20 @@ std::vector<UncertainAction> own_stiffness(const Structure& structure, double va
   };
   for (std::vector<std::size_t>& joints : stretches) {
     const Joint& joint = structure.joints[joints.front()];
-    add_factor(actions, UncertainQuantity::stiffness,
-               fmt::format("stiffness {}/{}", label(joint.first), label(joint.second)), variation,
-               std::move(joints), true);
+    actions.push_back(
+        {UncertainQuantity::stiffness,
+         {fmt::format("stiffness {}/{}", label(joint.first), label(joint.second)), "1", deviation, false},
+         std::move(joints),
+         0,
+         true});
   }
   return actions;
+}
+
+std::vector<std::size_t> first_joints(std::span<const UncertainAction> actions) {
+  std::vector<std::size_t> joints;
+  for (const UncertainAction& action : actions) joints.push_back(action.joints.front());
+  return joints;
 }
 
 UncertainParameters uncertain_parameters(const Structure& structure, const Uncertainty& uncertainty) {
@@ -113,8 +141,7 @@ UncertainParameters uncertain_parameters(const Structure& structure, const Uncer
   }
   add_factor(result.of_bridge, UncertainQuantity::young_modulus, "young modulus", uncertainty.young_modulus);
   add_factor(result.of_bridge, UncertainQuantity::density, "density", uncertainty.density);
-  std::ranges::move(own_stiffness(structure, uncertainty.joint_stiffness),
-                    std::back_inserter(result.of_bridge));
+  add_own_stiffness(structure, uncertainty, result);
 
   add_of_epoch(result.of_epoch, UncertainQuantity::temperature, kTemperature, "K", uncertainty.temperature);
   for (std::size_t s = 0; s < structure.supports.size(); ++s) {
@@ -167,10 +194,13 @@ Eigen::VectorXd sampled_theta(std::size_t count, std::uint64_t seed) {
   return theta;
 }
 
+Parameters sampled_parameters(const Model& bridge, const UncertainParameters& uncertain, std::uint64_t seed) {
+  return parameters_at(bridge, uncertain,
+                       uncertain.correlation_factor * sampled_theta(uncertain.of_bridge.size(), seed));
+}
+
 Model sampled(const Model& bridge, const Uncertainty& uncertainty, std::uint64_t seed) {
-  const UncertainParameters uncertain = uncertain_parameters(bridge, uncertainty);
-  return with_parameters(bridge,
-                         parameters_at(bridge, uncertain, sampled_theta(uncertain.of_bridge.size(), seed)));
+  return with_parameters(bridge, sampled_parameters(bridge, uncertain_parameters(bridge, uncertainty), seed));
 }
 
 Field movement_of(const Structure& structure, const UncertainAction& action, double value) {

@@ -2,7 +2,8 @@
 /// @file The uncertain parameters of a bridge, in a fixed order, and what values of them make of it.
 ///
 /// Of the bridge: the common factors (stiffness, p_t / p_n, friction, Young's modulus, density) and then the
-/// own factor of each pair of blocks that meet, on all their joints. Of an epoch: the temperature, what each
+/// own factor of each pair of blocks that meet, on all their joints: one part of it is of the pair alone, one
+/// is alike in pairs that are near each other (joint_correlation.h). Of an epoch: the temperature, what each
 /// support can do, and a factor on the stiffness of all joints, as damp and frost may change it. A factor is
 /// exp(s theta), s = sqrt(ln(1 + c^2)) with its coefficient of variation c, so that theta = 0 is the bridge
 /// as its file states it; a joint's own is exp(s theta - s^2/2), whose mean is 1. What is known exactly
@@ -10,6 +11,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <span>
 
 #include "core/structure/model.h"
 #include "core/structure/stage.h"
@@ -45,6 +47,8 @@ struct UncertainAction {
 struct UncertainParameters {
   std::vector<UncertainAction> of_bridge;
   std::vector<UncertainAction> of_epoch;
+  Eigen::MatrixXd correlation_factor;  ///< lower triangular: of_bridge's parameters are it times as many
+                                       ///< independent standard normal ones. An epoch's are independent
 
   /// Those of the bridge, then those of an epoch.
   std::vector<UncertainParameter> all() const;
@@ -52,9 +56,15 @@ struct UncertainParameters {
 
 UncertainParameters uncertain_parameters(const Structure& structure, const Uncertainty& uncertainty);
 
+/// Standard deviation of the logarithm of a lognormal factor with this coefficient of variation.
+double log_deviation(double variation);
+
 /// An action on the stiffness of each pair of blocks that meet, on all stretches of their joint; none if the
-/// coefficient of variation is 0.
-std::vector<UncertainAction> own_stiffness(const Structure& structure, double variation);
+/// standard deviation of its logarithm is 0.
+std::vector<UncertainAction> own_stiffness(const Structure& structure, double deviation);
+
+/// Of each action the first of its joints. Precondition: it has some.
+std::vector<std::size_t> first_joints(std::span<const UncertainAction> actions);
 
 /// The bridge's parameters if the standardised uncertain ones have these values. Precondition: one value for
 /// each parameter of the bridge.
@@ -69,7 +79,10 @@ Stage in_epoch(Stage stage, const Structure& structure, const UncertainParameter
 /// Independent standard normal numbers, the same on every machine for the same seed and count.
 Eigen::VectorXd sampled_theta(std::size_t count, std::uint64_t seed);
 
-/// The bridge with uncertain parameters drawn at random. It has no mirror symmetry.
+/// The bridge's parameters with uncertain ones drawn at random.
+Parameters sampled_parameters(const Model& bridge, const UncertainParameters& uncertain, std::uint64_t seed);
+
+/// The bridge with them. It has no mirror symmetry.
 Model sampled(const Model& bridge, const Uncertainty& uncertainty, std::uint64_t seed);
 
 /// Displacements [m], 2 x nodes, of the supports' nodes if the parameter's quantity has this value [m or

@@ -7,7 +7,9 @@ namespace voussoir {
 /// Stiffness, friction, modulus and density are multiplied by lognormal factors, whose coefficients of
 /// variation these are; all others are normal, with these standard deviations about zero. 0: known exactly.
 struct Uncertainty {
-  double joint_stiffness = 0.2;   ///< [-] of each pair of blocks that meet, its own factor on p_n and p_t
+  double joint_stiffness = 0.2;  ///< [-] of each pair of blocks that meet, its own factor on p_n and p_t
+  double regional_stiffness =
+      0.2;  ///< [-] of p_n and p_t of each pair of blocks, too, but alike where pairs are near
   double common_stiffness = 0.3;  ///< [-] of p_n and p_t of all joints alike
   double stiffness_ratio = 0.3;   ///< [-] of p_t / p_n of all joints alike
   double friction = 0.1;          ///< [-] of tan(phi) of all joints alike
@@ -26,7 +28,7 @@ struct Uncertainty {
 
 /// Is anything of the bridge or of an epoch not known exactly?
 inline bool is_uncertain(const Uncertainty& uncertainty) {
-  return uncertainty != Uncertainty{0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
+  return uncertainty != Uncertainty{0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
 }
 
 }  // namespace voussoir

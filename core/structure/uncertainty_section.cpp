@@ -26,6 +26,7 @@ void read_unevenness(TomlSection& section, Uncertainty& uncertainty) {
 Uncertainty read_uncertainty(TomlSection section) {
   Uncertainty uncertainty;
   read_variation(section, "joint_stiffness_cv", uncertainty.joint_stiffness);
+  read_variation(section, "regional_stiffness_cv", uncertainty.regional_stiffness);
   read_variation(section, "common_stiffness_cv", uncertainty.common_stiffness);
   read_variation(section, "stiffness_ratio_cv", uncertainty.stiffness_ratio);
   read_variation(section, "friction_cv", uncertainty.friction);

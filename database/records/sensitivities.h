@@ -58,7 +58,7 @@ struct FactorsView {
 /// What a build makes, or what a file holds, whose factors stay where they are: they outlive this.
 struct Sensitivities {
   std::vector<UncertainParameter> parameters;  ///< those of the bridge, then those of an epoch
-  Eigen::MatrixXd basis;                       ///< V: parameters of the bridge x columns, orthonormal
+  Eigen::MatrixXd basis;                       ///< L V: parameters of the bridge x columns, V orthonormal
   std::vector<Scene> scenes;        ///< ascending by missing blocks, then lexicographic: intact first
   std::vector<std::uint8_t> known;  ///< states x scenes: 1, or 0 for a scene that does not stand
   StackedMatrices bridge;           ///< states x scenes: A, zero where nothing is known

@@ -71,7 +71,7 @@ MatrixXd columns_of(const MatrixXd& first_order, const MatrixXd& left, Index sta
 /// The first order, and where along its columns the sampled bridges are.
 struct FirstOrder {
   const Sensitivities& sensitivities;
-  MatrixXd positions;  ///< columns of the basis x bridges: V^T theta
+  MatrixXd positions;  ///< columns of the basis x bridges
 };
 
 SceneFactors owned(const FactorsView& factors) {
@@ -181,7 +181,8 @@ void require_enough(const Database& database, std::size_t usable, bool alone) {
                   alone ? fmt::format(" ({} beside sensitivities)", kFewestBridges) : ""));
 }
 
-/// Where each of the variants is, from the parameters that it was solved with.
+/// Where each of the variants is, from the parameters that it was solved with: the basis is L V with the
+/// parameters' correlations L L^T, and theta = L z is at V^T z.
 FirstOrder first_order_of(const Database& database, const std::vector<std::int32_t>& variants) {
   const Sensitivities& sensitivities = *database.sensitivities();
   const UncertainParameters uncertain =
@@ -192,12 +193,14 @@ FirstOrder first_order_of(const Database& database, const std::vector<std::int32
                     "it anew (build-database --force)",
                     database.path().string()));
   const std::vector<VariantParameters>& parameters = database.variants();
+  const auto factor = uncertain.correlation_factor.triangularView<Eigen::Lower>();
+  const MatrixXd directions = factor.solve(sensitivities.basis);
   FirstOrder result{sensitivities, MatrixXd(sensitivities.basis.cols(), static_cast<Index>(variants.size()))};
   for (std::size_t i = 0; i < variants.size(); ++i)
     result.positions.col(static_cast<Index>(i)) =
-        sensitivities.basis.transpose() *
-        standardised_parameters(uncertain, parameters.front(),
-                                parameters[static_cast<std::size_t>(variants[i])]);
+        directions.transpose() *
+        factor.solve(standardised_parameters(uncertain, parameters.front(),
+                                             parameters[static_cast<std::size_t>(variants[i])]));
   return result;
 }
 

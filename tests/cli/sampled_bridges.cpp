@@ -23,7 +23,8 @@ class Workshop {
   Workshop() {
     std::ofstream(folder_ / "scattered.toml")
         << test::text_of(test::example_bridge("small"))
-        << "[uncertainty]\njoint_stiffness_cv = 0.05\ncommon_stiffness_cv = 0.0\nstiffness_ratio_cv = 0.0\n"
+        << "[uncertainty]\njoint_stiffness_cv = 0.05\nregional_stiffness_cv = 0.0\ncommon_stiffness_cv = "
+           "0.0\nstiffness_ratio_cv = 0.0\n"
            "friction_cv = 0.0\nyoung_modulus_cv = 0.0\ndensity_cv = 0.0\ntemperature_K = 0.0\n"
            "foot_movement_m = 0.0\nfoot_rotation_rad = 0.0\nside_movement_m = 0.0\n"
            "epoch_stiffness_cv = 0.0\nepoch_unevenness_cv = 0.0\n";

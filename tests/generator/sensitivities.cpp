@@ -29,19 +29,22 @@ BuildSummary build(const std::filesystem::path& path, int threads, bool known_br
   return build_database(request, quasi_static(), quiet);
 }
 
-/// A little more stiffness of two parameters, beside what makes the mean of others one.
+/// A little more stiffness of all joints and of those near one of them, beside what makes the mean of others
+/// one.
 struct Change {
-  Eigen::VectorXd nominal, of_bridge, of_epoch;
+  Eigen::VectorXd nominal, of_bridge, along, of_epoch;  ///< along the basis's directions
 
   Change(const UncertainParameters& uncertain, const Sensitivities& found)
-      : nominal(Eigen::VectorXd::Zero(found.of_bridge())),
-        of_bridge(nominal),
-        of_epoch(Eigen::VectorXd::Zero(found.of_epoch())) {
+      : nominal(Eigen::VectorXd::Zero(found.of_bridge())), of_epoch(Eigen::VectorXd::Zero(found.of_epoch())) {
     for (std::size_t i = 0; i < uncertain.of_bridge.size(); ++i)
       if (uncertain.of_bridge[i].has_mean_one)
         nominal[static_cast<Eigen::Index>(i)] = 0.5 * uncertain.of_bridge[i].parameter.sigma;
-    of_bridge[0] = 1e-3;
-    of_bridge[20] = 5e-3;
+    Eigen::VectorXd independent = Eigen::VectorXd::Zero(found.of_bridge());
+    independent[0] = 1e-3;
+    independent[20] = 5e-3;
+    of_bridge = uncertain.correlation_factor * independent;
+    along = uncertain.correlation_factor.triangularView<Eigen::Lower>().solve(found.basis).transpose() *
+            independent;
     of_epoch[0] = 1e-3;
   }
 };
@@ -77,8 +80,7 @@ TEST_CASE("A database's sensitivities predict what a little more stiffness and h
       const auto table = database.table(kNominalVariant, state);
       const auto row = table.row(*database.find(scene));
       const Eigen::VectorXd before = Eigen::Map<const Eigen::VectorXd>(row.data(), now.size());
-      const Eigen::VectorXd predicted =
-          factors->bridge * (found->basis.transpose() * change.of_bridge) + factors->epoch * change.of_epoch;
+      const Eigen::VectorXd predicted = factors->bridge * change.along + factors->epoch * change.of_epoch;
       Eigen::VectorXd error = now - before - predicted;
       error = error.array().isNaN().select(0.0, error);
       INFO(name << " " << to_string(scene, bridge.layout));
@@ -110,16 +112,13 @@ TEST_CASE("Unevenness is what single joints' stiffness does, as far as joints va
   };
   const double step = 1e-4;
   const auto pairs = static_cast<Eigen::Index>(uneven.joints.size());
-  Eigen::MatrixXd derivatives(static_cast<Eigen::Index>(bridge.control_points.size()), pairs),
-      correlations(pairs, pairs);
+  Eigen::MatrixXd derivatives(static_cast<Eigen::Index>(bridge.control_points.size()), pairs);
   for (Eigen::Index i = 0; i < pairs; ++i) {
     const auto pair = static_cast<std::size_t>(i);
     derivatives.col(i) =
         uneven.joints[pair].parameter.sigma * (settled(pair, step) - settled(pair, -step)) / (2.0 * step);
-    for (Eigen::Index j = 0; j < pairs; ++j)
-      correlations(i, j) = uneven.correlation(pair, static_cast<std::size_t>(j));
   }
-  const Eigen::MatrixXd expected = derivatives * correlations * derivatives.transpose();
+  const Eigen::MatrixXd expected = derivatives * uneven.correlations * derivatives.transpose();
   for (const Eigen::MatrixXd& one : found)  // the intact bridge is the same before and after a loss
     for (const Eigen::MatrixXd& other : found)
       CHECK((one * other.transpose() - expected).norm() < 1e-5 * expected.norm());
@@ -144,35 +143,44 @@ TEST_CASE("A bridge that is said to be known has no sensitivities; without that 
   CHECK(build(folder / "small.h5", 2).up_to_date);
 }
 
-TEST_CASE("The basis is orthonormal and leaves little of every kind (definition)", "[sensitivity]") {
+TEST_CASE("The basis is of orthonormal directions and leaves little of every kind (definition)",
+          "[sensitivity]") {
+  constexpr Eigen::Index kParameters = 40;  // more than there are readings
+  const Eigen::MatrixXd factor =
+      Eigen::MatrixXd::NullaryExpr(kParameters, kParameters, [](Eigen::Index i, Eigen::Index j) {
+        return i < j    ? 0.0
+               : i == j ? 1.0 + 0.1 * static_cast<double>(i)
+                        : 0.3 * std::cos(static_cast<double>(2 * i + j));
+      });
   Derivatives derivatives(1);
   for (int scene = 0; scene < 5; ++scene) {
-    Eigen::MatrixXd one(6, 12);
+    Eigen::MatrixXd one(6, kParameters + 2);
     for (Eigen::Index i = 0; i < one.size(); ++i)
       one.data()[i] =
           1e-4 * std::sin(1.3 * static_cast<double>(i) + 0.4 * scene * static_cast<double>(i % 7));
     derivatives[0].push_back(one);
   }
-  const Eigen::MatrixXd basis = sensitivity_basis(derivatives, 10);
+  const Eigen::MatrixXd basis = factor.inverse() * sensitivity_basis(derivatives, factor);
   CHECK((basis.transpose() * basis - Eigen::MatrixXd::Identity(basis.cols(), basis.cols())).norm() < 1e-12);
   const auto left = [&](const Eigen::MatrixXd& all) {
-    const Eigen::MatrixXd own = all.leftCols(10);
+    const Eigen::MatrixXd own = all.leftCols(kParameters) * factor;
     return (own - own * basis * basis.transpose()).eval();
   };
   CHECK(left(derivatives[0][0]).norm() < 10.0 * kLeastDeviation);
   double share = 0.0;
   for (std::size_t i = 1; i < 5; ++i) {
     const Eigen::MatrixXd signal = derivatives[0][i] - derivatives[0][0];
-    share += left(signal).squaredNorm() / signal.leftCols(10).squaredNorm() / 4.0;
+    share += left(signal).squaredNorm() / (signal.leftCols(kParameters) * factor).squaredNorm() / 4.0;
   }
   CHECK(share <= kLeftOfSignals * (1.0 + 1e-9));
-  CHECK(sensitivity_basis(derivatives, 10, 1) == sensitivity_basis(derivatives, 10, 3));
+  CHECK(sensitivity_basis(derivatives, factor, 1) == sensitivity_basis(derivatives, factor, 3));
 }
 
 TEST_CASE("The basis of a bridge that does not depend on its parameters has no directions", "[sensitivity]") {
   const Eigen::MatrixXd nothing = Eigen::MatrixXd::Zero(6, 12);
-  CHECK(sensitivity_basis({{nothing, nothing}}, 10).cols() == 0);
-  CHECK(sensitivity_basis({{Eigen::MatrixXd(), nothing}}, 10).cols() == 0);
+  const Eigen::MatrixXd independent = Eigen::MatrixXd::Identity(10, 10);
+  CHECK(sensitivity_basis({{nothing, nothing}}, independent).cols() == 0);
+  CHECK(sensitivity_basis({{Eigen::MatrixXd(), nothing}}, independent).cols() == 0);
 }
 
 TEST_CASE("Stored sensitivities are those of the fields, and changed ones are found",

@@ -113,8 +113,9 @@ std::string list_of(const std::vector<Scene>& scenes, const BlockLayout& layout)
 
 }  // namespace
 
-Uncertainty scattered_joints(double scatter) {
+Uncertainty scattered_joints(double scatter, double regional) {
   return {.joint_stiffness = scatter,
+          .regional_stiffness = regional,
           .common_stiffness = 0.0,
           .stiffness_ratio = 0.0,
           .friction = 0.0,

@@ -17,8 +17,9 @@ struct SampledTruth {
   std::uint64_t seed = 1;
 };
 
-/// Nothing is uncertain but every joint's own stiffness, with this coefficient of variation.
-Uncertainty scattered_joints(double scatter);
+/// Nothing is uncertain but every joint's own stiffness, with these coefficients of variation: of the joint
+/// alone, and alike in joints that are near each other.
+Uncertainty scattered_joints(double scatter, double regional = 0.0);
 
 /// Solves scenes of the bridges (as parse_scene_list reads them) into a database of that name in the folder,
 /// unless it is there and up to date; as built and as lost, without fields.

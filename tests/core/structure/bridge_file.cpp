@@ -16,9 +16,10 @@ using Catch::Matchers::Contains;
 namespace {
 
 std::vector<double> numbers_of(const Uncertainty& u) {
-  return {u.joint_stiffness, u.common_stiffness, u.stiffness_ratio, u.friction,
-          u.young_modulus,   u.density,          u.temperature,     u.foot_movement,
-          u.foot_rotation,   u.side_movement,    u.epoch_stiffness, u.epoch_unevenness};
+  return {u.joint_stiffness, u.regional_stiffness, u.common_stiffness, u.stiffness_ratio,
+          u.friction,        u.young_modulus,      u.density,          u.temperature,
+          u.foot_movement,   u.foot_rotation,      u.side_movement,    u.epoch_stiffness,
+          u.epoch_unevenness};
 }
 
 /// All numbers of a description, in the order in which the header names them.
@@ -106,23 +107,24 @@ const std::vector<Key> kKeys = {{"[wall]\nlength_m = 30.0", 0, 30.0},
                                 {"[joints]\ntolerance_m = 1e-4", 22, 1e-4},
                                 {"[material]\nthermal_expansion_per_K = 1e-5", 23, 1e-5},
                                 {"[uncertainty]\njoint_stiffness_cv = 0.1", 24, 0.1},
-                                {"[uncertainty]\ncommon_stiffness_cv = 0.15", 25, 0.15},
-                                {"[uncertainty]\nstiffness_ratio_cv = 0.35", 26, 0.35},
-                                {"[uncertainty]\nfriction_cv = 0.12", 27, 0.12},
-                                {"[uncertainty]\nyoung_modulus_cv = 0.2", 28, 0.2},
-                                {"[uncertainty]\ndensity_cv = 0.0", 29, 0.0},
-                                {"[uncertainty]\ntemperature_K = 15", 30, 15.0},
-                                {"[uncertainty]\nfoot_movement_m = 0.002", 31, 2e-3},
-                                {"[uncertainty]\nfoot_rotation_rad = 2e-4", 32, 2e-4},
-                                {"[uncertainty]\nside_movement_m = 1e-3", 33, 1e-3},
-                                {"[uncertainty]\nepoch_stiffness_cv = 0.02", 34, 0.02},
-                                {"[uncertainty]\nepoch_unevenness_cv = 0.06", 35, 0.06},
-                                {"collapses = \"field\"", 36, 1.0},
-                                {"[[spans]]\ncentre_x_m = 9.0", 37, 9.0},
-                                {"[[spans]]\ncentre_y_m = 1.5", 38, 1.5},
-                                {"[[spans]]\nintrados_radius_m = 3.0", 39, 3.0},
-                                {"[[spans]]\nring_thickness_m = 0.4", 40, 0.4},
-                                {"[[spans]]\nvoussoirs = 21", 41, 21.0}};
+                                {"[uncertainty]\nregional_stiffness_cv = 0.12", 25, 0.12},
+                                {"[uncertainty]\ncommon_stiffness_cv = 0.15", 26, 0.15},
+                                {"[uncertainty]\nstiffness_ratio_cv = 0.35", 27, 0.35},
+                                {"[uncertainty]\nfriction_cv = 0.12", 28, 0.12},
+                                {"[uncertainty]\nyoung_modulus_cv = 0.2", 29, 0.2},
+                                {"[uncertainty]\ndensity_cv = 0.0", 30, 0.0},
+                                {"[uncertainty]\ntemperature_K = 15", 31, 15.0},
+                                {"[uncertainty]\nfoot_movement_m = 0.002", 32, 2e-3},
+                                {"[uncertainty]\nfoot_rotation_rad = 2e-4", 33, 2e-4},
+                                {"[uncertainty]\nside_movement_m = 1e-3", 34, 1e-3},
+                                {"[uncertainty]\nepoch_stiffness_cv = 0.02", 35, 0.02},
+                                {"[uncertainty]\nepoch_unevenness_cv = 0.06", 36, 0.06},
+                                {"collapses = \"field\"", 37, 1.0},
+                                {"[[spans]]\ncentre_x_m = 9.0", 38, 9.0},
+                                {"[[spans]]\ncentre_y_m = 1.5", 39, 1.5},
+                                {"[[spans]]\nintrados_radius_m = 3.0", 40, 3.0},
+                                {"[[spans]]\nring_thickness_m = 0.4", 41, 0.4},
+                                {"[[spans]]\nvoussoirs = 21", 42, 21.0}};
 
 }  // namespace
 
@@ -190,11 +192,12 @@ TEST_CASE("Bad bridge files are refused with file, line and what was expected", 
              Contains("b.toml:1:") && Contains("refinement of 5"));
   CHECK_THAT(message("[control_points]\ntop = false\narch = false\n"), Contains("no control points"));
   const std::string known =
-      "[uncertainty]\njoint_stiffness_cv = 0\ncommon_stiffness_cv = 0\nstiffness_ratio_cv = 0\nfriction_cv = "
+      "[uncertainty]\njoint_stiffness_cv = 0\nregional_stiffness_cv = 0\ncommon_stiffness_cv = "
+      "0\nstiffness_ratio_cv = 0\nfriction_cv = "
       "0\nyoung_modulus_cv = 0\ndensity_cv = 0\ntemperature_K = 0\nfoot_movement_m = 0\nfoot_rotation_rad = "
       "0\nside_movement_m = 0\nepoch_stiffness_cv = 0\n";
   CHECK_THAT(message(known + "epoch_unevenness_cv = 0.01\n"),
-             Contains("b.toml:13:") && Contains("expected 0, as all else is known exactly"));
+             Contains("b.toml:14:") && Contains("expected 0, as all else is known exactly"));
   CHECK_FALSE(is_uncertain(parse_bridge_file(known, "b.toml").description.uncertainty));
   CHECK_THAT(message("= 3"), Contains("b.toml:1:"));
 }
@@ -236,6 +239,7 @@ const std::vector<Limits> kLimits = {{"[wall]\nlength_m = ", 1e-3, 1e5, true},
                                      {"[[spans]]\nvoussoirs = ", 3.0, 1000.0, true, true},
                                      {"[material]\nthermal_expansion_per_K = ", 0.0, 1e-3, true},
                                      {"[uncertainty]\njoint_stiffness_cv = ", 0.0, 1.0, true},
+                                     {"[uncertainty]\nregional_stiffness_cv = ", 0.0, 1.0, true},
                                      {"[uncertainty]\ncommon_stiffness_cv = ", 0.0, 1.0, true},
                                      {"[uncertainty]\nstiffness_ratio_cv = ", 0.0, 1.0, true},
                                      {"[uncertainty]\nfriction_cv = ", 0.0, 1.0, true},

@@ -30,10 +30,11 @@ std::size_t place_of(const std::vector<UncertainAction>& actions, const std::str
   throw std::runtime_error("no parameter " + name);
 }
 
-/// Without the joints' own scatter, whose mean shifts the factors at theta = 0.
+/// Without what joints have of their own, whose mean shifts the factors at theta = 0.
 Uncertainty without_own() {
   Uncertainty uncertainty;
   uncertainty.joint_stiffness = 0.0;
+  uncertainty.regional_stiffness = 0.0;
   return uncertainty;
 }
 
@@ -110,6 +111,7 @@ TEST_CASE("Joints scatter with mean 1 and the stated variation, pair by pair (mo
           "[uncertainty]") {
   const Model bridge = test::small_bridge();
   Uncertainty uncertainty{.joint_stiffness = 0.2,
+                          .regional_stiffness = 0.0,
                           .common_stiffness = 0.0,
                           .stiffness_ratio = 0.0,
                           .friction = 0.0,
@@ -139,6 +141,43 @@ TEST_CASE("Joints scatter with mean 1 and the stated variation, pair by pair (mo
   CHECK(std::sqrt(squares / count - mean * mean) == Approx(0.2).epsilon(4.0 * 1.2 / std::sqrt(2.0 * count)));
 }
 
+TEST_CASE("Joints that are near each other scatter alike beside what is their own (moments of 400 bridges)",
+          "[uncertainty]") {
+  const Model bridge = test::small_bridge();
+  UncertainParameters uncertain = uncertain_parameters(bridge, {.joint_stiffness = 0.3,
+                                                                .regional_stiffness = 0.3,
+                                                                .common_stiffness = 0.0,
+                                                                .stiffness_ratio = 0.0,
+                                                                .friction = 0.0,
+                                                                .young_modulus = 0.0,
+                                                                .density = 0.0});
+  const double alone = deviation(0.3), shared = deviation(0.3), length = bridge.mesh.nodes.row(0).maxCoeff();
+  constexpr int draws = 400;
+  Eigen::MatrixXd logs(static_cast<Eigen::Index>(uncertain.of_bridge.size()), draws);
+  for (int draw = 0; draw < draws; ++draw) {
+    const Parameters drawn = sampled_parameters(bridge, uncertain, static_cast<std::uint64_t>(draw));
+    for (std::size_t i = 0; i < uncertain.of_bridge.size(); ++i)
+      logs(static_cast<Eigen::Index>(i), draw) =
+          std::log(drawn.joints[uncertain.of_bridge[i].joints.front()].normal_stiffness / 1e9) +
+          0.5 * (alone * alone + shared * shared);
+  }
+  const Eigen::MatrixXd found = logs * logs.transpose() / draws;
+  double worst = 0.0;  // standard errors
+  for (Eigen::Index i = 0; i < found.rows(); ++i)
+    for (Eigen::Index j = 0; j <= i; ++j) {
+      const auto place = [&](Eigen::Index k) {
+        return middle_of(bridge.joints[uncertain.of_bridge[static_cast<std::size_t>(k)].joints.front()],
+                         bridge.mesh);
+      };
+      const double near = std::exp(-(place(i) - place(j)).norm() / (0.25 * length));
+      const double variance = alone * alone + shared * shared;
+      const double stated = shared * shared * near + (i == j ? alone * alone : 0.0);
+      worst = std::max(
+          worst, std::abs(found(i, j) - stated) / std::sqrt((variance * variance + stated * stated) / draws));
+    }
+  CHECK(worst < 4.5);  // of some thousand that depend on each other
+}
+
 TEST_CASE("The same seed draws the same bridge, another seed another one", "[uncertainty]") {
   const Model bridge = test::small_bridge();
   const auto stiffness = [&](std::uint64_t seed) {
@@ -153,7 +192,7 @@ TEST_CASE("The same seed draws the same bridge, another seed another one", "[unc
 }
 
 TEST_CASE("What is known exactly is no parameter", "[uncertainty]") {
-  const Uncertainty nothing{0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
+  const Uncertainty nothing{0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
   CHECK(uncertain_parameters(test::small_bridge(), nothing).all().empty());
 }
 

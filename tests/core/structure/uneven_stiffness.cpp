@@ -1,10 +1,11 @@
-/// @file Oracles: the correlation's definition by hand, moments of many draws within four standard errors.
+/// @file Oracle: moments of many draws within four standard errors.
 
 #include "core/structure/uneven_stiffness.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "core/structure/joint_correlation.h"
 #include "tests/support/bridges.h"
 
 using namespace voussoir;
@@ -33,31 +34,16 @@ Eigen::MatrixXd draws(const Model& bridge, const UnevenStiffness& uneven) {
 
 }  // namespace
 
-TEST_CASE("Joints soften alike as far as they are near each other (by hand)", "[uncertainty]") {
-  const Model bridge = test::reference_bridge();
-  const UnevenStiffness uneven = uneven_stiffness(bridge, {});
-  CHECK(uneven.length == 5.0);  // a quarter of 20 m
-  REQUIRE(uneven.places.size() == uneven.joints.size());
-  CHECK(uneven.joints.front().parameter.sigma == Approx(std::sqrt(std::log(1.0 + 0.03 * 0.03))));
-  const Joint& first = bridge.joints[uneven.joints.front().joints.front()];
-  const auto ends = ends_of(first, bridge.mesh);
-  CHECK(uneven.places.front().isApprox(0.5 * (ends[0] + ends[1])));
-  const double distance = (uneven.places[3] - uneven.places[200]).norm();
-  REQUIRE(distance > 1.0);
-  CHECK(uneven.correlation(3, 200) == Approx(std::exp(-distance / 5.0)));
-  CHECK(uneven.correlation(200, 3) == uneven.correlation(3, 200));
-  CHECK(uneven.correlation(7, 7) == 1.0);
-}
-
 TEST_CASE("Drawn at random joints vary as stated, and together as stated", "[uncertainty]") {
   const Model bridge = test::small_bridge();
   const UnevenStiffness uneven = uneven_stiffness(bridge, {.epoch_unevenness = kVariation});
+  CHECK(uneven.correlations == joint_correlations(bridge, first_joints(uneven.joints)));
   const Eigen::MatrixXd logs = draws(bridge, uneven);
   const Eigen::MatrixXd found = logs * logs.transpose() / kDraws;
   double worst = 0.0;  // standard errors
   for (Eigen::Index i = 0; i < found.rows(); ++i)
     for (Eigen::Index j = 0; j <= i; ++j) {
-      const double stated = uneven.correlation(static_cast<std::size_t>(i), static_cast<std::size_t>(j));
+      const double stated = uneven.correlations(i, j);
       worst = std::max(worst, std::abs(found(i, j) - stated) / std::sqrt((1.0 + stated * stated) / kDraws));
     }
   CHECK(worst < 4.5);  // of some thousand that depend on each other

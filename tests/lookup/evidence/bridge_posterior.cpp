@@ -82,13 +82,16 @@ TEST_CASE("Means and spreads of the parameters are those of the joint Gaussian")
   const BridgePosterior posterior = bridge_posterior(bridge, observation, readings.library.table, {{0, 1.0}});
   const auto [mean, covariance] = joint_gaussian(readings.sensitivities, bridge.reading, posterior.scatter);
   const MatrixXd& basis = readings.sensitivities.basis;
-  for (Index i = 0; i < basis.cols(); ++i) {
-    const ParameterEstimate one = parameter_estimate(posterior, basis.row(i));
-    CHECK(one.mean == Approx(mean[i]).epsilon(1e-6).margin(1e-9));
-    CHECK(one.deviation == Approx(std::sqrt(covariance(i, i))).epsilon(1e-6));
+  const Index m = basis.cols();
+  const MatrixXd of_columns = covariance.topLeftCorner(m, m);
+  for (Index i = 0; i <= m; ++i) {
+    const VectorXd row = basis.row(i);
+    const ParameterEstimate one = parameter_estimate(posterior, row);
+    CHECK(one.mean == Approx(row.dot(mean.head(m))).epsilon(1e-6).margin(1e-9));
+    CHECK(one.deviation == Approx(std::sqrt(row.dot(of_columns * row))).epsilon(1e-6));
   }
   for (Index i = 0; i < posterior.epoch_mean.size(); ++i) {
-    const Index at = basis.cols() + i;
+    const Index at = m + i;
     CHECK(posterior.epoch_mean[i] == Approx(mean[at]).epsilon(1e-6).margin(1e-9));
     CHECK(posterior.epoch_covariance(i, i) == Approx(covariance(at, at)).epsilon(1e-6));
   }

@@ -9,7 +9,8 @@
 
 namespace voussoir::test {
 
-/// `columns` of the basis of `columns` + 2 parameters of the bridge, two parameters of an epoch. Block 1's
+/// `columns` of the basis of `columns` + 2 parameters of the bridge, the last but one of which varies
+/// together with the first two and the last of which changes nothing; two parameters of an epoch. Block 1's
 /// loss, which makes scenes collapse, has no factors; the pair of blocks 2 and 4 has its own.
 inline Sensitivities made_up_sensitivities_of(const SyntheticLibrary& library, Eigen::Index columns = 5,
                                               double size = 1e-4) {
@@ -25,6 +26,7 @@ inline Sensitivities made_up_sensitivities_of(const SyntheticLibrary& library, E
   result.parameters.push_back({"temperature", "K", 10.0, true});
   result.parameters.push_back({"base dy", "m", 1e-3, true});
   result.basis = Eigen::MatrixXd::Identity(columns + 2, columns);
+  result.basis.row(columns).head(2) << 0.6, 0.8;
   result.scenes = all_scenes(library.blocks, 1);
   result.scenes.push_back({{BlockId{2}, BlockId{4}}});
   result.make_room(1, points);

@@ -114,8 +114,7 @@ TEST_CASE("Bridges that are as the first order says give its answer") {
     residual.bridge.setZero();
   }
   const auto exact = [&](const RecordKey& key, std::size_t state, Index point) -> double {
-    return first.find(state, key.scene)->bridge.row(point) *
-           theta_of(key.variant).segment(kFirstVaried, kVaried);
+    return first.find(state, key.scene)->bridge.row(point) * position_of(key.variant);
   };
   const Site site({.difference = exact, .first_order = first});
   const Database& database = site.database();

@@ -24,8 +24,7 @@ MatrixXd mean_square(const Database& database, std::size_t state, const Scene& s
   MatrixXd sum = MatrixXd::Zero(2 * p, 2 * p);
   for (const std::int32_t variant : variants) {
     VectorXd left = difference_of(database, variant, state, scene);
-    if (first_order != nullptr)
-      left -= columns_of(*first_order, state, scene) * theta_of(variant).segment(kFirstVaried, kVaried);
+    if (first_order != nullptr) left -= columns_of(*first_order, state, scene) * position_of(variant);
     sum += left * left.transpose();
   }
   return sum / static_cast<double>(variants.size());

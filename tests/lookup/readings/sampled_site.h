@@ -1,7 +1,7 @@
 #pragma once
 /// @file Databases of the small bridge, as built and as lost, with sampled bridges that are made up.
 
-#include <Eigen/Core>
+#include <Eigen/LU>
 #include <cmath>
 #include <functional>
 
@@ -41,17 +41,33 @@ inline std::size_t block_of(const Scene& scene) {
   return scene.removed.empty() ? 0 : 1 + static_cast<std::size_t>(value(scene.removed.back()));
 }
 
-/// Parameters beside each other that every variant has values of its own of: stiffness ratio, friction,
-/// Young's modulus, density.
-inline constexpr Eigen::Index kFirstVaried = 1, kVaried = 4;
+/// What every variant has values of its own of: stiffness ratio, friction, Young's modulus and density, which
+/// lie beside each other, and one joint that is stiffer as another one is softer.
+inline constexpr Eigen::Index kFirstVaried = 1, kVaried = 5;
+
+/// The basis: the parameters along these directions of independent ones, each of norm 1.
+inline Eigen::MatrixXd varied_basis() {
+  const Eigen::MatrixXd& factor = uncertain_of_stored_bridge().correlation_factor;
+  Eigen::VectorXd joints = Eigen::VectorXd::Zero(factor.rows());
+  joints[kFirstVaried + kVaried + 7] = 1.0;
+  joints[kFirstVaried + kVaried + 20] = -1.0;
+  Eigen::MatrixXd basis =
+      Eigen::MatrixXd::Identity(factor.rows(), factor.rows()).middleCols(kFirstVaried, kVaried);
+  basis.rightCols(1) = joints / factor.fullPivLu().solve(joints).norm();
+  return basis;
+}
+
+/// Where a variant is along them.
+inline Eigen::VectorXd position_of(std::int32_t variant) {
+  return Eigen::VectorXd::NullaryExpr(kVaried, [&](Eigen::Index i) {
+    return variant == kNominalVariant
+               ? 0.0
+               : 1.5 * number_of(static_cast<std::size_t>(variant), 3, 3, static_cast<std::size_t>(i));
+  });
+}
 
 inline Eigen::VectorXd theta_of(std::int32_t variant) {
-  Eigen::VectorXd theta =
-      Eigen::VectorXd::Zero(static_cast<Eigen::Index>(uncertain_of_stored_bridge().of_bridge.size()));
-  for (Eigen::Index i = 0; i < kVaried && variant != kNominalVariant; ++i)
-    theta[kFirstVaried + i] =
-        1.5 * number_of(static_cast<std::size_t>(variant), 3, 3, static_cast<std::size_t>(i));
-  return theta;
+  return varied_basis() * position_of(variant);
 }
 
 /// How a variant differs from the nominal bridge at a control point in a state [m].
@@ -121,11 +137,10 @@ inline double scattered(const RecordKey& key, std::size_t state, Eigen::Index po
 inline Sensitivities first_order_of_stored_bridge() {
   const auto& points = stored_bridge().control_points;
   const auto p = static_cast<Eigen::Index>(points.size());
-  const auto bridge = static_cast<Eigen::Index>(uncertain_of_stored_bridge().of_bridge.size()),
-             epoch = static_cast<Eigen::Index>(uncertain_of_stored_bridge().of_epoch.size());
+  const auto epoch = static_cast<Eigen::Index>(uncertain_of_stored_bridge().of_epoch.size());
   Sensitivities made;
   made.parameters = uncertain_of_stored_bridge().all();
-  made.basis = Eigen::MatrixXd::Identity(bridge, bridge).middleCols(kFirstVaried, kVaried);
+  made.basis = varied_basis();
   made.scenes = all_scenes(stored_bridge().layout.size(), 1);
   made.make_room(kStates, p);
   for (std::size_t state = 0; state < kStates; ++state) {
