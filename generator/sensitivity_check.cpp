@@ -44,8 +44,7 @@ SensitivityCheck check_sensitivities(const Database& database, const Model& brid
   SceneDerivatives derivatives(study, equations);
   const SceneStates intact = stored_states(database, *intact_row, plan);
   if (!is_same_unevenness(stored->unevenness, find_unevenness(study, intact)))
-    check.problems.push_back(
-        "what unevenly softened joints change of the intact bridge is not that of its field");
+    check.problems.push_back("what differs from part to part of the intact bridge is not that of its field");
   const std::size_t count = std::min(kCheckedSensitivities, stored->scenes.size());
   for (std::size_t i = 0; i < count; ++i) {
     const Scene& scene = stored->scenes[i * stored->scenes.size() / count];

@@ -17,6 +17,7 @@ constexpr std::uint64_t kDamagedSeed = 2611, kPairsSeed = 2612, kIntactSeed = 26
 constexpr int kPairs = 20;
 constexpr double kScatter = 0.2;      // of the joints of intact bridges
 constexpr double kWarmer = 20.0;      // [K]
+constexpr double kSunny = 5.0;        // [K]
 constexpr double kSettlement = 1e-3;  // [m]
 constexpr double kSofter = 0.9;       // of the joints' stiffness
 
@@ -79,6 +80,7 @@ void try_intact(Run& run) {
     intact(fmt::format("joints {}", scatter), scattered_joints(scatter), {});
   intact("parts softer and stiffer", scattered_joints(kScatter, kScatter), {});
   intact("20 K warmer", scattered_joints(kScatter), {.warmer = kWarmer});
+  intact("left half 5 K warmer", scattered_joints(kScatter), {.warmer = kSunny, .warmer_part = 0.5});
   intact("foot 1 mm lower", scattered_joints(kScatter), {.settlement = kSettlement});
   intact("joints a tenth softer", scattered_joints(kScatter), {.joint_stiffness = kSofter});
   intact("left half a tenth softer", scattered_joints(kScatter),

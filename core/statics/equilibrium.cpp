@@ -112,7 +112,7 @@ void subtract_triangle_forces(const StageEquations& equations, const Field& disp
     const auto& nodes = system.structure->mesh.triangles[t].nodes;
     subtract_at(forces, nodes,
                 triangle_force(system.triangles[t], with.moduli[block], with.thickness[block],
-                               gathered(displacement, nodes), equations.temperature * with.thermal[block]));
+                               gathered(displacement, nodes), equations.heat[block]));
   });
 }
 
@@ -211,9 +211,10 @@ StageEquations::StageEquations(const EquilibriumSystem& system_, const Coefficie
       removed(removal_mask(stage.scene, system_.structure->layout.size())),
       memory(std::move(memory_)),
       gravity_share(stage.gravity_share),
-      temperature(stage.temperature),
+      heat(coefficients_.thermal),
       support_movement(stage.support_movement) {
   const Mesh& mesh = system->structure->mesh;
+  for (std::size_t b = 0; b < heat.size(); ++b) heat[b] *= temperature_of(stage, b);
   memory.resize(system->joints.size());
   load = stage.load.size() > 0 ? stage.load : Field::Zero(2, mesh.node_count());
   load.row(1) -= gravity_share * coefficients->weight.transpose();
@@ -249,7 +250,7 @@ Field assemble(const StageEquations& equations, const Field& displacement, doubl
       const auto& nodes = system.structure->mesh.triangles[t].nodes;
       const TriangleResponse response =
           triangle_response(system.triangles[t], with.moduli[block], with.thickness[block],
-                            gathered(displacement, nodes), equations.temperature * with.thermal[block]);
+                            gathered(displacement, nodes), equations.heat[block]);
       subtract_at(forces, nodes, response.force);
       add_local(system.triangle_slots[t], response.tangent, tangent);
     });

@@ -79,8 +79,9 @@ struct StageEquations {
   const Coefficients* coefficients;
   std::vector<bool> removed;  ///< per block
   std::vector<JointMemory> memory;
-  double gravity_share;    ///< of the stage
-  double temperature;      ///< of the stage [K]
+  double gravity_share;  ///< of the stage
+  std::vector<double>
+      heat;  ///< what the stage's temperature presses each block with [Pa]: Coefficients::thermal
   Field support_movement;  ///< of the stage; empty: none
   Field load;              ///< weight and load of the stage on present blocks [N]
   double largest_load;     ///< component of the load on the whole bridge [N]: the unit of residuals; 1 if

@@ -1,5 +1,7 @@
 #include "core/statics/parameter_derivatives.h"
 
+#include <algorithm>
+
 #include "core/statics/elements.h"
 
 namespace voussoir {
@@ -81,25 +83,27 @@ void add_modulus(const StageEquations& equations, const Field& displacement, dou
   const Coefficients& with = *equations.coefficients;
   for_present_triangles(equations, [&](std::size_t t, std::size_t block) {
     const auto& nodes = system.structure->mesh.triangles[t].nodes;
-    add_forces(system, nodes,
-               Vector6d(-sigma * triangle_force(system.triangles[t], with.moduli[block],
-                                                with.thickness[block], gathered(displacement, nodes),
-                                                equations.temperature * with.thermal[block])),
-               column, entries);
+    add_forces(
+        system, nodes,
+        Vector6d(-sigma * triangle_force(system.triangles[t], with.moduli[block], with.thickness[block],
+                                         gathered(displacement, nodes), equations.heat[block])),
+        column, entries);
   });
 }
 
 /// Without stiffness a triangle's forces are those of the heat alone.
-void add_temperature(const StageEquations& equations, const Field& displacement, double sigma,
-                     Eigen::Index column, Entries& entries) {
+void add_temperature(const StageEquations& equations, const Field& displacement,
+                     const UncertainAction& action, Eigen::Index column, Entries& entries) {
   constexpr PlaneModuli kNone{0.0, 0.0, 0.0};
   const EquilibriumSystem& system = *equations.system;
   const Coefficients& with = *equations.coefficients;
   for_present_triangles(equations, [&](std::size_t t, std::size_t block) {
+    if (!action.blocks.empty() && !std::ranges::binary_search(action.blocks, block)) return;
     const auto& nodes = system.structure->mesh.triangles[t].nodes;
     add_forces(system, nodes,
-               Vector6d(-sigma * triangle_force(system.triangles[t], kNone, with.thickness[block],
-                                                gathered(displacement, nodes), with.thermal[block])),
+               Vector6d(-action.parameter.sigma *
+                        triangle_force(system.triangles[t], kNone, with.thickness[block],
+                                       gathered(displacement, nodes), with.thermal[block])),
                column, entries);
   });
 }
@@ -115,7 +119,7 @@ void add_movement(const StageEquations& equations, const Field& displacement, co
     if (local.isZero(0.0)) return;
     const TriangleResponse response =
         triangle_response(system.triangles[t], with.moduli[block], with.thickness[block],
-                          gathered(displacement, nodes), equations.temperature * with.thermal[block]);
+                          gathered(displacement, nodes), equations.heat[block]);
     add_forces(system, nodes, Vector6d(-response.tangent * local), column, entries);
   });
   for_present_joints(equations, [&](const Joint& joint, std::size_t j) {
@@ -145,29 +149,27 @@ ColumnMatrix forces_by_parameters(const StageEquations& equations, const Field& 
   const std::vector<CornerForces> joints = forces_of_joints(equations, displacement);
   Entries entries;
   Eigen::Index column = 0;
-  const auto add_joints = [&](const UncertainAction& action) {
+  const auto add_action = [&](const UncertainAction& action) {
+    const double sigma = action.parameter.sigma;
     for (const std::size_t j : action.joints)
       add_forces(system, corners(system.structure->joints[j]),
-                 Vector8d(-action.parameter.sigma * derivative(joints[j], action.quantity)), column, entries);
-  };
-  for (const UncertainAction& action : uncertain.of_bridge) {
-    const double sigma = action.parameter.sigma;
-    add_joints(action);
+                 Vector8d(-sigma * derivative(joints[j], action.quantity)), column, entries);
     if (action.quantity == UncertainQuantity::density) add_weight(equations, sigma, column, entries);
     if (action.quantity == UncertainQuantity::young_modulus)
       add_modulus(equations, displacement, sigma, column, entries);
+    if (action.quantity == UncertainQuantity::temperature)
+      add_temperature(equations, displacement, action, column, entries);
+  };
+  for (const UncertainAction& action : uncertain.of_bridge) {
+    add_action(action);
     ++column;
   }
   for (std::size_t i = 0; i < uncertain.of_epoch.size(); ++i) {
-    const UncertainAction& action = uncertain.of_epoch[i];
-    add_joints(action);
-    if (action.quantity == UncertainQuantity::temperature)
-      add_temperature(equations, displacement, action.parameter.sigma, column, entries);
-    else
-      add_movement(
-          equations, displacement,
-          Eigen::VectorXd(movements.col(static_cast<Eigen::Index>(i))).reshaped(2, movements.rows() / 2),
-          column, entries);
+    add_action(uncertain.of_epoch[i]);
+    add_movement(
+        equations, displacement,
+        Eigen::VectorXd(movements.col(static_cast<Eigen::Index>(i))).reshaped(2, movements.rows() / 2),
+        column, entries);
     ++column;
   }
   return matrix_of(displacement.size(), column, entries);

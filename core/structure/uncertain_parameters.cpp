@@ -10,7 +10,7 @@
 
 #include "core/geometry/box.h"
 #include "core/random.h"
-#include "core/structure/joint_correlation.h"
+#include "core/structure/correlation_by_distance.h"
 
 namespace voussoir {
 namespace {
@@ -70,8 +70,9 @@ void add_own_stiffness(const Structure& structure, const Uncertainty& uncertaint
   result.correlation_factor = Eigen::MatrixXd::Identity(common + pairs, common + pairs);
   if (shared > 0.0 && pairs > 0) {
     const double share = shared * shared / (alone * alone + shared * shared);
-    const Eigen::MatrixXd correlations = share * joint_correlations(structure, first_joints(own)) +
-                                         (1.0 - share) * Eigen::MatrixXd::Identity(pairs, pairs);
+    const Eigen::MatrixXd correlations =
+        share * correlations_by_distance(structure, places_of(own, structure)) +
+        (1.0 - share) * Eigen::MatrixXd::Identity(pairs, pairs);
     result.correlation_factor.bottomRightCorner(pairs, pairs) = correlations.llt().matrixL();
   }
   std::ranges::move(own, std::back_inserter(result.of_bridge));
@@ -123,10 +124,11 @@ std::vector<UncertainAction> own_stiffness(const Structure& structure, double de
   return actions;
 }
 
-std::vector<std::size_t> first_joints(std::span<const UncertainAction> actions) {
-  std::vector<std::size_t> joints;
-  for (const UncertainAction& action : actions) joints.push_back(action.joints.front());
-  return joints;
+std::vector<Point> places_of(std::span<const UncertainAction> actions, const Structure& structure) {
+  std::vector<Point> places;
+  for (const UncertainAction& action : actions)
+    places.push_back(middle_of(structure.joints[action.joints.front()], structure.mesh));
+  return places;
 }
 
 UncertainParameters uncertain_parameters(const Structure& structure, const Uncertainty& uncertainty) {

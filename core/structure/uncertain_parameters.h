@@ -3,11 +3,11 @@
 ///
 /// Of the bridge: the common factors (stiffness, p_t / p_n, friction, Young's modulus, density) and then the
 /// own factor of each pair of blocks that meet, on all their joints: one part of it is of the pair alone, one
-/// is alike in pairs that are near each other (joint_correlation.h). Of an epoch: the temperature, what each
-/// support can do, and a factor on the stiffness of all joints, as damp and frost may change it. A factor is
-/// exp(s theta), s = sqrt(ln(1 + c^2)) with its coefficient of variation c, so that theta = 0 is the bridge
-/// as its file states it; a joint's own is exp(s theta - s^2/2), whose mean is 1. What is known exactly
-/// (standard deviation 0) is no parameter.
+/// is alike in pairs that are near each other (correlation_by_distance.h). Of an epoch: the temperature, what
+/// each support can do, and a factor on the stiffness of all joints, as damp and frost may change it. A
+/// factor is exp(s theta), s = sqrt(ln(1 + c^2)) with its coefficient of variation c, so that theta = 0 is
+/// the bridge as its file states it; a joint's own is exp(s theta - s^2/2), whose mean is 1. What is known
+/// exactly (standard deviation 0) is no parameter.
 
 #include <Eigen/Core>
 #include <cstdint>
@@ -42,6 +42,7 @@ struct UncertainAction {
   std::vector<std::size_t> joints{};  ///< that it acts on; ascending
   std::size_t support = 0;            ///< of movements: place in Structure::supports
   bool has_mean_one = false;          ///< the factor's mean is 1; otherwise its median
+  std::vector<std::size_t> blocks{};  ///< of temperatures: that it acts on, ascending; none: all
 };
 
 struct UncertainParameters {
@@ -63,8 +64,8 @@ double log_deviation(double variation);
 /// standard deviation of its logarithm is 0.
 std::vector<UncertainAction> own_stiffness(const Structure& structure, double deviation);
 
-/// Of each action the first of its joints. Precondition: it has some.
-std::vector<std::size_t> first_joints(std::span<const UncertainAction> actions);
+/// Of each action the middle of the first of its joints [m]. Precondition: it has some.
+std::vector<Point> places_of(std::span<const UncertainAction> actions, const Structure& structure);
 
 /// The bridge's parameters if the standardised uncertain ones have these values. Precondition: one value for
 /// each parameter of the bridge.

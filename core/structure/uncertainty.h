@@ -22,13 +22,14 @@ struct Uncertainty {
   double epoch_stiffness = 0.05;  ///< [-] of p_n and p_t of all joints alike in an epoch
   double epoch_unevenness =
       0.03;  ///< [-] of p_n and p_t of each joint in an epoch, alike where joints are near
+  double uneven_temperature = 1.0;  ///< [K] of each block in an epoch, alike where blocks are near
 
   friend bool operator==(const Uncertainty&, const Uncertainty&) = default;
 };
 
 /// Is anything of the bridge or of an epoch not known exactly?
 inline bool is_uncertain(const Uncertainty& uncertainty) {
-  return uncertainty != Uncertainty{0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
+  return uncertainty != Uncertainty{0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
 }
 
 }  // namespace voussoir

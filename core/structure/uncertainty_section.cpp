@@ -9,16 +9,23 @@ void read_variation(TomlSection& section, const char* key, double& target) {
   section.number(key, target, 0.0, kMostVariation, true);
 }
 
-constexpr char kUnevenness[] = "epoch_unevenness_cv";
+void read_temperature(TomlSection& section, const char* key, double& target) {
+  section.number(key, target, 0.0, 100.0, true);
+}
+
+constexpr char kUnevenStiffness[] = "epoch_unevenness_cv", kUnevenTemperature[] = "uneven_temperature_K";
 
 /// Unevenness has no parameters of its own, beside which alone nothing could be told.
 void read_unevenness(TomlSection& section, Uncertainty& uncertainty) {
   Uncertainty others = uncertainty;
-  others.epoch_unevenness = 0.0;
-  if (!is_uncertain(others)) uncertainty.epoch_unevenness = 0.0;
-  read_variation(section, kUnevenness, uncertainty.epoch_unevenness);
-  if (uncertainty.epoch_unevenness > 0.0 && !is_uncertain(others))
-    section.refuse(kUnevenness, "expected 0, as all else is known exactly");
+  others.epoch_unevenness = others.uneven_temperature = 0.0;
+  const bool is_alone = !is_uncertain(others);
+  if (is_alone) uncertainty = others;
+  read_variation(section, kUnevenStiffness, uncertainty.epoch_unevenness);
+  read_temperature(section, kUnevenTemperature, uncertainty.uneven_temperature);
+  for (const auto& [key, value] : {std::pair{kUnevenStiffness, uncertainty.epoch_unevenness},
+                                   std::pair{kUnevenTemperature, uncertainty.uneven_temperature}})
+    if (is_alone && value > 0.0) section.refuse(key, "expected 0, as all else is known exactly");
 }
 
 }  // namespace
@@ -32,7 +39,7 @@ Uncertainty read_uncertainty(TomlSection section) {
   read_variation(section, "friction_cv", uncertainty.friction);
   read_variation(section, "young_modulus_cv", uncertainty.young_modulus);
   read_variation(section, "density_cv", uncertainty.density);
-  section.number("temperature_K", uncertainty.temperature, 0.0, 100.0, true);
+  read_temperature(section, "temperature_K", uncertainty.temperature);
   section.number("foot_movement_m", uncertainty.foot_movement, 0.0, 1.0, true);
   section.number("foot_rotation_rad", uncertainty.foot_rotation, 0.0, 0.1, true);
   section.number("side_movement_m", uncertainty.side_movement, 0.0, 1.0, true);

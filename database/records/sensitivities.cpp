@@ -121,8 +121,8 @@ void append_unevenness(const Sensitivities& from, std::vector<DatasetValue>& dat
   if (from.unevenness.empty()) return;
   Filling<double> unevenness{
       dataset::kUnevenness, ElementType::float64, "m",
-      "what some joints' softening in an epoch more than others' changes of the intact "
-      "bridge: independent columns, the same in all states"};
+      "what differs from part to part in an epoch (joints that soften, blocks that warm) changes of "
+      "the intact bridge: independent columns, the same in all states"};
   for (const Eigen::MatrixXd& state : from.unevenness) unevenness.add(state);
   const Eigen::MatrixXd& first = from.unevenness.front();
   unevenness.finish({from.unevenness.size(), extent(first.rows()), extent(first.cols())}, datasets);
@@ -277,8 +277,10 @@ bool are_factors_sound(const Sensitivities& sensitivities) {
 std::vector<DatasetValue> sensitivity_datasets(const Sensitivities& sensitivities) {
   std::vector<DatasetValue> datasets;
   append_parameters(sensitivities, datasets);
-  Filling<double> basis{dataset::kSensitivityBasis, ElementType::float64, "1",
-                        "orthonormal directions of the bridge's standardised parameters"};
+  Filling<double> basis{
+      dataset::kSensitivityBasis, ElementType::float64, "1",
+      "the bridge's standardised parameters along the columns: L V, V orthonormal directions of "
+      "the independent parameters that L makes them of"};
   basis.add(sensitivities.basis);
   basis.finish({extent(sensitivities.basis.rows()), extent(sensitivities.basis.cols())}, datasets);
   append_scenes(sensitivities, datasets);

@@ -64,9 +64,9 @@ struct Sensitivities {
   StackedMatrices bridge;           ///< states x scenes: A, zero where nothing is known
   StackedMatrices epoch;            ///< states x scenes: E
   std::vector<FirstOrderResidual> residuals;  ///< of each state of the database
-  /// What some joints' softening in an epoch more than others' changes of the intact bridge's displacements
+  /// What differs from part to part in an epoch (core/structure/unevenness.h) changes of the intact bridge
   /// [m], an error of its own in every epoch: of each state, points x columns that are independent and the
-  /// same in all states. Empty: joints soften alike.
+  /// same in all states. Empty: all is even.
   std::vector<Eigen::MatrixXd> unevenness;
   std::optional<StoredSignals> signals;  ///< as a file keeps them
 

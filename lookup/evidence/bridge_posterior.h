@@ -38,7 +38,7 @@ struct BridgePosterior {
   Eigen::VectorXd signal;           ///< what the missing blocks change, as the nominal bridge shows it
   Eigen::VectorXd from_bridge;      ///< expected of the parameters of the bridge
   Eigen::MatrixXd from_epochs;      ///< and of those of the epochs: a column for each parameter
-  Eigen::VectorXd from_unevenness;  ///< of joints that soften unevenly
+  Eigen::VectorXd from_unevenness;  ///< of what is uneven in the epochs
   Eigen::VectorXd left;             ///< of y
   Eigen::VectorXd others;  ///< y less what all other readings let expect, in standard deviations of that
   double chance = 1.0;     ///< of readings as far from what the scenes let expect as these, or farther: even

@@ -77,9 +77,9 @@ double least_instrument_variance(const std::vector<ReadingRow>& rows, const Obse
   return least;
 }
 
-/// Of joints that soften unevenly in each epoch, however little is warmed and moved: where the size of
-/// conditions was that of unevenness, too, 5 % in one third of a bridge was damage to it, as nothing else had
-/// changed. Of the intact bridge for all scenes.
+/// Of joints that soften and blocks that warm unevenly in each epoch, however little is warmed and moved:
+/// where the size of conditions was that of unevenness, too, 5 % in one third of a bridge was damage to it,
+/// as nothing else had changed. Of the intact bridge for all scenes.
 MatrixXd unevenness_of(const std::vector<ReadingRow>& rows, const MatrixXd& of_channels) {
   MatrixXd result(static_cast<Index>(rows.size()), static_cast<Index>(rows.size()));
   for (std::size_t k = 0; k < rows.size(); ++k)

@@ -5,8 +5,8 @@
 ///
 /// A, E: what a standard deviation of the bridge's and of each epoch's parameters changes (ReadingFactors);
 /// kappa: by how much the bridge's scatter differs from what the bridge file states (scatter_factor.h);
-/// noise: instruments, levellings, the model's own error, joints that soften unevenly from epoch to epoch,
-/// and what the first order leaves of the intact bridge.
+/// noise: instruments, levellings, the model's own error, what is uneven in an epoch
+/// (core/structure/unevenness.h), and what the first order leaves of the intact bridge.
 ///
 /// The factors of two or three blocks are those of the intact bridge and what each block changes alone,
 /// unless the database has the scene's own; the model's errors in both add up. What a scene's signal is
@@ -42,7 +42,7 @@ enum class Epochs {
 };
 
 /// Temperature, movements of supports and a factor on the joints' stiffness, which every epoch has of its
-/// own. Joints that soften unevenly are uncertain either way: no readings can be corrected for that.
+/// own. What is uneven is uncertain either way: no readings can be corrected for that.
 enum class Conditions {
   uncertain,  ///< as the bridge file states, or less (kConditionSizes)
   known       ///< they are those of the model, or readings have been corrected for them
@@ -94,7 +94,7 @@ struct UnknownBridge {
       0.0;  ///< [-] standard deviation of the model's own error: a factor of a loss's signal. The
             ///< mesh errs to one side; an error of each point by itself would say more than is known
   Eigen::MatrixXd fixed_noise;  ///< [m2] of all scenes, but for the instruments and
-  Eigen::MatrixXd unevenness;   ///< [m2] of them: of joints that soften unevenly
+  Eigen::MatrixXd unevenness;   ///< [m2] of them: of what is uneven in an epoch
   Eigen::MatrixXd epoch_noise;  ///< what the first order leaves of conditions as the file states them
 
   // Of one case.

@@ -40,8 +40,8 @@ struct ReadingFactors {
   std::vector<std::pair<Scene, LossFactors>>
       several;  ///< of scenes of several blocks with their own, ascending
   FirstOrderResidual residual;
-  Eigen::MatrixXd unevenness;  ///< channels x channels [m2]: covariance of what joints that soften unevenly
-                               ///< in an epoch change; zero if they soften alike
+  Eigen::MatrixXd unevenness;  ///< channels x channels [m2]: covariance of what differs from part to part
+                               ///< of the bridge in an epoch; zero if nothing does
 
   const std::vector<UncertainParameter>& parameters() const { return sensitivities->parameters; }
   Eigen::Index of_bridge() const { return intact.bridge.cols(); }  ///< columns

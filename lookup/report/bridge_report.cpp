@@ -40,8 +40,7 @@ std::vector<Cause> causes_of(const BridgeAnswer& bridge, const ReadingFactors& f
     const double size = part.cwiseProduct(counts).norm() / std::sqrt(std::max(1.0, counts.sum()));
     causes.push_back({std::move(name), all.isZero(0.0) ? 0.0 : part.dot(all) / all.squaredNorm(), size});
   };
-  VectorXd temperature = VectorXd::Zero(counts.size()), supports = temperature,
-           joints = posterior.from_unevenness;
+  VectorXd temperature = VectorXd::Zero(counts.size()), supports = temperature, joints = temperature;
   for (Index i = 0; i < posterior.from_epochs.cols(); ++i) {
     const std::string& name =
         factors.parameters()[first_of_epochs(factors) + static_cast<std::size_t>(i)].name;
@@ -54,6 +53,7 @@ std::vector<Cause> causes_of(const BridgeAnswer& bridge, const ReadingFactors& f
   add(kTemperature, temperature);
   add("supports", supports);
   add(kEpochStiffness, joints);
+  add("uneven warmth and stiffness", posterior.from_unevenness);
   add("what is left", posterior.left);
   return causes;
 }

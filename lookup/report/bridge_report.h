@@ -11,7 +11,7 @@ namespace voussoir {
 /// Something that moved the sensors, as far as the answer believes in it: means, of the likeliest scene.
 struct Cause {
   std::string name;  ///< "missing blocks", "the bridge itself", "temperature", "supports", "joint stiffness"
-                     ///< of an epoch, "what is left"
+                     ///< of an epoch, "uneven warmth and stiffness", "what is left"
   double share = 0.0;  ///< [-] of the sum of squares of the readings less what the nominal intact bridge
                        ///< shows: their product with this part. Shares sum up to one; a part that works
                        ///< against the others has a negative one

@@ -27,7 +27,7 @@ class Workshop {
            "0.0\nstiffness_ratio_cv = 0.0\n"
            "friction_cv = 0.0\nyoung_modulus_cv = 0.0\ndensity_cv = 0.0\ntemperature_K = 0.0\n"
            "foot_movement_m = 0.0\nfoot_rotation_rad = 0.0\nside_movement_m = 0.0\n"
-           "epoch_stiffness_cv = 0.0\nepoch_unevenness_cv = 0.0\n";
+           "epoch_stiffness_cv = 0.0\nepoch_unevenness_cv = 0.0\nuneven_temperature_K = 0.0\n";
     build("first.h5", {});
     build("alone.h5", {"--variants", std::to_string(kVariants), "--variant-seed", "7", "--known-bridge"});
     build("both.h5", {"--variants", "10", "--variant-seed", "7"});

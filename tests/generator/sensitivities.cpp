@@ -6,7 +6,7 @@
 #include <catch2/catch.hpp>
 
 #include "core/solve/history.h"
-#include "core/structure/uneven_stiffness.h"
+#include "core/structure/unevenness.h"
 #include "database/records/stored_bridge.h"
 #include "generator/build.h"
 #include "generator/sensitivity_check.h"
@@ -49,6 +49,32 @@ struct Change {
   }
 };
 
+/// A central difference of a bridge solved anew, of one standard deviation.
+Eigen::VectorXd solved_anew(QuasiStaticSolver& solver, const Model& bridge, const UncertainAction& action) {
+  constexpr double step = 1e-4;  // of the stiffness's logarithm, or [K]
+  const auto settled = [&](double way) {
+    Stage stage{.uneven_temperature = Eigen::ArrayXd::Zero(static_cast<Eigen::Index>(bridge.layout.size())),
+                .joint_stiffness = Eigen::ArrayXd::Ones(static_cast<Eigen::Index>(bridge.joints.size()))};
+    for (const std::size_t joint : action.joints)
+      stage.joint_stiffness[static_cast<Eigen::Index>(joint)] = std::exp(way);
+    for (const std::size_t block : action.blocks)
+      stage.uneven_temperature[static_cast<Eigen::Index>(block)] = way;
+    const Solution solution = solver.solve(StageTask{.stage = stage});
+    REQUIRE(stands(solution));
+    return vertical_displacements(solution.displacement, bridge.control_points);
+  };
+  return action.parameter.sigma * (settled(step) - settled(-step)) / (2.0 * step);
+}
+
+Eigen::MatrixXd covariance_anew(QuasiStaticSolver& solver, const Model& bridge,
+                                const UnevenQuantity& uneven) {
+  Eigen::MatrixXd derivatives(static_cast<Eigen::Index>(bridge.control_points.size()),
+                              static_cast<Eigen::Index>(uneven.actions.size()));
+  for (std::size_t i = 0; i < uneven.actions.size(); ++i)
+    derivatives.col(static_cast<Eigen::Index>(i)) = solved_anew(solver, bridge, uneven.actions[i]);
+  return derivatives * uneven.correlations * derivatives.transpose();
+}
+
 }  // namespace
 
 TEST_CASE("A database's sensitivities predict what a little more stiffness and heat do (solved anew)",
@@ -90,7 +116,7 @@ TEST_CASE("A database's sensitivities predict what a little more stiffness and h
   CHECK(compared >= 8);
 }
 
-TEST_CASE("Unevenness is what single joints' stiffness does, as far as joints vary together (solved anew)",
+TEST_CASE("Unevenness is what single joints and blocks do, as far as they vary together (solved anew)",
           "[sensitivity][many-solutions]") {
   const test::TemporaryFolder folder;
   build(folder / "small.h5", 2);
@@ -98,30 +124,16 @@ TEST_CASE("Unevenness is what single joints' stiffness does, as far as joints va
   const std::vector<Eigen::MatrixXd>& found = database.sensitivities()->unevenness;
   REQUIRE(found.size() == 2);
   const Model bridge = test::small_bridge();
-  const UnevenStiffness uneven = uneven_stiffness(bridge, {});
+  const Unevenness uneven = unevenness_of(bridge, {});
   QuasiStaticSettings exact;
   exact.tolerance = 1e-11;
   QuasiStaticSolver solver(bridge, exact);
-  const auto settled = [&](std::size_t pair, double step) {
-    Stage stage{.joint_stiffness = Eigen::ArrayXd::Ones(static_cast<Eigen::Index>(bridge.joints.size()))};
-    for (const std::size_t joint : uneven.joints[pair].joints)
-      stage.joint_stiffness[static_cast<Eigen::Index>(joint)] = std::exp(step);
-    const Solution solution = solver.solve(StageTask{.stage = stage});
-    REQUIRE(stands(solution));
-    return vertical_displacements(solution.displacement, bridge.control_points);
-  };
-  const double step = 1e-4;
-  const auto pairs = static_cast<Eigen::Index>(uneven.joints.size());
-  Eigen::MatrixXd derivatives(static_cast<Eigen::Index>(bridge.control_points.size()), pairs);
-  for (Eigen::Index i = 0; i < pairs; ++i) {
-    const auto pair = static_cast<std::size_t>(i);
-    derivatives.col(i) =
-        uneven.joints[pair].parameter.sigma * (settled(pair, step) - settled(pair, -step)) / (2.0 * step);
-  }
-  const Eigen::MatrixXd expected = derivatives * uneven.correlations * derivatives.transpose();
-  for (const Eigen::MatrixXd& one : found)  // the intact bridge is the same before and after a loss
+  const Eigen::MatrixXd of_joints = covariance_anew(solver, bridge, uneven.stiffness),
+                        of_heat = covariance_anew(solver, bridge, uneven.temperature);
+  CHECK(of_joints.norm() > 0.01 * of_heat.norm());  // neither is hidden by the other
+  for (const Eigen::MatrixXd& one : found)          // the intact bridge is the same before and after a loss
     for (const Eigen::MatrixXd& other : found)
-      CHECK((one * other.transpose() - expected).norm() < 1e-5 * expected.norm());
+      CHECK((one * other.transpose() - of_joints - of_heat).norm() < 1e-5 * of_joints.norm());
 }
 
 TEST_CASE("Sensitivities and digest are the same for all numbers of threads",

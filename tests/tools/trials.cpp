@@ -231,6 +231,23 @@ TEST_CASE(
   CHECK(of_left + of_right == Approx(0.5 * of_all).epsilon(0.1));
 }
 
+TEST_CASE("Where half of the bridge is warmer half of it rises, but for what its other half holds back") {
+  const BridgeDescription description = test::small_bridge_file().description;
+  const Model bridge = make_model(description);
+  const auto rise = [&](const Between& between) {
+    const IntactBridge truth =
+        solve_intact(description, {"joints", scattered_joints(0.0), 1, 1}, between).bridges[0];
+    Eigen::Vector2d halves(0.0, 0.0);
+    for (std::size_t i = 0; i < truth.before.size(); ++i)
+      halves[bridge.control_points[i].position.x() < 0.5 * description.wall.length ? 0 : 1] +=
+          truth.after[i] - truth.before[i];
+    return halves;
+  };
+  const Eigen::Vector2d all = rise({.warmer = 5.0}), left = rise({.warmer = 5.0, .warmer_part = 0.5});
+  CHECK(left[0] > std::abs(left[1]));
+  CHECK(left.sum() == Approx(0.5 * all.sum()).epsilon(0.2));
+}
+
 TEST_CASE("Epochs at random are others for each bridge and epoch, the same in every run") {
   const BridgeDescription description = test::small_bridge_file().description;
   const SampledTruth truth{"everything", {}, 2, 1};

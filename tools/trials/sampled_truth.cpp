@@ -4,9 +4,10 @@
 #include <set>
 
 #include "core/error.h"
+#include "core/geometry/polygon.h"
 #include "core/random.h"
 #include "core/solve/combined_solver.h"
-#include "core/structure/uneven_stiffness.h"
+#include "core/structure/unevenness.h"
 #include "generator/build.h"
 #include "generator/variants.h"
 
@@ -41,10 +42,25 @@ constexpr std::uint64_t kEpochs =
     1u << 30;  // beyond the numbers of bridges, which have seeds of the same series
 constexpr std::uint64_t kUnevenness = 1;  // of the seeds of an epoch
 
+/// Where a share of the bridge's length ends [m].
+double end_of(const Model& bridge, double share) {
+  const auto x = bridge.mesh.nodes.row(0);
+  return std::lerp(x.minCoeff(), x.maxCoeff(), share);
+}
+
+/// What each block is warmer by [K].
+Eigen::ArrayXd warmed_blocks(const Model& bridge, const Between& between) {
+  const double end = end_of(bridge, between.warmer_part);
+  Eigen::ArrayXd warmth = Eigen::ArrayXd::Zero(static_cast<Eigen::Index>(bridge.layout.size()));
+  for (std::size_t b = 0; b < bridge.layout.size(); ++b)
+    if (centroid(bridge.layout.blocks[b].polygon).x() <= end)
+      warmth[static_cast<Eigen::Index>(b)] = between.warmer;
+  return warmth;
+}
+
 /// The share of its stiffness that each joint keeps.
 Eigen::ArrayXd softened_joints(const Model& bridge, const Between& between) {
-  const auto x = bridge.mesh.nodes.row(0);
-  const double end = std::lerp(x.minCoeff(), x.maxCoeff(), between.softened_part);
+  const double end = end_of(bridge, between.softened_part);
   Eigen::ArrayXd shares = Eigen::ArrayXd::Ones(static_cast<Eigen::Index>(bridge.joints.size()));
   for (std::size_t j = 0; j < bridge.joints.size(); ++j)
     if (middle_of(bridge.joints[j], bridge.mesh).x() <= end)
@@ -56,7 +72,7 @@ Eigen::ArrayXd softened_joints(const Model& bridge, const Between& between) {
 std::vector<Stage> stages_of_epoch(const Model& bridge, const SampledTruth& truth, const Between& between,
                                    int epoch) {
   const UncertainParameters uncertain = uncertain_parameters(bridge, truth.uncertainty);
-  const UnevenStiffness uneven = uneven_stiffness(bridge, truth.uncertainty);
+  const Unevenness uneven = unevenness_of(bridge, truth.uncertainty);
   std::vector<Stage> stages;
   for (int b = 0; b < truth.bridges; ++b) {
     Stage stage;
@@ -64,10 +80,9 @@ std::vector<Stage> stages_of_epoch(const Model& bridge, const SampledTruth& trut
       const std::uint64_t epochs = series_seed(truth.seed, kEpochs + static_cast<std::uint64_t>(epoch));
       const std::uint64_t seed = series_seed(epochs, static_cast<std::uint64_t>(b));
       stage = in_epoch(stage, bridge, uncertain, sampled_theta(uncertain.of_epoch.size(), seed));
-      const Eigen::ArrayXd shares = sampled_shares(bridge, uneven, series_seed(seed, kUnevenness));
-      stage.joint_stiffness = stage.joint_stiffness.size() > 0 ? stage.joint_stiffness * shares : shares;
+      stage = with_unevenness(std::move(stage), bridge, uneven, series_seed(seed, kUnevenness));
     } else if (epoch > 1) {
-      stage.temperature = between.warmer;
+      stage.uneven_temperature = warmed_blocks(bridge, between);
       stage.joint_stiffness = softened_joints(bridge, between);
       if (between.settlement != 0.0)
         stage.support_movement = rigid_movement(bridge, 0, {0.0, -between.settlement}, 0.0);
@@ -126,7 +141,8 @@ Uncertainty scattered_joints(double scatter, double regional) {
           .foot_rotation = 0.0,
           .side_movement = 0.0,
           .epoch_stiffness = 0.0,
-          .epoch_unevenness = 0.0};
+          .epoch_unevenness = 0.0,
+          .uneven_temperature = 0.0};
 }
 
 DamagedTruth solve_damaged(const BridgeFile& bridge, const SampledTruth& truth, const std::string& scenes,

@@ -28,12 +28,13 @@ DamagedTruth solve_damaged(const BridgeFile& bridge, const SampledTruth& truth, 
 
 /// What happens to an intact bridge between two epochs.
 struct Between {
-  double warmer = 0.0;           ///< [K] the whole bridge
+  double warmer = 0.0;           ///< [K] the blocks
+  double warmer_part = 1.0;      ///< in this share of the bridge's length, from the left
   double settlement = 0.0;       ///< [m] of the first foot
   double joint_stiffness = 1.0;  ///< share of it that joints keep,
   double softened_part = 1.0;    ///< those in this share of the bridge's length, from the left
   bool at_random = false;        ///< instead, each epoch has its own temperature, movements and stiffness of
-                                 ///< joints, as uncertain as they are
+                                 ///< joints, as uncertain and as uneven as they are
 };
 
 /// Solves the intact bridges at two times, the second from the state of the first. Throws Failure if one does

@@ -93,6 +93,33 @@ TEST_CASE("A column of two blocks grows by its own expansion and not by its join
           1e-6 * 20.0 * 8e-6 + strain * strain);
 }
 
+TEST_CASE("A stone that is warmer than the one that it stands on grows by itself (closed form)", "[stage]") {
+  BridgeDescription description;
+  description.supports = {.base = SupportKind::roller, .sides = SupportKind::roller};
+  description.wall.length = 10.0;
+  const Model column = validation::assemble_blocks(
+      description,
+      {validation::rectangle(Point(0.0, 0.0), 1.0, 0.5), validation::rectangle(Point(0.0, 0.5), 1.0, 0.5)});
+  QuasiStaticSolver solver(column);
+  Eigen::ArrayXd upper = Eigen::ArrayXd::Zero(2);
+  upper[1] = 20.0;
+  const auto growth = [&](const Stage& stage) {
+    const Solution solution = solver.solve(StageTask{.stage = stage});
+    REQUIRE(stands(solution));
+    double highest = 0.0;
+    for (int node = 0; node < column.mesh.node_count(); ++node)
+      if (column.mesh.nodes(1, node) == 1.0) highest = solution.displacement(1, node);
+    return highest;
+  };
+  const double weight = growth({}), strain = 8e-6 * 20.0;
+  // The joint between them holds the warm stone's base back a little.
+  CHECK(growth({.uneven_temperature = upper}) - weight == Approx(0.5 * strain).epsilon(0.1));
+  CHECK(growth({.temperature = -20.0, .uneven_temperature = upper}) - weight ==
+        Approx(-0.5 * strain).epsilon(0.1));
+  const Eigen::ArrayXd both = Eigen::ArrayXd::Constant(2, 20.0);
+  CHECK(growth({.uneven_temperature = both}) == Approx(growth({.temperature = 20.0})).epsilon(1e-9));
+}
+
 TEST_CASE("Supports that all move together carry the bridge with them and change no force (rigid motion)",
           "[stage]") {
   const Model bridge = test::reference_bridge();

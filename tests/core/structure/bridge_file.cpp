@@ -16,10 +16,10 @@ using Catch::Matchers::Contains;
 namespace {
 
 std::vector<double> numbers_of(const Uncertainty& u) {
-  return {u.joint_stiffness, u.regional_stiffness, u.common_stiffness, u.stiffness_ratio,
-          u.friction,        u.young_modulus,      u.density,          u.temperature,
-          u.foot_movement,   u.foot_rotation,      u.side_movement,    u.epoch_stiffness,
-          u.epoch_unevenness};
+  return {u.joint_stiffness,  u.regional_stiffness, u.common_stiffness, u.stiffness_ratio,
+          u.friction,         u.young_modulus,      u.density,          u.temperature,
+          u.foot_movement,    u.foot_rotation,      u.side_movement,    u.epoch_stiffness,
+          u.epoch_unevenness, u.uneven_temperature};
 }
 
 /// All numbers of a description, in the order in which the header names them.
@@ -119,12 +119,13 @@ const std::vector<Key> kKeys = {{"[wall]\nlength_m = 30.0", 0, 30.0},
                                 {"[uncertainty]\nside_movement_m = 1e-3", 34, 1e-3},
                                 {"[uncertainty]\nepoch_stiffness_cv = 0.02", 35, 0.02},
                                 {"[uncertainty]\nepoch_unevenness_cv = 0.06", 36, 0.06},
-                                {"collapses = \"field\"", 37, 1.0},
-                                {"[[spans]]\ncentre_x_m = 9.0", 38, 9.0},
-                                {"[[spans]]\ncentre_y_m = 1.5", 39, 1.5},
-                                {"[[spans]]\nintrados_radius_m = 3.0", 40, 3.0},
-                                {"[[spans]]\nring_thickness_m = 0.4", 41, 0.4},
-                                {"[[spans]]\nvoussoirs = 21", 42, 21.0}};
+                                {"[uncertainty]\nuneven_temperature_K = 1.5", 37, 1.5},
+                                {"collapses = \"field\"", 38, 1.0},
+                                {"[[spans]]\ncentre_x_m = 9.0", 39, 9.0},
+                                {"[[spans]]\ncentre_y_m = 1.5", 40, 1.5},
+                                {"[[spans]]\nintrados_radius_m = 3.0", 41, 3.0},
+                                {"[[spans]]\nring_thickness_m = 0.4", 42, 0.4},
+                                {"[[spans]]\nvoussoirs = 21", 43, 21.0}};
 
 }  // namespace
 
@@ -198,6 +199,7 @@ TEST_CASE("Bad bridge files are refused with file, line and what was expected", 
       "0\nside_movement_m = 0\nepoch_stiffness_cv = 0\n";
   CHECK_THAT(message(known + "epoch_unevenness_cv = 0.01\n"),
              Contains("b.toml:14:") && Contains("expected 0, as all else is known exactly"));
+  CHECK_THAT(message(known + "uneven_temperature_K = 1\n"), Contains("b.toml:14:") && Contains("expected 0"));
   CHECK_FALSE(is_uncertain(parse_bridge_file(known, "b.toml").description.uncertainty));
   CHECK_THAT(message("= 3"), Contains("b.toml:1:"));
 }
@@ -250,7 +252,8 @@ const std::vector<Limits> kLimits = {{"[wall]\nlength_m = ", 1e-3, 1e5, true},
                                      {"[uncertainty]\nfoot_rotation_rad = ", 0.0, 0.1, true},
                                      {"[uncertainty]\nside_movement_m = ", 0.0, 1.0, true},
                                      {"[uncertainty]\nepoch_stiffness_cv = ", 0.0, 1.0, true},
-                                     {"[uncertainty]\nepoch_unevenness_cv = ", 0.0, 1.0, true}};
+                                     {"[uncertainty]\nepoch_unevenness_cv = ", 0.0, 1.0, true},
+                                     {"[uncertainty]\nuneven_temperature_K = ", 0.0, 100.0, true}};
 
 /// Does the key take this value? The bridge may still be refused for a ring that its wall cannot hold or for
 /// too many blocks, which are other checks.

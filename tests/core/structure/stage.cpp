@@ -11,10 +11,13 @@ TEST_CASE(
     "hand)") {
   Stage warm{.scene = {{BlockId{3}}}, .load = Field::Constant(2, 2, 7.0), .temperature = 10.0};
   Stage moved{.temperature = -2.0,
+              .uneven_temperature = Eigen::ArrayXd::Constant(4, 8.0),
               .support_movement = Field::Constant(2, 2, 4e-3),
               .joint_stiffness = Eigen::ArrayXd::Constant(3, 0.0625)};
   const Stage to_moved = on_the_way(warm, moved, 0.25);
   CHECK(to_moved.temperature == Approx(7.0));
+  CHECK(to_moved.uneven_temperature.isApprox(Eigen::ArrayXd::Constant(4, 2.0)));
+  CHECK(temperature_of(to_moved, 3) == Approx(9.0));
   CHECK(to_moved.support_movement.isApprox(Field::Constant(2, 2, 1e-3)));
   REQUIRE(to_moved.joint_stiffness.size() == 3);
   CHECK(to_moved.joint_stiffness.isApprox(Eigen::ArrayXd::Constant(3, 0.5)));

@@ -192,7 +192,7 @@ TEST_CASE("The same seed draws the same bridge, another seed another one", "[unc
 }
 
 TEST_CASE("What is known exactly is no parameter", "[uncertainty]") {
-  const Uncertainty nothing{0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
+  const Uncertainty nothing{0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
   CHECK(uncertain_parameters(test::small_bridge(), nothing).all().empty());
 }
 
