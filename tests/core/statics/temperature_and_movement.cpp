@@ -27,6 +27,15 @@ Model bar(PlaneState plane, bool held) {
                                      {validation::rectangle(Point(0.0, 0.0), kBeamLength, kBeamHeight)});
 }
 
+/// Two blocks of half a square metre, one upon the other, free to expand.
+Model column_of_two() {
+  BridgeDescription description;
+  description.supports = {.base = SupportKind::roller, .sides = SupportKind::roller};
+  description.wall.length = 10.0;
+  return validation::assemble_blocks(description, {validation::rectangle(Point(0.0, 0.0), 1.0, 0.5),
+                                                   validation::rectangle(Point(0.0, 0.5), 1.0, 0.5)});
+}
+
 /// Displacement of the corner that lies furthest from the supports.
 Point corner_of_heated(const Model& bridge, double temperature) {
   QuasiStaticSolver solver(bridge);
@@ -75,12 +84,7 @@ TEST_CASE("A bar that is held at both ends grows upwards only, by (1 + nu) times
 
 TEST_CASE("A column of two blocks grows by its own expansion and not by its joint's (closed form)",
           "[stage]") {
-  BridgeDescription description;
-  description.supports = {.base = SupportKind::roller, .sides = SupportKind::roller};
-  description.wall.length = 10.0;
-  const Model column = validation::assemble_blocks(
-      description,
-      {validation::rectangle(Point(0.0, 0.0), 1.0, 0.5), validation::rectangle(Point(0.0, 0.5), 1.0, 0.5)});
+  const Model column = column_of_two();
   QuasiStaticSolver solver(column);
   const Solution cold = solver.solve(Scene{});
   const Solution warm = solver.solve(StageTask{.stage = {.temperature = 20.0}});
@@ -94,12 +98,7 @@ TEST_CASE("A column of two blocks grows by its own expansion and not by its join
 }
 
 TEST_CASE("A stone that is warmer than the one that it stands on grows by itself (closed form)", "[stage]") {
-  BridgeDescription description;
-  description.supports = {.base = SupportKind::roller, .sides = SupportKind::roller};
-  description.wall.length = 10.0;
-  const Model column = validation::assemble_blocks(
-      description,
-      {validation::rectangle(Point(0.0, 0.0), 1.0, 0.5), validation::rectangle(Point(0.0, 0.5), 1.0, 0.5)});
+  const Model column = column_of_two();
   QuasiStaticSolver solver(column);
   Eigen::ArrayXd upper = Eigen::ArrayXd::Zero(2);
   upper[1] = 20.0;

@@ -9,6 +9,7 @@
 #include <set>
 
 #include "tests/support/bridges.h"
+#include "tests/support/covariance_of_draws.h"
 
 using namespace voussoir;
 
@@ -144,13 +145,13 @@ TEST_CASE("Joints scatter with mean 1 and the stated variation, pair by pair (mo
 TEST_CASE("Joints that are near each other scatter alike beside what is their own (moments of 400 bridges)",
           "[uncertainty]") {
   const Model bridge = test::small_bridge();
-  UncertainParameters uncertain = uncertain_parameters(bridge, {.joint_stiffness = 0.3,
-                                                                .regional_stiffness = 0.3,
-                                                                .common_stiffness = 0.0,
-                                                                .stiffness_ratio = 0.0,
-                                                                .friction = 0.0,
-                                                                .young_modulus = 0.0,
-                                                                .density = 0.0});
+  const UncertainParameters uncertain = uncertain_parameters(bridge, {.joint_stiffness = 0.3,
+                                                                      .regional_stiffness = 0.3,
+                                                                      .common_stiffness = 0.0,
+                                                                      .stiffness_ratio = 0.0,
+                                                                      .friction = 0.0,
+                                                                      .young_modulus = 0.0,
+                                                                      .density = 0.0});
   const double alone = deviation(0.3), shared = deviation(0.3), length = bridge.mesh.nodes.row(0).maxCoeff();
   constexpr int draws = 400;
   Eigen::MatrixXd logs(static_cast<Eigen::Index>(uncertain.of_bridge.size()), draws);
@@ -161,21 +162,13 @@ TEST_CASE("Joints that are near each other scatter alike beside what is their ow
           std::log(drawn.joints[uncertain.of_bridge[i].joints.front()].normal_stiffness / 1e9) +
           0.5 * (alone * alone + shared * shared);
   }
-  const Eigen::MatrixXd found = logs * logs.transpose() / draws;
-  double worst = 0.0;  // standard errors
-  for (Eigen::Index i = 0; i < found.rows(); ++i)
-    for (Eigen::Index j = 0; j <= i; ++j) {
-      const auto place = [&](Eigen::Index k) {
-        return middle_of(bridge.joints[uncertain.of_bridge[static_cast<std::size_t>(k)].joints.front()],
-                         bridge.mesh);
-      };
-      const double near = std::exp(-(place(i) - place(j)).norm() / (0.25 * length));
-      const double variance = alone * alone + shared * shared;
-      const double stated = shared * shared * near + (i == j ? alone * alone : 0.0);
-      worst = std::max(
-          worst, std::abs(found(i, j) - stated) / std::sqrt((variance * variance + stated * stated) / draws));
-    }
-  CHECK(worst < 4.5);  // of some thousand that depend on each other
+  const std::vector<Point> places = places_of(uncertain.of_bridge, bridge);
+  const auto stated =
+      Eigen::MatrixXd::NullaryExpr(logs.rows(), logs.rows(), [&](Eigen::Index i, Eigen::Index j) {
+        const Point way = places[static_cast<std::size_t>(i)] - places[static_cast<std::size_t>(j)];
+        return shared * shared * std::exp(-way.norm() / (0.25 * length)) + (i == j ? alone * alone : 0.0);
+      });
+  CHECK(test::worst_covariance_error(logs, stated) < 4.5);  // of some thousand that depend on each other
 }
 
 TEST_CASE("The same seed draws the same bridge, another seed another one", "[uncertainty]") {

@@ -7,6 +7,7 @@
 
 #include "core/structure/correlation_by_distance.h"
 #include "tests/support/bridges.h"
+#include "tests/support/covariance_of_draws.h"
 
 using namespace voussoir;
 
@@ -40,12 +41,6 @@ Draws draws(const Model& bridge, const Unevenness& uneven) {
   return result;
 }
 
-/// How far the covariance of draws is from what is stated, at most, in standard errors.
-double worst_error(const Eigen::MatrixXd& drawn, const Eigen::MatrixXd& stated) {
-  const Eigen::MatrixXd found = drawn * drawn.transpose() / kDraws;
-  return ((found - stated).array().abs() / ((1.0 + stated.array().square()) / kDraws).sqrt()).maxCoeff();
-}
-
 }  // namespace
 
 TEST_CASE("Drawn at random joints and warmth vary as stated, and together as stated", "[uncertainty]") {
@@ -56,13 +51,29 @@ TEST_CASE("Drawn at random joints and warmth vary as stated, and together as sta
         correlations_by_distance(bridge, places_of(uneven.stiffness.actions, bridge)));
   CHECK(uneven.temperature.actions.size() == bridge.layout.size());
   const Draws drawn = draws(bridge, uneven);
-  CHECK(worst_error(drawn.stiffness, uneven.stiffness.correlations) < 4.5);  // of thousands that depend on
-  CHECK(worst_error(drawn.warmth, uneven.temperature.correlations) < 4.5);   // each other
+  CHECK(test::worst_covariance_error(drawn.stiffness, uneven.stiffness.correlations) <
+        4.5);  // of thousands that depend on
+  CHECK(test::worst_covariance_error(drawn.warmth, uneven.temperature.correlations) < 4.5);  // each other
   const auto warmth = [&](std::uint64_t seed) {
     return with_unevenness({}, bridge, uneven, seed).uneven_temperature.matrix().eval();
   };
   CHECK(warmth(3) == warmth(3));
   CHECK(warmth(3) != warmth(4));
+}
+
+TEST_CASE("Joints are where they lie, and as uncertain as stated (by hand)", "[uncertainty]") {
+  const Model bridge = test::reference_bridge();
+  const Unevenness uneven = unevenness_of(bridge, {});
+  const std::vector<UncertainAction>& actions = uneven.stiffness.actions;
+  CHECK(actions.front().parameter.sigma == Approx(std::sqrt(std::log(1.0 + 0.03 * 0.03))));
+  CHECK(uneven.temperature.actions.front().parameter.sigma == 1.0);
+  const std::vector<Point> places = places_of(actions, bridge);
+  REQUIRE(places.size() == actions.size());
+  const auto ends = ends_of(bridge.joints[actions.front().joints.front()], bridge.mesh);
+  CHECK(places.front().isApprox(0.5 * (ends[0] + ends[1])));
+  const double distance = (places[3] - places[200]).norm();
+  REQUIRE(distance > 1.0);
+  CHECK(uneven.stiffness.correlations(3, 200) == Approx(std::exp(-distance / 5.0)));  // a quarter of 20 m
 }
 
 TEST_CASE("Where all is even a stage stays as it is", "[uncertainty]") {
