@@ -98,8 +98,7 @@ void SampledHistories::go_on(const std::vector<Case>& cases, bool in_epoch, Foun
         continue;
       }
       Stage stage = stage_of(one, in_epoch ? one.bridge->epoch : Stage{});
-      stage.load = planned.load;
-      batch.add_next(i, std::move(stage),
+      batch.add_next(i, carrying(std::move(stage), planned.load),
                      planned.is_loss() ? found[one.intact][kBuilt] : found[i][*planned.before],
                      one.bridge->parameters);
     }

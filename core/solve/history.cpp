@@ -11,9 +11,8 @@ History lost(const Scene& scene) {
 }
 
 History followed_by(History history, const std::string& load_name, const Field& load) {
-  NamedStage next{load_name, history.stages.back().stage};
-  next.stage.load = next.stage.load.size() > 0 ? Field(next.stage.load + load) : load;
-  history.stages.push_back(std::move(next));
+  Stage next = carrying(history.stages.back().stage, load);
+  history.stages.push_back({load_name, std::move(next)});
   return history;
 }
 

@@ -18,26 +18,6 @@ constexpr double kLeastDrag = 1e-9;
 constexpr double kMostDrag = 1e3;
 constexpr double kDragFactor = 4.0;  ///< weaker after a step of a snap, stronger where one fails
 
-double mixed(double from, double to, double share) {
-  return from + share * (to - from);
-}
-
-/// An empty field is zero.
-Field mixed(const Field& from, const Field& to, double share) {
-  if (from.size() == 0 && to.size() == 0) return {};
-  const Eigen::Index nodes = std::max(from.cols(), to.cols());
-  const Field none = Field::Zero(2, nodes);
-  return (1.0 - share) * (from.size() > 0 ? from : none) + share * (to.size() > 0 ? to : none);
-}
-
-Stage stage_at(const PathTask& task, double share) {
-  return {.scene = task.to.scene,
-          .gravity_share = mixed(task.from.gravity_share, task.to.gravity_share, share),
-          .load = mixed(task.from.load, task.to.load, share),
-          .temperature = mixed(task.from.temperature, task.to.temperature, share),
-          .support_movement = mixed(task.from.support_movement, task.to.support_movement, share)};
-}
-
 double dissipated_by_mortar(const StageEquations& equations, const Field& displacement) {
   double sum = 0.0;
   for_present_joints(equations, [&](const Joint& joint, std::size_t j) {
@@ -91,7 +71,7 @@ class PathFollower {
 
  private:
   StageEquations equations_at(double share) const {
-    return {system_, coefficients_, stage_at(task_, share), state_.memory};
+    return {system_, coefficients_, on_the_way(task_.from, task_.to, share), state_.memory};
   }
 
   /// From the last movement, or from the tangent.

@@ -5,25 +5,23 @@
 namespace voussoir {
 namespace {
 
+/// As it is, or, where it is empty, this value in the shape of the other.
+template <class Array>
+Array filled(const Array& array, double value, const Array& other) {
+  return array.size() > 0 ? array : Array(Array::Constant(other.rows(), other.cols(), value));
+}
+
 /// Zero where there is none.
-Field movement_like(const Field& movement, const Field& other) {
-  return movement.size() > 0 ? movement : Field(Field::Zero(other.rows(), other.cols()));
+template <class Array>
+Array mixed(const Array& from, const Array& to, double share) {
+  return (1.0 - share) * filled(from, 0.0, to) + share * filled(to, 0.0, from);
 }
 
 /// All of it where there is none.
-Eigen::ArrayXd shares_like(const Eigen::ArrayXd& shares, const Eigen::ArrayXd& other) {
-  return shares.size() > 0 ? shares : Eigen::ArrayXd(Eigen::ArrayXd::Ones(other.size()));
-}
-
-Eigen::ArrayXd shares_on_the_way(const Eigen::ArrayXd& from, const Eigen::ArrayXd& to, double share) {
-  return shares_like(from, to).binaryExpr(shares_like(to, from), [share](double first, double last) {
+Eigen::ArrayXd mixed_shares(const Eigen::ArrayXd& from, const Eigen::ArrayXd& to, double share) {
+  return filled(from, 1.0, to).binaryExpr(filled(to, 1.0, from), [share](double first, double last) {
     return std::pow(first, 1.0 - share) * std::pow(last, share);
   });
-}
-
-/// Zero where there is none.
-Eigen::ArrayXd warmth_like(const Eigen::ArrayXd& warmth, const Eigen::ArrayXd& other) {
-  return warmth.size() > 0 ? warmth : Eigen::ArrayXd(Eigen::ArrayXd::Zero(other.size()));
 }
 
 }  // namespace
@@ -33,13 +31,18 @@ double temperature_of(const Stage& stage, std::size_t block) {
   return stage.temperature + stage.uneven_temperature[static_cast<Eigen::Index>(block)];
 }
 
+Stage carrying(Stage stage, const Field& load) {
+  stage.load = filled(stage.load, 0.0, load) + filled(load, 0.0, stage.load);
+  return stage;
+}
+
 Stage on_the_way(const Stage& from, Stage to, double share) {
+  to.gravity_share = std::lerp(from.gravity_share, to.gravity_share, share);
+  to.load = mixed(from.load, to.load, share);
   to.temperature = std::lerp(from.temperature, to.temperature, share);
-  to.uneven_temperature = (1.0 - share) * warmth_like(from.uneven_temperature, to.uneven_temperature) +
-                          share * warmth_like(to.uneven_temperature, from.uneven_temperature);
-  to.joint_stiffness = shares_on_the_way(from.joint_stiffness, to.joint_stiffness, share);
-  to.support_movement = (1.0 - share) * movement_like(from.support_movement, to.support_movement) +
-                        share * movement_like(to.support_movement, from.support_movement);
+  to.uneven_temperature = mixed(from.uneven_temperature, to.uneven_temperature, share);
+  to.joint_stiffness = mixed_shares(from.joint_stiffness, to.joint_stiffness, share);
+  to.support_movement = mixed(from.support_movement, to.support_movement, share);
   return to;
 }
 

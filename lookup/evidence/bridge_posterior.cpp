@@ -95,6 +95,12 @@ void explain(const UnknownBridge& bridge, const SceneGaussian& scene, BridgePost
       scene.difference - result.from_bridge - result.from_epochs.rowwise().sum() - result.from_unevenness;
 }
 
+/// Parameters of the epochs were standardised by the deviations that the conditions have in this case.
+void in_stated_deviations(double conditions, BridgePosterior& result) {
+  result.epoch_mean *= conditions;
+  result.epoch_covariance *= conditions * conditions;
+}
+
 BridgePosterior empty_posterior(const UnknownBridge& bridge) {
   const Index epochs = bridge.epochs * bridge.factors->of_epoch();
   BridgePosterior result;
@@ -130,6 +136,7 @@ BridgePosterior bridge_posterior(const UnknownBridge& bridge, const Observation&
   }
   result.epoch_covariance -= result.epoch_mean * result.epoch_mean.transpose();
   explain(bridge, *likeliest, result);
+  in_stated_deviations(bridge.conditions, result);
   return result;
 }
 

@@ -26,7 +26,8 @@ struct BridgePart {
   Eigen::VectorXd mean;  ///< of the basis's columns
 };
 
-/// A mixture over the likeliest scenes and over kappa. All parameters are standardised.
+/// A mixture over the likeliest scenes and over kappa. All parameters are standardised
+/// by the deviations that the file states.
 struct BridgePosterior {
   std::vector<BridgePart> parts;
   std::array<double, kScatterFactors.size()> scatter{};  ///< probability of each of kScatterFactors

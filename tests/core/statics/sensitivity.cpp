@@ -166,6 +166,31 @@ TEST_CASE(
   CHECK(kinks <= 2);
 }
 
+TEST_CASE("Adjoint sensitivities of all that an epoch may do are central differences", "[sensitivity]") {
+  constexpr double kStep = 3e-5;  // [standard deviations]
+  Bench bench;
+  const auto stages = bench.stages("built", parse_scene("5,2", bench.bridge.layout));
+  const auto nominal = bench.solve(stages, bench.nominal(), nullptr);
+  const Eigen::MatrixXd derivatives = bench.derivatives(stages, nominal);
+  const auto vertical_at = [&](Eigen::Index parameter, double way) {
+    Eigen::VectorXd there = bench.nominal();
+    there[parameter] += way;
+    return Eigen::VectorXd(vertical_displacements(bench.solve(stages, there, &nominal).back().displacement,
+                                                  bench.bridge.control_points));
+  };
+  for (std::size_t i = bench.of_bridge(); i < bench.parameters(); ++i) {
+    INFO(bench.uncertain.all()[i].name);
+    const auto column = static_cast<Eigen::Index>(i);
+    const Eigen::VectorXd difference =
+        (vertical_at(column, kStep) - vertical_at(column, -kStep)) / (2.0 * kStep);
+    const double scale = derivatives.col(column).cwiseAbs().maxCoeff();
+    CHECK(scale > 1e-6);
+    for (Eigen::Index point = 0; point < difference.size(); ++point)
+      if (!std::isnan(difference[point]))
+        CHECK(std::abs(difference[point] - derivatives(point, column)) < 1e-6 * scale);
+  }
+}
+
 TEST_CASE("Sensitivities of what is not there or does not act are zero", "[sensitivity]") {
   Bench bench;
   const Scene scene = parse_scene("5,2", bench.bridge.layout);

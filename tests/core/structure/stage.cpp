@@ -7,10 +7,11 @@
 namespace voussoir {
 
 TEST_CASE(
-    "On the way temperature, supports and joints have gone their share, and all else is as at the end (by "
+    "On the way all but the scene has gone its share (by "
     "hand)") {
   Stage warm{.scene = {{BlockId{3}}}, .load = Field::Constant(2, 2, 7.0), .temperature = 10.0};
-  Stage moved{.temperature = -2.0,
+  Stage moved{.gravity_share = 0.5,
+              .temperature = -2.0,
               .uneven_temperature = Eigen::ArrayXd::Constant(4, 8.0),
               .support_movement = Field::Constant(2, 2, 4e-3),
               .joint_stiffness = Eigen::ArrayXd::Constant(3, 0.0625)};
@@ -23,12 +24,13 @@ TEST_CASE(
   CHECK(to_moved.joint_stiffness.isApprox(Eigen::ArrayXd::Constant(3, 0.5)));
   CHECK(on_the_way({}, warm, 0.25).joint_stiffness.size() == 0);
   CHECK(to_moved.scene == Scene{});
-  CHECK(to_moved.load.size() == 0);
+  CHECK(to_moved.load.isApprox(Field::Constant(2, 2, 5.25)));
+  CHECK(to_moved.gravity_share == Approx(0.875));
   const Stage to_warm = on_the_way(moved, warm, 0.25);
   CHECK(to_warm.temperature == Approx(1.0));
   CHECK(to_warm.support_movement.isApprox(Field::Constant(2, 2, 3e-3)));
   CHECK(to_warm.scene == warm.scene);
-  CHECK(to_warm.load == warm.load);
+  CHECK(to_warm.load.isApprox(Field::Constant(2, 2, 1.75)));
   CHECK(on_the_way({}, warm, 0.5).support_movement.size() == 0);
 }
 

@@ -35,28 +35,31 @@ struct Readings {
 };
 
 /// Mean and covariance of all parameters and of what joints have softened by, given the readings; kappa by
-/// kappa, as far as it `counts`.
+/// kappa, as far as it `counts`. `conditions`: size of what the file states of epochs.
 struct Joint {
   VectorXd mean;
   MatrixXd covariance;
 };
 
-Joint joint_gaussian(const Sensitivities& from, const VectorXd& reading, const ScatterLogs& counts) {
+Joint joint_gaussian(const Sensitivities& from, double conditions, const VectorXd& reading,
+                     const ScatterLogs& counts) {
   const FactorsView of = from.find(0, {}).value();
   const FirstOrderResidual& residual = from.residuals[0];
   const MatrixXd& uneven = from.unevenness[0];
   const Index n = reading.size(), m = of.bridge.cols(), e = of.epoch.cols() + uneven.cols();
   MatrixXd design(n, m + e);
   design << of.bridge, of.epoch, uneven;
+  const double left = conditions * std::max(1.0, 2.0 * conditions);  // heavy tails: twice as wide
   const MatrixXd noise = kSigma * kSigma * MatrixXd::Identity(n, n) +
                          residual.bridge * residual.bridge.transpose() +
-                         4.0 * residual.epoch * residual.epoch.transpose();  // heavy tails: twice as wide
+                         left * left * residual.epoch * residual.epoch.transpose();
   Joint joint{VectorXd::Zero(m + e), MatrixXd::Zero(m + e, m + e)};
   double total = 0.0;
   for (std::size_t k = 0; k < counts.size(); ++k) {
     if (counts[k] == 0.0) continue;  // parts with little weight are left out
     VectorXd prior(m + e);
-    prior << VectorXd::Constant(m, kScatterFactors[k]), VectorXd::Ones(e);
+    prior << VectorXd::Constant(m, kScatterFactors[k]),
+        VectorXd::Constant(of.epoch.cols(), conditions * conditions), VectorXd::Ones(uneven.cols());
     const MatrixXd covariance = design * prior.asDiagonal() * design.transpose() + noise;
     const Eigen::FullPivLU<MatrixXd> solver(covariance);
     const MatrixXd gain = prior.asDiagonal() * design.transpose() * solver.inverse();
@@ -75,12 +78,15 @@ Joint joint_gaussian(const Sensitivities& from, const VectorXd& reading, const S
 
 }  // namespace
 
-TEST_CASE("Means and spreads of the parameters are those of the joint Gaussian") {
+TEST_CASE(
+    "Means and spreads of the parameters are those of the joint Gaussian, however large conditions are") {
+  const double conditions = GENERATE(0.2, 1.0, 3.0);
   const Readings readings;
   const Observation observation = observe(readings.comparison, {NoiseShape::gaussian, 0.0}, {});
-  const UnknownBridge bridge = unknown_bridge(readings.comparison, observation, {}, {});
+  const UnknownBridge bridge = unknown_bridge(readings.comparison, observation, {0.0, conditions}, {});
   const BridgePosterior posterior = bridge_posterior(bridge, observation, readings.library.table, {{0, 1.0}});
-  const auto [mean, covariance] = joint_gaussian(readings.sensitivities, bridge.reading, posterior.scatter);
+  const auto [mean, covariance] =
+      joint_gaussian(readings.sensitivities, conditions, bridge.reading, posterior.scatter);
   const MatrixXd& basis = readings.sensitivities.basis;
   const Index m = basis.cols();
   const MatrixXd of_columns = covariance.topLeftCorner(m, m);
