@@ -51,7 +51,11 @@ void add_reading_options(CLI::App& app, LocateDamageOptions& options) {
                  "files: a row each, from all cores")
       ->required()
       ->option_text("FILE...");
-  app.add_option("-d,--database", options.database, "default: $VOUSSOIR_DATABASE, else ./bridge.h5")
+  app.add_option("-d,--database", options.databases,
+                 "default: $VOUSSOIR_DATABASE, else ./bridge.h5. Several times: the same bridge under other "
+                 "assumptions, such as held and sliding ends; the one under which the readings are likeliest "
+                 "answers, and says how likely the others are")
+      ->allow_extra_args(false)
       ->option_text("FILE");
   app.add_option("--sensors", options.sensors,
                  "CSV of sensors that readings may name beside control points: name, quantity (ux, uy, tilt, "

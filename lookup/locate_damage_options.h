@@ -14,7 +14,8 @@ namespace voussoir {
 
 struct LocateDamageOptions {
   std::vector<std::string> measurements;  ///< files, at least one
-  std::optional<std::string> database;
+  std::vector<std::string>
+      databases;  ///< files; none: the usual one. Several: one bridge under other assumptions
   std::optional<std::filesystem::path> sensors;  ///< file of sensors beside the control points
   LookupSettings settings;
   ScatterEvidence evidence = ScatterEvidence::first_order;

@@ -61,7 +61,8 @@ struct Answer {
   std::optional<Fit> fit;                 ///< of the best candidate; with Objective::posterior
   std::vector<SensorResidual> residuals;  ///< of the best candidate, a value for each reading
   std::optional<BridgeAnswer> bridge;     ///< unless the bridge counts as known, or no scene is possible
-  Prior prior;                            ///< as it was used (stated_prior)
+  bool contested = false;  ///< another database that may as well be right comes to another answer
+  Prior prior;             ///< as it was used (stated_prior)
   std::size_t readings = 0;
   std::size_t searched = 0;            ///< scenes
   std::size_t unresolved = 0;          ///< scenes left out because the solver gave no answer

@@ -12,10 +12,12 @@
 namespace voussoir {
 namespace {
 
-void normalise(std::vector<double>& probability) {
+/// Returns what the sum was.
+double normalise(std::vector<double>& probability) {
   const double total = std::accumulate(probability.begin(), probability.end(), 0.0);
   if (total > 0.0)
     for (double& value : probability) value /= total;
+  return total;
 }
 
 /// The likeliest rows that hold enough together. Rows below an even distribution of what may be left out
@@ -112,7 +114,9 @@ Posterior posterior(const SceneTable& table, const Eligible& eligible, const Row
   }
   for (double& value : weight) value -= best;
   make_exponentials(weight);
-  normalise(weight);
+  const std::vector<double> beforehand = weights_of(prior);
+  result.log_evidence = best + std::log(normalise(weight)) -
+                        std::log(std::accumulate(beforehand.begin(), beforehand.end(), 0.0));
   for (std::size_t i = 0; i < possible.size(); ++i) {
     result.missing_probability[missing[i]] += weight[i];
     for (const std::int32_t id : table.removed.subspan(possible[i] * table.most_missing, table.most_missing))

@@ -25,8 +25,10 @@ bool is_held(const SceneTable& table, std::size_t point) {
 void add_readings(const Comparison& comparison, Observation& observation) {
   const Measurements& measured = comparison.measured;
   for (std::size_t i = 0; i < measured.displacement.size(); ++i) {
-    if (std::isnan(measured.displacement[i]) || is_held(comparison.library.table, i)) continue;
-    const bool own = !std::isnan(measured.sigma[i]);
+    if (std::isnan(measured.displacement[i])) continue;
+    const bool own = !std::isnan(measured.sigma[i]), held = is_held(comparison.library.table, i);
+    if (held && !own) continue;
+    observation.moving += held ? 0 : 1;
     observation.reading[i] = measured.displacement[i];
     observation.share[i] = own ? 0.0 : 1.0;
     observation.floor[i] = own ? measured.sigma[i] : observation.noise.floor;
@@ -78,7 +80,7 @@ Observation observe(const Comparison& comparison, const NoiseModel& noise, const
 }
 
 void require_readings(const Observation& observation) {
-  if (observation.count == 0)
+  if (observation.moving == 0)
     throw InputError("no reading at a control point that can move, expected at least one");
 }
 

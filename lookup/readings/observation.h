@@ -29,6 +29,7 @@ struct Observation {
   std::vector<bool> silent;    ///< there is a sensor, but it gave no reading
   NoiseModel noise;            ///< noise_of the readings
   std::size_t count = 0;       ///< of `reading`
+  std::size_t moving = 0;      ///< of these at points that can move
   bool own_sigmas = false;     ///< some sensor states its own sigma
   bool unknown_level = false;  ///< some sensor does not, and nothing states the noise level
 
@@ -43,8 +44,9 @@ struct Observation {
 };
 
 /// Reading by reading what `comparison` holds, with the noise and the unknowns about it. Points that do not
-/// move, neither in the intact bridge nor in singles, are held by a support: readings there say nothing.
-/// Throws InputError for unknowns beside noise that is not Gaussian.
+/// move, neither in the intact bridge nor in singles, are held by a support: readings there say how that
+/// moved and whether it is one, if their sensors state their own errors, and nothing if errors are a share of
+/// what moves. Throws InputError for unknowns beside noise that is not Gaussian.
 Observation observe(const Comparison& comparison, const NoiseModel& noise, const Nuisance& nuisance = {});
 
 /// Throws InputError unless some reading can tell scenes apart.

@@ -164,8 +164,8 @@ ReadingsFile parse_readings(std::string_view text, const std::string& name, cons
   return ReadingsReader(table, list).read();
 }
 
-ReadingsFile read_readings(const std::filesystem::path& path, const SensorList& list) {
-  return parse_readings(read_text_input(path, "a CSV file of measurements"), input_name(path), list);
+ReadingsText read_readings(const std::filesystem::path& path) {
+  return {read_text_input(path, "a CSV file of measurements"), input_name(path)};
 }
 
 }  // namespace voussoir

@@ -53,7 +53,12 @@ inline constexpr double kLargestDisplacement = 100.0;
 /// load, and for a file without any reading.
 ReadingsFile parse_readings(std::string_view text, const std::string& name, const SensorList& list);
 
-/// The same for a file; the path "-" is the standard input.
-ReadingsFile read_readings(const std::filesystem::path& path, const SensorList& list);
+/// A file's text and what messages call it.
+struct ReadingsText {
+  std::string text, name;
+};
+
+/// Of a file; the path "-" is the standard input. Throws InputError naming it.
+ReadingsText read_readings(const std::filesystem::path& path);
 
 }  // namespace voussoir

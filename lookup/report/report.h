@@ -2,18 +2,21 @@
 /// @file Answers as text and pages for people, and as JSON and CSV for programs.
 
 #include <string>
+#include <vector>
 
 #include "lookup/lookup.h"
+#include "lookup/report/asked_databases.h"
 
 namespace voussoir {
 
 /// Where the answer comes from.
 struct Source {
-  std::string measurements;  ///< file
-  std::string database;      ///< file
-  std::string bridge;        ///< name
-  std::string digest;        ///< of the database's content
-  bool stands_by_slip;       ///< as the database says of it
+  std::string measurements;                ///< file
+  std::string database;                    ///< file
+  std::string bridge;                      ///< name
+  std::string digest;                      ///< of the database's content
+  bool stands_by_slip;                     ///< as the database says of it
+  std::vector<AskedDatabase> databases{};  ///< if several were asked: all, this one, the likeliest, first
 };
 
 enum class ReportFormat { text, json, csv };

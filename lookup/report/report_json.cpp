@@ -104,6 +104,21 @@ void add_judgement(const Answer& answer, const Comparison& comparison, ordered_j
   result["verdict"] = to_string(verdict_of(answer));
 }
 
+/// What each database says of the readings, and how likely its assumptions are.
+ordered_json databases_json(const std::vector<AskedDatabase>& databases) {
+  ordered_json result = ordered_json::array();
+  for (const AskedDatabase& asked : databases)
+    result.push_back({{"file", asked.file},
+                      {"bridge", asked.bridge},
+                      {"digest", asked.digest},
+                      {"probability", asked.probability},
+                      {"log_evidence", asked.log_evidence},
+                      {"verdict", to_string(asked.verdict)},
+                      {"first_scene", asked.first},
+                      {"intact_probability", asked.intact}});
+  return result;
+}
+
 constexpr std::size_t kMostJoints = 50;
 
 ordered_json parameter_json(const KnownParameter& parameter) {
@@ -163,6 +178,7 @@ std::string json_report(const Answer& answer, const LookupSettings& settings, co
         {"stands_by_slip", source.stands_by_slip},
         {"scenes_searched", answer.searched},
         {"scenes_unresolved", answer.unresolved}}}};
+  if (!source.databases.empty()) result["databases"] = databases_json(source.databases);
   if (!answer.candidates.empty()) result["first_candidate"] = standing(answer);
   add_judgement(answer, comparison, result);
   if (answer.posterior) result["posterior"] = posterior_json(answer, library);

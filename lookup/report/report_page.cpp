@@ -174,6 +174,7 @@ std::string assumptions_html(const Answer& answer, const LookupSettings& setting
        fmt::format("{:.2g} % of the change that a scene makes at a point, and {:.2g} % of "
                    "that change's root mean square",
                    100.0 * comparison.model_error.share, 100.0 * comparison.model_error.common)}};
+  for (const AskedDatabase& asked : source.databases) terms.emplace_back("Asked", in_words(asked));
   if (answer.bridge) terms.emplace_back("How much bridges scatter", evidence_in_words(comparison));
   if (settings.objective == Objective::posterior) add_noise_terms(answer, settings, terms);
   return terms_html(terms) +

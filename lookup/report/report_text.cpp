@@ -17,7 +17,6 @@ namespace {
 constexpr std::size_t kMostBlocksListed = 5;
 constexpr std::size_t kMostSensorsListed = 5;
 constexpr double kBlockWorthListing = 0.01;
-constexpr std::size_t kDigestShown = 12;
 constexpr std::size_t kMostJointsListed = 3;
 constexpr double kWorthSaying = 0.5;  // KnownParameter::news
 
@@ -39,6 +38,8 @@ void write_heading(Text& text, const Answer& answer, const Comparison& compariso
   text.line("Measurements: {}, {}", source.measurements, readings_in_words(comparison, answer.readings));
   text.line("Database:     {} (bridge '{}', digest {})", source.database, source.bridge,
             source.digest.substr(0, kDigestShown));
+  for (std::size_t i = 0; i < source.databases.size(); ++i)
+    text.line("{:<13} {}", i == 0 ? "Asked:" : "", in_words(source.databases[i]));
   text.line("Searched:     {} scenes{}", answer.searched,
             answer.unresolved == 0
                 ? ""

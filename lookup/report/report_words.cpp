@@ -40,7 +40,9 @@ std::string in_words(const Scene& scene, const Library& library) {
 }  // namespace
 
 Verdict verdict_of(const Answer& answer) {
-  return verdict_of(*answer.posterior, answer.fit && answer.fit->explained, !answer.bridge.has_value());
+  const Verdict alone =
+      verdict_of(*answer.posterior, answer.fit && answer.fit->explained, !answer.bridge.has_value());
+  return answer.contested && alone != Verdict::unexplained ? Verdict::cannot_tell : alone;
 }
 
 std::string_view standing(const Answer& answer) {
@@ -70,6 +72,7 @@ std::string headline(const Answer& answer, const Library& library) {
     case Verdict::intact:
       return fmt::format("No block is missing ({}).", percent(intact));
     case Verdict::cannot_tell:
+      if (answer.contested) return "Databases that explain the readings come to different answers.";
       return fmt::format("The readings do not tell whether blocks are missing (none is: {}).",
                          percent(intact));
     default:
@@ -110,7 +113,8 @@ std::string verdict_in_words(const Answer& answer) {
       case Verdict::intact:
         return "no block is missing";
       case Verdict::cannot_tell:
-        return "the readings do not tell whether blocks are missing";
+        return answer.contested ? "databases that explain the readings come to different answers"
+                                : "the readings do not tell whether blocks are missing";
       default:
         return "the readings fit no scene; the list below names the closest";
     }

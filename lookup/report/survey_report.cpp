@@ -2,10 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/not_a_number.h"
 #include "lookup/report/drawing/table.h"
+#include "lookup/report/report_words.h"
 #include "lookup/report/verdict.h"
 
 namespace voussoir {
@@ -14,11 +16,14 @@ namespace {
 Table table_of(const std::vector<SurveyRow>& rows) {
   Table table{{"file", "verdict", "scene", "posterior", "intact_probability", "misfit", "readings", "error"},
               {}};
+  const bool several = std::ranges::any_of(rows, [](const SurveyRow& row) { return !row.database.empty(); });
+  if (several) table.columns.push_back("database");
   for (const SurveyRow& row : rows) {
     const bool answered = row.error.empty();
     table.rows.push_back({row.file, row.verdict, row.scene, answered ? row.posterior : kNan,
                           answered ? row.intact_probability : kNan, answered ? row.misfit : kNan,
                           answered ? static_cast<double>(row.readings) : kNan, row.error});
+    if (several) table.rows.back().push_back(row.database);
   }
   return table;
 }
@@ -26,19 +31,20 @@ Table table_of(const std::vector<SurveyRow>& rows) {
 std::string line_of(const SurveyRow& row) {
   if (!row.error.empty()) return fmt::format("{}: no answer: {}\n", row.file, row.error);
   if (std::isnan(row.posterior)) return fmt::format("{}: smallest misfit {}\n", row.file, row.scene);
-  return fmt::format("{}: {}; first {} ({:.1f} %), intact {:.1f} %\n", row.file, row.verdict, row.scene,
-                     100.0 * row.posterior, 100.0 * row.intact_probability);
+  return fmt::format("{}: {}; first {} ({:.1f} %), intact {:.1f} %{}\n", row.file, row.verdict, row.scene,
+                     100.0 * row.posterior, 100.0 * row.intact_probability,
+                     row.database.empty() ? "" : fmt::format("; {}", row.database));
 }
 
 }  // namespace
 
-SurveyRow survey_row(const std::string& file, const Answer& answer, const LookupSettings& settings,
-                     const Comparison& comparison) {
+SurveyRow survey_row(const std::string& file, const Answer& answer, const Comparison& comparison,
+                     const std::string& database) {
   SurveyRow row{.file = file, .error = {}, .posterior = kNan, .intact_probability = kNan, .misfit = kNan};
+  row.database = database;
   row.readings = answer.readings;
   if (answer.posterior) {
-    const bool explained = answer.fit && answer.fit->explained;
-    row.verdict = to_string(verdict_of(*answer.posterior, explained, counts_as_known(comparison, settings)));
+    row.verdict = to_string(verdict_of(answer));
     row.intact_probability = intact_probability(*answer.posterior);
   }
   if (answer.candidates.empty()) return row;

@@ -18,12 +18,15 @@ struct SurveyRow {
   double intact_probability = 0.0;  ///< NaN without a posterior
   double misfit = 0.0;              ///< Eq. 1
   std::size_t readings = 0;
+  std::string database{};  ///< that answers, if several were asked
 };
 
-SurveyRow survey_row(const std::string& file, const Answer& answer, const LookupSettings& settings,
-                     const Comparison& comparison);
+/// `database`: as in SurveyRow.
+SurveyRow survey_row(const std::string& file, const Answer& answer, const Comparison& comparison,
+                     const std::string& database = {});
 
-/// file,verdict,scene,posterior,intact_probability,misfit,readings,error as CSV, the same as a list of
+/// file,verdict,scene,posterior,intact_probability,misfit,readings,error and, if several databases were
+/// asked, database as CSV, the same as a list of
 /// objects in JSON, or a line a file for people.
 std::string survey_report(const std::vector<SurveyRow>& rows, ReportFormat format);
 

@@ -17,6 +17,9 @@ std::string place_in_words(const Scene& scene, const BlockLayout& layout);
 /// "1st", "2nd", "11th"...
 std::string ordinal(int number);
 
+/// How many figures of a database's digest people see.
+inline constexpr std::size_t kDigestShown = 12;
+
 /// "97.3 %", "< 0.1 %", "100 %" only for what is exactly one.
 std::string percent(double share);
 

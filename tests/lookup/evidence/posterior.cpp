@@ -3,6 +3,7 @@
 #include "lookup/evidence/posterior.h"
 
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <numeric>
 
 #include "core/error.h"
@@ -38,6 +39,8 @@ void check_against_brute_force(const SyntheticLibrary& library, const Numbers& n
                     likelihood(measured, library.table.row(row), library.intact(), noise, shape, 0.06L);
       total += weight[row];
     }
+    const long double beforehand = std::accumulate(numbers.weight.begin(), numbers.weight.end(), 0.0L);
+    CHECK(result.log_evidence == Approx(static_cast<double>(std::log(total / beforehand))).epsilon(1e-9));
     std::vector<long double> block(library.blocks, 0.0L), missing(numbers.scenes.size(), 0.0L);
     for (std::size_t row = 0; row < library.table.rows; ++row) {
       const long double p = weight[row] / total;

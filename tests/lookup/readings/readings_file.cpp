@@ -158,14 +158,16 @@ TEST_CASE("A number too large for a double is refused in every spelling, and one
 TEST_CASE("A file that cannot be read is named with the reason, and so is a file that is too large") {
   const test::TemporaryFolder folder;
   const SensorList sensors = control_point_sensors(kPoints);
-  CHECK_THROWS_WITH(read_readings(folder / "none.csv", sensors),
+  CHECK_THROWS_WITH(read_readings(folder / "none.csv"),
                     (folder / "none.csv").string() +
                         ": cannot be read (No such file or directory), expected a CSV file of measurements");
   CHECK_THROWS_WITH(
-      read_readings(folder.path(), sensors),
+      read_readings(folder.path()),
       folder.path().string() + ": cannot be read (Is a directory), expected a CSV file of measurements");
-  CHECK_THROWS_WITH(read_readings("/dev/zero", sensors),
+  CHECK_THROWS_WITH(read_readings("/dev/zero"),
                     "/dev/zero: larger than 4 MiB, expected a CSV file of measurements");
   std::ofstream(folder / "good.csv") << "point,uy_mm\nT1,-1\n";
-  CHECK(read_readings(folder / "good.csv", sensors).readings.size() == 1);
+  const auto [text, name] = read_readings(folder / "good.csv");
+  CHECK(name == (folder / "good.csv").string());
+  CHECK(parse_readings(text, name, sensors).readings.size() == 1);
 }

@@ -28,3 +28,19 @@ TEST_CASE("With probabilities a candidate is behind by their ratio, whatever the
   CHECK(behind(candidate(-2.0, 1e-9), best) == "1 : > 10^6");
   CHECK(behind(candidate(-2.0, 0.0), best) == "negligible");
 }
+
+TEST_CASE("An answer that another database contests is none, unless nothing explains the readings") {
+  Answer answer;
+  answer.posterior = {.probability = {1.0, {}, {}},
+                      .block_probability = {0.01},
+                      .missing_probability = {0.99, 0.01},
+                      .credible = {0}};
+  answer.fit = {.explained = true, .chance = 0.5, .reason = {}};
+  CHECK(verdict_of(answer) == Verdict::intact);
+  answer.contested = true;
+  CHECK(verdict_of(answer) == Verdict::cannot_tell);
+  CHECK(verdict_in_words(answer) ==
+        "cannot-tell (databases that explain the readings come to different answers)");
+  answer.fit->explained = false;
+  CHECK(verdict_of(answer) == Verdict::unexplained);
+}

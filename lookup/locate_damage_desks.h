@@ -1,0 +1,44 @@
+#pragma once
+/// @file The databases that locate-damage asks, and asking them.
+
+#include <list>
+#include <memory>
+#include <vector>
+
+#include "database/records/database.h"
+#include "lookup/locate_damage_options.h"
+#include "lookup/preparations.h"
+#include "lookup/readings/comparison.h"
+#include "lookup/readings/readings_file.h"
+#include "lookup/report/asked_databases.h"
+
+namespace voussoir {
+
+/// A database, and what all questions to it share beside their readings.
+struct Desk {
+  const LocateDamageOptions& options;  ///< outlive the desk
+  LookupSettings settings;
+  Database database;
+  SensorList sensors;
+  std::shared_ptr<const SampledBridges> sampled{};  ///< null: the first order speaks
+  Preparations preparations{};
+};
+
+using Desks = std::list<Desk>;  // a desk stays where it is
+
+/// Throws Failure for what is no whole database, InputError for options and files that do not go together.
+Desks open_desks(const LocateDamageOptions& options);
+
+/// A question with the answer of the database whose assumptions are likeliest.
+struct Answered {
+  const Desk* desk;
+  Comparison comparison;
+  LookupSettings settings;
+  Answer answer;
+  std::vector<AskedDatabase> databases{};  ///< as in Source: of several all, this one's first
+};
+
+/// Puts a question to all databases. Throws InputError for readings that one of them cannot be asked about.
+Answered ask(Desks& desks, const ReadingsText& readings);
+
+}  // namespace voussoir
