@@ -52,6 +52,20 @@ AskedDatabase summary_of(const Answered& asked) {
   return summary;
 }
 
+/// What one database leaves out speaks for it.
+void require_same_readings(const std::vector<Answered>& all) {
+  const auto of = [](const Answered& one) {
+    return fmt::format("{} in {}", one.answer.counted, one.desk->database.path().string());
+  };
+  for (const Answered& one : all)
+    if (one.answer.counted != all.front().answer.counted)
+      throw InputError(
+          fmt::format("not as many readings count in all databases ({}; {}), as some points are held: "
+                      "expected errors that "
+                      "are no share of what moves (sigma_mm or --sigma)",
+                      of(all.front()), of(one)));
+}
+
 /// One of several: messages say which.
 Answered ask_one_of_several(Desk& desk, const ReadingsText& readings) {
   try {
@@ -76,6 +90,7 @@ Answered ask(Desks& desks, const ReadingsText& readings) {
   if (desks.size() == 1) return ask_one(desks.front(), readings);
   std::vector<Answered> all;
   for (Desk& desk : desks) all.push_back(ask_one_of_several(desk, readings));
+  require_same_readings(all);
   std::vector<AskedDatabase> databases;
   for (const Answered& one : all) databases.push_back(summary_of(one));
   weigh(databases);

@@ -38,7 +38,8 @@ struct Answered {
   std::vector<AskedDatabase> databases{};  ///< as in Source: of several all, this one's first
 };
 
-/// Puts a question to all databases. Throws InputError for readings that one of them cannot be asked about.
+/// Puts a question to all databases. Throws InputError for readings that one of them cannot be asked about,
+/// or of which not as many count in all.
 Answered ask(Desks& desks, const ReadingsText& readings);
 
 }  // namespace voussoir

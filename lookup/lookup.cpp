@@ -261,6 +261,7 @@ Answer locate_damage(const Comparison& comparison, const LookupSettings& setting
   const Observation observation =
       observe(comparison, known ? settings.noise : gaussian_noise(settings.noise), settings.nuisance);
   answer.readings = comparison.measured.count();
+  answer.counted = observation.count;
   answer.searched = eligible.rows.size();
   answer.unresolved = eligible.unresolved;
   if (settings.epochs == Epochs::both && comparison.before.empty())

@@ -133,6 +133,12 @@ TEST_CASE("Databases that cannot be weighed against each other are refused") {
     CHECK_THAT(result.err, Catch::Matchers::Contains(reason));
   };
   refused({"--objective", "paper"}, {sliding, held}, "expected --objective posterior");
+  std::ofstream(folder / "relative.csv") << "point,uy_mm\nT1,-0.1\nT5,-0.2\nT9,-0.2\n";
+  const test::ProgramResult relative =
+      Assumptions::locate({(folder / "relative.csv").string()}, {sliding, held});
+  CHECK(relative.exit_code == 2);
+  CHECK_THAT(relative.err, Catch::Matchers::Contains("3 in " + sliding + "; 2 in " + held) &&
+                               Catch::Matchers::Contains("expected errors that are no share of what moves"));
   refused({}, {sliding, without_arch},
           "unknown point 'A1', expected T1 to T14 (asked of " + without_arch + ")");
 }
