@@ -98,7 +98,8 @@ void SampledHistories::go_on(const std::vector<Case>& cases, bool in_epoch, Foun
         continue;
       }
       Stage stage = stage_of(one, in_epoch ? one.bridge->epoch : Stage{});
-      batch.add_next(i, carrying(std::move(stage), planned.load),
+      stage.load = planned.load;
+      batch.add_next(i, std::move(stage),
                      planned.is_loss() ? found[one.intact][kBuilt] : found[i][*planned.before],
                      one.bridge->parameters);
     }

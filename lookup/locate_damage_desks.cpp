@@ -61,8 +61,7 @@ void require_same_readings(const std::vector<Answered>& all) {
     if (one.answer.counted != all.front().answer.counted)
       throw InputError(
           fmt::format("not as many readings count in all databases ({}; {}), as some points are held: "
-                      "expected errors that "
-                      "are no share of what moves (sigma_mm or --sigma)",
+                      "expected errors that are no share of what moves (sigma_mm or --sigma)",
                       of(all.front()), of(one)));
 }
 
@@ -94,8 +93,8 @@ Answered ask(Desks& desks, const ReadingsText& readings) {
   std::vector<AskedDatabase> databases;
   for (const Answered& one : all) databases.push_back(summary_of(one));
   weigh(databases);
-  const auto likeliest = std::ranges::find_if(
-      all, [&](const Answered& one) { return one.desk->database.path().string() == databases.front().file; });
+  const auto likeliest = std::ranges::max_element(
+      all, {}, [](const Answered& one) { return one.answer.posterior->log_evidence; });
   likeliest->answer.contested = is_contested(databases);
   likeliest->databases = std::move(databases);
   return std::move(*likeliest);

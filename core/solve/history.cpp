@@ -11,8 +11,9 @@ History lost(const Scene& scene) {
 }
 
 History followed_by(History history, const std::string& load_name, const Field& load) {
-  Stage next = carrying(history.stages.back().stage, load);
-  history.stages.push_back({load_name, std::move(next)});
+  NamedStage next{load_name, history.stages.back().stage};
+  next.stage.load = next.stage.load.size() > 0 ? Field(next.stage.load + load) : load;
+  history.stages.push_back(std::move(next));
   return history;
 }
 

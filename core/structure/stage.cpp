@@ -31,11 +31,6 @@ double temperature_of(const Stage& stage, std::size_t block) {
   return stage.temperature + stage.uneven_temperature[static_cast<Eigen::Index>(block)];
 }
 
-Stage carrying(Stage stage, const Field& load) {
-  stage.load = filled(stage.load, 0.0, load) + filled(load, 0.0, stage.load);
-  return stage;
-}
-
 Stage on_the_way(const Stage& from, Stage to, double share) {
   to.gravity_share = std::lerp(from.gravity_share, to.gravity_share, share);
   to.load = mixed(from.load, to.load, share);

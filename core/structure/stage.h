@@ -23,9 +23,6 @@ struct Stage {
 /// Of a block [K].
 double temperature_of(const Stage& stage, std::size_t block);
 
-/// The stage with this load beside its own [N], 2 x nodes; empty: none.
-Stage carrying(Stage stage, const Field& load);
-
 /// The stage `to` on the way: all but the scene and (in their logarithms) the joints' stiffnesses have gone
 /// this share of it from `from`.
 Stage on_the_way(const Stage& from, Stage to, double share);

@@ -7,7 +7,6 @@
 #include "core/error.h"
 #include "core/simd/lane_math.h"
 #include "lookup/evidence/descending_places.h"
-#include "lookup/evidence/scene_evidence.h"
 
 namespace voussoir {
 namespace {

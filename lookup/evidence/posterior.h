@@ -3,11 +3,11 @@
 /// enumerated.
 
 #include <array>
-#include <limits>
 #include <vector>
 
 #include "database/records/database.h"
 #include "lookup/evidence/row_values.h"
+#include "lookup/evidence/scene_evidence.h"
 #include "lookup/search/eligible_rows.h"
 
 namespace voussoir {
@@ -44,10 +44,9 @@ struct Posterior {
   std::vector<double> block_probability;    ///< that a block is missing: sum over the scenes that lack it
   std::vector<double> missing_probability;  ///< of 0, 1, 2... missing blocks
   std::vector<std::size_t> credible;  ///< the fewest rows that hold 95 % of the probability, likeliest first
-  double log_evidence =
-      -std::numeric_limits<double>::infinity();  ///< log of the readings' density on average over the scenes,
-                                                 ///< as likely as they are beforehand, but for a constant
-                                                 ///< that only the sensors and their errors make
+  double log_evidence = kImpossible;  ///< log of the readings' density on average over the scenes,
+                                      ///< as likely as they are beforehand, but for a constant
+                                      ///< that only the sensors and their errors make
   double intact_if_even =
       0.0;  ///< what the probability that no block is missing would be, if that had been as
             ///< likely beforehand as that some are: what the readings themselves say of it

@@ -26,8 +26,7 @@ SurveyRow survey_row(const std::string& file, const Answer& answer, const Compar
                      const std::string& database = {});
 
 /// file,verdict,scene,posterior,intact_probability,misfit,readings,error and, if several databases were
-/// asked, database as CSV, the same as a list of
-/// objects in JSON, or a line a file for people.
+/// asked, database as CSV, the same as a list of objects in JSON, or a line a file for people.
 std::string survey_report(const std::vector<SurveyRow>& rows, ReportFormat format);
 
 }  // namespace voussoir
