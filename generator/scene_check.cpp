@@ -143,7 +143,7 @@ class Examination {
       const bool right = removed[block] ? numbers.isNaN().all() : numbers.isFinite().all();
       if (!right)
         report_state(fmt::format("the displacements of block {} are {}",
-                                 to_string(checked_.bridge.layout.blocks[block].index),
+                                 checked_.bridge.layout.blocks[block].label,
                                  removed[block] ? "there although it is removed" : "no numbers"));
     }
   }

@@ -1,6 +1,7 @@
 #include "lookup/lookup.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "core/error.h"
@@ -15,16 +16,24 @@ namespace {
 /// Scenes whose predictions differ by less than this, as the root of the sum of squares in units of sigma,
 /// are one scene to these sensors: even a hundred repeated measurements would hardly tell them apart.
 constexpr double kSameReadings = 0.1;
-constexpr double kSolverPrecision = 1e-9;      // [m] predictions are not compared more closely
-constexpr std::size_t kMostChecked = 20;       // scenes whose fit is checked
-constexpr std::size_t kMostMixed = 3;          // scenes that say together what the bridge is like
+constexpr double kSolverPrecision = 1e-9;  // [m] predictions are not compared more closely
+constexpr std::size_t kMostChecked = 20;   // scenes whose fit is checked
+constexpr std::size_t kMostMixed = 3;      // scenes that say together what the bridge is like
+constexpr std::size_t kMostNear = 3;       // scenes near the readings, asked with larger errors:
+constexpr double kLeastOfAlarm = 0.1;      // where less is said for the intact bridge, blocks are missing
+constexpr std::array kTimesErrors = {3.0, 10.0, 100.0};  // so many times what is stated
 constexpr std::size_t kMostComparisons = 500;  // rows looked at for scenes that cannot be told apart
 
 Eligible eligible_or_failure(const SceneTable& table, const Prior& prior) {
   Eligible eligible = eligible_rows(table, prior.missing);
-  if (eligible.rows.empty())
-    throw Failure(fmt::format("the database has no solved scene with {} missing blocks",
-                              fmt::join(prior.missing, ", ")));
+  std::vector<int> lacking;
+  for (const int missing : prior.missing) {
+    const auto number = static_cast<std::size_t>(missing);
+    if (number >= eligible.scenes.size() || eligible.scenes[number] == 0) lacking.push_back(missing);
+  }
+  if (!lacking.empty())
+    throw Failure(
+        fmt::format("the database has no solved scene with {} missing blocks", fmt::join(lacking, ", ")));
   return eligible;
 }
 
@@ -162,18 +171,49 @@ void judge_known_bridge(const Library& library, const Observation& observation, 
   answer.fit = fit_of(library, observation, answer);
 }
 
+/// A question about a bridge that is not exactly known, and what it is asked of.
+struct UnknownQuestion {
+  UnknownBridgeQuestion& question;
+  const Observation& observation;
+  const Preparation& preparation;
+};
+
+/// Do larger errors than those that are stated explain the readings far better, with no block missing or by
+/// scenes that are near them? A scene that scatters much, if errors of 0.02 mm are said to be 0.002, seems
+/// to.
+std::optional<Fit> check_stated_errors(const UnknownQuestion& asked, const Answer& answer) {
+  std::vector<std::size_t> rows = {answer.posterior->credible.front()};
+  for (const ScoredRow& near : asked.preparation.smallest_misfits(asked.observation, kMostNear))
+    rows.push_back(near.row);
+  const Eligible& eligible = asked.preparation.eligible();
+  if (eligible.missing.front() == 0) rows.push_back(eligible.rows.front());
+  std::ranges::sort(rows);
+  rows.erase(std::ranges::unique(rows).begin(), rows.end());
+  for (const double times : kTimesErrors) {
+    const double log = asked.question.log_evidence_of(rows, eligible, answer.prior, times);
+    if (log > answer.posterior->log_evidence - std::log(kSmallestChance))
+      return Fit{false, answer.fit->chance,
+                 fmt::format("errors {:g} times as large as stated explain them far better", times)};
+  }
+  return std::nullopt;
+}
+
 /// The same, and what the readings say of the bridge, averaged over the likeliest scenes.
-void judge_unknown_bridge(const UnknownBridgeQuestion& question, const Observation& observation,
-                          Answer& answer) {
+void judge_unknown_bridge(const UnknownQuestion& asked, Answer& answer) {
+  const auto& [question, observation, preparation] = asked;
   answer.noise = {NoiseShape::gaussian, question.level(), observation.unknown_level};
-  answer.fit = {false, 0.0, "every scene lacks a block that has a reading"};
+  answer.fit = {false, 0.0, "no scene can show them: each lacks a block that has a reading, or fell"};
   std::vector<WeightedScene> scenes;
   for (const std::size_t row : answer.posterior->credible)
     if (scenes.size() < kMostMixed) scenes.push_back({row, answer.posterior->probability[row]});
   if (scenes.empty()) return;
-  answer.bridge = {question.bridge(), question.posterior(scenes)};
+  BridgePosterior posterior = question.posterior(scenes);
+  answer.bridge = {question.bridge(), std::move(posterior)};
   answer.fit = check_fit(answer.bridge->posterior);
   answer.residuals = sensor_residuals(observation, answer.bridge->model, answer.bridge->posterior);
+  const bool is_alarm = answer.posterior->missing_probability.front() < kLeastOfAlarm;
+  if (answer.fit->explained && is_alarm && !observation.unknown_level)
+    if (const auto doubt = check_stated_errors(asked, answer)) answer.fit = doubt;
 }
 
 /// The candidates' rows, best first.
@@ -256,6 +296,7 @@ Answer locate_damage(const Comparison& comparison, const LookupSettings& setting
   const Library& library = comparison.library;
   const bool known = counts_as_known(comparison, settings);
   Answer answer;
+  answer.known_bridge = known;
   answer.prior = preparation.prior();
   const Eligible& eligible = preparation.eligible();
   const Observation observation =
@@ -266,6 +307,10 @@ Answer locate_damage(const Comparison& comparison, const LookupSettings& setting
   answer.unresolved = eligible.unresolved;
   if (settings.epochs == Epochs::both && comparison.before.empty())
     throw InputError("both epochs are to count, expected readings with before_mm and after_mm");
+  if (settings.epochs == Epochs::both && known)
+    throw InputError(
+        "both epochs are to count, expected a bridge that is not exactly known: a database with "
+        "sensitivities, without --known-bridge");
   if (!known) require_known_scatter(comparison, settings);
   std::optional<UnknownBridgeQuestion> question;
   if (!known)
@@ -281,9 +326,11 @@ Answer locate_damage(const Comparison& comparison, const LookupSettings& setting
     answer.candidates.push_back(candidate_of(library, row, answer.posterior));
   if (!answer.posterior || found.empty()) return answer;
   if (question)
-    judge_unknown_bridge(*question, observation, answer);
+    judge_unknown_bridge({*question, observation, preparation}, answer);
   else
     judge_known_bridge(library, observation, found.front().row, answer);
+  if (is_change(comparison.kind))
+    if (const auto doubt = check_size_of_changes(observation)) answer.fit = doubt;
   add_same_readings(library, observation, found, answer);
   return answer;
 }

@@ -61,6 +61,7 @@ struct Answer {
   std::optional<Fit> fit;                 ///< of the best candidate; with Objective::posterior
   std::vector<SensorResidual> residuals;  ///< of the best candidate, a value for each reading
   std::optional<BridgeAnswer> bridge;     ///< unless the bridge counts as known, or no scene is possible
+  bool known_bridge = true;               ///< counts_as_known
   bool contested = false;  ///< another database that may as well be right comes to another answer
   Prior prior;             ///< as it was used (stated_prior)
   std::size_t readings = 0;

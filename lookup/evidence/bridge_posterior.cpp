@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "core/simd/column_products.h"
+#include "core/threads.h"
 
 namespace voussoir {
 namespace {
@@ -14,38 +15,63 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kNegligibleWeight = 0.02;  // parts of the mixture with less weight are left out
+/// Parts of the mixture that hold less than this together are left out.
+constexpr double kLeftOut = 0.02;
 
-/// A scene with one kappa, and its weight in the mixture.
+/// A scene in one case with one kappa, and its weight in the mixture.
 struct Part {
   std::size_t scene;
+  std::size_t in_case;
   std::size_t kappa;
   double weight;
 };
 
-std::vector<Part> parts_of(const std::vector<WeightedScene>& scenes, const std::vector<ScatterLogs>& logs) {
+/// All of them, the heaviest first.
+std::vector<Part> parts_of(UnknownBridge& bridge, const Observation& observation, const SceneTable& table,
+                           const std::vector<WeightedScene>& scenes, std::span<const UnknownCase> cases) {
+  std::vector<std::size_t> rows;
+  for (const WeightedScene& scene : scenes) rows.push_back(scene.row);
+  std::vector<CaseTerms> terms;
+  for (const UnknownCase& one : cases) {
+    set_case(observation, one, bridge);
+    terms.push_back(case_terms(bridge));
+  }
+  const std::vector<ScatterLogs> logs =
+      SceneLikelihoods(bridge, observation, table)(terms, rows, {}, hardware_threads());
   double total = 0.0;
   for (const WeightedScene& scene : scenes) total += scene.probability;
   std::vector<Part> parts;
-  double kept = 0.0;
   for (std::size_t i = 0; i < scenes.size(); ++i) {
-    const double log_all = over_scatter(logs[i]);
-    for (std::size_t k = 0; k < kScatterFactors.size(); ++k) {
-      const double weight = scenes[i].probability / total * kScatterPrior[k] * std::exp(logs[i][k] - log_all);
-      if (weight < kNegligibleWeight) continue;
-      parts.push_back({i, k, weight});
-      kept += weight;
-    }
+    const auto of_scene = std::span(logs).subspan(i * cases.size(), cases.size());
+    double log_all = kImpossible;
+    for (const ScatterLogs& one : of_scene) log_all = log_sum(log_all, over_scatter(one));
+    for (std::size_t c = 0; c < cases.size(); ++c)
+      for (std::size_t k = 0; k < kScatterFactors.size(); ++k)
+        parts.push_back(
+            {i, c, k, scenes[i].probability / total * kScatterPrior[k] * std::exp(of_scene[c][k] - log_all)});
   }
-  for (Part& part : parts) part.weight /= kept;
+  std::ranges::stable_sort(parts, std::ranges::greater{}, &Part::weight);
   return parts;
 }
 
-/// One scene's Gaussian, but for kappa.
+/// The heaviest parts, with weights that sum up to one.
+std::vector<Part> heaviest(std::span<const Part> parts) {
+  std::vector<Part> kept;
+  double sum = 0.0;
+  for (const Part& part : parts) {
+    if (sum >= 1.0 - kLeftOut) break;
+    kept.push_back(part);
+    sum += part.weight;
+  }
+  for (Part& part : kept) part.weight /= sum;
+  return kept;
+}
+
+/// What no case changes of a scene's Gaussian.
 struct SceneGaussian {
   SceneLoss loss;
   VectorXd difference;
-  MatrixXd bridge, epoch, noise;
+  MatrixXd bridge, scatter, epoch;  // A, A A^T; E of conditions as the file states them
 };
 
 SceneGaussian scene_gaussian(const UnknownBridge& bridge, const Observation& observation,
@@ -54,33 +80,56 @@ SceneGaussian scene_gaussian(const UnknownBridge& bridge, const Observation& obs
   scene.difference = bridge.reading - scene.loss.signal;
   scene.bridge =
       in_rows(bridge.rows, bridge.factors->intact.bridge, bridge.factors->of(table.scene(row)).bridge);
-  scene.epoch = bridge.conditions * epoch_columns(bridge, scene.loss);
-  scene.noise = scene_noise(bridge, scene.loss);
+  scene.scatter = matrix_of(outer_product(scene.bridge), scene.bridge.rows());
+  scene.epoch = epoch_columns(bridge, scene.loss);
   return scene;
 }
 
+/// Of readings as far away as these if scenes without factors are not off at each point by itself.
+double chance_of(const UnknownBridge& bridge, const SceneGaussian& scene, const MatrixXd& covariance,
+                 double whitened_square) {
+  const auto n = static_cast<double>(scene.difference.size());
+  double square = whitened_square;
+  if (scene.loss.square_at_points > 0.0) {
+    SceneLoss loss = scene.loss;
+    loss.square_at_points = 0.0;
+    const MatrixXd less = covariance - scene_noise(bridge, scene.loss) + scene_noise(bridge, loss);
+    square = scene.difference.dot(less.llt().solve(scene.difference));
+  }
+  return boost::math::gamma_q(0.5 * n, 0.5 * square);
+}
+
 /// What all others let expect of reading i is off by (C^-1 r)_i / (C^-1)_ii, which has the variance
-/// 1 / (C^-1)_ii. The epochs' parameters have the mean E^T C^-1 r and the covariance I - E^T C^-1 E.
-void add_part(const UnknownBridge& bridge, const SceneGaussian& scene, const MatrixXd& scatter, double kappa,
-              double weight, BridgePosterior& result) {
+/// 1 / (C^-1)_ii. The epochs' parameters have the mean E^T C^-1 r and the covariance I - E^T C^-1 E, in
+/// deviations of the bridge's case.
+void add_part(const UnknownBridge& bridge, const SceneGaussian& scene, double kappa, double weight,
+              BridgePosterior& result) {
   const Index n = scene.difference.size();
-  BridgePart part{weight, kappa, scene.bridge, Eigen::LLT<MatrixXd>(scene.noise + kappa * scatter), {}};
+  const double size = bridge.conditions;
+  const MatrixXd covariance = scene_noise(bridge, scene.loss) + kappa * scene.scatter;
+  BridgePart part{weight, kappa, scene.bridge, Eigen::LLT<MatrixXd>(covariance), {}};
   const auto lower = part.covariance.matrixL();
   const VectorXd whitened = lower.solve(scene.difference);
   const VectorXd pulled = lower.transpose().solve(whitened);
   part.mean = kappa * (scene.bridge.transpose() * pulled);
-  const VectorXd epoch = scene.epoch.transpose() * pulled;
-  const MatrixXd fall = lower.solve(scene.epoch);
+  const VectorXd epoch = size * size * (scene.epoch.transpose() * pulled);
+  const MatrixXd fall = size * size * lower.solve(scene.epoch);
   result.bridge_mean += weight * part.mean;
   result.epoch_mean += weight * epoch;
   result.from_unevenness += weight * (bridge.unevenness * pulled);
-  result.epoch_covariance.diagonal().array() += weight;
+  result.epoch_covariance.diagonal().array() += weight * size * size;
   result.epoch_covariance += weight * (epoch * epoch.transpose() - fall.transpose() * fall);
   const MatrixXd inverse = lower.solve(MatrixXd::Identity(n, n));
   const VectorXd precision = inverse.colwise().squaredNorm();
+  result.beside += weight * pulled.cwiseQuotient(precision);
   result.others += weight * (pulled.array() / precision.array().sqrt()).matrix();
-  result.chance += weight * boost::math::gamma_q(0.5 * static_cast<double>(n), 0.5 * whitened.squaredNorm());
+  result.chance += weight * chance_of(bridge, scene, covariance, whitened.squaredNorm());
   result.parts.push_back(std::move(part));
+}
+
+/// By how many times as much something moves if `more` comes on top, seen along it.
+double times_of(const VectorXd& movement, const VectorXd& more) {
+  return movement.isZero(0.0) ? 1.0 : 1.0 + movement.dot(more) / movement.squaredNorm();
 }
 
 /// What the means make of the likeliest scene's readings.
@@ -88,6 +137,10 @@ void explain(const UnknownBridge& bridge, const SceneGaussian& scene, BridgePost
   const Index parameters = bridge.factors->of_epoch();
   result.signal = scene.loss.signal;
   result.from_bridge = scene.bridge * result.bridge_mean;
+  const VectorXd of_intact =
+      in_rows(bridge.rows, bridge.factors->intact.bridge, bridge.factors->intact.bridge) * result.bridge_mean;
+  result.times_signal = times_of(result.signal, result.from_bridge - of_intact);
+  result.times_movement = times_of(bridge.movement, of_intact);
   const MatrixXd each = scene.epoch * result.epoch_mean.asDiagonal();
   result.from_epochs = each.rightCols(parameters);
   if (bridge.epochs > 1) result.from_epochs += each.leftCols(parameters);
@@ -95,17 +148,11 @@ void explain(const UnknownBridge& bridge, const SceneGaussian& scene, BridgePost
       scene.difference - result.from_bridge - result.from_epochs.rowwise().sum() - result.from_unevenness;
 }
 
-/// Parameters of the epochs were standardised by the deviations that the conditions have in this case.
-void in_stated_deviations(double conditions, BridgePosterior& result) {
-  result.epoch_mean *= conditions;
-  result.epoch_covariance *= conditions * conditions;
-}
-
 BridgePosterior empty_posterior(const UnknownBridge& bridge) {
   const Index epochs = bridge.epochs * bridge.factors->of_epoch();
   BridgePosterior result;
   result.chance = 0.0;
-  result.others = VectorXd::Zero(bridge.reading.size());
+  result.beside = result.others = VectorXd::Zero(bridge.reading.size());
   result.from_unevenness = VectorXd::Zero(bridge.reading.size());
   result.bridge_mean = VectorXd::Zero(bridge.factors->of_bridge());
   result.epoch_mean = VectorXd::Zero(epochs);
@@ -115,28 +162,24 @@ BridgePosterior empty_posterior(const UnknownBridge& bridge) {
 
 }  // namespace
 
-BridgePosterior bridge_posterior(const UnknownBridge& bridge, const Observation& observation,
-                                 const SceneTable& table, const std::vector<WeightedScene>& scenes) {
-  std::vector<std::size_t> rows;
-  for (const WeightedScene& scene : scenes) rows.push_back(scene.row);
+BridgePosterior bridge_posterior(UnknownBridge& bridge, const Observation& observation,
+                                 const SceneTable& table, const std::vector<WeightedScene>& scenes,
+                                 std::span<const UnknownCase> cases) {
   BridgePosterior result = empty_posterior(bridge);
-  const std::vector<Part> parts = parts_of(scenes, scatter_logs(bridge, observation, table, rows, 1));
-  std::optional<SceneGaussian> likeliest;
-  for (std::size_t i = 0; i < scenes.size(); ++i) {
-    if (i > 0 && std::none_of(parts.begin(), parts.end(), [&](const Part& part) { return part.scene == i; }))
-      continue;
-    const SceneGaussian scene = scene_gaussian(bridge, observation, table, rows[i]);
-    if (i == 0) likeliest = scene;
-    const MatrixXd scatter = matrix_of(outer_product(scene.bridge), scene.bridge.rows());
-    for (const Part& part : parts) {
-      if (part.scene != i) continue;
-      add_part(bridge, scene, scatter, kScatterFactors[part.kappa], part.weight, result);
-      result.scatter[part.kappa] += part.weight;
-    }
+  const std::vector<Part> all = parts_of(bridge, observation, table, scenes, cases);
+  for (const Part& part : all) result.scatter[part.kappa] += part.weight;
+  const std::vector<Part> kept = heaviest(all);
+  std::vector<std::optional<SceneGaussian>> gaussians(scenes.size());
+  const auto gaussian = [&](std::size_t i) -> const SceneGaussian& {
+    if (!gaussians[i]) gaussians[i] = scene_gaussian(bridge, observation, table, scenes[i].row);
+    return *gaussians[i];
+  };
+  for (const Part& part : kept) {
+    set_case(observation, cases[part.in_case], bridge);
+    add_part(bridge, gaussian(part.scene), kScatterFactors[part.kappa], part.weight, result);
   }
   result.epoch_covariance -= result.epoch_mean * result.epoch_mean.transpose();
-  explain(bridge, *likeliest, result);
-  in_stated_deviations(bridge.conditions, result);
+  explain(bridge, gaussian(0), result);
   return result;
 }
 

@@ -16,8 +16,8 @@ struct WeightedScene {
   double probability = 0.0;
 };
 
-/// One scene with one kappa. With the covariance C = L L^T of y: E[z] = kappa A^T C^-1 r, and a combination v
-/// of the basis's columns has the variance kappa |v|^2 - |kappa L^-1 A v|^2.
+/// One scene with one kappa in one case. With the covariance C = L L^T of y: E[z] = kappa A^T C^-1 r, and a
+/// combination v of the basis's columns has the variance kappa |v|^2 - |kappa L^-1 A v|^2.
 struct BridgePart {
   double weight = 0.0;
   double kappa = 1.0;
@@ -26,8 +26,8 @@ struct BridgePart {
   Eigen::VectorXd mean;  ///< of the basis's columns
 };
 
-/// A mixture over the likeliest scenes and over kappa. All parameters are standardised
-/// by the deviations that the file states.
+/// A mixture over the likeliest scenes, over cases and over kappa: the parts that hold nearly all of it. All
+/// parameters are standardised by the deviations that the file states.
 struct BridgePosterior {
   std::vector<BridgePart> parts;
   std::array<double, kScatterFactors.size()> scatter{};  ///< probability of each of kScatterFactors
@@ -41,14 +41,21 @@ struct BridgePosterior {
   Eigen::MatrixXd from_epochs;      ///< and of those of the epochs: a column for each parameter
   Eigen::VectorXd from_unevenness;  ///< of what is uneven in the epochs
   Eigen::VectorXd left;             ///< of y
-  Eigen::VectorXd others;  ///< y less what all other readings let expect, in standard deviations of that
-  double chance = 1.0;     ///< of readings as far from what the scenes let expect as these, or farther: even
-                           ///< between 0 and 1 over many questions if the model is right (chi square)
+  double times_signal = 1.0;  ///< how many times as large as in the model is what the missing blocks change,
+  double times_movement = 1.0;  ///< and what the intact bridge shows, after what is believed of the bridge
+  Eigen::VectorXd beside;       ///< y less what all other readings let expect [m],
+  Eigen::VectorXd others;       ///< and in standard deviations of that
+  double chance = 1.0;  ///< of readings as far from what the scenes let expect as these, or farther: even
+                        ///< between 0 and 1 over many questions if the model is right (chi square). What
+                        ///< scenes without factors may be off by at each point does not count: it would
+                        ///< explain any scatter
 };
 
-/// Scenes are possible ones, likeliest first.
-BridgePosterior bridge_posterior(const UnknownBridge& bridge, const Observation& observation,
-                                 const SceneTable& table, const std::vector<WeightedScene>& scenes);
+/// Scenes are possible ones, likeliest first; cases as likely beforehand as each other. The bridge's case is
+/// changed.
+BridgePosterior bridge_posterior(UnknownBridge& bridge, const Observation& observation,
+                                 const SceneTable& table, const std::vector<WeightedScene>& scenes,
+                                 std::span<const UnknownCase> cases);
 
 /// What is known of one parameter of the bridge, in standard deviations that the file states.
 struct ParameterEstimate {

@@ -1,5 +1,7 @@
 #include "lookup/evidence/fit.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <boost/math/distributions/normal.hpp>
@@ -25,6 +27,8 @@ constexpr double kPerfectLevel = 1e-4;    // below it residuals are rounding, an
 constexpr std::size_t kFewestForPattern = 10;
 constexpr double kDisagreement = 8.0;  // times the median error: rare even among Laplace's wide tails
 constexpr std::size_t kFewestForDisagreement = 5;
+constexpr double kLeastTimes = 0.2, kMostTimes = 5.0;  // of what the model says, to be believed
+constexpr double kLeastOfErrors = 0.02;                // changes that are smaller are no readings
 
 /// The errors of the sensors that can move.
 std::vector<double> errors_of(const std::vector<SensorResidual>& residuals) {
@@ -125,13 +129,16 @@ double chance_of_pattern(const std::vector<double>& errors) {
 std::vector<SensorResidual> sensor_residuals(const Observation& observation, const ErrorScales& scales,
                                              std::span<const double> prediction) {
   const ExpectedErrors expected = expected_errors(observation, scales, prediction);
+  std::vector<double> deviations;
+  for (std::size_t point = 0; point < prediction.size(); ++point)
+    deviations.push_back(std::hypot(expected.instrument[point], expected.model[point]));
+  const Eigen::ArrayXd nuisances = fitted_nuisances(observation, prediction, deviations);
   std::vector<SensorResidual> result;
   for (std::size_t point = 0; point < prediction.size(); ++point) {
-    const double reading = observation.displacement[point];
+    const double reading = observation.displacement[point], scale = deviations[point];
     if (std::isnan(reading)) continue;
-    const double scale = std::hypot(expected.instrument[point], expected.model[point]);
-    result.push_back(
-        {point, reading, prediction[point], scale, (reading - prediction[point]) / scale, false});
+    const double predicted = prediction[point] + nuisances[static_cast<Eigen::Index>(point)];
+    result.push_back({point, reading, predicted, scale, (reading - predicted) / scale, false});
   }
   mark_disagreement(result);
   return result;
@@ -149,8 +156,8 @@ std::vector<SensorResidual> sensor_residuals(const Observation& observation, con
     const auto found = std::find_if(result.begin(), result.end(), [&](const SensorResidual& residual) {
       return residual.point == bridge.rows[k].channel;
     });
-    found->predicted = found->reading - posterior.left[row];
-    found->scale = std::sqrt(bridge.noise(row, row));
+    found->predicted = found->reading - posterior.beside[row];
+    found->scale = std::sqrt(bridge.instruments[row]);
     found->error = posterior.others[row];
   }
   mark_disagreement(result);
@@ -175,9 +182,37 @@ Fit check_fit(const Observation& observation, const NoiseEstimate& noise,
 }
 
 Fit check_fit(const BridgePosterior& posterior) {
-  const bool explained = posterior.chance >= kSmallestChance;
-  return {explained, posterior.chance,
-          explained ? "" : "the scatter exceeds what instruments and an uncertain bridge explain"};
+  const double chance = posterior.chance;
+  if (chance < kSmallestChance)
+    return {false, chance, "the scatter exceeds what instruments and an uncertain bridge explain"};
+  const auto is_wrong = [](double times) { return times < kLeastTimes || times > kMostTimes; };
+  constexpr const char* kRemedy = "are the readings' signs, units and order of epochs right?";
+  if (is_wrong(posterior.times_movement))
+    return {false, chance,
+            fmt::format("the bridge would move {:.2g} times as much as the model does; {}",
+                        posterior.times_movement, kRemedy)};
+  if (is_wrong(posterior.times_signal))
+    return {false, chance,
+            fmt::format("the missing blocks would change {:.2g} times what they change in the model; {}",
+                        posterior.times_signal, kRemedy)};
+  return {true, chance, ""};
+}
+
+std::optional<Fit> check_size_of_changes(const Observation& observation) {
+  if (observation.unknown_level || observation.count < kFewestForPattern) return std::nullopt;
+  const ErrorScales scales = scales_at(observation, observation.noise.relative.value_or(0.0));
+  double square = 0.0;
+  for (std::size_t i = 0; i < observation.reading.size(); ++i) {
+    if (std::isnan(observation.reading[i])) continue;
+    if (observation.share[i] != 0.0) return std::nullopt;  // no error is stated that it could be below
+    square += std::pow((observation.reading[i] - observation.origin[i]) / scales.offset[i], 2);
+  }
+  const double size = std::sqrt(square / static_cast<double>(observation.count));
+  if (size == 0.0 || size > kLeastOfErrors) return std::nullopt;
+  return Fit{false, 0.0,
+             fmt::format("the changes are {:.2g} of their stated errors, expected about as much or more; are "
+                         "the readings in millimetres?",
+                         size)};
 }
 
 }  // namespace voussoir

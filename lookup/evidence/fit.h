@@ -1,6 +1,7 @@
 #pragma once
 /// @file Can the best scene be the truth? The fit as a whole, and sensor by sensor.
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,7 +31,8 @@ struct SensorResidual {
   bool disagrees = false;  ///< far outside what the other sensors show
 };
 
-/// A value for each reading; `scales` are those of the noise's level.
+/// A value for each reading; `scales` are those of the noise's level. An unknown datum, tilt or scale is part
+/// of what is predicted, as far as the readings show it.
 std::vector<SensorResidual> sensor_residuals(const Observation& observation, const ErrorScales& scales,
                                              std::span<const double> prediction);
 
@@ -40,11 +42,18 @@ std::vector<SensorResidual> sensor_residuals(const Observation& observation, con
 /// free of a pattern along the bridge (von Neumann's ratio of successive differences)?
 Fit check_fit(const Observation& observation, const NoiseEstimate& noise, std::span<const double> prediction);
 
-/// The same of a bridge that is not exactly known. `predicted` is what the likeliest scene lets expect with
-/// what the readings say of the bridge; `scale` the standard deviation of instrument and model; `error` how
-/// far the reading is from what all others let expect, in standard deviations of that.
+/// The same of a bridge that is not exactly known. `predicted` is what all other readings let expect, `error`
+/// how far the reading is from it, in standard deviations of that; `scale` is the instrument's alone.
 std::vector<SensorResidual> sensor_residuals(const Observation& observation, const UnknownBridge& bridge,
                                              const BridgePosterior& posterior);
+/// And whether what is believed of the bridge makes the model move by no less than a fifth and no more than
+/// five times: the first order would otherwise take readings with the wrong sign or unit for a bridge that
+/// rises under its weight.
 Fit check_fit(const BridgePosterior& posterior);
+
+/// Changes that are far below their stated errors are no readings of an instrument with such errors: as a
+/// rule they are in metres, and would be said to show that nothing is missing. All zero they are what a
+/// coarse instrument says where nothing moves. Null if there is nothing to say against them.
+std::optional<Fit> check_size_of_changes(const Observation& observation);
 
 }  // namespace voussoir

@@ -91,6 +91,28 @@ RowStatistics NuisanceStatistics::at(double level) {
   return result;
 }
 
+Eigen::ArrayXd fitted_nuisances(const Observation& observation, std::span<const double> prediction,
+                                std::span<const double> deviations) {
+  const auto points = static_cast<Eigen::Index>(prediction.size());
+  Eigen::MatrixXd columns(points, observation.levelling.cols() + 1);
+  Eigen::ArrayXd weight = Eigen::ArrayXd::Zero(points), difference = weight;
+  columns.leftCols(observation.levelling.cols()) = observation.levelling;
+  for (Eigen::Index i = 0; i < points; ++i) {
+    const auto point = static_cast<std::size_t>(i);
+    columns(i, columns.cols() - 1) =
+        observation.unknown_scale * (prediction[point] - observation.origin[point]);
+    if (std::isnan(observation.reading[point]) || std::isnan(prediction[point])) {
+      columns.row(i).setZero();
+      continue;
+    }
+    weight[i] = 1.0 / (deviations[point] * deviations[point]);
+    difference[i] = observation.reading[point] - prediction[point];
+  }
+  Eigen::MatrixXd normal = columns.transpose() * weight.matrix().asDiagonal() * columns;
+  normal.diagonal().array() += 1.0;
+  return columns * normal.llt().solve(columns.transpose() * (weight * difference).matrix());
+}
+
 TableStatistics nuisance_statistics(const Observation& observation, double level, const SceneTable& table,
                                     std::span<const std::size_t> rows) {
   const std::vector<double> common =

@@ -19,6 +19,11 @@ namespace voussoir {
 TableStatistics nuisance_statistics(const Observation& observation, double level, const SceneTable& table,
                                     std::span<const std::size_t> rows);
 
+/// What the nuisances add to each of a scene's readings [m], as they are likeliest after the readings; 0
+/// where there is none. `deviations` [m]: of instrument and model.
+Eigen::ArrayXd fitted_nuisances(const Observation& observation, std::span<const double> prediction,
+                                std::span<const double> deviations);
+
 /// The same of one row after the other, each at many levels.
 class NuisanceStatistics {
  public:

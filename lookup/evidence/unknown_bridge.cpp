@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "core/threads.h"
@@ -46,35 +45,37 @@ MatrixXd of_epochs(const std::vector<ReadingRow>& rows, Index epochs, const Matr
   return result;
 }
 
-/// Variance of an instrument's error: of changes that of the difference of both epochs.
-double instrument_variance(const Observation& observation, std::size_t channel, double level) {
-  const double movement = std::abs(observation.reading[channel] - observation.origin[channel]);
-  const double deviation =
-      observation.share[channel] * level * (movement + kSmallestMovement) + observation.floor[channel];
+/// Variance of an instrument's error where something moved by so much. `floor`: of one error's own part.
+double instrument_variance(double share, double movement, double floor) {
+  const double deviation = share * (std::abs(movement) + kSmallestMovement) + floor;
   return std::max(deviation * deviation, kLeastDeviation * kLeastDeviation);
 }
 
-/// Each of two epochs has half the change's variance, and the first one's error is in the change.
+/// Changes have the errors of their difference, in shares of the change. Where both of two epochs count, each
+/// has an error of its own, in shares of what it shows, and the first one's is in the change.
 void add_instruments(const Observation& observation, double level, UnknownBridge& bridge) {
-  MatrixXd& noise = bridge.noise;
-  for (std::size_t k = 0; k < bridge.rows.size(); ++k) {
-    const double variance = instrument_variance(observation, bridge.rows[k].channel, level);
-    const auto at = static_cast<Index>(k);
-    noise(at, at) += (bridge.rows[k].after == 0.0 ? 0.5 : 1.0) * variance;
-    if (bridge.rows[k].after != 0.0) continue;
-    const auto change = at + noise.rows() / 2;  // the same channels in the same order
-    noise(at, change) -= 0.5 * variance;
-    noise(change, at) -= 0.5 * variance;
+  const auto n = static_cast<Index>(bridge.rows.size());
+  bridge.instruments.resize(n);
+  for (Index k = 0; k < n; ++k) {
+    const std::size_t channel = bridge.rows[static_cast<std::size_t>(k)].channel;
+    bridge.instruments[k] = instrument_variance(observation.share[channel] * level,
+                                                observation.reading[channel] - observation.origin[channel],
+                                                observation.floor[channel]);
   }
-}
-
-/// Of an epoch.
-double least_instrument_variance(const std::vector<ReadingRow>& rows, const Observation& observation,
-                                 double level) {
-  double least = std::numeric_limits<double>::infinity();
-  for (const ReadingRow& row : rows)
-    least = std::min(least, 0.5 * instrument_variance(observation, row.channel, level));
-  return least;
+  for (Index k = 0; bridge.has_first_epoch() && k < n / 2; ++k) {
+    const Index change = k + n / 2;  // the same channels in the same order
+    const std::size_t channel = bridge.rows[static_cast<std::size_t>(k)].channel;
+    const double share = observation.share[channel] * level,
+                 floor = observation.floor[channel] / std::numbers::sqrt2;
+    const double before = bridge.reading[k] + bridge.movement[k];
+    const double after = before + observation.reading[channel] - observation.origin[channel];
+    bridge.instruments[k] = instrument_variance(share, before, floor);
+    bridge.instruments[change] = bridge.instruments[k] + instrument_variance(share, after, floor);
+    bridge.noise(k, change) -= bridge.instruments[k];
+    bridge.noise(change, k) -= bridge.instruments[k];
+  }
+  bridge.noise.diagonal() += bridge.instruments;
+  bridge.least_variance = (bridge.has_first_epoch() ? 1.0 : 0.5) * bridge.instruments.minCoeff();
 }
 
 /// Of joints that soften and blocks that warm unevenly in each epoch, however little is warmed and moved:
@@ -216,7 +217,6 @@ void set_case(const Observation& observation, const UnknownCase& one, UnknownBri
   const double left = one.conditions * std::max(1.0, kHeavyTails * one.conditions);
   bridge.noise = bridge.fixed_noise + left * left * bridge.epoch_noise;
   add_instruments(observation, one.level, bridge);
-  bridge.least_variance = least_instrument_variance(bridge.rows, observation, one.level);
   bridge.spread = typical_spread(bridge);
 }
 

@@ -99,7 +99,8 @@ struct UnknownBridge {
 
   // Of one case.
   double conditions = 1.0;
-  double least_variance = 0.0;  ///< [m2] of any reading, by itself: of its instrument
+  Eigen::VectorXd instruments;  ///< [m2] variance of each row's instrument
+  double least_variance = 0.0;  ///< [m2] the least of them, of one epoch
   Eigen::MatrixXd noise;        ///< [m2] of all scenes
   double spread = 0.0;  ///< [-] standard deviation of a signal as a share of it, where it is not known better
 

@@ -1,11 +1,14 @@
 #include "lookup/evidence/unknown_question.h"
 
 #include <algorithm>
+#include <cmath>
 #include <ranges>
 
+#include "core/threads.h"
 #include "lookup/evidence/evidence.h"
 #include "lookup/evidence/scene_evidence.h"
 #include "lookup/evidence/screened_cases.h"
+#include "lookup/search/eligible_rows.h"
 
 namespace voussoir {
 namespace {
@@ -79,8 +82,33 @@ RowValues UnknownBridgeQuestion::log_evidence(const Eligible& eligible, const Pr
   return result;
 }
 
-BridgePosterior UnknownBridgeQuestion::posterior(const std::vector<WeightedScene>& scenes) const {
-  return bridge_posterior(bridge(), observation_, comparison_.library.table, scenes);
+double UnknownBridgeQuestion::log_evidence_of(std::span<const std::size_t> rows, const Eligible& eligible,
+                                              const Prior& prior, double times) {
+  const SceneTable& table = comparison_.library.table;
+  Observation wider = observation_;
+  for (double& share : wider.share) share *= times;
+  for (double& floor : wider.floor) floor *= times;
+  std::vector<CaseTerms> terms;
+  for (const UnknownCase& one : cases_) {
+    set_case(wider, one, bridge_);
+    terms.push_back(case_terms(bridge_));
+  }
+  const auto logs = SceneLikelihoods(bridge_, wider, table)(terms, rows, {}, hardware_threads());
+  const std::vector<double> beforehand = log_prior_by_missing(table, eligible, prior);
+  const std::vector<double> silence = log_chance_of_silence(observation_, table, {rows.begin(), rows.end()});
+  double sum = kImpossible;
+  for (std::size_t i = 0; i < logs.size(); ++i) {
+    const std::size_t at = i / terms.size();
+    const auto missing = static_cast<std::size_t>(missing_blocks(table, rows[at]));
+    sum = log_sum(sum, over_scatter(logs[i]) + beforehand[missing] + silence[at]);
+  }
+  return sum - std::log(static_cast<double>(terms.size()));
+}
+
+BridgePosterior UnknownBridgeQuestion::posterior(const std::vector<WeightedScene>& scenes) {
+  BridgePosterior result = bridge_posterior(bridge_, observation_, comparison_.library.table, scenes, cases_);
+  set_case(observation_, cases_[likeliest_], bridge_);
+  return result;
 }
 
 }  // namespace voussoir

@@ -24,8 +24,13 @@ class UnknownBridgeQuestion {
   /// estimated (ScreenedCases).
   RowValues log_evidence(const Eligible& eligible, const Prior& prior, std::size_t count);
 
-  /// Of these scenes, in the likeliest case.
-  BridgePosterior posterior(const std::vector<WeightedScene>& scenes) const;
+  /// log of the readings' density on average over all scenes (Posterior::log_evidence), of which these rows
+  /// alone count, if all instruments were off by so many times what is stated. Changes the bridge's case.
+  double log_evidence_of(std::span<const std::size_t> rows, const Eligible& eligible, const Prior& prior,
+                         double times);
+
+  /// Of these scenes, over all cases.
+  BridgePosterior posterior(const std::vector<WeightedScene>& scenes);
 
   const UnknownBridge& bridge() const { return bridge_; }    ///< in the likeliest case
   double level() const { return cases_[likeliest_].level; }  ///< [-] of the noise: stated, or the likeliest

@@ -143,14 +143,18 @@ MatrixXd unevenness_of(const ReadingFactors& factors) {
 }  // namespace
 
 SceneFactors ReadingFactors::of(const Scene& scene) const {
-  if (SceneFactors own = factors_of(*this, scene); own.known()) return own;
   SceneFactors sum = intact;
+  const auto add = [&](SceneFactors lost) {
+    const SceneFactors change = change_of(std::move(lost), intact);
+    sum.bridge += widening(residual.share, residual.common) * change.bridge;
+    sum.epoch += widening(residual.epoch_share, residual.epoch_common) * change.epoch;
+  };
+  if (SceneFactors own = factors_of(*this, scene); own.known()) {
+    add(std::move(own));
+    return sum;
+  }
   for (const BlockId block : scene.removed)
-    if (SceneFactors alone = factors_of(*this, {{block}}); alone.known()) {
-      const SceneFactors change = change_of(std::move(alone), intact);
-      sum.bridge += change.bridge;
-      sum.epoch += change.epoch;
-    }
+    if (SceneFactors alone = factors_of(*this, {{block}}); alone.known()) add(std::move(alone));
   return sum;
 }
 

@@ -46,8 +46,8 @@ struct ReadingFactors {
   const std::vector<UncertainParameter>& parameters() const { return sensitivities->parameters; }
   Eigen::Index of_bridge() const { return intact.bridge.cols(); }  ///< columns
   Eigen::Index of_epoch() const { return intact.epoch.cols(); }
-  /// All columns of a scene, as far as they are known: of unknown losses nothing is added to the intact
-  /// bridge's.
+  /// All columns of a scene, widened like LossFactors, as far as they are known: of unknown losses nothing is
+  /// added to the intact bridge's.
   SceneFactors of(const Scene& scene) const;
 };
 

@@ -14,7 +14,23 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-constexpr std::string_view kJointPrefix = "stiffness ";
+/// Parameters of single joints are the only ones with names of two blocks: "stiffness 4,3/5,3".
+bool is_of_joint(const UncertainParameter& parameter) {
+  return parameter.name.find('/') != std::string::npos;
+}
+
+/// What readings that say nothing leave as it is: kappa makes the bridge's variances uncertain, the sizes of
+/// conditions those of an epoch.
+double spread_beforehand_of_bridge() {
+  double mean = 0.0;
+  for (std::size_t k = 0; k < kScatterFactors.size(); ++k) mean += kScatterPrior[k] * kScatterFactors[k];
+  return std::sqrt(mean);
+}
+double spread_beforehand_of_epochs() {
+  double mean = 0.0;
+  for (const double size : kConditionSizes) mean += size * size / kConditionSizes.size();
+  return std::sqrt(mean);
+}
 
 /// Parameters of the bridge and those of epochs lie one behind the other.
 std::size_t first_of_epochs(const ReadingFactors& factors) {
@@ -68,7 +84,7 @@ std::vector<KnownParameter> known_of_bridge(const BridgeAnswer& bridge, const Re
   const VectorXd mean = basis * bridge.posterior.bridge_mean;
   std::vector<std::size_t> order(static_cast<std::size_t>(mean.size()));
   std::iota(order.begin(), order.end(), std::size_t{0});
-  const auto is_joint = [&](std::size_t i) { return factors.parameters()[i].name.starts_with(kJointPrefix); };
+  const auto is_joint = [&](std::size_t i) { return is_of_joint(factors.parameters()[i]); };
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
     if (is_joint(a) != is_joint(b)) return is_joint(b);
     return std::abs(mean[static_cast<Index>(a)]) > std::abs(mean[static_cast<Index>(b)]);
@@ -78,7 +94,8 @@ std::vector<KnownParameter> known_of_bridge(const BridgeAnswer& bridge, const Re
   for (const std::size_t i : order) {
     if (is_joint(i) && ++joints > most_joints) break;
     const ParameterEstimate one = parameter_estimate(bridge.posterior, basis.row(static_cast<Index>(i)));
-    result.push_back(in_own_unit(factors.parameters()[i], 1.0, one.mean, one.deviation));
+    result.push_back(
+        in_own_unit(factors.parameters()[i], spread_beforehand_of_bridge(), one.mean, one.deviation));
   }
   return result;
 }
@@ -87,13 +104,15 @@ std::vector<KnownParameter> known_of_epochs(const BridgeAnswer& bridge, const Re
   const auto& [model, posterior] = bridge;
   const Index columns = factors.of_epoch();
   std::vector<KnownParameter> result;
+  if (model.conditions == 0.0) return result;  // they were told to be known
   for (Index i = 0; i < columns; ++i) {
     VectorXd weights = VectorXd::Zero(posterior.epoch_mean.size());
     weights[weights.size() - columns + i] = 1.0;
     if (model.epochs > 1) weights[i] = -1.0;
     const auto& parameter = factors.parameters()[first_of_epochs(factors) + static_cast<std::size_t>(i)];
-    result.push_back(in_own_unit(parameter, weights.norm(), weights.dot(posterior.epoch_mean),
-                                 std::sqrt(weights.dot(posterior.epoch_covariance * weights))));
+    result.push_back(in_own_unit(
+        parameter, spread_beforehand_of_epochs() * weights.norm(), weights.dot(posterior.epoch_mean),
+        std::sqrt(std::max(0.0, weights.dot(posterior.epoch_covariance * weights)))));
   }
   return result;
 }

@@ -25,7 +25,8 @@ std::vector<Cause> causes_of(const BridgeAnswer& bridge, const ReadingFactors& f
 struct KnownParameter {
   std::string name;
   std::string unit;               ///< "1" of relative changes
-  double deviation_before = 0.0;  ///< as the bridge file states it; the mean before is zero
+  double deviation_before = 0.0;  ///< of what lookups believe beforehand (mean 0): as the file
+                                  ///< states, widened by kappa and the sizes of conditions
   double mean = 0.0;
   double deviation = 0.0;
 

@@ -44,7 +44,7 @@ std::string field_json(const SceneField& scene) {
   scene.for_each_block([&](std::size_t block) {
     const IndexRange nodes = scene.mesh.block_nodes[block];
     for (int node = nodes.begin; node < nodes.end; ++node)
-      list.push_back({{"block", to_string(scene.database.layout().blocks[block].index)},
+      list.push_back({{"block", scene.database.layout().blocks[block].label},
                       {"x_m", scene.mesh.nodes(0, node)},
                       {"y_m", scene.mesh.nodes(1, node)},
                       {"ux_m", scene.field(0, node)},

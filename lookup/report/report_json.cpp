@@ -61,8 +61,8 @@ ordered_json posterior_json(const Answer& answer, const Library& library) {
   ordered_json blocks = ordered_json::array();
   for (std::size_t id = 0; id < posterior.block_probability.size(); ++id)
     if (posterior.block_probability[id] >= kWorthNaming)
-      blocks.push_back({{"block", to_string(library.layout.blocks[id].index)},
-                        {"probability", posterior.block_probability[id]}});
+      blocks.push_back(
+          {{"block", library.layout.blocks[id].label}, {"probability", posterior.block_probability[id]}});
   ordered_json credible = ordered_json::array();
   for (const std::size_t row : posterior.credible)
     credible.push_back(to_string(library.table.scene(row), library.layout));
@@ -74,6 +74,7 @@ ordered_json posterior_json(const Answer& answer, const Library& library) {
 
 ordered_json sensors_json(const Answer& answer, const Comparison& comparison) {
   const ShownReadings shown = shown_readings(comparison, answer.candidates.front().row);
+  const std::vector<double> origin = origin_of(comparison);
   ordered_json result = ordered_json::array();
   for (const SensorResidual& sensor : answer.residuals) {
     ordered_json entry = {{"point", comparison.library.points[sensor.point].name}};
@@ -83,6 +84,7 @@ ordered_json sensors_json(const Answer& answer, const Comparison& comparison) {
     }
     entry.update({{"reading_m", shown.reading[sensor.point]},
                   {"predicted_m", shown.expected[sensor.point]},
+                  {"expected_m", sensor.predicted - origin[sensor.point]},
                   {"standard_error", sensor.error},
                   {"disagrees", sensor.disagrees}});
     result.push_back(std::move(entry));
@@ -93,7 +95,7 @@ ordered_json sensors_json(const Answer& answer, const Comparison& comparison) {
 /// What the readings are, what they were compared with, and the answer in one word.
 void add_judgement(const Answer& answer, const Comparison& comparison, ordered_json& result) {
   result["history"] = comparison.history;
-  result["known_bridge"] = !answer.bridge.has_value();
+  result["known_bridge"] = answer.known_bridge;
   result["model_error"] = {{"share", comparison.model_error.share},
                            {"common", comparison.model_error.common}};
   result["intact_probability"] = nullptr;

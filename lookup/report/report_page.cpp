@@ -103,14 +103,15 @@ Figure parameters_figure(const Answer& answer, const ReadingFactors& factors) {
 
 std::string bridge_html(const Answer& answer, const Comparison& comparison) {
   if (!answer.bridge) return "";
-  return section_html("bridge", "Other causes, and the bridge itself",
+  return section_html("causes-and-bridge", "Other causes, and the bridge itself",
                       figures_html({causes_figure(answer, *comparison.factors),
                                     parameters_figure(answer, *comparison.factors)}));
 }
 
-std::string level_in_words(const NoiseModel& noise) {
+std::string level_in_words(const NoiseModel& noise, ReadingKind kind) {
   if (noise.relative == 0.0) return "nothing relative to the reading";
-  return noise.relative ? fmt::format("{:.3g} % of the displacement, as stated", 100.0 * *noise.relative)
+  return noise.relative ? fmt::format("{:.3g} % of the {}, as stated", 100.0 * *noise.relative,
+                                      errors_are_shares_of(kind))
                         : "unknown; all levels are weighed";
 }
 
@@ -120,11 +121,13 @@ std::string unknowns_in_words(const Nuisance& nuisance) {
                      100.0 * nuisance.scale, 1e3 * nuisance.datum, 1e3 * nuisance.tilt);
 }
 
-void add_noise_terms(const Answer& answer, const LookupSettings& settings, Terms& terms) {
+void add_noise_terms(const Answer& answer, const LookupSettings& settings, const Comparison& comparison,
+                     Terms& terms) {
   terms.emplace_back("Noise model", std::string(to_string(settings.noise.shape)));
-  terms.emplace_back("Noise level", level_in_words(settings.noise));
+  terms.emplace_back("Noise level", level_in_words(settings.noise, comparison.kind));
   if (answer.noise)
-    terms.emplace_back("Noise, if the first scene is the truth", noise_in_words(*answer.noise));
+    terms.emplace_back("Noise, if the first scene is the truth",
+                       noise_in_words(*answer.noise, comparison.kind));
   if (settings.noise.floor > 0.0)
     terms.emplace_back("Absolute part of the noise", fmt::format("{:.3g} mm", 1e3 * settings.noise.floor));
   terms.emplace_back("Sensors that fail by themselves",
@@ -150,11 +153,8 @@ std::string search_in_words(const LookupSettings& settings) {
 
 std::string assumptions_html(const Answer& answer, const LookupSettings& settings,
                              const Comparison& comparison, const Source& source) {
-  std::string bridge = answer.bridge
-                           ? "not exactly known: parameters of joints and blocks, temperature, supports "
-                             "and how joints change from time to time are uncertain as the bridge file "
-                             "states, with half to twice that scatter"
-                           : "taken as exactly known";
+  std::string bridge = bridge_in_words(answer);
+  if (!answer.known_bridge) bridge += "; bridges scatter by half to twice that";
   if (source.stands_by_slip) bridge += fmt::format("; {}", kStandsBySlip);
   Terms terms = {
       {"Bridge", std::move(bridge)},
@@ -176,7 +176,7 @@ std::string assumptions_html(const Answer& answer, const LookupSettings& setting
                    100.0 * comparison.model_error.share, 100.0 * comparison.model_error.common)}};
   for (const AskedDatabase& asked : source.databases) terms.emplace_back("Asked", in_words(asked));
   if (answer.bridge) terms.emplace_back("How much bridges scatter", evidence_in_words(comparison));
-  if (settings.objective == Objective::posterior) add_noise_terms(answer, settings, terms);
+  if (settings.objective == Objective::posterior) add_noise_terms(answer, settings, comparison, terms);
   return terms_html(terms) +
          paragraph(
              "Probabilities hold under these assumptions. What the model of the bridge leaves out is counted "

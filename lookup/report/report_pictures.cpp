@@ -28,7 +28,7 @@ double probability_of(const ReportPictures& report, BlockId block) {
 
 std::string block_tip(const ReportPictures& report, BlockId id) {
   const double probability = probability_of(report, id);
-  return fmt::format("Block ({})\n{}\n{}", to_string(report.library.layout[id].index),
+  return fmt::format("Block ({})\n{}\n{}", report.library.layout[id].label,
                      place_in_words(id, report.library.layout),
                      std::isnan(probability) ? "no probabilities with this objective"
                                              : "missing with probability " + percent(probability));
@@ -94,12 +94,12 @@ Table block_table(const ReportPictures& report) {
   Table table{{"block", "probability", "where"}, {}};
   if (!report.answer.posterior) {
     for (const BlockId id : report.answer.candidates.front().scene.removed)
-      table.rows.push_back({to_string(report.library.layout[id].index), "none asked for",
-                            place_in_words(id, report.library.layout)});
+      table.rows.push_back(
+          {report.library.layout[id].label, "none asked for", place_in_words(id, report.library.layout)});
     return table;
   }
   for (const BlockId id : likely_blocks(*report.answer.posterior, kWorthColour))
-    table.rows.push_back({to_string(report.library.layout[id].index), percent(probability_of(report, id)),
+    table.rows.push_back({report.library.layout[id].label, percent(probability_of(report, id)),
                           place_in_words(id, report.library.layout)});
   return table;
 }

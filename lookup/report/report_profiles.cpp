@@ -22,7 +22,7 @@ double band_of(const ReportPictures& report, const SensorResidual& residual) {
 std::string band_in_words(const ReportPictures& report) {
   if (!report.answer.noise) return "";
   return fmt::format(
-      " The band is the noise, {}{}.", noise_in_words(*report.answer.noise),
+      " The band is the noise, {}{}.", noise_in_words(*report.answer.noise, report.comparison.kind),
       report.answer.noise->shape == NoiseShape::uniform ? "" : ", two standard deviations each way");
 }
 
@@ -92,12 +92,13 @@ Chart residual_chart(const ReportPictures& report, const std::vector<std::size_t
     series.tips.push_back(point_tip(report, points[i]));
   }
   if (odd.x.empty()) odd.name.clear();
-  return {label, {kAcross}, {"residual in units of the noise"}, {agreeing, odd}};
+  return {label, {kAcross}, {"residual in standard deviations"}, {agreeing, odd}};
 }
 
 Table residual_table(const ReportPictures& report, const PointSet& set) {
   Table table{
-      {"point", fmt::format("residual [{}]", unit_of(set.quantity)), "in units of the noise", "verdict"}, {}};
+      {"point", fmt::format("residual [{}]", unit_of(set.quantity)), "in standard deviations", "verdict"},
+      {}};
   for (const std::size_t point : set.points)
     if (const SensorResidual* const residual = residual_of(report, point))
       table.rows.push_back({report.library.points[point].name,
@@ -150,6 +151,16 @@ std::vector<PointSet> point_sets(const ReportPictures& report) {
   return sets;
 }
 
+std::string residuals_in_words(const ReportPictures& report) {
+  return report.answer.known_bridge
+             ? "Reading minus first candidate, with an unknown datum, tilt or scale as far as the readings "
+               "show "
+               "it, in units of the noise at that sensor (the bound of uniform noise, else the standard "
+               "deviation)."
+             : "Reading minus what the likeliest scenes and all other readings let expect, in standard "
+               "deviations of that.";
+}
+
 std::string sign_in_words(Quantity quantity) {
   switch (quantity) {
     case Quantity::ux:
@@ -177,12 +188,9 @@ std::vector<Figure> residual_figures(const ReportPictures& report) {
   if (report.answer.residuals.empty()) return {};
   std::vector<Figure> figures;
   for (const PointSet& set : point_sets(report))
-    figures.push_back(
-        {"residual-" + set.id, "Residuals: " + set.title,
-         "Reading minus first candidate, in units of the noise at that sensor (the bound of uniform "
-         "noise, else the standard deviation).",
-         chart_html(residual_chart(report, set.points, set.title)), residual_table(report, set), false,
-         TableView::printed});
+    figures.push_back({"residual-" + set.id, "Residuals: " + set.title, residuals_in_words(report),
+                       chart_html(residual_chart(report, set.points, set.title)), residual_table(report, set),
+                       false, TableView::printed});
   return figures;
 }
 

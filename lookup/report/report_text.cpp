@@ -45,10 +45,7 @@ void write_heading(Text& text, const Answer& answer, const Comparison& compariso
                 ? ""
                 : fmt::format("; {} more have no solution and were left out", answer.unresolved));
   text.line("History:      {}", history_in_words(comparison.history));
-  text.line("Bridge:       {}", answer.bridge
-                                    ? "not exactly known: joints, stone, temperature and supports are "
-                                      "uncertain as the bridge file states"
-                                    : "taken as exactly known");
+  text.line("Bridge:       {}", bridge_in_words(answer));
   if (source.stands_by_slip) text.line("              {}", kStandsBySlip);
   if (answer.bridge) text.line("Evidence:     {}", evidence_in_words(comparison));
 }
@@ -90,7 +87,7 @@ void write_probabilities(Text& text, const Answer& answer, const Library& librar
   blocks.resize(std::min(blocks.size(), kMostBlocksListed));
   std::string names;
   for (const BlockId id : blocks)
-    names += fmt::format("{}{}: {}", names.empty() ? "" : "; ", to_string(library.layout[id].index),
+    names += fmt::format("{}{}: {}", names.empty() ? "" : "; ", library.layout[id].label,
                          percent(posterior.block_probability[static_cast<std::size_t>(value(id))]));
   text.line("Blocks most likely missing: {}", names.empty() ? "none" : names);
   text.line("{:.0f} % of the probability is held by {} scene{}", 100.0 * kCredibleShare,
@@ -136,9 +133,10 @@ void write_sensors(Text& text, const Answer& answer, const Comparison& compariso
   if (odd.empty()) text.line("Sensors: none disagrees with the rest");
   odd.resize(std::min(odd.size(), kMostSensorsListed));
   for (const SensorResidual& sensor : odd)
-    text.line("Sensor {} disagrees: it reads {:.4g} mm where {:.4g} mm would be expected",
+    text.line("Sensor {} disagrees: it reads {:.4g} {} where {:.4g} would be expected",
               comparison.library.points[sensor.point].name,
               kMillimetres * (sensor.reading - origin[sensor.point]),
+              unit_of(quantity_of(comparison, sensor.point)),
               kMillimetres * (sensor.predicted - origin[sensor.point]));
 }
 
@@ -177,7 +175,7 @@ std::string text_report(const Answer& answer, const Comparison& comparison, cons
     return text.take();
   }
   write_verdict(text, answer, library);
-  if (answer.noise) text.line("Noise:        {}", noise_in_words(*answer.noise));
+  if (answer.noise) text.line("Noise:        {}", noise_in_words(*answer.noise, comparison.kind));
   text.line("");
   write_table(text, answer, library);
   text.line("");

@@ -27,7 +27,7 @@ std::string located_in_words(const Posterior& posterior, const Library& library)
   const std::vector<BlockId> blocks = likely_blocks(posterior, kCertain);
   std::string names;
   for (const BlockId id : blocks)
-    names += fmt::format("{}{} ({})", names.empty() ? "" : " and ", to_string(library.layout[id].index),
+    names += fmt::format("{}{} ({})", names.empty() ? "" : " and ", library.layout[id].label,
                          percent(posterior.block_probability[static_cast<std::size_t>(value(id))]));
   return fmt::format("Block{} {} {} missing.", blocks.size() == 1 ? "" : "s", names,
                      blocks.size() == 1 ? "is" : "are");
@@ -41,7 +41,7 @@ std::string in_words(const Scene& scene, const Library& library) {
 
 Verdict verdict_of(const Answer& answer) {
   const Verdict alone =
-      verdict_of(*answer.posterior, answer.fit && answer.fit->explained, !answer.bridge.has_value());
+      verdict_of(*answer.posterior, answer.fit && answer.fit->explained, answer.known_bridge);
   return answer.contested && alone != Verdict::unexplained ? Verdict::cannot_tell : alone;
 }
 
@@ -72,7 +72,7 @@ std::string headline(const Answer& answer, const Library& library) {
     case Verdict::intact:
       return fmt::format("No block is missing ({}).", percent(intact));
     case Verdict::cannot_tell:
-      if (answer.contested) return "Databases that explain the readings come to different answers.";
+      if (answer.contested) return "The databases that may be right come to different answers.";
       return fmt::format("The readings do not tell whether blocks are missing (none is: {}).",
                          percent(intact));
     default:
@@ -87,8 +87,8 @@ std::vector<std::string> verdict(const Answer& answer, const Library& library) {
   if (standing(answer) == kOneOfMany)
     sentences.push_back("No scene is named: what follows is only the likeliest of many.");
   if (!missed && answer.fit && !answer.fit->explained)
-    sentences.push_back(
-        fmt::format("No scene in this database explains these measurements: {}.", answer.fit->reason));
+    sentences.push_back(fmt::format("No scene in this database explains these measurements: {}{}",
+                                    answer.fit->reason, answer.fit->reason.ends_with('?') ? "" : "."));
   std::string opening(standing(answer));
   opening.front() = static_cast<char>(std::toupper(opening.front()));
   sentences.push_back(fmt::format("{}: {}", opening, in_words(best.scene, library)));
@@ -113,7 +113,7 @@ std::string verdict_in_words(const Answer& answer) {
       case Verdict::intact:
         return "no block is missing";
       case Verdict::cannot_tell:
-        return answer.contested ? "databases that explain the readings come to different answers"
+        return answer.contested ? "the databases that may be right come to different answers"
                                 : "the readings do not tell whether blocks are missing";
       default:
         return "the readings fit no scene; the list below names the closest";
@@ -124,13 +124,34 @@ std::string verdict_in_words(const Answer& answer) {
                      certain ? fmt::format(", at least {:.0f} % sure", 100.0 * kCertain) : "");
 }
 
-std::string noise_in_words(const NoiseEstimate& noise) {
+std::string bridge_in_words(const Answer& answer) {
+  if (answer.known_bridge) return "taken as exactly known";
+  const bool known_conditions = answer.bridge && answer.bridge->model.conditions == 0.0;
+  return known_conditions ? "not exactly known: joints and stone are uncertain as the bridge file states; "
+                            "temperature and supports are taken as known"
+                          : "not exactly known: joints, stone, temperature and supports are uncertain as "
+                            "the bridge file states";
+}
+
+std::string_view errors_are_shares_of(ReadingKind kind) {
+  switch (kind) {
+    case ReadingKind::absolute:
+      return "displacement";
+    case ReadingKind::load:
+      return "load's displacement";
+    default:
+      return "change";
+  }
+}
+
+std::string noise_in_words(const NoiseEstimate& noise, ReadingKind kind) {
   if (!noise.estimated && noise.level <= kSmallestLevel)
     return fmt::format("absolute, as stated for each reading ({} noise)", to_string(noise.shape));
   if (noise.estimated && noise.level <= 2.0 * kSmallestLevel) return "none that could be seen";
   const std::string_view meaning = noise.shape == NoiseShape::uniform ? "at most" : "a standard deviation of";
-  return fmt::format("{} {:.2g} % of the displacement ({} noise, {})", meaning, 100.0 * noise.level,
-                     to_string(noise.shape), noise.estimated ? "estimated" : "as stated");
+  return fmt::format("{} {:.2g} % of the {} ({} noise, {})", meaning, 100.0 * noise.level,
+                     errors_are_shares_of(kind), to_string(noise.shape),
+                     noise.estimated ? "estimated" : "as stated");
 }
 
 std::string behind(const Candidate& candidate, const Candidate& best) {

@@ -31,8 +31,14 @@ std::string_view standing(const Answer& answer);
 inline constexpr std::string_view kStandsBySlip =
     "it stands intact only by what its joints have slid, which depends on how it was loaded";
 
+/// What is taken to be known and uncertain of the bridge.
+std::string bridge_in_words(const Answer& answer);
+
+/// What relative errors are shares of: "displacement", or "change" where readings are changes.
+std::string_view errors_are_shares_of(ReadingKind kind);
+
 /// "at most 9.7 % of the displacement (uniform noise, estimated)"
-std::string noise_in_words(const NoiseEstimate& noise);
+std::string noise_in_words(const NoiseEstimate& noise, ReadingKind kind);
 
 /// How far a candidate is behind the best: the ratio of probabilities or, without them, of misfits their
 /// difference.

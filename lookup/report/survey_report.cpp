@@ -30,6 +30,7 @@ Table table_of(const std::vector<SurveyRow>& rows) {
 
 std::string line_of(const SurveyRow& row) {
   if (!row.error.empty()) return fmt::format("{}: no answer: {}\n", row.file, row.error);
+  if (row.scene.empty()) return fmt::format("{}: {}; no scene is possible\n", row.file, row.verdict);
   if (std::isnan(row.posterior)) return fmt::format("{}: smallest misfit {}\n", row.file, row.scene);
   return fmt::format("{}: {}; first {} ({:.1f} %), intact {:.1f} %{}\n", row.file, row.verdict, row.scene,
                      100.0 * row.posterior, 100.0 * row.intact_probability,

@@ -58,11 +58,11 @@ bool names_sound_block(const Posterior& posterior, const Scene& truth) {
   });
 }
 
+}  // namespace
+
 bool is_alarm(Verdict verdict) {
   return verdict == Verdict::located || verdict == Verdict::damaged_unlocated;
 }
-
-}  // namespace
 
 std::array<Verdict, kVerdicts> all_verdicts() {
   return {Verdict::located, Verdict::damaged_unlocated, Verdict::intact, Verdict::cannot_tell,

@@ -42,6 +42,9 @@ inline constexpr std::size_t kVerdicts = 5;
 /// All verdicts in their order.
 std::array<Verdict, kVerdicts> all_verdicts();
 
+/// Does it say that blocks are missing?
+bool is_alarm(Verdict verdict);
+
 /// A share of trials. Those of one bridge are not independent of each other, so the standard error is that
 /// between bridges: sqrt(sum_b (k_b - n_b p)^2 B / (B - 1)) / N, k_b of n_b trials of bridge b counting.
 struct Share {

@@ -47,7 +47,7 @@ std::string block_elements(const BlockLayout& layout, const BridgeFrame& frame,
 std::string block_label(const Block& block, const BridgeFrame& frame) {
   Point at(frame(centroid(block.polygon)).x(), frame.height);
   for (const Point& corner : block.polygon) at.y() = std::min(at.y(), frame(corner).y() - 4.0);
-  return text_element(at, "middle", "label", "(" + to_string(block.index) + ")");
+  return text_element(at, "middle", "label", "(" + block.label + ")");
 }
 
 std::string ground_element(const BlockLayout& layout, const BridgeFrame& frame) {

@@ -131,7 +131,7 @@ class FieldPainter {
     const Block& shape = picture_.layout.blocks[block];
     if (lacks(block))
       return path_element("gone", closed_path(placed(shape.polygon, frame_)),
-                          fmt::format("({}) is missing", to_string(shape.index)));
+                          fmt::format("({}) is missing", shape.label));
     std::vector<Point> points;
     const IndexRange edges = picture_.mesh.block_edges[block];
     for (int e = edges.begin; e < edges.end; ++e)
@@ -142,7 +142,7 @@ class FieldPainter {
   std::string tip(std::size_t block) const {
     const IndexRange nodes = picture_.mesh.block_nodes[block];
     const auto uy = picture_.field.row(1).segment(nodes.begin, nodes.size());
-    return fmt::format("({})\nuy {:.4g} to {:.4g} mm", to_string(picture_.layout.blocks[block].index),
+    return fmt::format("({})\nuy {:.4g} to {:.4g} mm", picture_.layout.blocks[block].label,
                        kMillimetres * uy.maxCoeff(), kMillimetres * uy.minCoeff());
   }
 

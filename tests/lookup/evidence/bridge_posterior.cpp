@@ -4,6 +4,7 @@
 #include "lookup/evidence/bridge_posterior.h"
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -83,10 +84,15 @@ TEST_CASE(
   const double conditions = GENERATE(0.2, 1.0, 3.0);
   const Readings readings;
   const Observation observation = observe(readings.comparison, {NoiseShape::gaussian, 0.0}, {});
-  const UnknownBridge bridge = unknown_bridge(readings.comparison, observation, {0.0, conditions}, {});
-  const BridgePosterior posterior = bridge_posterior(bridge, observation, readings.library.table, {{0, 1.0}});
-  const auto [mean, covariance] =
-      joint_gaussian(readings.sensitivities, conditions, bridge.reading, posterior.scatter);
+  const UnknownCase in_case{0.0, conditions};
+  UnknownBridge bridge = unknown_bridge(readings.comparison, observation, in_case, {});
+  const BridgePosterior posterior =
+      bridge_posterior(bridge, observation, readings.library.table, {{0, 1.0}}, {&in_case, 1});
+  ScatterLogs counts{};
+  for (const BridgePart& part : posterior.parts)
+    counts[static_cast<std::size_t>(std::ranges::find(kScatterFactors, part.kappa) -
+                                    kScatterFactors.begin())] = part.weight;
+  const auto [mean, covariance] = joint_gaussian(readings.sensitivities, conditions, bridge.reading, counts);
   const MatrixXd& basis = readings.sensitivities.basis;
   const Index m = basis.cols();
   const MatrixXd of_columns = covariance.topLeftCorner(m, m);

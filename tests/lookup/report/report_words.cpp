@@ -40,7 +40,7 @@ TEST_CASE("An answer that another database contests is none, unless nothing expl
   answer.contested = true;
   CHECK(verdict_of(answer) == Verdict::cannot_tell);
   CHECK(verdict_in_words(answer) ==
-        "cannot-tell (databases that explain the readings come to different answers)");
+        "cannot-tell (the databases that may be right come to different answers)");
   answer.fit->explained = false;
   CHECK(verdict_of(answer) == Verdict::unexplained);
 }
