@@ -42,6 +42,8 @@ TEST_CASE("Noise levels are shares or percentages, and anything else is refused"
   CHECK(parse_noise_level("5%") == Approx(0.05));
   CHECK(parse_noise_level("0.05") == Approx(0.05));
   CHECK(parse_noise_level("0") == 0.0);
+  CHECK(parse_chance("10%") == Approx(0.1));
+  CHECK_THROWS_WITH(parse_chance("150%"), "'150%' is no chance, expected 0 to 100 %, such as 10% or 0.1");
   for (const std::string text : {"", "%", "five", "-1%", "5 %x", "200%", "nan", "inf"})
     CHECK_THROWS_AS(parse_noise_level(text), InputError);
   CHECK_THROWS_WITH(parse_noise_level("5"),
