@@ -17,6 +17,7 @@
 #include "core/structure/parts_section.h"
 #include "core/structure/spans_section.h"
 #include "core/structure/uncertainty_section.h"
+#include "core/structure/usual_values.h"
 #include "core/text_file.h"
 #include "reference_bridge_text.h"
 
@@ -158,6 +159,7 @@ std::vector<long> read_spans_and_walls(TomlSection& top, BridgeDescription& desc
 BridgeDescription interpret(const toml::table& root, const std::string& file,
                             std::vector<std::string>& notes) {
   BridgeDescription description;
+  std::ranges::move(unusual_values(root), std::back_inserter(notes));
   TomlSection top(file, &root, "");
   const auto section = [&](const char* key) {
     return TomlSection(file, top.table(key), fmt::format(" in [{}]", key));
