@@ -1,8 +1,11 @@
 #include "core/text.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstdint>
 
 namespace voussoir {
 namespace {
@@ -23,6 +26,31 @@ bool is_too_large(std::string_view text) {
   const auto read = std::from_chars(exponent.data(), exponent.data() + exponent.size(), shift);
   if (read.ec == std::errc::result_out_of_range) return !exponent.starts_with('-');
   return point - first + shift > 0;
+}
+
+/// Of the sign of UTF-8 with which the text begins; 1 for a byte that begins none.
+std::size_t bytes_of_sign(std::string_view text) {
+  const auto first = static_cast<unsigned char>(text.front());
+  const std::size_t bytes = first >= 0xC2 && first <= 0xDF   ? 2
+                            : first >= 0xE0 && first <= 0xEF ? 3
+                            : first >= 0xF0 && first <= 0xF4 ? 4
+                                                             : 1;
+  if (bytes > text.size()) return 1;
+  const bool whole = std::ranges::all_of(
+      text.substr(1, bytes - 1), [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) == 0x80; });
+  return whole ? bytes : 1;
+}
+
+/// Letters of Latin alphabets as they are. Other signs may be invisible, or mean something to a terminal:
+/// their number in Unicode, or the byte's.
+std::string readable(std::string_view sign) {
+  const auto first = static_cast<unsigned char>(sign.front());
+  if (sign.size() == 1 && first < 0x80) return first < 0x20 || first == 0x7F ? "?" : std::string(sign);
+  if (sign.size() == 1) return fmt::format("<0x{:02X}>", first);
+  std::uint32_t number = first & (0xFFU >> (sign.size() + 1));
+  for (const char c : sign.substr(1)) number = number << 6U | (static_cast<unsigned char>(c) & 0x3FU);
+  const bool letter = number >= 0xC0 && number <= 0x24F && number != 0xD7 && number != 0xF7;
+  return letter ? std::string(sign) : fmt::format("<U+{:04X}>", number);
 }
 
 }  // namespace
@@ -62,11 +90,13 @@ std::optional<double> parse_number(std::string_view text) {
 
 std::string in_quotes(std::string_view text) {
   std::string result = "'";
-  for (const char c : text.substr(0, kLongestQuote)) {
-    const auto byte = static_cast<unsigned char>(c);
-    result += byte < 0x20 || byte >= 0x7F ? '?' : c;
+  std::size_t signs = 0, place = 0;
+  for (; place < text.size() && signs < kLongestQuote; ++signs) {
+    const std::size_t bytes = bytes_of_sign(text.substr(place));
+    result += readable(text.substr(place, bytes));
+    place += bytes;
   }
-  return result + (text.size() > kLongestQuote ? "...'" : "'");
+  return result + (place < text.size() ? "...'" : "'");
 }
 
 std::string escaped(std::string_view text) {

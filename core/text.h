@@ -21,7 +21,8 @@ std::optional<int> parse_whole_number(std::string_view text);
 /// infinities and for a number too large for a double. A number too small for a double is zero.
 std::optional<double> parse_number(std::string_view text);
 
-/// The text between apostrophes, shortened and without unprintable bytes, fit for an error message.
+/// The text between apostrophes, shortened and without unprintable bytes, fit for an error message. What is
+/// neither ASCII nor a Latin letter is named by its number: <U+2212>, or <0xE9> for a byte that is no UTF-8.
 std::string in_quotes(std::string_view text);
 
 /// The text with &, <, > and quotation marks as character references.

@@ -5,6 +5,7 @@
 #include <iterator>
 
 #include "core/error.h"
+#include "core/structure/bridge_model.h"
 #include "database/records/writer.h"
 #include "database/records/xdmf.h"
 #include "generator/build_settings.h"
@@ -76,7 +77,7 @@ void expect_dry_joints_or_known(const BuildRequest& request, const Model& bridge
 }
 
 Build prepare(const BuildRequest& request, const SolverChoice& solver, Progress& progress) {
-  std::vector<Model> bridges = {make_model(request.bridge.description)};
+  std::vector<Model> bridges = {model_of(request.bridge)};
   expect_dry_joints_or_known(request, bridges.front());
   std::vector<VariantParameters> variants = {variant_parameters(bridges.front().parameters)};
   for (const VariantParameters& parameters : request.other_variants) {
@@ -243,10 +244,18 @@ void gather(const Build& build, std::vector<Database> parts, BuildSummary& summa
   finish(build, known, summary);
 }
 
-void write_index(const Build& build) {
-  if (build.request.xdmf_scenes.empty()) return;
-  write_index(Database::open(build.request.output),
-              parse_scene_list(build.request.xdmf_scenes, build.bridge().layout));
+/// The scenes that ParaView shall open. Throws InputError for one that the database will not hold: before the
+/// build, which may take hours.
+std::vector<Scene> xdmf_scenes(const Build& build) {
+  if (build.request.xdmf_scenes.empty()) return {};
+  if (build.fields == KeepField::no)
+    throw InputError("--xdmf shows fields of scenes: expected no --fields none beside it");
+  std::vector<Scene> scenes = parse_scene_list(build.request.xdmf_scenes, build.bridge().layout);
+  for (const Scene& scene : scenes)
+    if (!std::ranges::binary_search(build.wanted, RecordKey{kNominalVariant, scene}))
+      throw InputError(fmt::format("--xdmf: {} would not hold scene {}: expected scenes of --scenes",
+                                   build.request.output.string(), to_string(scene, build.bridge().layout)));
+  return scenes;
 }
 
 ExistingDatabase examine(const Build& build) {
@@ -263,6 +272,7 @@ BuildSummary build(const BuildRequest& request, const SolverChoice& solver, Prog
                    std::vector<Database> parts) {
   const auto started = std::chrono::steady_clock::now();
   const Build build = prepare(request, solver, progress);
+  const std::vector<Scene> shown = xdmf_scenes(build);
   BuildSummary summary;
   summary.output = request.output;
   summary.blocks = build.bridge().layout.size();
@@ -281,7 +291,7 @@ BuildSummary build(const BuildRequest& request, const SolverChoice& solver, Prog
     else
       gather(build, std::move(parts), summary);
   }
-  write_index(build);
+  if (!shown.empty()) write_index(Database::open(request.output), shown);
   summary.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
   return summary;
 }
@@ -289,7 +299,7 @@ BuildSummary build(const BuildRequest& request, const SolverChoice& solver, Prog
 }  // namespace
 
 Provenance provenance_of(const BuildRequest& request, const SolverChoice& solver) {
-  return provenance_of(request, solver, make_model(request.bridge.description));
+  return provenance_of(request, solver, model_of(request.bridge));
 }
 
 BuildSummary build_database(const BuildRequest& request, const SolverChoice& solver, Progress& progress) {

@@ -3,6 +3,7 @@
 #include <iostream>
 
 #include "core/heap.h"
+#include "core/structure/bridge_model.h"
 #include "core/text_file.h"
 #include "generator/bridge_drawing.h"
 #include "generator/build_options.h"
@@ -14,13 +15,16 @@ using namespace voussoir;
 
 namespace {
 
+void say(const BridgeFile& file, const std::vector<std::string>& notes) {
+  for (const std::string& note : notes) std::cerr << "build-database: " << file.name << ": " << note << '\n';
+}
+
 int run(BuildOptions& options) {
   options.request.bridge = options.bridge ? read_bridge_file(*options.bridge) : reference_bridge_file();
-  if (!options.quiet)
-    for (const std::string& note : options.request.bridge.notes)
-      std::cerr << "build-database: " << options.request.bridge.name << ": " << note << '\n';
+  if (!options.quiet) say(options.request.bridge, options.request.bridge.notes);
   const BridgeDescription& description = options.request.bridge.description;
-  const Model bridge = make_model(description);
+  const Model bridge = model_of(options.request.bridge);
+  if (!options.quiet) say(options.request.bridge, without_effect(description, bridge));
   if (options.drawing) {
     write_file(*options.drawing, bridge_drawing(bridge, description));
     return 0;

@@ -18,14 +18,32 @@ bool stands_intact(const Database& database) {
   return !row || database.record(*row).states.front().outcome == Outcome::standing;
 }
 
+/// How many variants there are, or else which of their numbers differ.
+std::string difference_of_variants(const std::vector<VariantParameters>& wanted,
+                                   const std::vector<VariantParameters>& found) {
+  if (wanted.size() != found.size())
+    return fmt::format("other variants of the bridge are wanted ({}, was {})", wanted.size(), found.size());
+  std::vector<std::string_view> names;
+  const auto compare = [&](std::string_view name, std::vector<double> VariantParameters::*numbers) {
+    for (std::size_t i = 0; i < wanted.size(); ++i)
+      if (wanted[i].*numbers != found[i].*numbers) return names.push_back(name);
+  };
+  compare("Young's modulus", &VariantParameters::young_modulus);
+  compare("Poisson's ratio", &VariantParameters::poisson_ratio);
+  compare("density", &VariantParameters::density);
+  compare("normal stiffness", &VariantParameters::normal_stiffness);
+  compare("tangential stiffness", &VariantParameters::tangential_stiffness);
+  compare("friction", &VariantParameters::friction_coefficient);
+  return fmt::format("other values of blocks or joints are wanted ({})", fmt::join(names, ", "));
+}
+
 std::vector<std::string> find_changes(const Database& database, const WantedDatabase& wanted) {
   std::vector<std::string> changes = differences(wanted.provenance, database.provenance());
   if (database.states() != wanted.states)
     changes.push_back(fmt::format("other states are wanted ({}, was {})", fmt::join(wanted.states, ","),
                                   fmt::join(database.states(), ",")));
   if (database.variants() != wanted.variants)
-    changes.push_back(fmt::format("other variants of the bridge are wanted ({}, was {})",
-                                  wanted.variants.size(), database.variants().size()));
+    changes.push_back(difference_of_variants(wanted.variants, database.variants()));
   if (!has_keys(database, wanted.keys))
     changes.push_back(
         fmt::format("other scenes are wanted ({}, was {})", wanted.keys.size(), database.rows()));

@@ -44,11 +44,11 @@ void add_search_options(CLI::App& app, LocateDamageOptions& options) {
 }
 
 void add_reading_options(CLI::App& app, LocateDamageOptions& options) {
-  app.add_option("MEASUREMENTS", options.measurements,
-                 "CSV with a header: point (or x_m,y_m), and uy_mm, uy_m, settlement_mm or value_mm, or "
-                 "change_mm, or "
-                 "before_mm and after_mm; optionally sigma_mm, load; - reads the standard input. Several "
-                 "files: a row each, from all cores")
+  app.add_option(
+         "MEASUREMENTS", options.measurements,
+         "CSV with a header: point (or x_m,y_m), and uy_mm, uy_m, settlement_mm (positive downwards, all "
+         "others upwards) or value_mm, or change_mm, or before_mm and after_mm; optionally sigma_mm, "
+         "load; - reads the standard input. Several files: a row each, from all cores")
       ->required()
       ->option_text("FILE...");
   app.add_option("-d,--database", options.databases,
@@ -58,8 +58,8 @@ void add_reading_options(CLI::App& app, LocateDamageOptions& options) {
       ->allow_extra_args(false)
       ->option_text("FILE");
   app.add_option("--sensors", options.sensors,
-                 "CSV of sensors that readings may name beside control points: name, quantity (ux, uy, tilt, "
-                 "distance), x_m, y_m, x2_m, y2_m, block, block2")
+                 "CSV of sensors that readings may name beside control points, with --known-bridge: name, "
+                 "quantity (ux, uy, tilt, distance), x_m, y_m, x2_m, y2_m, block, block2")
       ->option_text("FILE");
   add_choice<std::string>(
       app, "--history", options.history, {{kBuiltState, kBuiltState}, {kLostState, kLostState}},
@@ -121,8 +121,8 @@ void add_noise_options(CLI::App& app, LocateDamageOptions& options) {
          "--silent-sensors", options.silence,
          "chance that a sensor on a standing block gives no reading, default 10%; a listed sensor without "
          "reading speaks for the loss of its block")
-      ->check(checked_by(parse_noise_level, "LEVEL"))
-      ->option_text("LEVEL");
+      ->check(checked_by(parse_chance, "CHANCE"))
+      ->option_text("CHANCE");
   app.add_option("--degrees-of-freedom", options.settings.noise.degrees_of_freedom,
                  "of student noise, default 4")
       ->check(number_in_range(2.1, 1000.0, "NU"))
@@ -200,7 +200,7 @@ LookupSettings finish(const LocateDamageOptions& options) {
   settings.noise.shape = parse_noise_shape(options.noise_model);
   if (!options.noise_level.empty()) settings.noise.relative = parse_noise_level(options.noise_level);
   settings.noise.floor = kMetresPerMillimetre * options.floor_mm;
-  settings.noise.silence = parse_noise_level(options.silence);
+  settings.noise.silence = parse_chance(options.silence);
   settings.nuisance = {parse_noise_level(options.unknown_scale),
                        kMetresPerMillimetre * options.unknown_datum_mm,
                        kMetresPerMillimetre * options.unknown_tilt_mm_per_m};

@@ -17,8 +17,10 @@
 namespace voussoir {
 namespace {
 
-constexpr std::size_t kLongestLabel = 31;  ///< bytes that a database keeps
-constexpr double kSmallestArea = 1e-6;     ///< [m2] of a block
+constexpr std::size_t kLongestLabel = 31;    ///< bytes that a database keeps
+constexpr double kSmallestArea = 1e-6;       ///< [m2] of a block
+constexpr double kLongestAssembly = 1000.0;  ///< [m] no masonry bridge is longer
+constexpr double kLongestMedian = 20.0;      ///< [m] half of the blocks are shorter, if they are of stone
 
 std::string at(const Point& place) {
   return fmt::format("at ({:.4g}, {:.4g})", place.x(), place.y());
@@ -100,20 +102,28 @@ void check_overlap(const Block& a, const Block& b, double tolerance) {
                                  overlap.area, at(overlap.place)));
 }
 
+/// Which gaps are mistakes.
+struct Gaps {
+  double joint;       ///< [m] edges closer than this form a joint
+  double touches;     ///< [m] the widest gap that needs no correction
+  double range;       ///< [m] wider ones are meant
+  bool beside_rings;  ///< are they mistakes there, too?
+};
+
 /// Do two blocks touch along an edge? Throws if they run beside each other with a gap.
-bool touch(const Block& a, const Block& b, const AssemblyTolerance& tolerance) {
+bool touch(const Block& a, const Block& b, const Gaps& gaps) {
+  const bool meant = !gaps.beside_rings && (a.role == BlockRole::ring || b.role == BlockRole::ring);
   bool joined = false;
   for (std::size_t i = 0; i < a.polygon.size(); ++i)
     for (std::size_t j = 0; j < b.polygon.size(); ++j) {
       const Edge first{a.polygon[i], a.polygon[(i + 1) % a.polygon.size()]};
       const Edge second{b.polygon[j], b.polygon[(j + 1) % b.polygon.size()]};
-      const double range = kGapRange * tolerance.heal;
-      if (facing_stretch(first, second, tolerance.joint)) {
+      if (facing_stretch(first, second, gaps.joint)) {
         joined = true;
         continue;
       }
-      const auto stretch = facing_stretch(first, second, range);
-      if (!stretch || stretch->length < 2.0 * range) continue;
+      const auto stretch = meant ? std::nullopt : facing_stretch(first, second, gaps.range);
+      if (!stretch || stretch->length < 2.0 * gaps.range) continue;
       const Point along = first.to - first.from;
       const Point place = first.from + stretch->on_first[0] * along;
       const Point other = second.from + stretch->on_second[0] * (second.to - second.from);
@@ -121,17 +131,22 @@ bool touch(const Block& a, const Block& b, const AssemblyTolerance& tolerance) {
       throw InputError(fmt::format(
           "blocks '{}' and '{}' lie {:.3g} mm apart {} along {:.3g} m: expected blocks that "
           "touch within {:g} mm or are more than {:g} mm apart",
-          a.label, b.label, 1e3 * gap, at(place), stretch->length, 1e3 * tolerance.heal, 1e3 * range));
+          a.label, b.label, 1e3 * gap, at(place), stretch->length, 1e3 * gaps.touches, 1e3 * gaps.range));
     }
   return joined;
 }
 
-/// Every block must stand on the ground or on others that do.
-void check_carried(const std::vector<Block>& blocks,
-                   const std::vector<std::pair<std::size_t, std::size_t>>& touching, double tolerance) {
+double ground_below(const std::vector<Block>& blocks) {
   double ground = std::numeric_limits<double>::infinity();
   for (const Block& block : blocks)
     for (const Point& p : block.polygon) ground = std::min(ground, p.y());
+  return ground;
+}
+
+/// Every block must have a corner that is held, or touch others that do.
+void check_carried(const std::vector<Block>& blocks,
+                   const std::vector<std::pair<std::size_t, std::size_t>>& touching,
+                   const std::function<bool(const Point&)>& is_held) {
   std::vector<std::size_t> group(blocks.size());  // the first block of each group stands for it
   std::iota(group.begin(), group.end(), std::size_t{0});
   const auto leader = [&](std::size_t i) {
@@ -141,14 +156,13 @@ void check_carried(const std::vector<Block>& blocks,
   for (const auto& [a, b] : touching) group[std::max(leader(a), leader(b))] = std::min(leader(a), leader(b));
   std::set<std::size_t> carried;
   for (std::size_t i = 0; i < blocks.size(); ++i)
-    for (const Point& p : blocks[i].polygon)
-      if (p.y() <= ground + tolerance) carried.insert(leader(i));
+    if (std::ranges::any_of(blocks[i].polygon, is_held)) carried.insert(leader(i));
   for (std::size_t i = 0; i < blocks.size(); ++i)
     if (!carried.contains(leader(i)))
       throw InputError(
           fmt::format("block '{}' {} is loose: expected blocks that touch others, down to the ground at "
                       "y = {:g}",
-                      blocks[i].label, at(centroid(blocks[i].polygon)), ground));
+                      blocks[i].label, at(centroid(blocks[i].polygon)), ground_below(blocks)));
 }
 
 /// Corners that lie this near to the ground or to the left or right end lie there.
@@ -180,23 +194,54 @@ std::vector<std::string> heal(std::vector<Block>& blocks, double tolerance) {
   return notes;
 }
 
+/// No overlaps, no gaps, and everything is held.
+void check_meeting(const std::vector<Block>& blocks, const Gaps& gaps,
+                   const std::function<bool(const Point&)>& is_held) {
+  std::vector<std::pair<std::size_t, std::size_t>> touching;
+  for (const auto& [a, b] : near_pairs(blocks, 2.0 * gaps.range)) {
+    check_overlap(blocks[a], blocks[b], gaps.joint);
+    if (touch(blocks[a], blocks[b], gaps)) touching.emplace_back(a, b);
+  }
+  check_carried(blocks, touching, is_held);
+}
+
 }  // namespace
 
-void check_overlaps(const std::vector<Block>& blocks, double tolerance) {
-  for (const auto& [a, b] : near_pairs(blocks, 0.0)) check_overlap(blocks[a], blocks[b], tolerance);
+void check_laid(const std::vector<Block>& blocks, const LaidTolerance& tolerance,
+                const std::function<bool(const Point&)>& is_held) {
+  const Gaps gaps{tolerance.joint, tolerance.joint, tolerance.gap, false};
+  check_meeting(blocks, gaps, is_held);
+}
+
+void expect_metres(const std::vector<Block>& blocks) {
+  std::vector<double> lengths;
+  Box all;
+  for (const Block& block : blocks) {
+    if (block.polygon.empty()) continue;
+    const Box box = box_of(block.polygon);
+    lengths.push_back(box.sizes().maxCoeff());
+    all.extend(box);
+  }
+  if (lengths.empty()) return;
+  const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
+  std::nth_element(lengths.begin(), middle, lengths.end());
+  const double length = all.sizes().maxCoeff();
+  if (length > kLongestAssembly || *middle > kLongestMedian)
+    throw InputError(
+        fmt::format("the bridge is {:.6g} m long and its middling block {:.4g} m: are these millimetres? "
+                    "expected metres, at most {:g} and {:g}",
+                    length, *middle, kLongestAssembly, kLongestMedian));
 }
 
 std::vector<std::string> heal_and_check(std::vector<Block>& blocks, const AssemblyTolerance& tolerance) {
   if (blocks.empty()) throw InputError("there are no blocks");
   check_labels(blocks);
+  expect_metres(blocks);
   std::vector<std::string> notes = heal(blocks, tolerance.heal);
   for (const Block& block : blocks) check_outline(block);
-  std::vector<std::pair<std::size_t, std::size_t>> touching;
-  for (const auto& [a, b] : near_pairs(blocks, 2.0 * kGapRange * tolerance.heal)) {
-    check_overlap(blocks[a], blocks[b], tolerance.joint);
-    if (touch(blocks[a], blocks[b], tolerance)) touching.emplace_back(a, b);
-  }
-  check_carried(blocks, touching, tolerance.heal);
+  const double ground = ground_below(blocks);
+  check_meeting(blocks, {tolerance.joint, tolerance.heal, kGapRange * tolerance.heal, true},
+                [&](const Point& p) { return p.y() <= ground + tolerance.heal; });
   return notes;
 }
 

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.h"
+#include "core/structure/assembly_check.h"
 #include "core/structure/block_limits.h"
 #include "core/text.h"
 #include "core/text_file.h"
@@ -46,6 +47,8 @@ Polygon vertices_of(const Json& entry, const Place& place) {
                                kLargestLength));
     polygon.push_back(point);
   }
+  if (polygon.size() < 3 || polygon.size() > kMostCorners)
+    place.refuse(fmt::format("{} vertices: expected 3 to {}", polygon.size(), kMostCorners));
   return polygon;
 }
 
@@ -102,7 +105,14 @@ BlockFile read_block_file(const std::filesystem::path& path) {
   if (ending != ".json" && ending != ".dxf")
     throw InputError(fmt::format("{}: expected a file of blocks that ends in .json or .dxf", path.string()));
   const std::string text = read_text(path, kLargestFile, "a file of blocks (JSON or DXF)");
-  return ending == ".json" ? parse_json_blocks(text, path.string()) : parse_dxf_blocks(text, path.string());
+  BlockFile file =
+      ending == ".json" ? parse_json_blocks(text, path.string()) : parse_dxf_blocks(text, path.string());
+  try {
+    expect_metres(file.blocks);
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}: {}", path.string(), error.what()));
+  }
+  return file;
 }
 
 }  // namespace voussoir

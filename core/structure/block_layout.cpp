@@ -110,6 +110,23 @@ void mark_top(std::vector<Block>& blocks) {
   for (Block& block : blocks) block.top_course = is_seen_from_above(block, blocks);
 }
 
+/// Parts have to meet each other and the wall. Gaps count as mistakes where they are narrower than half a
+/// course.
+void check_parts(const BridgeDescription& description, const std::vector<Block>& blocks) {
+  LaidTolerance tolerance{.joint = description.joint_tolerance};
+  std::vector<WallDescription> laid = {description.wall};
+  for (const WallPart& part : description.parts) laid.push_back(part.courses);
+  for (const WallDescription& courses : laid)
+    tolerance.gap = std::min(tolerance.gap, 0.5 * courses.course_height);
+  const SupportDescription& supports = description.supports;
+  const auto near = [&](double a, double b) { return std::abs(a - b) <= tolerance.joint; };
+  check_laid(blocks, tolerance, [&](const Point& p) {
+    return near(p.y(), 0.0) || supports.top != SupportKind::free ||
+           (supports.sides == SupportKind::clamped &&
+            (near(p.x(), 0.0) || near(p.x(), description.wall.length)));
+  });
+}
+
 /// Blocks given one by one keep their labels. An arch block's open face towards the middle of its ring's
 /// blocks and the ground below counts as its intrados.
 BlockLayout given_blocks(const BridgeDescription& description) {
@@ -176,7 +193,7 @@ BlockLayout lay_blocks(const BridgeDescription& description) {
   if (layout.blocks.empty()) throw InputError("the bridge has no blocks: give it courses or spans");
   if (description.parts.empty()) return layout;
   mark_top(layout.blocks);
-  check_overlaps(layout.blocks, description.joint_tolerance);
+  check_parts(description, layout.blocks);
   return layout;
 }
 

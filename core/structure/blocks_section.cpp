@@ -74,15 +74,18 @@ WithBlocks with_blocks_of_file(const std::string& text, const std::filesystem::p
     throw InputError(at_line(path.string(), error.source().begin.line, std::string(error.description())));
   }
   const toml::node* node = root.get("blocks");
-  if (node == nullptr || !node->is_string()) return {text, {}};
+  if (node == nullptr || !node->is_string()) return {text, std::move(root), {}};
   const std::filesystem::path file = path.parent_path() / node->as_string()->get();
   BlockFile read = read_block_file(file);
   // A basic string stands on one line; what follows its value there, a comment, goes with it.
   const std::size_t start = start_of_line(text, node->source().begin.line);
   const std::size_t end = std::min(text.find('\n', start), text.size());
-  const std::string what = fmt::format("# the blocks of {}\nblocks = {}",
-                                       toml_string(file.filename().string()), to_toml(read.blocks));
-  return {text.substr(0, start) + what + text.substr(end), std::move(read.notes)};
+  const std::string blocks = fmt::format("blocks = {}", to_toml(read.blocks));
+  // Messages name lines of the file that was given, where the blocks take up one.
+  root.insert_or_assign("blocks", *toml::parse(blocks)["blocks"].node());
+  return {fmt::format("{}# the blocks of {}\n{}{}", text.substr(0, start),
+                      toml_string(file.filename().string()), blocks, text.substr(end)),
+          std::move(root), std::move(read.notes)};
 }
 
 std::vector<std::string> read_blocks(TomlSection& top, BridgeDescription& description) {

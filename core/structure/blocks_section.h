@@ -8,15 +8,16 @@
 
 namespace voussoir {
 
-/// A bridge file's text with the blocks in place of the name of their file.
+/// A bridge file with the blocks in place of the name of their file.
 struct WithBlocks {
-  std::string text;
+  std::string text;                ///< as a database keeps it
+  toml::table root;                ///< the same, with the lines of the file that was given
   std::vector<std::string> notes;  ///< what was healed or left out
 };
 
-/// If the text says blocks = "FILE" (.json, .dxf; relative to the folder of `path`), the text with that
-/// file's blocks written out in its place; otherwise the text as it is. Throws InputError if the file cannot
-/// be read.
+/// Parses the text. If it says blocks = "FILE" (.json, .dxf; relative to the folder of `path`), that file's
+/// blocks are written out in its place; otherwise the text stays as it is. Throws InputError if the text is
+/// no TOML or the file cannot be read.
 WithBlocks with_blocks_of_file(const std::string& text, const std::filesystem::path& path);
 
 /// Reads blocks = [{label = "1", role = "wall", ring = 0, vertices = [[x, y], ..]}, ..], heals and checks

@@ -1,6 +1,8 @@
 #include "core/structure/bridge_file.h"
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <utility>
 
@@ -15,6 +17,7 @@
 #include "core/structure/parts_section.h"
 #include "core/structure/spans_section.h"
 #include "core/structure/uncertainty_section.h"
+#include "core/structure/usual_values.h"
 #include "core/text_file.h"
 #include "reference_bridge_text.h"
 
@@ -156,6 +159,7 @@ std::vector<long> read_spans_and_walls(TomlSection& top, BridgeDescription& desc
 BridgeDescription interpret(const toml::table& root, const std::string& file,
                             std::vector<std::string>& notes) {
   BridgeDescription description;
+  std::ranges::move(unusual_values(root), std::back_inserter(notes));
   TomlSection top(file, &root, "");
   const auto section = [&](const char* key) {
     return TomlSection(file, top.table(key), fmt::format(" in [{}]", key));
@@ -178,7 +182,7 @@ BridgeDescription interpret(const toml::table& root, const std::string& file,
   description.uncertainty = read_uncertainty(section("uncertainty"));
 
   const std::vector<long> span_lines = read_spans_and_walls(top, description);
-  if (top.has("blocks")) notes = read_blocks(top, description);
+  if (top.has("blocks")) std::ranges::move(read_blocks(top, description), std::back_inserter(notes));
   top.know("blocks_tolerance_m");
   if (const toml::array* mortar = top.tables("mortar", "[[mortar]]"))
     description.mortar = read_mortar(*mortar, file, description);
@@ -210,8 +214,8 @@ BridgeFile read_bridge_file(const std::filesystem::path& path) {
   const std::string text = read_text(path, kLongestText, "a bridge file (TOML)");
   check_lines(text, path.string());
   WithBlocks whole = with_blocks_of_file(text, path);
-  BridgeFile bridge = parse_bridge_file(whole.text, path.string());
-  bridge.notes.insert(bridge.notes.begin(), whole.notes.begin(), whole.notes.end());
+  BridgeFile bridge{path.string(), std::move(whole.text), {}, std::move(whole.notes)};
+  bridge.description = interpret(whole.root, bridge.name, bridge.notes);
   return bridge;
 }
 

@@ -14,7 +14,8 @@ struct BridgeFile {
   std::string name;  ///< path, for messages
   std::string text;  ///< with the blocks of a file that it names in place of that file's name
   BridgeDescription description;
-  std::vector<std::string> notes{};  ///< what was healed or left out of a file of blocks, in sentences
+  std::vector<std::string> notes{};  ///< what was healed or left out of a file of blocks, and what is so
+                                     ///< unusual that another unit may have been meant, in sentences
 };
 
 /// Reads a bridge file. Every key is optional and defaults to the reference bridge's value; unknown keys,

@@ -1,5 +1,7 @@
 #include "core/structure/parts_section.h"
 
+#include <optional>
+
 namespace voussoir {
 namespace {
 
@@ -13,6 +15,15 @@ void read_courses(TomlSection& section, WallDescription& wall) {
   section.number("smallest_block", wall.smallest_block, 0.0, 0.5, true);
 }
 
+void read_role_but(std::optional<BlockRole> excluded, TomlSection& section, const char* key,
+                   BlockRole& role) {
+  std::vector<std::pair<const char*, BlockRole>> roles;
+  for (std::size_t i = 0; i < kRoleNames.size(); ++i)
+    if (static_cast<BlockRole>(i) != excluded)
+      roles.emplace_back(kRoleNames.at(i), static_cast<BlockRole>(i));
+  section.choice(key, role, roles);
+}
+
 }  // namespace
 
 void read_wall(TomlSection section, WallDescription& wall) {
@@ -23,17 +34,16 @@ void read_wall(TomlSection section, WallDescription& wall) {
 }
 
 void read_role(TomlSection& section, const char* key, BlockRole& role) {
-  std::vector<std::pair<const char*, BlockRole>> roles;
-  for (std::size_t i = 0; i < kRoleNames.size(); ++i)
-    roles.emplace_back(kRoleNames.at(i), static_cast<BlockRole>(i));
-  section.choice(key, role, roles);
+  read_role_but(std::nullopt, section, key, role);
 }
 
 WallPart read_part(TomlSection section, const WallDescription& wall) {
   WallPart part{.courses = wall};
-  read_role(section, "role", part.role);
-  if (part.role == BlockRole::ring)
+  std::string role;
+  section.text("role", role);
+  if (role == name_of(BlockRole::ring))
     section.refuse("role", "rings are laid by [[spans]]: expected another role");
+  read_role_but(BlockRole::ring, section, "role", part.role);
   section.number("from_x_m", part.from_x, 0.0, kLargestLength, true);
   section.number("base_y_m", part.base_y, 0.0, kLargestLength, true);
   section.require("length_m");

@@ -125,9 +125,9 @@ void TomlSection::refuse_unknown_keys() const {
 }
 
 long TomlSection::line_of(const char* key) const {
-  const toml::node* node = table_ == nullptr ? nullptr : table_->get(key);
-  if (node != nullptr) return static_cast<long>(node->source().begin.line);
-  return table_ == nullptr ? 0 : static_cast<long>(table_->source().begin.line);
+  if (table_ == nullptr) return 0;
+  const auto found = table_->find(key);
+  return static_cast<long>((found != table_->end() ? found->first.source() : table_->source()).begin.line);
 }
 
 }  // namespace voussoir

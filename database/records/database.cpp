@@ -180,7 +180,8 @@ const Sensitivities* Database::sensitivities() const {
 const SearchIndex& Database::search_index(std::size_t state) const {
   implementation_->check_state(state);
   return implementation_->search_indices[state].get([&] {
-    return read_search_index(implementation_->file, states()[state], table().rows, table().points);
+    const SceneTable rows = table(kNominalVariant, state);
+    return read_search_index(implementation_->file, states()[state], rows.vertical, rows.points);
   });
 }
 

@@ -1,12 +1,15 @@
 #include "database/search/stored_index.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 
 #include "database/search/index_building.h"
 
 namespace voussoir {
 namespace {
 
+constexpr std::array<std::int32_t, 1> kNoSlots = {0};
 constexpr std::int32_t kLargestExponent = 64, kMostCoarse = 12, kMostStep = 1000, kMostStart = 1 << 28;
 
 /// SlotBounds as they are in memory.
@@ -27,6 +30,10 @@ bool within(std::span<const std::int16_t> values) {
 bool within(std::span<const std::int32_t> values, std::int32_t least, std::int32_t most) {
   return std::all_of(values.begin(), values.end(),
                      [&](std::int32_t value) { return value >= least && value <= most; });
+}
+
+bool none_has_displacements(std::span<const double> rows) {
+  return std::ranges::none_of(rows, [](double value) { return std::isfinite(value); });
 }
 
 /// Each of so many rows at most once.
@@ -62,6 +69,7 @@ std::string index_path(const std::string& state, const char* name) {
 std::vector<DatasetValue> search_datasets(const std::string& state, std::span<const double> rows,
                                           std::size_t points) {
   const SearchIndexData index = build_search_index(rows, points);
+  if (index.row.empty()) return {};
   const std::uint64_t places = index.places;
   std::vector<DatasetValue> datasets = {
       dataset_of(index_dataset::kExponent, ElementType::int32, index.exponent, kFlat, "1",
@@ -88,11 +96,15 @@ std::vector<DatasetValue> search_datasets(const std::string& state, std::span<co
   return datasets;
 }
 
-SearchIndex read_search_index(const Hdf5File& file, const std::string& state, std::size_t rows,
+SearchIndex read_search_index(const Hdf5File& file, const std::string& state, std::span<const double> rows,
                               std::size_t points) {
   const auto path = [&](const char* name) { return index_path(state, name); };
   SearchIndex index;
   index.places = places_for(points);
+  if (!file.has(path(index_dataset::kRow).c_str()) && none_has_displacements(rows)) {
+    index.first = kNoSlots;
+    return index;
+  }
   index.exponent =
       file.numbers<std::int32_t>(path(index_dataset::kExponent).c_str(), ElementType::int32, kFlat);
   index.coarseness =
@@ -110,11 +122,12 @@ SearchIndex read_search_index(const Hdf5File& file, const std::string& state, st
   index.sketch =
       file.numbers<std::int8_t>(path(index_dataset::kSketch).c_str(), ElementType::int8, index.places);
   const std::size_t in_boxes = index.clusters() * index.places;
-  file.require(index.row.size() <= rows && index.bounds.size() == index.row.size() &&
+  const std::size_t count = rows.size() / points;
+  file.require(index.row.size() <= count && index.bounds.size() == index.row.size() &&
                    index.sketch.size() == index.row.size() * index.places &&
                    index.coarseness.size() == index.clusters() && index.centre.size() == in_boxes &&
                    index.least.size() == in_boxes && index.most.size() == in_boxes && in_order(index) &&
-                   none_twice(index.row, rows),
+                   none_twice(index.row, count),
                "the datasets of " + path("") + " do not fit together");
   file.require(within(index.exponent, -kLargestExponent, kLargestExponent) &&
                    within(index.coarseness, 0, kMostCoarse) && within(index.centre) && within(index.least) &&

@@ -1,6 +1,9 @@
 #pragma once
 /// @file The search index as datasets, one index for each history's own state.
 
+#include <span>
+#include <string>
+
 #include "database/format/hdf5_file.h"
 #include "database/search/search_index.h"
 
@@ -23,14 +26,14 @@ inline constexpr char kSketch[] = "sketch";
 std::string index_path(const std::string& state, const char* name);
 
 /// What is stored of a state for rows of `points` displacements [m] (not empty): the same rows always give
-/// the same bytes.
+/// the same bytes. Nothing if no row has displacements: then there is nothing to search.
 std::vector<DatasetValue> search_datasets(const std::string& state, std::span<const double> rows,
                                           std::size_t points);
 
-/// The index of a state with so many rows and points, in place in the file. Throws InputError unless no
-/// row is in it twice and all numbers are such that no sum of them overflows. Whether they are the right ones
-/// is for verify-database.
-SearchIndex read_search_index(const Hdf5File& file, const std::string& state, std::size_t rows,
+/// The index of a state with these rows of `points` displacements, in place in the file; one of no slots if
+/// no row has any and the file has no index. Throws InputError unless no row is in it twice and all numbers
+/// are such that no sum of them overflows. Whether they are the right ones is for verify-database.
+SearchIndex read_search_index(const Hdf5File& file, const std::string& state, std::span<const double> rows,
                               std::size_t points);
 
 }  // namespace voussoir

@@ -1,7 +1,9 @@
 #include "lookup/readings/csv_text.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
+#include <optional>
 
 #include "core/error.h"
 #include "core/text.h"
@@ -19,16 +21,36 @@ std::string lower_case(std::string text) {
   return text;
 }
 
+bool is_blank(char c) {
+  return c == ' ' || c == '\t' || c == '\r';
+}
+
 bool all_empty(const std::vector<std::string>& fields, std::size_t from = 0) {
   return std::all_of(fields.begin() + static_cast<std::ptrdiff_t>(from), fields.end(),
                      [](const std::string& field) { return field.empty(); });
 }
 
+/// What spreadsheets write where a formula failed, in some of their languages.
+constexpr std::array<std::string_view, 17> kFailures = {
+    "#N/A",   "#NV",    "#DIV/0!",  "#WERT!",  "#VALUE!",  "#REF!", "#BEZUG!",  "#NAME?", "#NUM!",
+    "#ZAHL!", "#NULL!", "#VALEUR!", "#VALOR!", "#VALORE!", "#NOM?", "#NOMBRE!", "#SPILL!"};
+
+/// The failure with which the text begins, or nothing.
+std::string_view failure_at(std::string_view text, char separator) {
+  for (const std::string_view failure : kFailures) {
+    if (!text.starts_with(failure)) continue;
+    const std::string_view rest = text.substr(failure.size());
+    if (rest.empty() || rest.front() == separator || rest.front() == kQuote || is_blank(rest.front()))
+      return failure;
+  }
+  return {};
+}
+
 /// A line whose first sign, be it within quotation marks, starts a comment.
-bool is_comment(std::string_view line) {
+bool is_comment(std::string_view line, char separator) {
   line = trimmed(line);
   if (line.starts_with(kQuote)) line = trimmed(line.substr(1));
-  return line.starts_with(kComment);
+  return line.starts_with(kComment) && failure_at(line, separator).empty();
 }
 
 class Cutter {
@@ -60,13 +82,22 @@ class Cutter {
     return true;
   }
 
-  static bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
   bool at_end() const {
     return place_ >= line_.size() || line_[place_] == table_.separator || line_[place_] == kComment;
   }
 
+  /// What stands directly behind a separator is no comment unless a blank follows its sign, and a
+  /// spreadsheet's failure is none anywhere: an empty value would be a sensor that fell silent.
+  bool begins_with_comment_sign() const {
+    const std::string_view rest = trimmed(line_.substr(place_));
+    if (!rest.starts_with(kComment)) return false;
+    if (!failure_at(rest, table_.separator).empty()) return true;
+    return place_ > 0 && line_[place_] == kComment && rest.size() > 1 && !is_blank(rest[1]);
+  }
+
   std::string plain_field() {
     const std::size_t start = place_;
+    if (begins_with_comment_sign()) place_ = line_.find(kComment, place_) + 1;
     while (!at_end()) ++place_;
     return std::string(trimmed(line_.substr(start, place_ - start)));
   }
@@ -123,10 +154,25 @@ char separator_of(std::string_view header, long number, const CsvTable& table) {
   return has_outside_quotes(header, '\t') ? '\t' : ',';
 }
 
+/// Excel's first line "sep=;", which says what separates the fields of the following ones.
+std::optional<char> stated_separator(std::string_view line, long number, const CsvTable& table) {
+  constexpr std::string_view kStatement = "sep=";
+  if (line.ends_with('\r')) line.remove_suffix(1);
+  if (number != 1 || lower_case(std::string(line.substr(0, kStatement.size()))) != kStatement)
+    return std::nullopt;
+  const std::string_view sign = line.substr(kStatement.size());
+  if (sign != "," && sign != ";" && sign != "\t")
+    table.fail(number,
+               fmt::format("{} separates fields, expected a comma, a semicolon or a tab", in_quotes(sign)));
+  return sign.front();
+}
+
 CsvLine header_of(std::string_view line, long number, CsvTable& table) {
-  table.separator = separator_of(line, number, table);
   CsvLine header{number, Cutter(table, number, line).fields()};
-  for (std::string& name : header.fields) name = lower_case(std::move(name));
+  for (std::string& name : header.fields) {
+    name = lower_case(std::move(name));
+    std::ranges::replace(name, ' ', '_');
+  }
   while (header.fields.size() > 1 && header.fields.back().empty()) header.fields.pop_back();
   return header;
 }
@@ -134,6 +180,11 @@ CsvLine header_of(std::string_view line, long number, CsvTable& table) {
 void add_row(std::string_view line, long number, CsvTable& table) {
   CsvLine row{number, Cutter(table, number, line).fields()};
   if (all_empty(row.fields)) return;
+  for (const std::string& field : row.fields)
+    if (!failure_at(field, table.separator).empty())
+      table.fail(number, fmt::format("{} is what a spreadsheet writes where it has no value, expected a "
+                                     "number, or nothing for a sensor that gave no reading",
+                                     in_quotes(field)));
   const std::size_t expected = table.header.fields.size();
   if (row.fields.size() > expected && all_empty(row.fields, expected)) row.fields.resize(expected);
   if (row.fields.size() != expected)
@@ -156,17 +207,24 @@ CsvTable read_csv(std::string_view text, const std::string& file, std::string_vi
   CsvTable table{file, ',', {}, {}};
   check_encoding(text, table);
   if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
+  // Only programs of old Macs end lines with CR alone.
+  const char line_end = text.find('\n') == std::string_view::npos ? '\r' : '\n';
+  std::optional<char> stated;
   long number = 0;
   for (std::size_t start = 0; start < text.size();) {
-    const std::size_t end = std::min(text.find('\n', start), text.size());
+    const std::size_t end = std::min(text.find(line_end, start), text.size());
     const std::string_view line = text.substr(start, end - start);
     start = end + 1;
     ++number;
-    if (trimmed(line).empty() || is_comment(line)) continue;
-    if (table.header.fields.empty())
-      table.header = header_of(line, number, table);
-    else
+    if (trimmed(line).empty() || is_comment(line, table.separator)) continue;
+    if (!table.header.fields.empty()) {
       add_row(line, number, table);
+    } else if (const auto separator = stated_separator(line, number, table)) {
+      stated = separator;
+    } else {
+      table.separator = stated ? *stated : separator_of(line, number, table);
+      table.header = header_of(line, number, table);
+    }
   }
   if (table.header.fields.empty())
     table.fail(0, fmt::format("the file is empty, expected a header line ({})", columns));

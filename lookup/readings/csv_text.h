@@ -24,12 +24,14 @@ struct CsvTable {
   [[noreturn]] void fail(long line, const std::string& message) const;
 };
 
-/// Reads a table. UTF-8 with or without byte order mark; LF or CRLF; '#' outside quotation marks starts a
-/// comment; lines without text are left out. The separator is the one that the header has: comma, semicolon
-/// or, without these, tab. A field may stand in quotation marks, and a quotation mark in it is written twice.
-/// Columns at the end without name and values are left out, as spreadsheets add them.
-/// Throws InputError for other encodings, for a header with commas and semicolons, for quotation marks that
-/// are not closed and for rows of another length. `columns` says which header was expected.
+/// Reads a table. UTF-8 with or without byte order mark; LF, CRLF or CR; '#' outside quotation marks starts a
+/// comment, but not directly behind a separator unless a blank follows; lines without text are left out. The
+/// separator is the one that a first line "sep=;" states or that the header has: comma, semicolon or, without
+/// these, tab. Blanks in the header's names count as '_'. A field may stand in quotation marks, and a
+/// quotation mark in it is written twice. Columns at the end without name and values are left out, as
+/// spreadsheets add them. Throws InputError for other encodings, for a header with commas and semicolons, for
+/// quotation marks that are not closed, for rows of another length and for what spreadsheets write where a
+/// formula failed (#N/A). `columns` says which header was expected.
 CsvTable read_csv(std::string_view text, const std::string& file, std::string_view columns);
 
 }  // namespace voussoir

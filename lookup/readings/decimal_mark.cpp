@@ -8,7 +8,8 @@
 namespace voussoir {
 namespace {
 
-constexpr std::size_t kGroup = 3;  // digits between marks of thousands
+constexpr std::size_t kGroup = 3;              // digits between marks of thousands
+constexpr std::string_view kMinus = "\u2212";  // as word processors and some locales write it
 
 char sign_of(DecimalMark mark) {
   return mark == DecimalMark::point ? '.' : ',';
@@ -50,8 +51,9 @@ bool is_exponent(std::string_view text) {
 
 /// The number with a decimal point and without groups; nothing if the text is no number with this mark.
 std::optional<std::string> plain(std::string_view text, DecimalMark mark) {
-  const bool negative = text.starts_with('-');
-  if (negative || text.starts_with('+')) text.remove_prefix(1);
+  const bool typeset = text.starts_with(kMinus);
+  const bool negative = typeset || text.starts_with('-');
+  if (negative || text.starts_with('+')) text.remove_prefix(typeset ? kMinus.size() : 1);
   const std::size_t e = std::min(text.find_first_of("eE"), text.size());
   const std::string_view mantissa = text.substr(0, e);
   const std::string_view exponent = text.substr(std::min(e + 1, text.size()));

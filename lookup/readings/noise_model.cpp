@@ -21,6 +21,14 @@ double log_student(double z, double nu) {
   return constant - (nu + 1.0) / 2.0 * std::log1p(z * z / (nu * scale_square));
 }
 
+/// "5%" or "0.05"; nothing unless it is from 0 to 1.
+std::optional<double> parse_share(std::string_view text) {
+  const bool percent = text.ends_with('%');
+  const std::optional<double> number = parse_number(text.substr(0, text.size() - (percent ? 1 : 0)));
+  const double share = number ? *number * (percent ? 0.01 : 1.0) : -1.0;
+  return share >= 0.0 && share <= 1.0 ? std::optional(share) : std::nullopt;
+}
+
 }  // namespace
 
 double log_density(NoiseShape shape, double z, double degrees_of_freedom) {
@@ -52,13 +60,19 @@ NoiseShape parse_noise_shape(std::string_view text) {
 }
 
 double parse_noise_level(std::string_view text) {
-  const bool percent = text.ends_with('%');
-  const std::optional<double> number = parse_number(text.substr(0, text.size() - (percent ? 1 : 0)));
-  const double level = number ? *number * (percent ? 0.01 : 1.0) : -1.0;
-  if (!(level >= 0.0 && level <= 1.0))
+  const std::optional<double> level = parse_share(text);
+  if (!level)
     throw InputError(fmt::format(
         "{} is no noise level, expected a share of the displacement such as 5% or 0.05", in_quotes(text)));
-  return level;
+  return *level;
+}
+
+double parse_chance(std::string_view text) {
+  const std::optional<double> chance = parse_share(text);
+  if (!chance)
+    throw InputError(
+        fmt::format("{} is no chance, expected 0 to 100 %, such as 10% or 0.1", in_quotes(text)));
+  return *chance;
 }
 
 }  // namespace voussoir

@@ -54,4 +54,7 @@ NoiseShape parse_noise_shape(std::string_view text);
 /// "5%" or "0.05" -> 0.05. Throws InputError unless it is a number from 0 to 1 (100 %).
 double parse_noise_level(std::string_view text);
 
+/// The same of a chance.
+double parse_chance(std::string_view text);
+
 }  // namespace voussoir

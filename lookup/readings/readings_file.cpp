@@ -10,6 +10,7 @@
 #include "core/text.h"
 #include "core/units.h"
 #include "lookup/readings/readings_columns.h"
+#include "lookup/readings/stated_sigmas.h"
 #include "lookup/readings/text_input.h"
 
 namespace voussoir {
@@ -82,10 +83,11 @@ class ReadingsReader {
     const auto found = std::find_if(sensors_.begin(), sensors_.end(),
                                     [&](const Sensor& sensor) { return sensor.name == name; });
     if (found == sensors_.end())
-      table_.fail(line.number,
-                  fmt::format("unknown point {}, expected {} to {}{}", in_quotes(name), sensors_.front().name,
-                              sensors_[control_points_ - 1].name,
-                              sensors_.size() > control_points_ ? ", or a sensor of the list" : ""));
+      table_.fail(line.number, fmt::format("unknown point {}, expected {} to {}{}", in_quotes(name),
+                                           sensors_.front().name, sensors_[control_points_ - 1].name,
+                                           sensors_.size() > control_points_
+                                               ? ", or a sensor of the list"
+                                               : ", or a sensor of a file that --sensors names"));
     if (found->quantity != Quantity::uy && columns_.vertical_only)
       table_.fail(
           line.number,
@@ -143,10 +145,10 @@ class ReadingsReader {
     const std::string& text = line.fields[columns_.sigma];
     if (says_nothing(text)) return kNan;
     const std::optional<double> number = parse_number(text, columns_.mark);
-    if (!number || *number <= 0.0)
+    if (!number || !is_sigma(*number))
       table_.fail(line.number,
-                  fmt::format("{} is no sigma, expected a positive number of millimetres or nothing",
-                              in_quotes(text)));
+                  fmt::format("{} is no sigma, expected millimetres from {:g} to {:g}, or nothing",
+                              in_quotes(text), kSmallestSigma, kLargestSigma));
     return kMetresPerMillimetre * *number;
   }
 

@@ -9,8 +9,6 @@
 namespace voussoir {
 namespace {
 
-constexpr double kLargestSigma = 1e6;  // [mm] beyond it nothing is known at all
-
 bool all_state_sigmas(const Measurements& measured) {
   for (std::size_t i = 0; i < measured.displacement.size(); ++i)
     if (!std::isnan(measured.displacement[i]) && std::isnan(measured.sigma[i])) return false;
@@ -23,9 +21,9 @@ double parse_sigma(std::string_view text) {
   std::string_view digits = text;
   if (digits.ends_with("mm")) digits.remove_suffix(2);
   const std::optional<double> number = parse_number(trimmed(digits));
-  if (!number || *number <= 0.0 || *number > kLargestSigma)
-    throw InputError(
-        fmt::format("{} given, expected a positive number of millimetres such as 0.02mm", in_quotes(text)));
+  if (!number || !is_sigma(*number))
+    throw InputError(fmt::format("{} given, expected millimetres from {:g} to {:g}, such as 0.02mm",
+                                 in_quotes(text), kSmallestSigma, kLargestSigma));
   return kMetresPerMillimetre * *number;
 }
 

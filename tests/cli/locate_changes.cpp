@@ -124,7 +124,7 @@ TEST_CASE("Wrong questions about readings give one line with what was expected")
   CHECK_THAT(workshop().error(change, {"--history", "broken"}), Contains("--history"));
   for (const char* const sigma : {"0", "-1", "0.02m", "nan"})
     CHECK_THAT(workshop().error(change, {"--sigma", sigma}),
-               Contains("expected a positive number of millimetres"));
+               Contains("expected millimetres from 5e-05 to 10000"));
   const std::string outside = workshop().file("outside.csv", "name,quantity,x_m,y_m\nV,uy,50,1\n");
   CHECK_THAT(workshop().error(change, {"--sensors", outside}),
              Contains("outside.csv:2:") && Contains("outside the bridge"));

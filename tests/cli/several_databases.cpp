@@ -140,7 +140,8 @@ TEST_CASE("Databases that cannot be weighed against each other are refused") {
   CHECK_THAT(relative.err, Catch::Matchers::Contains("3 in " + sliding + "; 2 in " + held) &&
                                Catch::Matchers::Contains("expected errors that are no share of what moves"));
   refused({}, {sliding, without_arch},
-          "unknown point 'A1', expected T1 to T14 (asked of " + without_arch + ")");
+          "unknown point 'A1', expected T1 to T14, or a sensor of a file that --sensors names (asked of " +
+              without_arch + ")");
 }
 
 }  // namespace voussoir

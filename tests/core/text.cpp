@@ -29,3 +29,14 @@ TEST_CASE("Numbers fill the text and are finite") {
        {"", "+-1", "1 ", "1,5", "0x10", "nan", "-nan", "inf", "-Infinity", "1.8e308", "e5"})
     CHECK_FALSE(parse_number(text));
 }
+
+TEST_CASE("Quoted texts show Latin letters and name other signs by their numbers (Unicode's tables)") {
+  CHECK(in_quotes("H\u00F6he \u0159") == "'H\u00F6he \u0159'");
+  CHECK(in_quotes("\u22120,5") == "'<U+2212>0,5'");
+  CHECK(in_quotes("1\u00A0000 \U0001F309") == "'1<U+00A0>000 <U+1F309>'");
+  CHECK(in_quotes("\xE9t\xE9") == "'<0xE9>t<0xE9>'");            // Latin-1
+  CHECK(in_quotes("\x1b[2J\x7f\xC2\x9B") == "'?[2J?<U+009B>'");  // what a terminal would obey
+  std::string letters;
+  for (int i = 0; i < 41; ++i) letters += "\u00E9";
+  CHECK(in_quotes(letters) == "'" + letters.substr(2) + "...'");  // no letter is cut in half
+}

@@ -119,6 +119,16 @@ TEST_CASE("Variants that the old file has are taken over, whatever their number 
   CHECK(summary.digest == VariantsSite({0.5, 2.0, 1.2}).build().digest);
 }
 
+TEST_CASE("Of as many variants it is said which of their values are others (one made stiffer)") {
+  VariantsSite site({1.2});
+  site.build();
+  site.request.other_variants = {stiffer(0.5)};
+  const std::vector<std::string> changes = site.build().changes;
+  REQUIRE(!changes.empty());
+  CHECK_THAT(changes[0], Catch::Contains("other values of blocks or joints are wanted (") &&
+                             Catch::Contains("stiffness") && !Catch::Contains("density"));
+}
+
 TEST_CASE("Variants may have fewer scenes than the nominal bridge; each is what it is alone",
           "[many-solutions]") {
   VariantsSite site({1.2, 0.5});

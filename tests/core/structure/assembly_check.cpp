@@ -126,3 +126,38 @@ TEST_CASE("A gap wider than ten tolerances is meant", "[assembly]") {
   shift(blocks[3], 0.011, 0.0);
   CHECK(heal_and_check(blocks, {}).empty());
 }
+
+TEST_CASE("Blocks drawn in millimetres or centimetres are refused (a sound assembly, scaled)", "[assembly]") {
+  for (const double scale : {100.0, 1000.0}) {
+    std::vector<Block> blocks = sound();
+    for (Block& block : blocks)
+      for (Point& p : block.polygon) p *= scale;
+    CHECK_THAT(message(blocks), Contains(fmt::format("the bridge is {:g} m long", 2.0 * scale)) &&
+                                    Contains("are these millimetres?"));
+  }
+  std::vector<Block> blocks = sound();  // a slab as long as the bridge is no mistake
+  blocks[0].polygon[1].x() = blocks[0].polygon[2].x() = 140.0;
+  CHECK_NOTHROW(expect_metres(blocks));
+}
+
+TEST_CASE("Blocks laid by rules have to meet and to be carried as drawn ones have (gaps put in)",
+          "[assembly]") {
+  const auto refusal = [](double x, double y, const LaidTolerance& tolerance,
+                          BlockRole role = BlockRole::wall) {
+    std::vector<Block> blocks = sound();
+    blocks[3].role = role;
+    shift(blocks[3], x, y);
+    try {
+      check_laid(blocks, tolerance, [](const Point& p) { return p.y() == 7.0; });
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string("accepted");
+  };
+  CHECK(refusal(0.0, 0.0, {}) == "accepted");
+  CHECK_THAT(refusal(0.0, 5e-4, {}), Contains("'b2' and 'b4' lie 0.5 mm apart") &&
+                                         Contains("touch within 0.001 mm or are more than 10 mm apart"));
+  CHECK(refusal(0.0, 5e-4, {}, BlockRole::ring) == "accepted");  // b3's side holds b4
+  CHECK_THAT(refusal(0.5, 0.3, {}), Contains("'b4'") && Contains("is loose"));
+  CHECK_THAT(refusal(0.0, -1e-3, {}), Contains("overlap"));
+}

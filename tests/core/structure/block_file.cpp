@@ -179,6 +179,48 @@ TEST_CASE("A bridge written as JSON or DXF and read again is the same bridge", "
   }
 }
 
+TEST_CASE("A file of blocks in millimetres is refused by its name (the small bridge, scaled)",
+          "[block-file]") {
+  BlockLayout layout = lay_blocks(test::small_description());
+  for (Block& block : layout.blocks)
+    for (Point& p : block.polygon) p *= 1000.0;
+  const test::TemporaryFolder folder;
+  for (const auto& [name, text] :
+       {std::pair("b.json", to_json(layout)), std::pair("b.dxf", to_dxf(layout))}) {
+    write_file(folder / name, text);
+    CHECK_THROWS_WITH(read_block_file(folder / name),
+                      Contains((folder / name).string() + ": the bridge is 6000 m long") &&
+                          Contains("are these millimetres? expected metres"));
+  }
+}
+
+TEST_CASE("Messages name the lines of the bridge file, however many its file of blocks has (written out)",
+          "[block-file]") {
+  const test::TemporaryFolder folder;
+  write_file(folder / "b.json", to_json(lay_blocks(test::small_description())));
+  const auto refusal = [&](const std::string& text) {
+    write_file(folder / "b.toml", text);
+    try {
+      read_bridge_file(folder / "b.toml");
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string("accepted");
+  };
+  const std::string file = (folder / "b.toml").string();
+  CHECK_THAT(refusal("blocks = \"b.json\"\n[wall]\ncourses = 3\n"),
+             Contains(file + ":2: wall: expected it, or blocks, not both"));
+  CHECK_THAT(refusal("name = \"b\"\nblocks = \"b.json\"\ncolour = 1\n"),
+             Contains(file + ":3: unknown key 'colour'"));
+  CHECK_THAT(refusal("\nblocks = \"b.json\"\n[material]\n\npoisson_ratio = 1\n"),
+             Contains(file + ":5: poisson_ratio in [material]"));
+  write_file(folder / "b.json",
+             "{\"blocks\": [{\"label\": \"a b\", \"vertices\": [[0, 0], [1, 0], [1, 1]]}]}");
+  CHECK_THAT(refusal("\nblocks = \"b.json\"\n"), Contains(file + ":2: blocks: label 'a b'"));
+  write_file(folder / "b.json", "{\"blocks\": [{\"vertices\": [[0, 0], [1, 0]]}]}");
+  CHECK_THAT(refusal("\nblocks = \"b.json\"\n"), Contains("b.json: block 1: 2 vertices: expected 3 to 200"));
+}
+
 TEST_CASE("A text that names a file of blocks opens none: it may come out of a stranger's database",
           "[block-file]") {
   CHECK_THROWS_WITH(parse_bridge_file("blocks = \"/etc/passwd\"\n", "stored"), Contains("stored:1:"));

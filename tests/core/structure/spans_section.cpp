@@ -106,6 +106,8 @@ TEST_CASE("Bad spans are refused with file, line, value and what was expected", 
              Contains("s.toml:1:") && Contains("length_m") && Contains("is missing"));
   CHECK_THAT(message("[[walls]]\nrole = \"ring\"\nlength_m = 1\ncourses = 3\n"),
              Contains("laid by [[spans]]"));
+  const std::string unknown = message("[[walls]]\nrole = \"roof\"\nlength_m = 1\ncourses = 3\n");
+  CHECK_THAT(unknown, Contains("expected one of \"wall\", \"pier\"") && !Contains("ring"));
   CHECK_THAT(message("[[walls]]\nbase_y_m = 5\nlength_m = 1\ncourses = 3\n"), Contains("overlap"));
   CHECK_THAT(message("[[walls]]\nbase_y_m = 6\nfrom_x_m = 19.5\nlength_m = 1\ncourses = 3\n"),
              Contains("20.5"));

@@ -88,6 +88,12 @@ TEST_CASE("Datasets of another type, rank or size are refused and named") {
   }
 }
 
+TEST_CASE("A search index that was taken away is missed where scenes have displacements") {
+  Forgery forged(small_file());
+  forged.remove("search_built");
+  CHECK_THAT(forged.refusal(), Catch::Contains("dataset 'search_built/exponent' is missing"));
+}
+
 TEST_CASE("A search index that names a scene twice or has numbers out of range is refused") {
   const std::string good = small_file();
   const auto refusal = [&](const char* name, int number) {

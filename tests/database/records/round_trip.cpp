@@ -2,6 +2,7 @@
 #include <catch2/catch.hpp>
 #include <cstring>
 #include <fstream>
+#include <limits>
 
 #include "core/error.h"
 #include "database/format/mapped_file.h"
@@ -122,6 +123,23 @@ TEST_CASE("Each history has a search index, made of its own rows (computed anew)
   }
   CHECK(&database.search_index() == &database.search_index(0));
   CHECK_THROWS_AS(database.search_index(2), InputError);
+}
+
+TEST_CASE(
+    "A bridge of which nothing stands has an index of no scenes, and can be opened and searched (all NaN)") {
+  const test::TemporaryFolder folder;
+  const BridgeFile file = test::small_bridge_file();
+  const Model bridge = make_model(file.description);
+  const DatabaseContent content = test::made_up_content(file, bridge, all_scenes(38, 1), KeepField::no);
+  write_database(folder / "fallen.h5", content, [&](std::size_t row) {
+    Record record = test::made_up_record(bridge, content.keys[row], 1, KeepField::no);
+    std::ranges::fill(record.states[0].vertical, std::numeric_limits<double>::quiet_NaN());
+    return record;
+  });
+  const Database database = Database::open(folder / "fallen.h5");
+  CHECK(database.search_index().clusters() == 0);
+  CHECK(database.search_index().row.empty());
+  CHECK(database.search_index().first.size() == 1);
 }
 
 TEST_CASE("The variants' parameters and the joints that they belong to are read back as they were written") {

@@ -42,6 +42,8 @@ TEST_CASE("Noise levels are shares or percentages, and anything else is refused"
   CHECK(parse_noise_level("5%") == Approx(0.05));
   CHECK(parse_noise_level("0.05") == Approx(0.05));
   CHECK(parse_noise_level("0") == 0.0);
+  CHECK(parse_chance("10%") == Approx(0.1));
+  CHECK_THROWS_WITH(parse_chance("150%"), "'150%' is no chance, expected 0 to 100 %, such as 10% or 0.1");
   for (const std::string text : {"", "%", "five", "-1%", "5 %x", "200%", "nan", "inf"})
     CHECK_THROWS_AS(parse_noise_level(text), InputError);
   CHECK_THROWS_WITH(parse_noise_level("5"),
@@ -169,6 +171,15 @@ TEST_CASE("Points that no scene moves are left out, and readings only there are 
   for (double& value : only.displacement) value = std::nan("");
   only.displacement[0] = 1e-4;
   CHECK_THROWS_AS(log_evidence_of_each(library.observe(only, noise), library.table, rows), InputError);
+}
+
+TEST_CASE(
+    "Readings of a bridge that does not stand are refused by that reason (no displacement at any point)") {
+  Observation observation;
+  observation.intact = {std::nan(""), std::nan("")};
+  CHECK_THROWS_WITH(require_readings(observation), Catch::Contains("it does not stand: expected a database"));
+  observation.intact[1] = -1e-3;
+  CHECK_THROWS_WITH(require_readings(observation), Catch::Contains("no reading at a control point that can"));
 }
 
 TEST_CASE("The estimated level of a scene is that of the noise that made its readings") {

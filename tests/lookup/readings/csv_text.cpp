@@ -137,3 +137,56 @@ TEST_CASE("What is no table is refused with the file, the line and what was expe
   for (const char* const mark : {"\xFF\xFEp", "\xFE\xFFp"})
     CHECK(error_of(mark) == "m.csv:1: the file is UTF-16, expected UTF-8 (save it as plain CSV)");
 }
+
+TEST_CASE(
+    "A spreadsheet's failed formula is no comment, wherever it stands: an empty value would be silence") {
+  for (const char* const failure :
+       {"#N/A", "#NV", "#DIV/0!", "#WERT!", "#VALUE!", "#REF!", "#BEZUG!", "#NAME?"})
+    for (const std::string& text :
+         {std::string("a,b\nT1,1\nT12,"), std::string("a;b\nT1;1\nT12; "), std::string("a\tb\nT1\t1\nT12\t"),
+          std::string("a,b\nT1,1\nT12,\""), std::string("a,b,c\nT1,1,1\nT12,")}) {
+      const std::string end = text.ends_with('"') ? "\"\n" : text.starts_with("a,b,c") ? ",1\n" : "\n";
+      INFO(text << failure << end);
+      CHECK(error_of(text + failure + end) ==
+            "m.csv:3: '" + std::string(failure) +
+                "' is what a spreadsheet writes where it has no value, expected a number, or nothing for a "
+                "sensor that gave no reading");
+    }
+  CHECK_THAT(error_of("a,b\n#N/A,1\n"), Catch::Contains("m.csv:2: '#N/A' is what a spreadsheet writes"));
+  const CsvTable unknown = read_csv("a,b\nT12,#FEHLT\n", "m.csv", "");  // refused where a number is expected
+  CHECK(unknown.rows[0].fields[1] == "#FEHLT");
+}
+
+TEST_CASE(
+    "Comments stay comments behind values, behind blanks and behind a separator with a blank (written out)") {
+  for (const char* const line :
+       {"T1,1 # why", "T1,1# why", "T1,1 #why", "T1,1,# why", "T1,1, #why", "T1,1,#"}) {
+    INFO(line);
+    const CsvTable table = read_csv("a,b\n" + std::string(line) + "\n#NVE wrote this\n#5\n", "m.csv", "");
+    REQUIRE(table.rows.size() == 1);
+    CHECK(table.rows[0].fields == std::vector<std::string>{"T1", "1"});
+  }
+}
+
+TEST_CASE("Excel's first line says what separates the fields") {
+  for (const std::string& first : {std::string("sep=;\n"), std::string("\xEF\xBB\xBFSEP=;\r\n")}) {
+    const CsvTable table = read_csv(first + "a;b\n1,5;2\n", "m.csv", "");
+    CHECK(table.separator == ';');
+    CHECK(table.rows[0].number == 3);
+    CHECK(table.rows[0].fields == std::vector<std::string>{"1,5", "2"});
+  }
+  CHECK(read_csv("sep=\t\na\tb\n1\t2\n", "m.csv", "").rows[0].fields[1] == "2");
+  CHECK(error_of("sep=|\na|b\n") == "m.csv:1: '|' separates fields, expected a comma, a semicolon or a tab");
+}
+
+TEST_CASE("Lines that end with CR alone, as on old Macs, are lines") {
+  const CsvTable table = read_csv("a,b\r1,2\r\r3,4", "m.csv", "");
+  REQUIRE(table.rows.size() == 2);
+  CHECK(table.rows[1].number == 4);
+  CHECK(table.rows[1].fields == std::vector<std::string>{"3", "4"});
+}
+
+TEST_CASE("Blanks in a column's name are those between its words") {
+  CHECK(read_csv("Point;Change mm\n", "m.csv", "").header.fields ==
+        std::vector<std::string>{"point", "change_mm"});
+}

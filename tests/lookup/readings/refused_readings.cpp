@@ -58,7 +58,7 @@ const std::vector<Wrong> kHeaders = {
      "column 'change_mm' beside 'before_mm' and 'after_mm'"}};
 
 const std::string kNumber = " is no finite number, expected a displacement or nothing";
-const std::string kNoSigma = " is no sigma, expected a positive number of millimetres or nothing";
+const std::string kNoSigma = " is no sigma, expected millimetres from 5e-05 to 10000, or nothing";
 
 const std::vector<Wrong> kRows = {
     {"# x\npoint,uy_mm\nT1,1\nT99,1\n",
@@ -86,6 +86,9 @@ const std::vector<Wrong> kRows = {
     {"point,change_mm,sigma_mm\nT1,-1,0\n", "m.csv:2: '0'" + kNoSigma},
     {"point,uy_mm,sigma_mm\nT1,-1,-0.1\n", "m.csv:2: '-0.1'" + kNoSigma},
     {"point,uy_mm,sigma_mm\nT1,-1,inf\n", "m.csv:2: 'inf'" + kNoSigma},
+    {"point,uy_mm,sigma_mm\nT1,-1,1e300\n", "m.csv:2: '1e300'" + kNoSigma},
+    {"point,uy_mm,sigma_mm\nT1,-1,0.00002\n", "m.csv:2: '0.00002'" + kNoSigma},
+    {"point,uy_mm\nT1,1\nT2,\u20141\n", "m.csv:3: '<U+2014>1'" + kNumber},
     {"point,load,uy_mm\nT1,axle,1\nT2,,1\n",
      "m.csv:3: no load in this row, expected one, as all readings of a file are of one kind"},
     {"point,uy_mm\nT1,1\nN1,1\n",

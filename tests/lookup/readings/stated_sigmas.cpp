@@ -21,7 +21,8 @@ Measurements with_sigmas(std::size_t stated) {
 TEST_CASE("A sigma is a positive number of millimetres, with its unit or without") {
   for (const char* const text : {"0.02", "0.02mm", "0.02 mm", "2e-2"})
     CHECK(parse_sigma(text) == Approx(2e-5));
-  for (const char* const text : {"0", "-0.02", "0.02m", "0,02", "nan", "inf", "", "mm", "1e7", "5%"})
+  for (const char* const text :
+       {"0", "-0.02", "0.02m", "0,02", "nan", "inf", "", "mm", "1e7", "5%", "2e-5", "10001"})
     CHECK_THROWS_AS(parse_sigma(text), InputError);
 }
 

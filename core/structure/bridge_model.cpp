@@ -1,0 +1,33 @@
+#include "core/structure/bridge_model.h"
+
+#include <algorithm>
+
+#include "core/error.h"
+
+namespace voussoir {
+
+Model model_of(const BridgeFile& file) {
+  try {
+    return make_model(file.description);
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}: {}", file.name, error.what()));
+  }
+}
+
+std::vector<std::string> without_effect(const BridgeDescription& description, const Model& model) {
+  std::vector<std::string> notes;
+  for (const Region& region : description.regions)
+    for (const std::string& name : region.of)
+      if (std::ranges::none_of(model.layout.blocks,
+                               [&](const Block& block) { return is_called(block, name); }))
+        notes.push_back(
+            fmt::format("[[regions]] of '{}' changes nothing: no block of the bridge has this role", name));
+  const FillWeight& fill = description.fill;
+  if (fill.unit_weight > 0.0 && description.gravity > 0.0 && model.parameters.laid_mass.sum() <= 0.0)
+    notes.push_back(fmt::format(
+        "[fill] weighs nothing: its surface, at most {:g} m high, lies above no face of the bridge",
+        std::ranges::max_element(fill.surface, {}, [](const Point& point) { return point.y(); })->y()));
+  return notes;
+}
+
+}  // namespace voussoir
