@@ -9,6 +9,7 @@
 #include "core/structure/assembly_check.h"
 #include "core/structure/block_boxes.h"
 #include "core/structure/exposed_edges.h"
+#include "core/structure/separate_rings.h"
 
 namespace voussoir {
 namespace {
@@ -114,6 +115,7 @@ void mark_top(std::vector<Block>& blocks) {
 /// blocks and the ground below counts as its intrados.
 BlockLayout given_blocks(const BridgeDescription& description) {
   BlockLayout layout{.blocks = description.blocks};
+  separate_rings(description.joint_tolerance, layout.blocks);
   const std::map<int, Box> rings = boxes_of_rings(layout.blocks);
   const double ground = bounds_of(description).corner.y();
   for (Block& block : layout.blocks) {
