@@ -34,4 +34,20 @@ std::optional<RefusedMortar> refused_energy(const JointMaterial& joint) {
   return std::nullopt;
 }
 
+Mortar mortar_on(const JointMaterial& joint, const JointMaterial& before) {
+  Mortar mortar = before.mortar;
+  if (!mortar.is_there()) return mortar;
+  const double across = joint.normal_stiffness / before.normal_stiffness;
+  const double along = joint.tangential_stiffness / before.tangential_stiffness;
+  const double smooth = before.friction_coefficient();
+  const double rougher = smooth > 0.0 ? joint.friction_coefficient() / smooth : 1.0;
+  mortar.opening_energy /= across;
+  mortar.crushing_energy /= across;
+  mortar.slip_energy *= rougher * rougher / along;
+  if (rougher == 1.0) return mortar;  // to the last bit
+  mortar.cohesion *= rougher;
+  mortar.friction_angle = std::atan(mortar.friction_coefficient() * rougher);
+  return mortar;
+}
+
 }  // namespace voussoir

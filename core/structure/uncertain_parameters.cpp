@@ -11,6 +11,7 @@
 #include "core/geometry/box.h"
 #include "core/random.h"
 #include "core/structure/correlation_by_distance.h"
+#include "core/structure/mortar_limits.h"
 
 namespace voussoir {
 namespace {
@@ -42,29 +43,18 @@ double factor_of(const UncertainAction& action, double theta) {
   return std::exp(s * theta - (action.has_mean_one ? 0.5 * s * s : 0.0));
 }
 
-/// The mortar's energies go the other way: its curves of stress against opening and slip are stretched as
-/// their elastic parts are. What a joint stores up to its strength, f_t^2 / (2 p_n), so stays the same share
-/// of what breaks it, and no joint that can be (mortar_limits.h) becomes one that cannot.
-void stiffen_across(double factor, JointMaterial& joint) {
-  joint.normal_stiffness *= factor;
-  joint.mortar.opening_energy /= factor;
-  joint.mortar.crushing_energy /= factor;
-}
-
-void stiffen_along(double factor, JointMaterial& joint) {
-  joint.tangential_stiffness *= factor;
-  joint.mortar.slip_energy /= factor;
-}
-
 void apply(const UncertainAction& action, double theta, Parameters& parameters) {
   const double factor = factor_of(action, theta);
   for (const std::size_t j : action.joints) {
     JointMaterial& joint = parameters.joints[j];
-    if (action.quantity == UncertainQuantity::stiffness) stiffen_across(factor, joint);
+    JointMaterial drawn = joint;
+    if (action.quantity == UncertainQuantity::stiffness) drawn.normal_stiffness *= factor;
     if (action.quantity == UncertainQuantity::friction)
-      joint.friction_angle = std::atan(joint.friction_coefficient() * factor);
+      drawn.friction_angle = std::atan(joint.friction_coefficient() * factor);
     else
-      stiffen_along(factor, joint);
+      drawn.tangential_stiffness *= factor;
+    drawn.mortar = mortar_on(drawn, joint);
+    joint = drawn;
   }
   if (action.quantity == UncertainQuantity::density) parameters.laid_mass *= factor;
   for (Material& block : parameters.blocks) {

@@ -247,7 +247,10 @@ TEST_CASE("Mortar on softer joints stores the same share of what breaks it (the 
       const JointMaterial& joint = drawn.joints[j];
       REQUIRE_FALSE(refused_energy(joint).has_value());
       CHECK(joint.mortar.opening_energy * joint.normal_stiffness == Approx(1.3 * 1e9));
-      CHECK(joint.mortar.slip_energy * joint.tangential_stiffness == Approx(101.0 * 1e8));
+      CHECK(joint.mortar.slip_energy * joint.tangential_stiffness / std::pow(joint.mortar.cohesion, 2) ==
+            Approx(1.01));
+      CHECK(joint.mortar.friction_coefficient() == Approx(joint.friction_coefficient()));
+      CHECK_FALSE(refused_cohesion(joint.mortar).has_value());
       CHECK(joint.mortar.crushing_energy * joint.normal_stiffness == Approx(1001.0 * 1e9));
     }
   }
