@@ -9,7 +9,7 @@
 namespace voussoir {
 namespace {
 
-bool touch(const Polygon& first, const Polygon& second, double tolerance) {
+bool share_face(const Polygon& first, const Polygon& second, double tolerance) {
   for (std::size_t i = 0; i < first.size(); ++i)
     for (std::size_t j = 0; j < second.size(); ++j)
       if (facing_stretch({first[i], first[(i + 1) % first.size()]},
@@ -29,7 +29,7 @@ std::vector<std::size_t> group_of(std::size_t first, const std::vector<Block>& b
       const std::size_t one = group[next];
       if (found[other] || blocks[other].ring != blocks[one].ring) continue;
       if (boxes[one].squaredExteriorDistance(boxes[other]) > tolerance * tolerance) continue;
-      if (!touch(blocks[one].polygon, blocks[other].polygon, tolerance)) continue;
+      if (!share_face(blocks[one].polygon, blocks[other].polygon, tolerance)) continue;
       found[other] = true;
       group.push_back(other);
     }
