@@ -104,8 +104,7 @@ std::vector<std::string> kept_names(const StatePlan& plan) {
   return names;
 }
 
-/// Records fit into the same journal if results, variants, states, control points and the choice of fields
-/// are the same.
+/// Records fit into the same journal if results, variants, states and the choice of fields are the same.
 std::string journal_key(const Build& build) {
   Sha256Stream hash;
   for (const DatasetValue& dataset : parameter_datasets(build.variants)) hash.add(dataset.bytes);
@@ -113,9 +112,7 @@ std::string journal_key(const Build& build) {
     hash.add(view_bytes(state.name));
     hash.add(std::as_bytes(numbers_of(state.load)));
   }
-  std::string key = build.provenance.results_key + " " + to_hexadecimal(hash.finish());
-  for (const ControlPoint& point : build.bridge().control_points)
-    key += fmt::format(" {}", value(point.node));
+  const std::string key = build.provenance.results_key + " " + to_hexadecimal(hash.finish());
   if (build.fields == KeepField::yes) return key + " with fields";
   return key + (most_missing_of_starts(build.wanted) > 1 ? " with fields of pairs" : " without fields");
 }
@@ -127,7 +124,7 @@ KnownRecords open_records(const Build& build) {
     const auto changes = differences(build.provenance, *discarded);
     build.progress.say(fmt::format("{}: its records are of another build and are dropped ({})",
                                    known.journal().path().string(),
-                                   changes.empty() ? "other variants, states, control points or --fields"
+                                   changes.empty() ? "other variants, states or --fields"
                                                    : fmt::format("{}", fmt::join(changes, "; "))));
   }
   return known;

@@ -27,6 +27,8 @@ constexpr const char* kFooter =
     "but\n"
     "for round-off. Alone 'composed' and 'early-motions' have errors of their own, the first of which is\n"
     "bounded and the other below half a percent of a fall, and what is 'inherited' has no displacements.\n"
+    "Where joints are stiffer along than across (tangential over normal stiffness above 1) friction may\n"
+    "leave several answers, and a scene that is said to fall may stand without a skip, or the reverse.\n"
     "tools/benchmark accuracy shows what each gains.\n\n"
     "Exit codes: 0 done, 1 could not be done, 2 bad usage or bad bridge file. With --format json the last\n"
     "line of stdout is one JSON object, {\"ok\": true, ...} or {\"ok\": false, \"error\": ...}.";

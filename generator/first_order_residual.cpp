@@ -1,5 +1,6 @@
 #include "generator/first_order_residual.h"
 
+#include <fmt/format.h>
 #include <oneapi/tbb/enumerable_thread_specific.h>
 
 #include <algorithm>
@@ -101,10 +102,22 @@ class StateResidual {
       of_bridge.push_back(at_rest - intact - slope.leftCols(bridge.of_bridge.size()) * bridge.of_bridge);
       of_epoch.push_back(in_epoch - at_rest - slope.rightCols(bridge.of_epoch.size()) * bridge.of_epoch);
     }
-    const SignalFits fits = fits_of_signals();
+    const SignalFits fits = signals_compared() > 0 ? fits_of_signals() : kAsMuchAsItSays;
     return {
         factor_of(of_bridge, intact.size()), factor_of(of_epoch, intact.size()), std::sqrt(fits.bridge[0]),
         std::sqrt(fits.bridge[1]),           std::sqrt(fits.epoch[0]),           std::sqrt(fits.epoch[1])};
+  }
+
+  /// Of how many singles of sampled bridges the signal is known.
+  std::size_t signals_compared() const {
+    std::size_t count = 0;
+    const std::size_t scenes = samples_.scenes.size();
+    for (std::size_t i = 0; i < kBridgesWithSingles; ++i)
+      for (std::size_t j = 1; j < scenes; ++j) {
+        const SampledScene &intact = samples_.few[i * scenes], &single = samples_.few[i * scenes + j];
+        if (signal_of(intact.at_rest, single.at_rest) && signal_of(intact.in_epoch, single.in_epoch)) ++count;
+      }
+    return count;
   }
 
  private:
@@ -117,6 +130,9 @@ class StateResidual {
   struct SignalFits {
     Eigen::Vector2d bridge, epoch;
   };
+
+  /// Where nothing could be compared: no signal shows that the first order is any good.
+  static inline const SignalFits kAsMuchAsItSays{{1.0, 0.0}, {1.0, 0.0}};
 
   SignalFits fits_of_signals() const {
     ErrorFit of_bridge, of_epoch;
@@ -139,9 +155,12 @@ class StateResidual {
     return {of_bridge.squares(), of_epoch.squares()};
   }
 
+  /// Nothing of what does not stand, or has lost all points.
   std::optional<Eigen::VectorXd> signal_of(const Settled& intact, const Settled& single) const {
     if (intact[state_].size() == 0 || single[state_].size() == 0) return std::nullopt;
-    return single[state_] - intact[state_];
+    Eigen::VectorXd signal = single[state_] - intact[state_];
+    if (signal.array().isNaN().all()) return std::nullopt;
+    return signal;
   }
 
   static void add(const Eigen::MatrixXd& slope, const Eigen::VectorXd& error, ErrorFit& fit) {
@@ -166,9 +185,16 @@ std::vector<FirstOrderResidual> first_order_residuals(const SensitivityStudy& st
       kept.size(), {Eigen::MatrixXd::Zero(points, points), Eigen::MatrixXd::Zero(points, points)});
   if (!study.solver.make_equilibrium_solver) return residuals;
   const Samples samples = solve_samples(study, uncertain, first_order, progress);
-  for (std::size_t k = 0; k < kept.size(); ++k)
-    if (first_order.derivatives[k][kIntactScene].size() > 0)
-      residuals[k] = StateResidual(study, first_order, samples, kept[k], first_order.derivatives[k]).find();
+  for (std::size_t k = 0; k < kept.size(); ++k) {
+    if (first_order.derivatives[k][kIntactScene].size() == 0) continue;
+    const StateResidual residual(study, first_order, samples, kept[k], first_order.derivatives[k]);
+    if (residual.signals_compared() == 0)
+      progress.say(
+          fmt::format("{}: no single stands in the sampled bridges, so what the first order leaves of "
+                      "signals is not known: it is taken to be as much as the first order itself",
+                      study.states[kept[k]].name));
+    residuals[k] = residual.find();
+  }
   return residuals;
 }
 

@@ -28,7 +28,8 @@ struct FirstOrder {
 };
 
 /// One for each kept state. A bridge that does not stand is left out. Without a solver of equilibria (see
-/// SolverChoice) they are zero.
+/// SolverChoice) they are zero; where no single stands in a sampled bridge its signals are taken to be off by
+/// as much as the first order says, and `progress` is told.
 std::vector<FirstOrderResidual> first_order_residuals(const SensitivityStudy& study,
                                                       const UncertainParameters& uncertain,
                                                       const FirstOrder& first_order, Progress& progress);

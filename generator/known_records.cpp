@@ -28,6 +28,8 @@ Record KnownRecords::kept_record(const RecordKey& key, KeepField fields) const {
     return (*std::ranges::find_if(reused_, [&](const auto& reused) { return reused->has_record(key); }))
         ->kept_record(key);
   Record record = journal_.read(key);
+  if (fields == KeepField::no)  // what has slid beforehand stands beside the fields
+    for (RecordedState& state : record.states) state.slipped.clear();
   const std::vector<std::size_t> kept = kept_states(*plan_);
   if (kept.size() == record.states.size()) return record;
   Record selection{key, {}, {}};

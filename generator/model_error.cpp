@@ -29,11 +29,11 @@ Settlements settlements_of(const SceneGroup& group, const StatePlan& plan, const
 }
 
 /// One that finds equilibria only, unless the intact bridge stands by what it has slipped in motion.
-SceneSolver probe_solver(const ErrorProbes& probes, const Model& bridge) {
+StageSolver probe_solver(const ErrorProbes& probes, const Model& bridge) {
   const StageTask intact{.stage = {.scene = {}}};
-  SceneSolver of_equilibria = probes.solver.make_equilibrium_solver(bridge);
+  StageSolver of_equilibria = probes.solver.make_equilibrium_solver(bridge);
   if (stands(of_equilibria({&intact, 1}).front())) return of_equilibria;
-  SceneSolver of_all = probes.solver.make_solver(bridge, probes.solver.settings(bridge));
+  StageSolver of_all = probes.solver.make_solver(bridge, probes.solver.settings(bridge));
   return stands(of_all({&intact, 1}).front()) ? of_all : of_equilibria;
 }
 

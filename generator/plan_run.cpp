@@ -17,7 +17,7 @@ using Tasks = std::span<SolvingTask>;
 /// A thread's solver, of the variant that it worked on last: tasks are ordered by variant.
 struct VariantSolver {
   std::int32_t variant = -1;
-  SceneSolver solver;
+  StageSolver solver;
   std::optional<StateSolving> states;
 
   void prepare(std::int32_t wanted, const PlanRun& run) {

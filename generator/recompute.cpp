@@ -25,7 +25,7 @@ namespace {
 
 /// What other scenes start from, too, is solved once.
 std::vector<Solution> recompute_start(const RecordKey& key, const RecomputedVariant& variant,
-                                      const SceneSolver& solver) {
+                                      const StageSolver& solver) {
   const bool is_kept = key.scene.missing() <= 1;
   if (auto found = is_kept ? variant.starts->find(key) : std::nullopt) return std::move(*found);
   std::vector<Solution> states = recompute(key, variant, solver);
@@ -47,7 +47,7 @@ void SolvedStarts::add(const RecordKey& key, const std::vector<Solution>& states
 }
 
 SearchBasis basis_of(const std::set<Scene>& starting, std::int32_t number, const RecomputedVariant& variant,
-                     const SceneSolver& solver) {
+                     const StageSolver& solver) {
   const bool is_stored =
       variant.database.has_fields() && kept_states(variant.plan).size() == variant.plan.size();
   StartingFields starts;
@@ -62,7 +62,7 @@ SearchBasis basis_of(const std::set<Scene>& starting, std::int32_t number, const
 }
 
 std::vector<Solution> recompute(const RecordKey& key, const RecomputedVariant& variant,
-                                const SceneSolver& solver) {
+                                const StageSolver& solver) {
   SceneGroup group{
       .solved = representative(key.scene, variant.bridge, variant.rules), .states = {}, .image = {}};
   if (group.solved != key.scene) group.image = key.scene;

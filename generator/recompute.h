@@ -40,12 +40,12 @@ struct RecomputedVariant {
 /// bridge and singles, or those solved anew where the database has not all of them. `solver` is the
 /// variant's.
 SearchBasis basis_of(const std::set<Scene>& starting, std::int32_t number, const RecomputedVariant& variant,
-                     const SceneSolver& solver);
+                     const StageSolver& solver);
 
 /// Solves all states of the plan by the rule that build-database follows: those of the scene's mirror image
 /// if that is the one solved, with the basis of its own starting scenes.
 std::vector<Solution> recompute(const RecordKey& key, const RecomputedVariant& variant,
-                                const SceneSolver& solver);
+                                const StageSolver& solver);
 
 /// Largest difference [m] between stored and recomputed displacements: of all nodes, or of the control points
 /// if no field is stored. Infinite if a displacement is there in only one of them, or the field unreadable.

@@ -45,8 +45,8 @@ std::string part_text(const WallPart& part) {
 
 std::string material_text(const Material& material) {
   const auto& [young_modulus, poisson_ratio, density, thickness, plane, thermal_expansion] = material;
-  static_cast<void>(thermal_expansion);  // stored states are those at the temperature of building
-  return row("material", young_modulus, poisson_ratio, density, thickness, plane);
+  return row("material", young_modulus, poisson_ratio, density, thickness, plane,
+             thermal_expansion);  // bridges are cooled and warmed to see whether they settle
 }
 
 /// Nothing for dry joints.
@@ -93,6 +93,11 @@ std::string support_text(const SupportDescription& supports) {
   return row("supports", base, sides) + (held_above ? row("held", top, embedded_courses) : "");
 }
 
+std::string points_text(const ControlPointDescription& points) {
+  const auto& [top, arch] = points;
+  return row("points", top, arch);
+}
+
 std::string physics_text(const BridgeDescription& description) {
   const auto& [name, wall, spans, parts, blocks, material, joints, mortar, regions, fill, supports,
                control_points, mesh, gravity, joint_tolerance, loads, movements, uncertainty,
@@ -102,7 +107,6 @@ std::string physics_text(const BridgeDescription& description) {
   static_cast<void>(collapse_fields);  // stands among the settings
   static_cast<void>(loads);            // whose states are told apart by load case
   static_cast<void>(name);
-  static_cast<void>(control_points);
   std::string text = wall_text(wall);
   for (const SpanDescription& span : spans) text += span_text(span);
   for (const MortarRegion& region : mortar) text += region_text(region);
@@ -112,7 +116,7 @@ std::string physics_text(const BridgeDescription& description) {
   text += row("fill", fill.unit_weight);
   for (const Point& point : fill.surface) text += row("surface", point.x(), point.y());
   return text + material_text(material) + joint_text(joints) + support_text(supports) + mesh_text(mesh) +
-         row("load", gravity) + row("tolerance", joint_tolerance);
+         points_text(control_points) + row("load", gravity) + row("tolerance", joint_tolerance);
 }
 
 }  // namespace

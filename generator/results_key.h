@@ -7,9 +7,10 @@
 
 namespace voussoir {
 
-/// A hash over everything that displacement fields depend on: the description of the bridge (not its name,
-/// nor which points are measured, nor remarks in the bridge file), the settings of solver and generator, the
-/// solver's source, compiler and flags. Records of equal keys can be used for each other.
+/// A hash over everything that displacement fields depend on: the description of the bridge (not its name nor
+/// remarks in the bridge file, but which points are measured, as signals there decide in how many steps
+/// blocks are lost and which triples are composed), the settings of solver and generator, the solver's
+/// source, compiler and flags. Records of equal keys can be used for each other.
 std::string results_key(const BridgeDescription& description, const std::string& solver_settings);
 
 }  // namespace voussoir

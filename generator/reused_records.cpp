@@ -88,9 +88,7 @@ bool ReusedRecords::keeps_as_it_is() const {
   for (const std::size_t state : kept_states(plan_)) kept.push_back(old_state_[state]);
   for (std::size_t i = 0; i < kept.size(); ++i)
     if (kept[i] != i) return false;
-  return fields_ == KeepField::no && kept.size() == old_.states().size() &&
-         std::ranges::equal(bridges_.front().control_points, old_.control_points(), {},
-                            &ControlPoint::position, &StoredPoint::position);
+  return fields_ == KeepField::no && kept.size() == old_.states().size();
 }
 
 std::vector<std::string> ReusedRecords::state_names() const {
@@ -114,17 +112,13 @@ std::optional<Record> ReusedRecords::old_record(const RecordKey& key, std::vecto
   }
 }
 
-/// The old file may have other states, have measured at other points and numbered its variants otherwise.
-bool ReusedRecords::fits(const Record& record, const RecordKey& key, std::span<const Field> fields) const {
+/// The old file may have other states and have numbered its variants otherwise.
+bool ReusedRecords::fits(const Record& record, const RecordKey& key) const {
   if (fields_ == KeepField::no || record.key != key) return false;
   const std::vector<std::size_t> kept = kept_states(plan_);
-  if (kept.size() != fields.size()) return false;
-  for (std::size_t i = 0; i < fields.size(); ++i) {
+  if (kept.size() != record.states.size()) return false;
+  for (std::size_t i = 0; i < kept.size(); ++i)
     if (old_state_[kept[i]] != i) return false;
-    const Eigen::VectorXd vertical = vertical_displacements(fields[i], bridges_.front().control_points);
-    const std::span numbers(vertical.data(), static_cast<std::size_t>(vertical.size()));
-    if (!std::ranges::equal(std::as_bytes(numbers), view_bytes(record.states[i].vertical))) return false;
-  }
   return true;
 }
 
@@ -132,7 +126,7 @@ Record ReusedRecords::kept_record(const RecordKey& key) const {
   std::vector<Field> fields;
   auto record = old_record(key, fields);
   if (!record) throw Failure(fmt::format("{}: changed while it was being read", old_.path().string()));
-  if (fits(*record, key, fields)) return std::move(*record);
+  if (fits(*record, key)) return std::move(*record);
   if (!old_.has_fields()) {  // the variant may have another number here
     record->key = key;
     record->checksum = scene_checksum(*record, {});

@@ -27,7 +27,7 @@ class ReusedRecords {
   /// history and the same load case of variants with the same parameters, of scenes that are wanted or can
   /// start others. Records whose checksums are not right stay behind, and so do those that `known` has
   /// already. Without fields, records can only be taken as they are, into a database without fields that has
-  /// the same states and control points.
+  /// the same states.
   ReusedRecords(Database old, const NewRecords& records, const RecordSource& known);
 
   /// The scenes of which all that the new database keeps is there.
@@ -48,7 +48,7 @@ class ReusedRecords {
   void match_states(const BridgeDescription& description);
   bool keeps_as_it_is() const;
   std::optional<Record> old_record(const RecordKey& key, std::vector<Field>& fields) const;
-  bool fits(const Record& record, const RecordKey& key, std::span<const Field> fields) const;
+  bool fits(const Record& record, const RecordKey& key) const;
 
   Database old_;
   std::span<const Model> bridges_;

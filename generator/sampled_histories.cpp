@@ -67,7 +67,7 @@ void SampledHistories::build_others(const std::vector<Case>& cases, Found& found
 
 Solution SampledHistories::set_in_motion(const SampledBridge& bridge) const {
   const Model model = with_parameters(study_.bridge, bridge.parameters);
-  const SceneSolver solver = bridge.slowly ? study_.solver.make_slow_solver(model)
+  const StageSolver solver = bridge.slowly ? study_.solver.make_slow_solver(model)
                                            : study_.solver.make_solver(model, study_.settings);
   const StageTask intact{.stage = {.scene = {}}};
   return solver({&intact, 1}).front();

@@ -80,7 +80,7 @@ class SampledHistories {
 
   const SensitivityStudy& study_;
   const std::vector<Scene>& scenes_;
-  SceneSolver equilibrium_;
+  StageSolver equilibrium_;
 };
 
 }  // namespace voussoir

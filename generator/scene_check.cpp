@@ -220,7 +220,7 @@ double most_stored_unbalance(const Model& bridge, std::string_view settings) {
 }
 
 std::vector<SceneCheck> check_scenes(const CheckedVariant& checked, std::span<const std::size_t> rows,
-                                     const SceneSolver& solver) {
+                                     const StageSolver& solver) {
   std::vector<Examination> scenes;
   std::vector<SceneGroup> again;
   std::vector<std::size_t> places;

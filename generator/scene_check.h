@@ -36,6 +36,6 @@ double most_stored_unbalance(const Model& bridge, std::string_view settings);
 /// One check a row, in the rows' order. `solver` is the variant's: where blocks went in many steps, these are
 /// solved again, several scenes side by side. Never throws for what is wrong with the scenes' data.
 std::vector<SceneCheck> check_scenes(const CheckedVariant& checked, std::span<const std::size_t> rows,
-                                     const SceneSolver& solver);
+                                     const StageSolver& solver);
 
 }  // namespace voussoir

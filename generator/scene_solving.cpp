@@ -4,7 +4,7 @@
 
 namespace voussoir {
 
-std::vector<Solution> solve_for_storage(const SceneSolver& solver, std::span<const StageTask> scenes) {
+std::vector<Solution> solve_for_storage(const StageSolver& solver, std::span<const StageTask> scenes) {
   std::vector<Solution> solutions = solver(scenes);
   for (std::size_t i = 0; i < solutions.size(); ++i) {
     solutions[i].displacement = to_storage_precision(solutions[i].displacement);

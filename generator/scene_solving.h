@@ -11,29 +11,25 @@
 
 namespace voussoir {
 
-/// Solves scenes of one bridge, one solution a scene in their order; used by one thread at a time. A solution
-/// depends on its scene and start only, not on the others.
-using SceneSolver = std::function<std::vector<Solution>(std::span<const StageTask>)>;
-
 struct SolverChoice {
   /// "key = value" lines: everything that the solver's answers for this model depend on.
   std::function<std::string(const Model&)> settings;
   /// A solver of a variant with these settings, which `settings` gave for the nominal bridge; called for each
   /// thread.
-  std::function<SceneSolver(const Model&, const std::string& settings)> make_solver;
+  std::function<StageSolver(const Model&, const std::string& settings)> make_solver;
   /// One that finds equilibria only, quickly: for what is compared with others and not kept. May be empty: no
   /// model error is then estimated.
-  std::function<SceneSolver(const Model&)> make_equilibrium_solver{};
+  std::function<StageSolver(const Model&)> make_equilibrium_solver{};
   /// One whose motions are loaded slowly: where friction leaves open what joints slide, it finds another
   /// answer. Given if the one before is.
-  std::function<SceneSolver(const Model&)> make_slow_solver{};
+  std::function<StageSolver(const Model&)> make_slow_solver{};
 };
 
 /// The program's own solvers (core/solve).
 SolverChoice solver_with(const SolverSettings& settings);
 
 /// The solver that acts as a database states it. Throws Failure if another version wrote the settings.
-SceneSolver stated_solver(const Model& model, const std::string& settings);
+StageSolver stated_solver(const Model& model, const std::string& settings);
 SolverChoice quasi_static(const DynamicSettings& motion = {});
 /// The same for databases without fields of collapses (core/solve/outcomes_only.h).
 SolverChoice for_outcomes(const DynamicSettings& motion = {});
@@ -47,7 +43,7 @@ SolverChoice dynamic(const DynamicSettings& motion = {});
 
 /// Solves the scenes and rounds their fields, and what has slipped beforehand, to the storage precision. What
 /// the joints remember at the end is left out where it follows from these: after one step or a jump.
-std::vector<Solution> solve_for_storage(const SceneSolver& solver, std::span<const StageTask> scenes);
+std::vector<Solution> solve_for_storage(const StageSolver& solver, std::span<const StageTask> scenes);
 
 /// The mirror image of a solution, in the same storage precision and without memory.
 /// Precondition: the bridge is symmetric.

@@ -9,12 +9,12 @@ namespace {
 
 constexpr double kSlowRamp = 2.0;  ///< [s] in which gravity grows; some periods of the longest bridges
 
-SceneSolver combined_solver(const SolverSettings& settings, const Model& model) {
+StageSolver combined_solver(const SolverSettings& settings, const Model& model) {
   const auto solver = std::make_shared<CombinedSolver>(model, settings);
   return [solver](std::span<const StageTask> tasks) { return solver->solve(tasks); };
 }
 
-SceneSolver dynamic_solver(const SolverSettings& settings, const Model& model) {
+StageSolver dynamic_solver(const SolverSettings& settings, const Model& model) {
   const auto solver = std::make_shared<DynamicSolver>(model, settings.motion);
   return [solver](std::span<const StageTask> tasks) {
     std::vector<Scene> scenes;
@@ -25,14 +25,14 @@ SceneSolver dynamic_solver(const SolverSettings& settings, const Model& model) {
   };
 }
 
-SceneSolver acting_solver(const SolverSettings& settings, const Model& model) {
+StageSolver acting_solver(const SolverSettings& settings, const Model& model) {
   return settings.kind == SolverKind::dynamic ? dynamic_solver(settings, model)
                                               : combined_solver(settings, model);
 }
 
 }  // namespace
 
-SceneSolver stated_solver(const Model& model, const std::string& settings) {
+StageSolver stated_solver(const Model& model, const std::string& settings) {
   return acting_solver(parse_settings(settings), model);
 }
 

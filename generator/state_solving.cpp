@@ -8,7 +8,7 @@ namespace voussoir {
 namespace {
 
 template <class Search>
-std::vector<Solution> solve_searches(const SceneSolver& solver, const std::vector<Search>& searches) {
+std::vector<Solution> solve_searches(const StageSolver& solver, const std::vector<Search>& searches) {
   std::vector<StageTask> tasks;
   for (const Search& search : searches) tasks.push_back(search.task());
   return solve_for_storage(solver, tasks);
@@ -188,7 +188,7 @@ bool StateSolving::lacks_memory(const SceneGroup& group, bool is_image, std::siz
   return false;
 }
 
-void StateSolving::find_lacking_memory(const SceneSolver& solver, std::size_t loss,
+void StateSolving::find_lacking_memory(const StageSolver& solver, std::size_t loss,
                                        std::span<SceneGroup> groups, const SearchBasis& basis) const {
   std::vector<Search> searches;
   for (SceneGroup& group : groups) {
@@ -202,7 +202,7 @@ void StateSolving::find_lacking_memory(const SceneSolver& solver, std::size_t lo
     if (stands(solutions[i])) (*searches[i].states)[loss]->memory = std::move(solutions[i].memory);
 }
 
-void StateSolving::solve(const SceneSolver& solver, const SearchBasis& basis,
+void StateSolving::solve(const StageSolver& solver, const SearchBasis& basis,
                          std::span<SceneGroup> groups) const {
   for (SceneGroup& group : groups) {
     group.states.resize(plan_.size());
@@ -220,7 +220,7 @@ void StateSolving::solve(const SceneSolver& solver, const SearchBasis& basis,
   }
 }
 
-void StateSolving::solve_from_intact(const SceneSolver& solver, std::span<SceneGroup> groups) const {
+void StateSolving::solve_from_intact(const StageSolver& solver, std::span<SceneGroup> groups) const {
   StartingFields starts;
   const std::span<SceneGroup> intact = groups.first(1);
   solve(solver, basis(solver, starts, PlanRules{}), intact);
@@ -230,7 +230,7 @@ void StateSolving::solve_from_intact(const SceneSolver& solver, std::span<SceneG
 }
 
 /// By solving those of the singles that stand as lost again in one step.
-StepsOfLoss StateSolving::steps_of_loss(const SceneSolver& solver, const SearchBasis& basis,
+StepsOfLoss StateSolving::steps_of_loss(const StageSolver& solver, const SearchBasis& basis,
                                         std::size_t lost) const {
   const std::vector<Scene> singles = basis.starts.standing_singles(lost);
   std::vector<Search> searches;
@@ -253,7 +253,7 @@ StepsOfLoss StateSolving::steps_of_loss(const SceneSolver& solver, const SearchB
   return steps;
 }
 
-SearchBasis StateSolving::basis(const SceneSolver& solver, StartingFields starts,
+SearchBasis StateSolving::basis(const StageSolver& solver, StartingFields starts,
                                 const PlanRules& rules) const {
   SearchBasis basis{std::move(starts), rules.warm_starts, rules.collapse_fields, {}, {}, {}, {}};
   const Field* intact = basis.starts.intact(kBuilt);

@@ -45,7 +45,7 @@ class StateSolving {
       : bridge_(bridge), plan_(plan), system_(bridge), coefficients_(system_, bridge.parameters) {}
 
   /// Solves those of the singles that stand as lost among the starts again, in one step.
-  SearchBasis basis(const SceneSolver& solver, StartingFields starts, const PlanRules& rules) const;
+  SearchBasis basis(const StageSolver& solver, StartingFields starts, const PlanRules& rules) const;
 
   /// Solves all states of the groups, state after state, many scenes side by side. `basis` has the states of
   /// the groups' starting_scenes.
@@ -55,11 +55,11 @@ class StateSolving {
   /// not stand. A load that acts on a scene which does not stand leaves its state as it is.
   ///
   /// States of many steps come with what the joints remember of them.
-  void solve(const SceneSolver& solver, const SearchBasis& basis, std::span<SceneGroup> groups) const;
+  void solve(const StageSolver& solver, const SearchBasis& basis, std::span<SceneGroup> groups) const;
 
   /// The same without a basis: the first group is the intact bridge, from whose states the others' follow.
   /// What of them is known is not searched for again.
-  void solve_from_intact(const SceneSolver& solver, std::span<SceneGroup> groups) const;
+  void solve_from_intact(const StageSolver& solver, std::span<SceneGroup> groups) const;
 
   /// What the joints remember when a state of a scene begins; of a stage of many steps, when its first step
   /// does. Precondition: the states before it are there, which then keep what is remembered of them.
@@ -83,10 +83,10 @@ class StateSolving {
   std::vector<Search> searches_of(std::size_t state, std::span<SceneGroup> groups,
                                   const SearchBasis& basis) const;
   bool lacks_memory(const SceneGroup& group, bool is_image, std::size_t loss, const SearchBasis& basis) const;
-  void find_lacking_memory(const SceneSolver& solver, std::size_t loss, std::span<SceneGroup> groups,
+  void find_lacking_memory(const StageSolver& solver, std::size_t loss, std::span<SceneGroup> groups,
                            const SearchBasis& basis) const;
   void take(std::size_t state, Solution&& solution, const SearchBasis& basis, SceneStates& states) const;
-  StepsOfLoss steps_of_loss(const SceneSolver& solver, const SearchBasis& basis, std::size_t lost) const;
+  StepsOfLoss steps_of_loss(const StageSolver& solver, const SearchBasis& basis, std::size_t lost) const;
 
   const Model& bridge_;
   const StatePlan& plan_;

@@ -4,6 +4,7 @@
 
 #include "core/error.h"
 #include "core/random.h"
+#include "core/structure/mortar_limits.h"
 #include "core/structure/uncertain_parameters.h"
 #include "database/records/order_of_sums.h"
 
@@ -67,6 +68,7 @@ Model variant_of(const Model& bridge, const VariantParameters& parameters) {
     joint.tangential_stiffness = parameters.tangential_stiffness[j];
     if (parameters.friction_coefficient[j] != joint.friction_coefficient())
       joint.friction_angle = friction_angle(parameters.friction_coefficient[j]);
+    joint.mortar = mortar_on(joint, bridge.parameters.joints[j]);
   }
   variant.parameters.contact = typical_joint(variant.parameters.joints, bridge.parameters.contact);
   if (variant.symmetry && !are_symmetric(parameters, bridge.joints, *variant.symmetry))

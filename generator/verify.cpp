@@ -63,12 +63,12 @@ void check_geometry(const Database& database, const Model& stored, VerifyReport&
 }
 
 /// A solver of the variant for each thread.
-using ThreadSolvers = oneapi::tbb::enumerable_thread_specific<SceneSolver>;
+using ThreadSolvers = oneapi::tbb::enumerable_thread_specific<StageSolver>;
 
 /// They are made when something is solved: most checks need none.
 ThreadSolvers thread_solvers(const Database& database, const Model& bridge) {
   return ThreadSolvers([&bridge, settings = database.provenance().solver_settings] {
-    return SceneSolver([&bridge, settings, solver = SceneSolver()](std::span<const StageTask> tasks) mutable {
+    return StageSolver([&bridge, settings, solver = StageSolver()](std::span<const StageTask> tasks) mutable {
       if (!solver) solver = stated_solver(bridge, settings);
       return solver(tasks);
     });
@@ -169,7 +169,7 @@ std::optional<std::string> compare(const RecomputedVariant& variant, const Recor
              : std::nullopt;
 }
 
-Recomputed recompute_row(const RecomputedVariant& variant, std::size_t row, const SceneSolver& solver) {
+Recomputed recompute_row(const RecomputedVariant& variant, std::size_t row, const StageSolver& solver) {
   const RecordKey key = variant.database.key(row);
   const Record stored = variant.database.record(row);
   const std::vector<Solution> solutions = recompute(key, variant, solver);

@@ -256,6 +256,16 @@ void require_known_scatter(const Comparison& comparison, const LookupSettings& s
                     comparison.sampled->count, kRemedy));
 }
 
+/// The first of two epochs teaches what a bridge is like that is not exactly known.
+void require_two_epochs(const Comparison& comparison, bool known) {
+  if (comparison.before.empty())
+    throw InputError("both epochs are to count, expected readings with before_mm and after_mm");
+  if (known)
+    throw InputError(
+        "both epochs are to count, expected a bridge that is not exactly known: a database with "
+        "sensitivities, without --known-bridge");
+}
+
 }  // namespace
 
 bool counts_as_known(const Comparison& comparison, const LookupSettings& settings) {
@@ -305,12 +315,7 @@ Answer locate_damage(const Comparison& comparison, const LookupSettings& setting
   answer.counted = observation.count;
   answer.searched = eligible.rows.size();
   answer.unresolved = eligible.unresolved;
-  if (settings.epochs == Epochs::both && comparison.before.empty())
-    throw InputError("both epochs are to count, expected readings with before_mm and after_mm");
-  if (settings.epochs == Epochs::both && known)
-    throw InputError(
-        "both epochs are to count, expected a bridge that is not exactly known: a database with "
-        "sensitivities, without --known-bridge");
+  if (settings.epochs == Epochs::both) require_two_epochs(comparison, known);
   if (!known) require_known_scatter(comparison, settings);
   std::optional<UnknownBridgeQuestion> question;
   if (!known)

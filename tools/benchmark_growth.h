@@ -35,7 +35,7 @@ BridgeDescription viaduct(int spans);
 /// [m2].
 BridgeDescription with_smallest_piece(double area);
 
-/// Viaducts of 1 to `most_spans` (doubled) of which the scenes that stand are solved, by Newton alone;
+/// Viaducts of 1 to `most_spans` (doubled) of which some singles of wall blocks are solved, by Newton alone;
 /// p_n from 1e7 to 1e12 Pa/m and smallest pieces from 1e-6 to 0.1 m2 of the reference bridge, of which
 /// `scenes` singles (0: all), evenly spread, and intact are solved as build-database solves them. `progress`
 /// is told each point.

@@ -2,14 +2,12 @@
 
 #include <oneapi/tbb/parallel_for.h>
 
-#include <algorithm>
 #include <cmath>
 #include <map>
 #include <optional>
 
 #include "lookup/evidence/evidence_screen.h"
 #include "lookup/readings/simulate.h"
-#include "tools/benchmark_localisation.h"
 
 namespace voussoir {
 namespace {
@@ -52,10 +50,7 @@ NoiseModel told(const Instrument& instrument) {
 }
 
 void count(const Posterior& posterior, std::size_t truth, Rates& rates) {
-  ++rates.trials;
-  rates.first += !posterior.credible.empty() && posterior.credible.front() == truth ? 1 : 0;
-  rates.in_credible += std::ranges::count(posterior.credible, truth) > 0 ? 1 : 0;
-  rates.in_exact += held_by_exact_set(truth, posterior);
+  count_posterior(truth, posterior, rates.success);
   rates.damaged += posterior.missing_probability.front() < 1.0 - kCalledDamaged ? 1 : 0;
 }
 
@@ -96,10 +91,11 @@ Rates find_again(const TwoBridges& bridges, const std::vector<Scene>& scenes, co
   });
   Rates sum;
   for (const Rates& part : parts) {
-    sum.trials += part.trials;
-    sum.first += part.first;
-    sum.in_credible += part.in_credible;
-    sum.in_exact += part.in_exact;
+    sum.success.trials += part.success.trials;
+    sum.success.first += part.success.first;
+    sum.success.in_five += part.success.in_five;
+    sum.success.in_credible += part.success.in_credible;
+    sum.success.in_exact += part.success.in_exact;
     sum.damaged += part.damaged;
     sum.chances.insert(sum.chances.end(), part.chances.begin(), part.chances.end());
   }

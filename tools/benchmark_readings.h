@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "lookup/lookup.h"
+#include "tools/benchmark_localisation.h"
 
 namespace voussoir {
 
@@ -24,10 +24,7 @@ struct Instrument {
 };
 
 struct Rates {
-  int trials = 0;
-  int first = 0;                ///< the truth is likelier than any other scene
-  int in_credible = 0;          ///< the truth is in the 95 % set
-  double in_exact = 0.0;        ///< sum of held_by_exact_set
+  Success success;
   int damaged = 0;              ///< some block is missing with more than 50 %
   std::vector<double> chances;  ///< of the predictive check at the likeliest scene
 };

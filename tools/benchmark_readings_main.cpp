@@ -24,7 +24,7 @@ struct Options {
 };
 
 double share(double count, const Rates& rates) {
-  return count / std::max(1, rates.trials);
+  return count / std::max(1, rates.success.trials);
 }
 
 /// Share of the predictive checks that reject at this level.
@@ -37,8 +37,8 @@ void print_rates(const std::string& what, const Rates& rates) {
   fmt::print(
       "  {:<34} {:>6} trials: first {:.3f}, in the 95 % set {:.3f} (of exactly 95 %: {:.3f}), called damaged "
       "{:.3f}, check below 5 % {:.3f}, below 0.1 % {:.4f}\n",
-      what, rates.trials, share(rates.first, rates), share(rates.in_credible, rates),
-      share(rates.in_exact, rates), share(rates.damaged, rates), rejected(rates, 0.05),
+      what, rates.success.trials, share(rates.success.first, rates), share(rates.success.in_credible, rates),
+      share(rates.success.in_exact, rates), share(rates.damaged, rates), rejected(rates, 0.05),
       rejected(rates, 0.001));
 }
 

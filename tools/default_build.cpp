@@ -3,7 +3,7 @@
 namespace voussoir {
 namespace {
 
-SceneSolver default_solver(const Model& model, const PlanRules& rules) {
+StageSolver default_solver(const Model& model, const PlanRules& rules) {
   const SolverChoice choice = quasi_static_with(rules.collapse_fields);
   return choice.make_solver(model, choice.settings(model));
 }

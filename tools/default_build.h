@@ -22,7 +22,7 @@ class DefaultBuild {
  private:
   StatePlan plan_;
   PlanRules rules_;
-  SceneSolver solver_;
+  StageSolver solver_;
   StateSolving states_;
   SearchBasis basis_;
 };

@@ -146,7 +146,8 @@ std::optional<Point> self_crossing(const Polygon& polygon) {
     for (std::size_t j = i + 2; j < n; ++j) {
       if ((j + 1) % n == i) continue;
       const Point &a = polygon[i], &b = polygon[i + 1], &c = polygon[j], &d = polygon[(j + 1) % n];
-      for (const auto& [from, to, point] : {std::tuple(a, b, c), std::tuple(a, b, d), std::tuple(c, d, a)})
+      for (const auto& [from, to, point] :
+           {std::tuple(a, b, c), std::tuple(a, b, d), std::tuple(c, d, a), std::tuple(c, d, b)})
         if (distance_to_segment(from, to, point) < kTouching) return point;
       const double of_c = cross(b - a, c - a), of_d = cross(b - a, d - a);
       if (of_c * of_d < 0.0 && cross(d - c, a - c) * cross(d - c, b - c) < 0.0)

@@ -37,6 +37,14 @@ double moment_of_inertia(const Mesh& mesh, const IndexRange& triangles, const Ma
   return material.density * material.thickness * sum;
 }
 
+/// About the centre, of what is laid on the block's nodes [kg m2].
+double moment_of_laid_masses(const Eigen::VectorXd& laid, const BlockBody& body) {
+  double sum = 0.0;
+  for (int i = 0; i < body.nodes.size() && laid.size() > 0; ++i)
+    sum += laid[body.nodes.begin + i] * body.arms.segment<2>(2 * i).squaredNorm();
+  return sum;
+}
+
 double lumped_moment_of_inertia(const BlockBody& body) {
   return body.arms.dot(body.masses.cwiseProduct(body.arms));
 }
@@ -108,8 +116,10 @@ std::vector<BlockBody> make_block_bodies(const Model& model, RotationalInertia i
     for (int t = range.begin; t < range.end; ++t)
       add_stiffness(mesh, mesh.triangles[static_cast<std::size_t>(t)], material, body);
     set_masses(mesh, masses, body);
-    body.inertia = inertia == RotationalInertia::exact ? moment_of_inertia(mesh, range, material, body.centre)
-                                                       : lumped_moment_of_inertia(body);
+    body.inertia = inertia == RotationalInertia::exact
+                       ? moment_of_inertia(mesh, range, material, body.centre) +
+                             moment_of_laid_masses(model.parameters.laid_mass, body)
+                       : lumped_moment_of_inertia(body);
     set_supports(held, body);
     bodies.push_back(std::move(body));
   }

@@ -22,7 +22,7 @@ namespace voussoir {
 
 /// Which moment of inertia turns a block.
 enum class RotationalInertia {
-  exact,  ///< of its area: how blocks rock and topple
+  exact,  ///< of its area and of what is laid on its nodes: how blocks rock and topple
   lumped  ///< of the masses lumped at its nodes, up to three times as much for a block of two triangles.
           ///< Central differences on the nodes move like that, and where only the state of rest counts it
           ///< allows steps half as large again
@@ -43,8 +43,7 @@ struct BlockBody {
 };
 
 /// The bodies of all blocks.
-std::vector<BlockBody> make_block_bodies(const Model& model,
-                                         RotationalInertia inertia = RotationalInertia::exact);
+std::vector<BlockBody> make_block_bodies(const Model& model, RotationalInertia inertia);
 
 /// Lumped masses of the nodes, with what is laid on them [kg].
 Eigen::VectorXd lumped_masses(const Model& model);

@@ -11,7 +11,7 @@ namespace voussoir {
 void take_implicit_step(const MotionModel& model, Motion<double>& motion);
 void take_implicit_step(const MotionModel& model, Motion<DoubleLanes>& motion);
 
-/// Central differences with lumped masses, every triangle by itself (triangle_element.h). The frames stay at
+/// Central differences with lumped masses, every triangle by itself (law/triangle.h). The frames stay at
 /// rest.
 void take_explicit_step(const MotionModel& model, Motion<double>& motion);
 

@@ -16,10 +16,12 @@ struct Release {
   static Release sudden() { return {.duration = 0.0, .damping = 1.0}; }
 };
 
-/// Those of all blocks: in longer ones a loose block trembles more.
+/// Those of all blocks, with the joints as they are: in longer ones a loose block trembles more, and a loaded
+/// bridge is followed on joints that are not softened, for which the step of softened ones is too long.
 inline DynamicSettings short_steps() {
   DynamicSettings settings;
   settings.most_parts = 1;
+  settings.least_step = 0.0;
   return settings;
 }
 

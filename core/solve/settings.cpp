@@ -55,7 +55,10 @@ bool read_value(std::string_view text, Number& value) requires std::is_arithmeti
   return error == std::errc{} && end == text.data() + text.size();
 }
 bool read_value(std::string_view text, std::optional<double>& value) {
-  if (text == "automatic") return true;
+  if (text == "automatic") {
+    value.reset();
+    return true;
+  }
   return read_value(text, value.emplace());
 }
 template <class Value>

@@ -6,16 +6,12 @@
 /// three with scattered joints is so, and moves by 0.1 to 0.2 mm when it cools by a hundredth of a kelvin, or
 /// any block goes. No real bridge stays there for a night.
 
-#include <functional>
 #include <span>
 #include <vector>
 
 #include "core/statics/quasi_static_solver.h"
 
 namespace voussoir {
-
-/// Newton's method: one solution a task, in their order.
-using StageSolver = std::function<std::vector<Solution>(std::span<const StageTask>)>;
 
 /// The solutions of these tasks, those of intact bridges without mortar after they have cooled and warmed by
 /// a tenth of a kelvin: where one jumps on the way (StageTask), it rests where it ends, by what it has slid.

@@ -1,6 +1,7 @@
 #pragma once
 /// @file Equilibrium of a scene by Newton's method.
 
+#include <functional>
 #include <memory>
 #include <span>
 #include <vector>
@@ -64,6 +65,10 @@ struct StageTask {
 
   bool has_slipped() const { return slipped != nullptr && slipped->size() > 0; }
 };
+
+/// Solves stages of one bridge, one solution a task in their order; used by one thread at a time. A solution
+/// depends on its task only, not on the others.
+using StageSolver = std::function<std::vector<Solution>(std::span<const StageTask>)>;
 
 /// Solves stages of the variants of one structure, several side by side in SIMD lanes. Not thread-safe: one
 /// solver a thread. A solution depends on its task only, to the last bit: not on the other lanes, nor on

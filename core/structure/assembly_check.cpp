@@ -1,6 +1,7 @@
 #include "core/structure/assembly_check.h"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <numeric>
 #include <set>
@@ -26,15 +27,22 @@ std::string at(const Point& place) {
   return fmt::format("at ({:.4g}, {:.4g})", place.x(), place.y());
 }
 
+/// What a list of scenes would take for something else (--scenes).
+bool means_scenes(const std::string& label) {
+  constexpr std::array kWords = {"intact", "all", "singles", "pairs", "triples"};
+  return std::ranges::find(kWords, label) != kWords.end() || label.find("..") != std::string::npos;
+}
+
 void check_labels(const std::vector<Block>& blocks) {
   std::set<std::string> labels;
   for (const Block& block : blocks) {
     const bool plain = std::ranges::all_of(block.label, [](unsigned char c) {
       return c > 0x20 && c < 0x7F && c != '+' && c != ';' && c != '*';
     });
-    if (block.label.empty() || block.label.size() > kLongestLabel || !plain || block.label == "intact")
+    if (block.label.empty() || block.label.size() > kLongestLabel || !plain || means_scenes(block.label))
       throw InputError(
-          fmt::format("label {}: expected 1 to {} letters, digits or signs without blanks, + ; *",
+          fmt::format("label {}: expected 1 to {} letters, digits or signs without blanks, + ; * .., and "
+                      "none of intact, all, singles, pairs, triples",
                       in_quotes(block.label), kLongestLabel));
     if (!labels.insert(block.label).second)
       throw InputError(

@@ -9,6 +9,7 @@
 #include "core/structure/assembly_check.h"
 #include "core/structure/block_boxes.h"
 #include "core/structure/exposed_edges.h"
+#include "core/structure/separate_rings.h"
 
 namespace voussoir {
 namespace {
@@ -131,6 +132,7 @@ void check_parts(const BridgeDescription& description, const std::vector<Block>&
 /// blocks and the ground below counts as its intrados.
 BlockLayout given_blocks(const BridgeDescription& description) {
   BlockLayout layout{.blocks = description.blocks};
+  separate_rings(description.joint_tolerance, layout.blocks);
   const std::map<int, Box> rings = boxes_of_rings(layout.blocks);
   const double ground = bounds_of(description).corner.y();
   for (Block& block : layout.blocks) {

@@ -94,6 +94,7 @@ struct Material {
   double thickness = 1.0;         ///< [m] out of plane
   PlaneState plane = PlaneState::stress;
   double thermal_expansion = 8e-6;  ///< [1/K] linear
+  friend bool operator==(const Material&, const Material&) = default;
 };
 
 /// Joints; by default dry: no tension, no cohesion (paper, Table 1).
@@ -104,6 +105,7 @@ struct JointMaterial {
   Mortar mortar{};
 
   double friction_coefficient() const { return std::tan(friction_angle); }
+  friend bool operator==(const JointMaterial&, const JointMaterial&) = default;
 };
 
 /// Blocks chosen by role or label, and the material of them and of their joints.
@@ -129,8 +131,8 @@ struct SupportDescription {
   SupportKind base = SupportKind::clamped;  ///< nodes at y = 0
   SupportKind sides = SupportKind::roller;  ///< nodes at x = 0 and x = length
   SupportKind top = SupportKind::free;      ///< nodes at the top of the wall
-  int embedded_courses = 0;  ///< so many at the base and, if it is held, at the top are held whole, as in a
-                             ///< steel beam
+  int embedded_courses = 0;  ///< so many at the base, of each foot those above it, and, if it is held, at
+                             ///< the top are held whole, as in a steel beam
 };
 
 /// A movement of a support, one after the other, each from where the one before has ended.

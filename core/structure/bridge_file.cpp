@@ -38,6 +38,20 @@ void read_supports(TomlSection section, SupportDescription& supports) {
   section.refuse_unknown_keys();
 }
 
+/// Only a wall has a top, and only what is laid has courses.
+void check_held_courses(const TomlSection& section, const BridgeDescription& description) {
+  const SupportDescription& held = description.supports;
+  const bool is_given = !description.blocks.empty();
+  if (held.top != SupportKind::free && (is_given || description.wall.courses == 0))
+    section.refuse("top", is_given
+                              ? "is held: expected free: blocks that are given one by one have no top course"
+                              : "is held: expected courses in [wall], whose top it is");
+  if (held.embedded_courses > 0 && is_given)
+    section.refuse("embedded_courses",
+                   fmt::format("is {}: expected 0: blocks that are given one by one lie in no courses",
+                               held.embedded_courses));
+}
+
 void read_control_points(TomlSection section, ControlPointDescription& points) {
   section.flag("top", points.top);
   section.flag("arch", points.arch);
@@ -183,6 +197,7 @@ BridgeDescription interpret(const toml::table& root, const std::string& file,
 
   const std::vector<long> span_lines = read_spans_and_walls(top, description);
   if (top.has("blocks")) std::ranges::move(read_blocks(top, description), std::back_inserter(notes));
+  check_held_courses(section("supports"), description);
   top.know("blocks_tolerance_m");
   if (const toml::array* mortar = top.tables("mortar", "[[mortar]]"))
     description.mortar = read_mortar(*mortar, file, description);

@@ -45,18 +45,23 @@ bool is_seen_from_above(const Block& block, const std::vector<Block>& blocks) {
 
 std::optional<std::array<Point, 2>> open_face_towards(const Block& block, const std::vector<Block>& blocks,
                                                       const Point& point, double tolerance) {
-  std::optional<std::array<Point, 2>> face;
+  std::vector<Edge> edges;
+  Point along_face = Point::Zero();
   for (std::size_t i = 0; i < block.polygon.size(); ++i) {
     const Edge edge{block.polygon[i], block.polygon[(i + 1) % block.polygon.size()]};
     const Point along = edge.to - edge.from;
     if (cross(along, point - edge.from) >= 0.0) continue;  // the block is on the edge's left
     if (touched_length(edge, block, blocks, tolerance) > 0.5 * along.norm()) continue;
-    for (const Point& end : {edge.from, edge.to}) {
-      if (!face) face = {end, end};
-      if (end.x() < face->front().x()) face->front() = end;
-      if (end.x() > face->back().x()) face->back() = end;
-    }
+    edges.push_back(edge);
+    along_face += along;
   }
+  if (edges.empty()) return std::nullopt;
+  std::array<Point, 2> face = {edges.front().from, edges.front().from};
+  for (const Edge& edge : edges)
+    for (const Point& end : {edge.from, edge.to}) {
+      if (along_face.dot(end - face.front()) < 0.0) face.front() = end;
+      if (along_face.dot(end - face.back()) > 0.0) face.back() = end;
+    }
   return face;
 }
 

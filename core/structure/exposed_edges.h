@@ -12,9 +12,9 @@ namespace voussoir {
 /// Has the block a level upper edge, and is no other block above the middle of it?
 bool is_seen_from_above(const Block& block, const std::vector<Block>& blocks);
 
-/// The ends of the block's open face towards a point, from left to right: edges from whose line the point is
-/// seen outside the block and that no other block touches within `tolerance` [m] along half their length.
-/// Nothing if there is none.
+/// The ends of the block's open face towards a point, counter-clockwise about the block, which along a ring
+/// is from its left foot to its right one: edges from whose line the point is seen outside the block and that
+/// no other block touches within `tolerance` [m] along half their length. Nothing if there is none.
 std::optional<std::array<Point, 2>> open_face_towards(const Block& block, const std::vector<Block>& blocks,
                                                       const Point& point, double tolerance);
 

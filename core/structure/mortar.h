@@ -21,6 +21,7 @@ struct Mortar {
 
   bool is_there() const { return tensile_strength > 0.0; }
   double friction_coefficient() const { return std::tan(friction_angle); }
+  friend bool operator==(const Mortar&, const Mortar&) = default;
 };
 
 /// Joints that have a mortar of their own, and stiffnesses if these are given.

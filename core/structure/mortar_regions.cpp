@@ -4,6 +4,7 @@
 
 #include "core/error.h"
 #include "core/structure/halved_blocks.h"
+#include "core/structure/mortar_limits.h"
 
 namespace voussoir {
 namespace {
@@ -13,6 +14,24 @@ bool lies_in(const MortarRegion& region, const Block& first, const Block& second
   if (names.empty()) return true;
   return (is_called(first, names[0]) && is_called(second, names[1])) ||
          (is_called(first, names[1]) && is_called(second, names[0]));
+}
+
+/// The last of the regions in which the joint lies, or nothing.
+const MortarRegion* region_of(const Joint& joint, const BridgeDescription& description,
+                              const BlockLayout& layout) {
+  const Block& first = layout[joint.first];
+  const Block& second = layout[joint.second];
+  const bool within = are_halves(first, second, description.wall);
+  for (auto region = description.mortar.rbegin(); region != description.mortar.rend(); ++region)
+    if (region->within_blocks == within && lies_in(*region, first, second)) return &*region;
+  return nullptr;
+}
+
+void check_energy(const JointMaterial& material, const Joint& joint, const BlockLayout& layout) {
+  if (!material.mortar.is_there()) return;
+  if (const auto refused = refused_energy(material))
+    throw InputError(fmt::format("{} in [[mortar]], of the joint between '{}' and '{}': {}", refused->key,
+                                 layout[joint.first].label, layout[joint.second].label, refused->reason));
 }
 
 }  // namespace
@@ -25,17 +44,13 @@ void lay_mortar(const BridgeDescription& description, const Structure& structure
   if (description.wall.halved && !held_together)
     throw InputError("halved in [wall]: expected a table [[mortar]] with within_blocks = true beside it");
   for (std::size_t j = 0; j < structure.joints.size(); ++j) {
-    const Block& first = layout[structure.joints[j].first];
-    const Block& second = layout[structure.joints[j].second];
-    const bool within = are_halves(first, second, description.wall);
-    for (const MortarRegion& region : description.mortar) {
-      if (region.within_blocks != within || !lies_in(region, first, second)) continue;
-      JointMaterial& joint = parameters.joints[j];
-      joint.mortar = region.mortar;
-      joint.normal_stiffness = region.normal_stiffness.value_or(description.joints.normal_stiffness);
-      joint.tangential_stiffness =
-          region.tangential_stiffness.value_or(description.joints.tangential_stiffness);
-    }
+    const MortarRegion* region = region_of(structure.joints[j], description, layout);
+    if (region == nullptr) continue;
+    JointMaterial& joint = parameters.joints[j];
+    joint.mortar = region->mortar;
+    joint.normal_stiffness = region->normal_stiffness.value_or(joint.normal_stiffness);
+    joint.tangential_stiffness = region->tangential_stiffness.value_or(joint.tangential_stiffness);
+    check_energy(joint, structure.joints[j], layout);
   }
 }
 

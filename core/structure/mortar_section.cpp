@@ -1,35 +1,28 @@
 #include "core/structure/mortar_section.h"
 
-#include <cmath>
+#include <optional>
+
+#include "core/structure/mortar_limits.h"
 
 namespace voussoir {
 namespace {
 
-/// Refuses what would break by itself, or be stronger in tension than Coulomb's line allows.
-void check_strength(const TomlSection& section, const JointMaterial& joints, const MortarRegion& region) {
-  const Mortar& mortar = region.mortar;
-  const double normal = region.normal_stiffness.value_or(joints.normal_stiffness);
-  const double tangential = region.tangential_stiffness.value_or(joints.tangential_stiffness);
-  const double f_m = mortar.compressive_strength;
-  const auto above = [&](const char* key, double energy, double stored, const char* formula) {
-    if (energy <= stored)
-      section.refuse(key, fmt::format("is {:g}: expected more than {} = {:g}: the joint would break at once",
-                                      energy, formula, stored));
-  };
-  above("opening_energy_J_m2", mortar.opening_energy,
-        0.5 * mortar.tensile_strength * mortar.tensile_strength / normal, "f_t^2 / (2 p_n)");
-  above("slip_energy_J_m2", mortar.slip_energy, mortar.cohesion * mortar.cohesion / tangential, "c^2 / p_t");
-  if (std::isfinite(mortar.crushing_energy))
-    above("crushing_energy_J_m2", mortar.crushing_energy, f_m * f_m / normal,
-          "f_m^2 / p_n of compressive_strength_Pa");
-  const double least_cohesion = mortar.friction_coefficient() * mortar.tensile_strength;
-  if (mortar.cohesion < least_cohesion)
-    section.refuse("cohesion_Pa",
-                   fmt::format("is {:g}: expected at least tan(friction_angle) tensile_strength_Pa = {:g}",
-                               mortar.cohesion, least_cohesion));
+/// What the joints' stiffness decides is checked here only if that is known already: regions may give joints
+/// another one (lay_mortar).
+void check_strength(const TomlSection& section, const BridgeDescription& description,
+                    const MortarRegion& region) {
+  JointMaterial joint = description.joints;
+  joint.mortar = region.mortar;
+  joint.normal_stiffness = region.normal_stiffness.value_or(joint.normal_stiffness);
+  joint.tangential_stiffness = region.tangential_stiffness.value_or(joint.tangential_stiffness);
+  const bool is_known =
+      description.regions.empty() || (region.normal_stiffness && region.tangential_stiffness);
+  std::optional<RefusedMortar> refused = is_known ? refused_energy(joint) : std::nullopt;
+  if (!refused) refused = refused_cohesion(region.mortar);
+  if (refused) section.refuse(refused->key, refused->reason);
 }
 
-void read_strength(TomlSection& section, const JointMaterial& joints, MortarRegion& region) {
+void read_strength(TomlSection& section, const BridgeDescription& description, MortarRegion& region) {
   Mortar& mortar = region.mortar;
   const auto required = [&](const char* key, double& value) {
     section.require(key);
@@ -39,11 +32,11 @@ void read_strength(TomlSection& section, const JointMaterial& joints, MortarRegi
   required("opening_energy_J_m2", mortar.opening_energy);
   required("cohesion_Pa", mortar.cohesion);
   required("slip_energy_J_m2", mortar.slip_energy);
-  mortar.friction_angle = joints.friction_angle;
-  section.friction_angle(mortar.friction_angle, joints.friction_angle);
+  mortar.friction_angle = description.joints.friction_angle;
+  section.friction_angle(mortar.friction_angle, description.joints.friction_angle);
   section.positive("compressive_strength_Pa", mortar.compressive_strength);
   section.positive("crushing_energy_J_m2", mortar.crushing_energy);
-  check_strength(section, joints, region);
+  check_strength(section, description, region);
 }
 
 void read_names(TomlSection& section, std::vector<std::string>& names) {
@@ -68,7 +61,7 @@ MortarRegion read_region(TomlSection section, const BridgeDescription& descripti
       section.know(key);
   bool dry = false;
   section.flag("dry", dry);
-  if (!dry) read_strength(section, description.joints, region);
+  if (!dry) read_strength(section, description, region);
   section.refuse_unknown_keys();
   return region;
 }

@@ -9,7 +9,7 @@
 
 namespace voussoir {
 
-/// `description` has its joints. Throws InputError "file:line: message".
+/// `description` has its joints and regions. Throws InputError "file:line: message".
 std::vector<MortarRegion> read_mortar(const toml::array& tables, const std::string& file,
                                       const BridgeDescription& description);
 

@@ -1,7 +1,6 @@
 #include "core/structure/regions.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 
@@ -10,11 +9,6 @@ namespace {
 
 bool names(const Region& region, const Block& block) {
   return std::ranges::any_of(region.of, [&](const std::string& name) { return is_called(block, name); });
-}
-
-bool same(const Material& a, const Material& b) {
-  return a.young_modulus == b.young_modulus && a.poisson_ratio == b.poisson_ratio && a.density == b.density &&
-         a.thickness == b.thickness && a.plane == b.plane && a.thermal_expansion == b.thermal_expansion;
 }
 
 JointMaterial weaker(const JointMaterial& a, const JointMaterial& b) {
@@ -44,15 +38,11 @@ bool has_symmetric_parameters(const Model& bridge) {
   const Parameters& parameters = bridge.parameters;
   const MirrorSymmetry& symmetry = *bridge.symmetry;
   for (std::size_t b = 0; b < bridge.layout.size(); ++b)
-    if (!same(parameters.blocks[b],
-              parameters.blocks[static_cast<std::size_t>(value(symmetry.block_image[b]))]))
+    if (parameters.blocks[b] != parameters.blocks[static_cast<std::size_t>(value(symmetry.block_image[b]))])
       return false;
-  const auto law_of = [](const JointMaterial& a) {
-    return std::array{a.normal_stiffness, a.tangential_stiffness, a.friction_angle};
-  };
-  std::map<std::pair<BlockId, BlockId>, std::array<double, 3>> between;  // joints of a pair are alike
+  std::map<std::pair<BlockId, BlockId>, JointMaterial> between;  // joints of a pair are alike
   for (std::size_t j = 0; j < bridge.joints.size(); ++j)
-    between[std::minmax(bridge.joints[j].first, bridge.joints[j].second)] = law_of(parameters.joints[j]);
+    between[std::minmax(bridge.joints[j].first, bridge.joints[j].second)] = parameters.joints[j];
   const auto image = [&](BlockId block) {
     return symmetry.block_image[static_cast<std::size_t>(value(block))];
   };

@@ -48,8 +48,7 @@ Structure make_structure(const BridgeDescription& description) {
                                   .joint_tolerance = description.joint_tolerance,
                                   .mirror_axis = bounds.corner.x() + 0.5 * bounds.length});
   structure.layout.small_pieces = laid.small_pieces;
-  structure.supports = box_supports(structure.mesh, description.supports, bounds.length, bounds.corner);
-  hold_top(description, structure.layout, structure.mesh, structure.supports);
+  structure.supports = supports_of(description, structure.layout, structure.mesh);
   structure.control_points = find_control_points(structure.layout, structure.mesh, description);
   if (structure.control_points.empty())
     throw InputError("the bridge has no control points: switch on top or arch");

@@ -44,6 +44,18 @@ Support face(const std::string& name, std::vector<NodeId> nodes, SupportKind kin
   return {name, std::move(nodes), holds(0), holds(1), false};
 }
 
+/// How far x is from a stretch [m]; 0 on it.
+double distance(double x, const std::pair<double, double>& stretch) {
+  return std::max({0.0, stretch.first - x, x - stretch.second});
+}
+
+std::size_t nearest(double x, const std::vector<std::pair<double, double>>& stretches) {
+  std::size_t found = 0;
+  for (std::size_t i = 1; i < stretches.size(); ++i)
+    if (distance(x, stretches[i]) < distance(x, stretches[found])) found = i;
+  return found;
+}
+
 /// Ground nodes that touch no ground edge (a corner on the ground) are the nearest foot's.
 std::vector<Support> feet(const Mesh& mesh, SupportKind kind, double ground, double tolerance) {
   const auto stretches = stretches_on_ground(mesh, ground, tolerance);
@@ -53,27 +65,52 @@ std::vector<Support> feet(const Mesh& mesh, SupportKind kind, double ground, dou
     supports.back().is_foot = true;
   }
   if (supports.empty()) return {face("base", nodes_at(mesh, 1, ground, tolerance), kind, 1)};
-  const auto distance = [&](double x, std::size_t foot) {
-    return std::max({0.0, stretches[foot].first - x, x - stretches[foot].second});
-  };
-  for (const NodeId node : nodes_at(mesh, 1, ground, tolerance)) {
-    std::size_t nearest = 0;
-    for (std::size_t i = 1; i < supports.size(); ++i)
-      if (distance(mesh.position(node).x(), i) < distance(mesh.position(node).x(), nearest)) nearest = i;
-    supports[nearest].nodes.push_back(node);
-  }
+  for (const NodeId node : nodes_at(mesh, 1, ground, tolerance))
+    supports[nearest(mesh.position(node).x(), stretches)].nodes.push_back(node);
   return supports;
 }
 
-/// Adds the nodes of the blocks in these courses that are not yet there.
-void embed(const BlockLayout& layout, const Mesh& mesh, int first_course, int last_course, Support& support) {
+/// Adds the nodes of the blocks in these courses that are not yet there, each block's to the support that
+/// `support_of` names.
+template <class SupportOf>
+void embed(const BlockLayout& layout, const Mesh& mesh, int first_course, int last_course,
+           const SupportOf& support_of) {
   for (std::size_t b = 0; b < layout.size(); ++b) {
     const int course = layout.blocks[b].index.course;
     if (course < std::max(first_course, 1) || course > last_course) continue;
+    Support& support = support_of(layout.blocks[b]);
     for (int node = mesh.block_nodes[b].begin; node < mesh.block_nodes[b].end; ++node)
       if (std::ranges::find(support.nodes, NodeId{node}) == support.nodes.end())
         support.nodes.push_back(NodeId{node});
   }
+}
+
+/// Each block of the lowest courses in the foot below it, or in the nearest one.
+void embed_in_feet(const BlockLayout& layout, const Mesh& mesh, int courses, std::vector<Support>& supports) {
+  std::vector<std::size_t> feet;
+  std::vector<std::pair<double, double>> stretches;
+  for (std::size_t s = 0; s < supports.size(); ++s) {
+    if (!supports[s].is_foot) continue;
+    const auto [left, right] =
+        std::ranges::minmax(supports[s].nodes, {}, [&](NodeId node) { return mesh.position(node).x(); });
+    feet.push_back(s);
+    stretches.emplace_back(mesh.position(left).x(), mesh.position(right).x());
+  }
+  if (feet.empty()) return;
+  embed(layout, mesh, 1, courses, [&](const Block& block) -> Support& {
+    return supports[feet[nearest(centroid(block.polygon).x(), stretches)]];
+  });
+}
+
+void hold_top(const BridgeDescription& description, const BlockLayout& layout, const Mesh& mesh,
+              std::vector<Support>& supports) {
+  const WallDescription& wall = description.wall;
+  const SupportDescription& held = description.supports;
+  const double height = wall.courses * wall.course_height;
+  if (held.top == SupportKind::free || wall.courses == 0) return;
+  supports.push_back(face("top", nodes_at(mesh, 1, height, 1e-9 * height), held.top, 1));
+  embed(layout, mesh, wall.courses - held.embedded_courses + 1, wall.courses,
+        [&](const Block&) -> Support& { return supports.back(); });
 }
 
 }  // namespace
@@ -89,16 +126,14 @@ std::vector<Support> box_supports(const Mesh& mesh, const SupportDescription& de
   return supports;
 }
 
-void hold_top(const BridgeDescription& description, const BlockLayout& layout, const Mesh& mesh,
-              std::vector<Support>& supports) {
-  const WallDescription& wall = description.wall;
-  const SupportDescription& held = description.supports;
-  const double height = wall.courses * wall.course_height;
-  for (Support& support : supports)
-    if (support.is_foot) embed(layout, mesh, 1, held.embedded_courses, support);
-  if (held.top == SupportKind::free || wall.courses == 0) return;
-  supports.push_back(face("top", nodes_at(mesh, 1, height, 1e-9 * height), held.top, 1));
-  embed(layout, mesh, wall.courses - held.embedded_courses + 1, wall.courses, supports.back());
+std::vector<Support> supports_of(const BridgeDescription& description, const BlockLayout& layout,
+                                 const Mesh& mesh) {
+  const Bounds bounds = bounds_of(description);
+  std::vector<Support> supports = box_supports(mesh, description.supports, bounds.length, bounds.corner);
+  if (!description.blocks.empty()) return supports;  // they have no courses
+  embed_in_feet(layout, mesh, description.supports.embedded_courses, supports);
+  hold_top(description, layout, mesh, supports);
+  return supports;
 }
 
 std::vector<bool> held_components(const std::vector<Support>& supports, const Mesh& mesh) {

@@ -26,10 +26,11 @@ struct Support {
 std::vector<Support> box_supports(const Mesh& mesh, const SupportDescription& description, double length,
                                   const Point& corner = Point::Zero());
 
-/// Adds the support "top" of a wall that is held above, and what is embedded to both: the nodes of the lowest
-/// and highest courses.
-void hold_top(const BridgeDescription& description, const BlockLayout& layout, const Mesh& mesh,
-              std::vector<Support>& supports);
+/// The supports of a described bridge: those of its box, and of its wall the support "top" if it is held
+/// above and what is embedded in them, the blocks of the lowest courses in the foot below or next to them and
+/// those of the highest courses in the top.
+std::vector<Support> supports_of(const BridgeDescription& description, const BlockLayout& layout,
+                                 const Mesh& mesh);
 
 /// Per displacement component (2 node + axis): does a support hold it?
 std::vector<bool> held_components(const std::vector<Support>& supports, const Mesh& mesh);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/error.h"
 
@@ -13,6 +14,22 @@ constexpr double kSameHeight = 1e-6;  ///< [m] as joints are found
 
 [[noreturn]] void refuse_place(double x) {
   throw InputError(fmt::format("there is no block under x = {:g} m to carry a load", x));
+}
+
+double height_on(const Point& from, const Point& to, double x) {
+  return from.y() + (x - from.x()) / (to.x() - from.x()) * (to.y() - from.y());
+}
+
+/// The part of a stretch from `begin` to `end` on which a linear function is above zero; empty if there is
+/// none.
+template <class Linear>
+std::pair<double, double> where_positive(const Linear& function, double begin, double end) {
+  if (end <= begin) return {begin, begin};
+  const double at_begin = function(begin), at_end = function(end);
+  if (at_begin <= 0.0 && at_end <= 0.0) return {begin, begin};
+  if (at_begin * at_end >= 0.0) return {begin, end};
+  const double zero = begin + at_begin / (at_begin - at_end) * (end - begin);
+  return at_begin > 0.0 ? std::pair{begin, zero} : std::pair{zero, end};
 }
 
 }  // namespace
@@ -87,13 +104,13 @@ void TopSurface::add_soil(const std::vector<Point>& line, double mass_per_area,
     if (highest_[i] == kNone) continue;
     const Edge& edge = edges_[static_cast<std::size_t>(highest_[i])];
     for (std::size_t s = 0; s + 1 < line.size(); ++s) {
-      const double begin = std::max(ends_[i], line[s].x()), end = std::min(ends_[i + 1], line[s + 1].x());
+      const auto above = [&](double x) { return height_on(line[s], line[s + 1], x) - edge.height(x); };
+      const auto [begin, end] =
+          where_positive(above, std::max(ends_[i], line[s].x()), std::min(ends_[i + 1], line[s + 1].x()));
+      if (end <= begin) continue;
       for (const double place : {0.5 - kPlace, 0.5 + kPlace}) {
-        if (end <= begin) continue;
         const double x = begin + place * (end - begin);
-        const double along = (x - line[s].x()) / (line[s + 1].x() - line[s].x());
-        const double top = line[s].y() + along * (line[s + 1].y() - line[s].y());
-        const double mass = 0.5 * (end - begin) * mass_per_area * std::max(0.0, top - edge.height(x));
+        const double mass = 0.5 * (end - begin) * mass_per_area * std::max(0.0, above(x));
         masses[value(edge.left_node)] += (1.0 - edge.share_of_right(x)) * mass;
         masses[value(edge.right_node)] += edge.share_of_right(x) * mass;
       }

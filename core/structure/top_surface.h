@@ -23,7 +23,7 @@ class TopSurface {
 
   /// Adds the soil [kg] between the top and a line of straight stretches above it (x ascending), where it is
   /// above, to the nodes' masses: `mass_per_area` [kg/m2] times the height, by Gauss's rule with two points
-  /// on each stretch of both, which is exact where the line does not cross the top.
+  /// on each stretch on which the line is above, which is exact.
   void add_soil(const std::vector<Point>& line, double mass_per_area, Eigen::VectorXd& masses) const;
 
  private:

@@ -11,6 +11,7 @@
 #include "core/geometry/box.h"
 #include "core/random.h"
 #include "core/structure/correlation_by_distance.h"
+#include "core/structure/mortar_limits.h"
 
 namespace voussoir {
 namespace {
@@ -46,11 +47,14 @@ void apply(const UncertainAction& action, double theta, Parameters& parameters) 
   const double factor = factor_of(action, theta);
   for (const std::size_t j : action.joints) {
     JointMaterial& joint = parameters.joints[j];
-    if (action.quantity == UncertainQuantity::stiffness) joint.normal_stiffness *= factor;
+    JointMaterial drawn = joint;
+    if (action.quantity == UncertainQuantity::stiffness) drawn.normal_stiffness *= factor;
     if (action.quantity == UncertainQuantity::friction)
-      joint.friction_angle = std::atan(joint.friction_coefficient() * factor);
+      drawn.friction_angle = std::atan(joint.friction_coefficient() * factor);
     else
-      joint.tangential_stiffness *= factor;
+      drawn.tangential_stiffness *= factor;
+    drawn.mortar = mortar_on(drawn, joint);
+    joint = drawn;
   }
   if (action.quantity == UncertainQuantity::density) parameters.laid_mass *= factor;
   for (Material& block : parameters.blocks) {

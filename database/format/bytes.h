@@ -56,16 +56,6 @@ class ByteReader {
     return value;
   }
 
-  /// `count` values, or nothing if fewer are left; allocates no more than what is left.
-  template <PlainValue T>
-  std::optional<std::vector<T>> get_many(std::size_t count) {
-    if (count > rest_.size() / sizeof(T)) return std::nullopt;
-    const auto bytes = get_bytes(count * sizeof(T));
-    std::vector<T> values(count);
-    if (count > 0) std::memcpy(values.data(), bytes->data(), bytes->size());
-    return values;
-  }
-
   std::optional<ByteView> get_bytes(std::size_t count) {
     if (count > rest_.size()) return std::nullopt;
     const ByteView front = rest_.first(count);

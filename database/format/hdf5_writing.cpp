@@ -55,6 +55,7 @@ Hdf5Handle plain_object(hid_t property_class) {
 }
 
 Hdf5Handle create_file(const std::filesystem::path& path) {
+  errno = 0;
   const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   H5Pset_libver_bounds(access.get(), H5F_LIBVER_V110, H5F_LIBVER_V110);  // all metadata carries checksums
   H5Pset_alignment(access.get(), 1, kAlignment);
@@ -69,6 +70,7 @@ Hdf5Output::Hdf5Output(const std::filesystem::path& path) : path_(path), file_(c
   check(static_cast<bool>(file_), "cannot be created");
 }
 
+/// Each public member begins with errno = 0: a number that stands there is of this call, not of an older one.
 void Hdf5Output::check(bool ok, const std::string& what) const {
   if (ok) return;
   const std::string reason = errno != 0 ? std::strerror(errno) : last_hdf5_error();
@@ -76,6 +78,7 @@ void Hdf5Output::check(bool ok, const std::string& what) const {
 }
 
 void Hdf5Output::add_text_attribute(const char* name, const std::string& text) {
+  errno = 0;
   const Hdf5Handle type = make_text_type(std::max<std::size_t>(text.size(), 1));
   const Hdf5Handle space = make_space({});
   const Hdf5Handle made(H5Acreate2(file_.get(), name, type.get(), space.get(), H5P_DEFAULT, H5P_DEFAULT),
@@ -84,6 +87,7 @@ void Hdf5Output::add_text_attribute(const char* name, const std::string& text) {
 }
 
 void Hdf5Output::add_int_attribute(const char* name, int number) {
+  errno = 0;
   const Hdf5Handle space = make_space({});
   const std::int32_t value = number;
   const Hdf5Handle made(H5Acreate2(file_.get(), name, H5T_STD_I32LE, space.get(), H5P_DEFAULT, H5P_DEFAULT),
@@ -111,6 +115,7 @@ void Hdf5Output::ensure_group(const std::string& dataset_path) {
 }
 
 void Hdf5Output::add_dataset(const DatasetValue& value) {
+  errno = 0;
   ensure_group(value.path);
   const Hdf5Handle type = make_type(value);
   const Hdf5Handle space = make_space(value.shape);
@@ -125,6 +130,7 @@ void Hdf5Output::add_dataset(const DatasetValue& value) {
 }
 
 Hdf5Handle Hdf5Output::add_field_dataset(const DatasetValue& value) {
+  errno = 0;
   ensure_group(value.path);
   const Hdf5Handle type = make_type(value);
   const Hdf5Handle space = make_space(value.shape);
@@ -143,6 +149,7 @@ Hdf5Handle Hdf5Output::add_field_dataset(const DatasetValue& value) {
 
 void Hdf5Output::add_chunk(const Hdf5Handle& field_dataset, std::uint64_t state, std::uint64_t row,
                            ByteView packed) {
+  errno = 0;
   const std::array<hsize_t, 4> offset = {state, row, 0, 0};
   constexpr std::uint32_t kAllFilters = 0;
   check(H5Dwrite_chunk(field_dataset.get(), H5P_DEFAULT, kAllFilters, offset.data(), packed.size(),
@@ -152,6 +159,7 @@ void Hdf5Output::add_chunk(const Hdf5Handle& field_dataset, std::uint64_t state,
 
 void Hdf5Output::add_field_view(const std::string& name, const std::string& database, const char* path,
                                 const std::vector<std::uint64_t>& shape, std::uint64_t row) {
+  errno = 0;
   const std::uint64_t nodes = shape.at(2);
   const Hdf5Handle source = make_space(shape);
   const Hdf5Handle view = make_space({nodes, 3});

@@ -38,7 +38,7 @@ Model bridge_of(const Database& database) {
   structure.mesh = database.mesh();
   structure.joints = database.joints();
   const Bounds bounds = bounds_of(description);
-  structure.supports = box_supports(structure.mesh, description.supports, bounds.length, bounds.corner);
+  structure.supports = supports_of(description, structure.layout, structure.mesh);
   structure.control_points = stored_points(database);
   structure.symmetry =
       find_mirror_symmetry(structure.layout, structure.mesh, bounds.corner.x() + 0.5 * bounds.length);

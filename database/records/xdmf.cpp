@@ -3,33 +3,19 @@
 #include <fstream>
 
 #include "core/error.h"
+#include "core/text.h"
 #include "database/format/hdf5_writing.h"
 #include "database/records/schema.h"
 
 namespace voussoir {
 namespace {
 
-/// The text with the characters that mean something in XML written out.
-std::string escaped(const std::string& text) {
-  std::string safe;
-  for (const char c : text) {
-    if (c == '&')
-      safe += "&amp;";
-    else if (c == '<')
-      safe += "&lt;";
-    else if (c == '>')
-      safe += "&gt;";
-    else if (c == '"')
-      safe += "&quot;";
-    else
-      safe += c;
-  }
-  return safe;
-}
-
 struct IndexedScene {
   std::string name;
   std::size_t row = 0;
+
+  /// The name of its dataset: labels may hold what is a path there.
+  std::string view() const { return fmt::format("{}", row); }
 };
 
 std::vector<IndexedScene> find_scenes(const Database& database, const std::vector<Scene>& scenes) {
@@ -55,7 +41,7 @@ std::string grid_text(const Database& database, const IndexedScene& scene) {
   const std::size_t triangles = database.mesh().triangles.size();
   const int nodes = database.mesh().node_count();
   std::string text = fmt::format("  <Grid Name=\"{}\" GridType=\"Uniform\">\n   <Time Value=\"{}\"/>\n",
-                                 scene.name, scene.row);
+                                 escaped(scene.name), scene.row);
   text +=
       fmt::format("   <Topology TopologyType=\"Triangle\" NumberOfElements=\"{}\">{}</Topology>\n", triangles,
                   data_item(kInt, fmt::format("{} 3", triangles), file + ":/" + dataset::kTriangles));
@@ -63,7 +49,7 @@ std::string grid_text(const Database& database, const IndexedScene& scene) {
                       data_item(kFloat, fmt::format("{} 2", nodes), file + ":/" + dataset::kNodes));
   text += fmt::format(
       "   <Attribute Name=\"displacement\" AttributeType=\"Vector\" Center=\"Node\">{}</Attribute>\n",
-      data_item(kFloat, fmt::format("{} 3", nodes), views + ":/" + scene.name));
+      data_item(kFloat, fmt::format("{} 3", nodes), views + ":/" + scene.view()));
   return text + "  </Grid>\n";
 }
 
@@ -81,7 +67,8 @@ void write_views(const Database& database, const std::vector<IndexedScene>& scen
   const auto nodes = static_cast<std::uint64_t>(database.mesh().node_count());
   const std::vector<std::uint64_t> shape = {database.states().size(), database.rows(), nodes, 2};
   for (const IndexedScene& scene : scenes)
-    output.add_field_view(scene.name, database.path().filename().string(), dataset::kField, shape, scene.row);
+    output.add_field_view(scene.view(), database.path().filename().string(), dataset::kField, shape,
+                          scene.row);
   output.close();
 }
 

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <functional>
-#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "lookup/report/drawing/field_drawing.h"
@@ -27,16 +26,16 @@ struct SceneField {
 };
 
 std::string field_csv(const SceneField& scene) {
-  std::string text = "course,position,x_m,y_m,ux_m,uy_m\n";
+  Table table{{"block", "course", "position", "x_m", "y_m", "ux_m", "uy_m"}, {}};
   scene.for_each_block([&](std::size_t block) {
-    const BlockIndex index = scene.database.layout().blocks[block].index;
+    const Block& laid = scene.database.layout().blocks[block];
     const IndexRange nodes = scene.mesh.block_nodes[block];
     for (int node = nodes.begin; node < nodes.end; ++node)
-      fmt::format_to(std::back_inserter(text), "{},{},{},{},{},{}\n", index.course, index.position,
-                     scene.mesh.nodes(0, node), scene.mesh.nodes(1, node), scene.field(0, node),
-                     scene.field(1, node));
+      table.rows.push_back({laid.label, static_cast<double>(laid.index.course),
+                            static_cast<double>(laid.index.position), scene.mesh.nodes(0, node),
+                            scene.mesh.nodes(1, node), scene.field(0, node), scene.field(1, node)});
   });
-  return text;
+  return to_csv(table);
 }
 
 std::string field_json(const SceneField& scene) {
@@ -67,6 +66,7 @@ std::string scene_heading(const Database& database, std::size_t row, std::size_t
 VtkGrid field_grid(const Mesh& mesh, const BlockLayout& layout, const Scene& scene, const Field& field) {
   VtkGrid grid;
   VtkArray displacements{"displacement_m", 3};
+  VtkArray blocks{"block", 1, {}, true};  // its number, from 0: blocks of a survey have no course
   VtkArray courses{"course", 1, {}, true};
   VtkArray positions{"position", 1, {}, true};
   for (std::size_t block = 0; block < mesh.block_nodes.size(); ++block) {
@@ -82,12 +82,13 @@ VtkGrid field_grid(const Mesh& mesh, const BlockLayout& layout, const Scene& sce
     for (int t = triangles.begin; t < triangles.end; ++t) {
       const auto& corners = mesh.triangles[static_cast<std::size_t>(t)].nodes;
       grid.cells.push_back({value(corners[0]) + shift, value(corners[1]) + shift, value(corners[2]) + shift});
+      blocks.values.push_back(static_cast<double>(block));
       courses.values.push_back(index.course);
       positions.values.push_back(index.position);
     }
   }
   grid.point_data = {displacements};
-  grid.cell_data = {courses, positions};
+  grid.cell_data = {blocks, courses, positions};
   return grid;
 }
 

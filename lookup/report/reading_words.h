@@ -20,10 +20,11 @@ std::string_view unit_of(Quantity quantity);
 /// "vertical displacement [mm]", "change of tilt [mm per m]"...: the axis of a quantity.
 std::string axis_in_words(ReadingKind kind, Quantity quantity);
 
-/// "78 of 78 control points have a change between two times"
+/// "78 of 78 control points have a reading (change between two times)"
 std::string readings_in_words(const Comparison& comparison, std::size_t readings);
 
-/// "built: the blocks were never there", "lost: the blocks went while the bridge carried its weight"
+/// "built (missing blocks were never there)", "lost (missing blocks went while the bridge carried its
+/// weight)"
 std::string history_in_words(const std::string& history);
 
 /// What says how much a bridge scatters that is not exactly known: "derivatives of the stored bridge (first

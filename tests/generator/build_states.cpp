@@ -131,7 +131,7 @@ TEST_CASE("Real histories and loads come out the same on one thread and, interru
   const auto left = std::make_shared<std::atomic<int>>(30);
   SolverChoice failing = quasi_static();
   failing.make_solver = [left, make = failing.make_solver](const Model& bridge, const std::string& settings) {
-    return SceneSolver([left, solver = make(bridge, settings)](std::span<const StageTask> tasks) {
+    return StageSolver([left, solver = make(bridge, settings)](std::span<const StageTask> tasks) {
       if (*left -= static_cast<int>(tasks.size()); *left < 0) throw Failure("interrupted");
       return solver(tasks);
     });
@@ -175,7 +175,7 @@ TEST_CASE("Of a database of built only, built is taken over when lost and loads 
   SolverChoice counting = test::made_up_solver();
   counting.make_solver = [asked, make = counting.make_solver](const Model& bridge,
                                                               const std::string& settings) {
-    return SceneSolver([asked, solver = make(bridge, settings)](std::span<const StageTask> tasks) {
+    return StageSolver([asked, solver = make(bridge, settings)](std::span<const StageTask> tasks) {
       for (const StageTask& task : tasks) *asked += task.before == nullptr ? 1 : 0;
       return solver(tasks);
     });

@@ -210,4 +210,22 @@ TEST_CASE("Stored sensitivities are those of the fields, and changed ones are fo
   CHECK(check_sensitivities(database, bridge, other, plan).problems.size() >= 4);
 }
 
+TEST_CASE(
+    "Where no signal can be compared the first order counts as wrong by as much as it says (one block)") {
+  const test::TemporaryFolder folder;
+  BuildRequest request;
+  request.bridge = parse_bridge_file(
+      "spans = []\n[wall]\nlength_m = 1\ncourses = 1\nbond = \"stack\"\n[supports]\nsides = \"free\"\n",
+      "one");
+  request.output = folder / "one.h5";
+  request.scenes = "intact";
+  Progress quiet(Progress::Mode::quiet);
+  build_database(request, quasi_static(), quiet);
+  const Database database = Database::open(request.output);
+  REQUIRE(database.sensitivities() != nullptr);
+  const FirstOrderResidual& left = database.sensitivities()->residuals.at(0);
+  CHECK(std::array{left.share, left.common, left.epoch_share, left.epoch_common} ==
+        std::array{1.0, 0.0, 1.0, 0.0});
+}
+
 }  // namespace voussoir

@@ -81,6 +81,12 @@ TEST_CASE(
     CHECK(to_json(counts)["stands_by_slip"] == true);
     CHECK(to_json(counts)["intact"] == "standing");
   }
+  // A file without fields does not know, and the build says no more than its file.
+  request.fields = KeepField::no;
+  request.output = folder / "light.h5";
+  const OutcomeCounts built = build_database(request, quasi_static(), quiet).outcomes;
+  CHECK(to_json(built)["intact"] == "standing");
+  CHECK(to_json(built) == to_json(count_outcomes(Database::open(request.output))));
 }
 
 TEST_CASE("What has slid is taken over into another database, bit by bit (built anew)") {

@@ -17,7 +17,7 @@ constexpr double kSameSearch = 1e-9;
 struct Subject {
   BridgeDescription description = test::small_description();
   Model bridge = make_model(description);
-  SceneSolver solver;
+  StageSolver solver;
 
   Subject() {
     description.loads = {{"lorry", {}, {}, {{0.0, 1e4}}, {2.0, 4.0}, std::nullopt, true}};

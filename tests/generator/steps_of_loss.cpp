@@ -18,7 +18,7 @@ struct Reference {
   Model bridge = make_model(file.description);
   StatePlan plan = plan_states({"built", "lost"}, bridge, file.description);
   StateSolving solving{bridge, plan};
-  SceneSolver solver;
+  StageSolver solver;
   QuasiStaticSolver newton{bridge};
   StartingFields starts;
 

@@ -3,6 +3,7 @@
 
 #include "core/error.h"
 #include "core/structure/mirror_symmetry.h"
+#include "core/structure/mortar_limits.h"
 #include "generator/variants.h"
 #include "tests/support/bridges.h"
 
@@ -62,6 +63,23 @@ TEST_CASE("A variant has the parameters that it is given") {
   CHECK(variant.parameters.contact.normal_stiffness == 1.2 * bridge.parameters.contact.normal_stiffness);
   CHECK(variant.parameters.blocks[5].density == 1.05 * bridge.parameters.blocks[5].density);
   CHECK(variant.mesh.nodes == bridge.mesh.nodes);
+}
+
+TEST_CASE("A variant's mortar goes along with its joints (the limits of bridge files)", "[mortar]") {
+  BridgeDescription description = test::small_description_with_mortar();
+  description.joints.mortar.opening_energy = 1.3;  // f_t^2 / (2 p_n) is 1.25
+  description.joints.mortar.slip_energy = 101.0;   // c^2 / p_t is 100
+  const Model bridge = make_model(description);
+  VariantParameters parameters = variant_parameters(bridge.parameters);
+  CHECK(variant_of(bridge, parameters).parameters.joints == bridge.parameters.joints);
+  scale(parameters.normal_stiffness, 0.3);
+  scale(parameters.tangential_stiffness, 0.2);
+  scale(parameters.friction_coefficient, 1.5);
+  for (const JointMaterial& joint : variant_of(bridge, parameters).parameters.joints) {
+    CHECK_FALSE(refused_energy(joint).has_value());
+    CHECK_FALSE(refused_cohesion(joint.mortar).has_value());
+    CHECK(joint.mortar.friction_coefficient() >= Approx(joint.friction_coefficient()));
+  }
 }
 
 TEST_CASE("The friction of a thousand angles comes back to the last bit") {

@@ -33,7 +33,7 @@ inline Solution answer_of(const Model& bridge, const StageTask& task) {
 
 /// What every solver does with its scenes, one after the other.
 template <class Answer>
-SceneSolver one_by_one(const Answer& answer) {
+StageSolver one_by_one(const Answer& answer) {
   return [answer](std::span<const StageTask> tasks) {
     std::vector<Solution> solutions;
     for (const StageTask& task : tasks) solutions.push_back(answer(task));

@@ -63,7 +63,7 @@ Table node_table(const Subject& subject, std::size_t row) {
   Table table{{"block", "x [m]", "y [m]", "ux [mm]", "uy [mm]"}, {}};
   for (std::size_t block = 0; block < mesh.block_nodes.size(); ++block)
     for (int node = mesh.block_nodes[block].begin; node < mesh.block_nodes[block].end; ++node)
-      table.rows.push_back({to_string(subject.database.layout().blocks[block].index), mesh.nodes(0, node),
+      table.rows.push_back({subject.database.layout().blocks[block].label, mesh.nodes(0, node),
                             mesh.nodes(1, node), kMillimetres * field(0, node),
                             kMillimetres * field(1, node)});
   return table;

@@ -14,8 +14,7 @@ constexpr double kAbove = 0.45, kBelow = 0.2;  // [m] free
 constexpr int kNamedEvery = 5;                 // control points with their names written
 
 std::string index_element(const Block& block, const BridgeFrame& frame) {
-  return text_element(frame(centroid(block.polygon)) + Point(0.0, 3.0), "middle", "tiny",
-                      to_string(block.index));
+  return text_element(frame(centroid(block.polygon)) + Point(0.0, 3.0), "middle", "tiny", block.label);
 }
 
 std::string point_element(const Subject& subject, const BridgeFrame& frame, std::size_t i) {
@@ -37,10 +36,10 @@ std::string point_element(const Subject& subject, const BridgeFrame& frame, std:
 Drawing draw_geometry(const Subject& subject) {
   const BlockLayout& layout = subject.database.layout();
   const BridgeFrame frame = frame_of(layout, kBridgeWidth, kAbove, kBelow);
-  std::string elements = ground_element(layout, frame) + block_elements(layout, frame, [&](BlockId id) {
-                           return BlockLook{"stone", fmt::format("({})\n{}", to_string(layout[id].index),
-                                                                 place_in_words(id, layout))};
-                         });
+  std::string elements =
+      ground_element(layout, frame) + block_elements(layout, frame, [&](BlockId id) {
+        return BlockLook{"stone", fmt::format("({})\n{}", layout[id].label, place_in_words(id, layout))};
+      });
   for (const Block& block : layout.blocks) elements += index_element(block, frame);
   for (std::size_t i = 0; i < subject.database.control_points().size(); ++i)
     elements += point_element(subject, frame, i);
@@ -51,7 +50,7 @@ Table block_table(const BlockLayout& layout) {
   Table table{{"block", "course x1", "position x2", "centre x [m]", "centre y [m]", "area [m2]"}, {}};
   for (const Block& block : layout.blocks) {
     const Point centre = centroid(block.polygon);
-    table.rows.push_back({to_string(block.index), static_cast<double>(block.index.course),
+    table.rows.push_back({block.label, static_cast<double>(block.index.course),
                           static_cast<double>(block.index.position), centre.x(), centre.y(),
                           area(block.polygon)});
   }
@@ -101,7 +100,7 @@ Drawing draw_mesh(const Subject& subject) {
   for (std::size_t i = 0; i < layout.size(); ++i)
     elements += path_element(fmt::format("mesh f{0}", rule_of(layout.blocks[i]).colour),
                              triangles_of(subject.database.mesh(), i, frame),
-                             fmt::format("({})\n{} triangles", to_string(layout.blocks[i].index),
+                             fmt::format("({})\n{} triangles", layout.blocks[i].label,
                                          subject.database.mesh().block_triangles[i].size()));
   return {frame.width, frame.height, "The triangles of the blocks", elements};
 }

@@ -56,7 +56,7 @@ Misfits objective_of(const Subject& subject) {
 
 BlockLook look_of(const Misfits& objective, const BlockLayout& layout, BlockId id) {
   const double f = objective.value[static_cast<std::size_t>(value(id))];
-  const std::string tip = fmt::format("({})\nf_v = {:.4g}", to_string(layout[id].index), f);
+  const std::string tip = fmt::format("({})\nf_v = {:.4g}", layout[id].label, f);
   if (std::isnan(f)) return {"stone", tip};
   const double depth = (objective.highest - f) / (objective.highest - objective.lowest);
   return {fmt::format("block m{}", colour_level(depth)), tip};
@@ -95,7 +95,7 @@ Chart objective_chart(const Subject& subject, const Misfits& objective) {
     series.tips.push_back(look_of(objective, layout, id).tip);
     if (!std::isnan(f)) ceiling = std::max(ceiling, std::ceil(f));
   }
-  truth.notes = {"(" + to_string(layout[objective.truth].index) + ")"};
+  truth.notes = {"(" + layout[objective.truth].label + ")"};
   Chart chart{"Eq. 1 over the place of the block",
               {"centre of the missing block, x [m]"},
               {"f_v"},
@@ -167,8 +167,7 @@ Exhibit objective_exhibit(const Subject& subject) {
   const BlockLayout& layout = subject.database.layout();
   Table table{{"block", "course x1", "position x2", "f_v"}, {}};
   for (std::size_t i = 0; i < layout.size(); ++i)
-    table.rows.push_back({to_string(layout.blocks[i].index),
-                          static_cast<double>(layout.blocks[i].index.course),
+    table.rows.push_back({layout.blocks[i].label, static_cast<double>(layout.blocks[i].index.course),
                           static_cast<double>(layout.blocks[i].index.position), objective.value[i]});
   const double depth = objective.value[static_cast<std::size_t>(value(objective.truth))];
   return {

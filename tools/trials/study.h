@@ -33,7 +33,8 @@ struct StudySettings {
 /// One row of the tables.
 struct StudyRow {
   std::string truth;
-  std::string looked_for;  ///< "singles among singles", "singles among all", "pairs among all", "intact"
+  std::string looked_for;  ///< "singles among singles", "singles among all", "pairs among pairs", "pairs
+                           ///< among all", "intact"
   ReadingsTaken taken = ReadingsTaken::change;
   double sigma = 0.0;  ///< [m]
   bool known_bridge = false;
@@ -43,8 +44,8 @@ struct StudyRow {
 
 using RowDone = std::function<void(const StudyRow&)>;
 
-/// Singles among singles and among all scenes, pairs among all: each as a change, with both epochs and as
-/// absolute readings, with the bridge known and unknown.
+/// Singles among singles and among all scenes, pairs among pairs and among all: each as a change, with both
+/// epochs and as absolute readings, with the bridge known and unknown.
 std::vector<StudyRow> study_damaged(const Database& database, const DamagedTruth& truth,
                                     const StudySettings& settings, const RowDone& done);
 

@@ -56,7 +56,8 @@ Findings slivers() {
   return findings;
 }
 
-/// Every block but those on supports moved by up to half of `gap` [m] each way.
+/// Every block but those on supports moved by up to a quarter of `gap` [m] each way, so that neighbours come
+/// to lie up to half of it apart or in each other.
 Model with_gaps(double gap) {
   Model bridge = make_model(small_bridge());
   std::mt19937 random(5);
@@ -98,7 +99,7 @@ Findings gaps() {
                   "means nothing.",
                   error.points[3].second / error.points[3].first)};
   findings.plots = {{.title = "Gaps and overlaps of joints in the input: what they change",
-                     .x_label = "largest gap or overlap [m]",
+                     .x_label = "twice the largest gap or overlap [m]",
                      .y_label = "error of the signal against the exact bridge",
                      .log_x = true,
                      .log_y = true,

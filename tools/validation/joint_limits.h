@@ -21,7 +21,8 @@ double continued_down(double from, double step, double width, const std::functio
 struct Limit {
   std::vector<double> roots;   ///< the power of the compliance
   std::vector<double> values;  ///< the limit at each
-  double rigid = 0.0;          ///< extrapolated with the polynomial through all but the softest point
+  double rigid = 0.0;          ///< extrapolated with the polynomial through all but the softest point,
+                               ///< and through three at least
   double spread = 0.0;         ///< how far straight and curved extrapolation differ
 };
 

@@ -18,8 +18,9 @@ constexpr double kGravity = 9.81;
 /// Blocks in motion without damping but for the contacts'.
 struct MovingBlocks {
   MovingBlocks(const Model& bridge, double size, double share_of_critical, double contact_damping)
-      : model(bridge, make_block_bodies(bridge),
-              Pace{share_of_critical * critical_step(bridge, make_block_bodies(bridge),
+      : model(bridge, make_block_bodies(bridge, RotationalInertia::exact),
+              Pace{share_of_critical * critical_step(bridge,
+                                                     make_block_bodies(bridge, RotationalInertia::exact),
                                                      Integrator::implicit_blocks, contact_damping)},
               0.0, contact_damping),
         motion(at_rest<One>(model)),

@@ -39,7 +39,7 @@ Model shear_wall(double friction) {
   return assemble_blocks(description, blocks);
 }
 
-/// The vertical force along the beam's top, the horizontal one at its left end [N].
+/// Both forces spread evenly along the beam's top [N].
 Field load_on_beam(const Model& bridge, double vertical, double horizontal) {
   Field load = Field::Zero(2, bridge.mesh.node_count());
   const double top = kFooting + kWallWidth + 0.1;

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <map>
 
+#include "core/structure/block_boxes.h"
 #include "core/units.h"
 #include "lookup/report/drawing/bridge_drawing.h"
 #include "lookup/report/drawing/colour_map.h"
@@ -28,10 +29,8 @@ std::string background(const ForcesPicture& picture, const BridgeFrame& frame) {
 }
 
 BridgeFrame frame_of(const ForcesPicture& picture) {
-  double top = 0.0;
-  for (const Block& block : picture.layout.blocks)
-    for (const Point& corner : block.polygon) top = std::max(top, corner.y());
-  return frame_of(picture.layout, picture.width, std::min(kHeadingHeight, kHeadingShare * top), 0.15);
+  const double height = box_of(picture.layout.blocks).sizes().y();
+  return frame_of(picture.layout, picture.width, std::min(kHeadingHeight, kHeadingShare * height), 0.15);
 }
 
 std::string missing_tip(const Block& block) {

@@ -1,5 +1,6 @@
 #include "core/geometry/polygon.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <numbers>
 
@@ -66,4 +67,15 @@ TEST_CASE("Polygons that lie apart, touch at a corner or enclose a hole are not 
   CHECK_FALSE(joined(square, {{1, 1}, {2, 1}, {2, 2}, {1, 2}}));
   const Polygon horseshoe = {{0, 0}, {3, 0}, {3, 3}, {0, 3}, {0, 2}, {2, 2}, {2, 1}, {0, 1}};
   CHECK_FALSE(joined(horseshoe, {{-1, 0}, {0, 0}, {0, 3}, {-1, 3}}));
+}
+
+TEST_CASE("An outline that touches itself does so wherever its numbering begins", "[geometry]") {
+  // The corner (0, 0) lies on the edge from (1, 0) to (-1, 0).
+  Polygon outline = {{0.0, 1.0}, {0.0, 0.0}, {1.0, 0.0}, {-1.0, 0.0}, {-1.0, -1.0}, {2.0, -1.0}, {2.0, 1.0}};
+  for (std::size_t turn = 0; turn < outline.size(); ++turn) {
+    INFO("turned by " << turn);
+    CHECK(self_crossing(outline).has_value());
+    std::ranges::rotate(outline, outline.begin() + 1);
+  }
+  CHECK_FALSE(self_crossing({{0.0, 0.0}, {2.0, 0.0}, {2.0, 1.0}, {1.0, 0.5}, {0.0, 1.0}}).has_value());
 }

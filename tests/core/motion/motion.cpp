@@ -66,7 +66,7 @@ constexpr double kThirtyFive = 35.0 * std::numbers::pi / 180.0;
 
 TEST_CASE("A block in free flight keeps its momentum and energy to round-off (conservation laws)") {
   const Model bridge = floating_course(1, kThirtyFive);
-  const MotionModel model(bridge, make_block_bodies(bridge), Pace{3e-4}, 0.0, 0.0);
+  const MotionModel model(bridge, make_block_bodies(bridge, RotationalInertia::exact), Pace{3e-4}, 0.0, 0.0);
   Motion<One> motion = at_rest<One>(model);
   motion.frames[0].velocity = {3.0, -1.0};
   motion.frames[0].spin = 5.0;
@@ -86,9 +86,9 @@ TEST_CASE(
     "A free block under central differences keeps linear and angular momentum to round-off (conservation "
     "laws)") {
   const Model bridge = floating_course(1, kThirtyFive);
-  const std::vector<BlockBody> bodies = make_block_bodies(bridge);
+  const std::vector<BlockBody> bodies = make_block_bodies(bridge, RotationalInertia::exact);
   const double step = 0.5 * critical_step(bridge, bodies, Integrator::central_differences, 0.0);
-  const MotionModel model(bridge, make_block_bodies(bridge), Pace{step}, 0.0, 0.0);
+  const MotionModel model(bridge, make_block_bodies(bridge, RotationalInertia::exact), Pace{step}, 0.0, 0.0);
   Motion<One> motion = at_rest<One>(model);
   for (std::size_t i = 0; i < motion.rates.size(); ++i)
     motion.rates[i] = {3.0 - 5.0 * (motion.places[i].y - 0.25), -1.0 + 5.0 * (motion.places[i].x - 0.5)};
@@ -105,7 +105,7 @@ TEST_CASE(
     "Blocks that collide without friction keep linear and angular momentum, and gain no energy (conservation "
     "laws)") {
   const Model bridge = floating_course(2, 0.0);
-  const MotionModel model(bridge, make_block_bodies(bridge), Pace{2e-5}, 0.0, 0.0);
+  const MotionModel model(bridge, make_block_bodies(bridge, RotationalInertia::exact), Pace{2e-5}, 0.0, 0.0);
   Motion<One> motion = collision(model);
   const Momentum before = momentum(model, motion);
   const double energy = kinetic_energy(model, motion, 0);
@@ -121,7 +121,8 @@ TEST_CASE(
 TEST_CASE("Friction and damping never add energy to colliding blocks (second law)") {
   const Model bridge = floating_course(3, kThirtyFive);
   for (const double damping : {0.0, 5.0}) {
-    const MotionModel model(bridge, make_block_bodies(bridge), Pace{1e-4}, damping, 1e-4);
+    const MotionModel model(bridge, make_block_bodies(bridge, RotationalInertia::exact), Pace{1e-4}, damping,
+                            1e-4);
     Motion<One> motion = collision(model);
     motion.frames[2].velocity = {-2.0, 0.4};
     double energy = kinetic_energy(model, motion, 0);
@@ -141,13 +142,26 @@ TEST_CASE("A block's moment of inertia is that of its area, whatever its triangl
   Model fine = coarse;
   static_cast<Structure&>(fine) = assemble(coarse.layout.blocks, {.mesh = {.refinement = 2}});
   const double expected = 0.5 * 2400.0 * (1.0 + 0.25) / 12.0;  // m (b^2 + h^2) / 12
-  CHECK(make_block_bodies(coarse)[0].inertia == Approx(expected).epsilon(1e-12));
-  CHECK(make_block_bodies(fine)[0].inertia == Approx(expected).epsilon(1e-12));
+  CHECK(make_block_bodies(coarse, RotationalInertia::exact)[0].inertia == Approx(expected).epsilon(1e-12));
+  CHECK(make_block_bodies(fine, RotationalInertia::exact)[0].inertia == Approx(expected).epsilon(1e-12));
+}
+
+TEST_CASE("What is laid on a block turns with it (closed form)") {
+  Model bridge = floating_course(1, kThirtyFive);  // 1 m x 0.5 m, 1200 kg
+  bridge.parameters.laid_mass = Eigen::VectorXd::Zero(bridge.mesh.node_count());
+  const double top = bridge.mesh.nodes.row(1).maxCoeff(), laid = 300.0;
+  for (int node = 0; node < bridge.mesh.node_count(); ++node)
+    if (bridge.mesh.nodes(1, node) == top) bridge.parameters.laid_mass[node] = laid;  // at both corners
+  const double lifted = 600.0 * 0.25 / 1800.0;  // the centre, over the block's own
+  const double expected =
+      1200.0 * (1.25 / 12.0 + lifted * lifted) + 2.0 * laid * (0.25 + (0.25 - lifted) * (0.25 - lifted));
+  CHECK(make_block_bodies(bridge, RotationalInertia::exact)[0].inertia == Approx(expected).epsilon(1e-12));
 }
 
 TEST_CASE("The shear of contacts survives a new search (the same run without searches)") {
   const Model bridge = block_on_wedge(30.0 * std::numbers::pi / 180.0, kThirtyFive);
-  const MotionModel model(bridge, make_block_bodies(bridge), Pace{2e-4}, 20.0, 1e-4);
+  const MotionModel model(bridge, make_block_bodies(bridge, RotationalInertia::exact), Pace{2e-4}, 20.0,
+                          1e-4);
   Motion<One> once = at_rest<One>(model);
   Motion<One> often = at_rest<One>(model);
   for (int i = 1; i <= 500; ++i) {
@@ -165,7 +179,7 @@ TEST_CASE("The shear of contacts survives a new search (the same run without sea
 
 TEST_CASE("A search in one lane leaves the contacts of the others alone (what each lane finds by itself)") {
   const Model bridge = floating_course(2, kThirtyFive);
-  const MotionModel model(bridge, make_block_bodies(bridge), Pace{3e-4}, 0.0, 0.0);
+  const MotionModel model(bridge, make_block_bodies(bridge, RotationalInertia::exact), Pace{3e-4}, 0.0, 0.0);
   Motion<DoubleLanes> motion = at_rest<DoubleLanes>(model);
   for (std::size_t i = 0; i < motion.places.size(); ++i)
     if (static_cast<int>(i) >= bridge.mesh.block_nodes[1].begin) set_lane(motion.places[i].x, 2, 5.0);

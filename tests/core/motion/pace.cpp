@@ -62,7 +62,7 @@ TEST_CASE("A quick block that collides with others keeps their linear momentum (
           "[motion]") {
   const Model bridge = validation::floating_course(3, 0.6);
   const Pace pace{.step = 6e-5, .parts = 3, .quick = {false, true, false}};
-  const MotionModel model(bridge, make_block_bodies(bridge), pace, 0.0, 0.0);
+  const MotionModel model(bridge, make_block_bodies(bridge, RotationalInertia::exact), pace, 0.0, 0.0);
   Motion<double> motion = at_rest<double>(model);
   motion.frames[0].velocity = {1.5, 0.3};
   motion.frames[2].velocity = {-2.0, 0.4};

@@ -94,4 +94,19 @@ TEST_CASE("What blocks carried holds their neighbours until it is let go (equili
   CHECK((held - before).cwiseAbs().maxCoeff() < 1e-6 * before.cwiseAbs().maxCoeff());
 }
 
+TEST_CASE("A bridge on stiff joints comes to rest under its weight (Newton)") {
+  BridgeDescription description = test::small_description();
+  description.joints.normal_stiffness = 1e10;  // in motion of scenes such joints are softened
+  description.joints.tangential_stiffness = 1e9;
+  const Model bridge = make_model(description);
+  const LoadedBridge loaded(bridge);
+  CHECK(loaded.intact().solution.outcome == Outcome::standing);
+  CHECK(loaded.intact().solution.residual < LoadingSettings().trembling);
+  QuasiStaticSolver solver(bridge);
+  const Eigen::VectorXd expected = test::readings(bridge, solver.solve(Scene{}).displacement);
+  // Set beforehand: as in the first test.
+  CHECK((test::readings(bridge, loaded.intact().solution.displacement) - expected).norm() <
+        0.02 * expected.norm());
+}
+
 }  // namespace voussoir

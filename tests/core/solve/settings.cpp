@@ -55,6 +55,17 @@ TEST_CASE("What changes no answer is in no text, and stays as it is when one is 
   CHECK(parse_settings(text).motion.skips.settled_contacts);
 }
 
+TEST_CASE("What is automatic in a text is so whatever stood there before", "[settings]") {
+  SolverSettings before = SolverSettings::of(SolverKind::dynamic);
+  const std::string text = to_text(before);
+  REQUIRE_THAT(text, Catch::Contains("motion.step_s = automatic\n"));
+  before.motion.step = 1e-4;
+  before.motion.damping = 3.0;
+  const SolverSettings read = parse_settings(text, before);
+  CHECK_FALSE(read.motion.step.has_value());
+  CHECK_FALSE(read.motion.damping.has_value());
+}
+
 TEST_CASE("Settings state what acts, for each phase", "[settings]") {
   const SolverSettings settings = SolverSettings::of(SolverKind::quasi_static);
   const std::string soft = to_text(acting_settings(settings, test::reference_bridge()));

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "core/error.h"
+#include "core/structure/exposed_edges.h"
 #include "tests/support/bridges.h"
 
 using namespace voussoir;
@@ -69,4 +70,34 @@ TEST_CASE("A bridge without blocks is refused", "[layout]") {
   nothing.spans.clear();
   nothing.wall.courses = 0;
   CHECK_THROWS_AS(lay_blocks(nothing), InputError);
+}
+
+TEST_CASE("Two arches given one by one under one ring number are two rings (the bridge that numbers them)",
+          "[layout]") {
+  BridgeDescription numbered = read_bridge_file(test::example_bridge("two-span")).description;
+  numbered.blocks = lay_blocks(numbered).blocks;
+  BridgeDescription unnumbered = numbered;
+  for (Block& block : unnumbered.blocks)
+    if (block.role == BlockRole::ring) block.ring = 0;
+  const std::vector<Block> expected = lay_blocks(numbered).blocks, found = lay_blocks(unnumbered).blocks;
+  int rings = 0;
+  for (std::size_t b = 0; b < expected.size(); ++b) {
+    INFO(expected[b].label);
+    CHECK(found[b].ring == expected[b].ring);
+    CHECK(found[b].intrados == expected[b].intrados);
+    rings += expected[b].ring == 1 && expected[b].intrados ? 1 : 0;
+  }
+  CHECK(rings == 15);
+}
+
+TEST_CASE("An upright face that is open towards a ring's middle has two ends, along the ring (by hand)",
+          "[layout]") {
+  Block leg;
+  leg.polygon = {{0.0, 0.0}, {1.0, 0.0}, {1.0, 2.0}, {0.0, 2.0}};
+  using Ends = std::array<Point, 2>;
+  CHECK(open_face_towards(leg, {leg}, {3.0, 0.0}, 1e-6) == Ends{Point(1.0, 0.0), Point(1.0, 2.0)});
+  CHECK(open_face_towards(leg, {leg}, {-2.0, 0.0}, 1e-6) == Ends{Point(0.0, 2.0), Point(0.0, 0.0)});
+  // Two edges that lean and stand: from the foot of one to the head of the other.
+  leg.polygon = {{0.0, 0.0}, {1.0, 0.0}, {1.0, 1.0}, {1.5, 2.0}, {0.0, 2.0}};
+  CHECK(open_face_towards(leg, {leg}, {3.0, 0.0}, 1e-6) == Ends{Point(1.0, 0.0), Point(1.5, 2.0)});
 }

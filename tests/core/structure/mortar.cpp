@@ -2,6 +2,7 @@
 /// hand.
 
 #include <catch2/catch.hpp>
+#include <set>
 
 #include "core/error.h"
 #include "core/solve/history.h"
@@ -130,4 +131,47 @@ TEST_CASE("Movements are read, and what they cannot be is refused", "[mortar][br
         "b.toml:2: support in [[movements]]: expected pressure_Pa, x_m or y_m beside it");
   CHECK(refusal("[[movements]]\nsupport = \"top\"\npressure_Pa = 1\nx_m = 1\n") ==
         "b.toml:4: x_m in [[movements]]: expected either pressure_Pa or a way x_m, y_m");
+}
+
+TEST_CASE("Mortar that states no stiffness leaves a joint that of its region (the file's numbers)",
+          "[mortar][regions]") {
+  const std::string soft =
+      "[[regions]]\nof = [\"ring\"]\nnormal_stiffness_Pa_per_m = 1e8\ntangential_stiffness_Pa_per_m = 1e7\n";
+  const std::string tough =
+      "[[mortar]]\ntensile_strength_Pa = 1e5\nopening_energy_J_m2 = 100\ncohesion_Pa = 1e5\n"
+      "slip_energy_J_m2 = 2000\n";
+  const std::string dry = "[[mortar]]\ndry = true\n";
+  const std::string stiff = "[[mortar]]\ndry = true\nnormal_stiffness_Pa_per_m = 5e9\n";
+  const auto normal_stiffness = [&](const std::string& mortar, BlockRole role) {
+    const Model model = make_model(description_of(soft + mortar));
+    std::set<double> found;
+    for (std::size_t j = 0; j < model.joints.size(); ++j)
+      if (between(model, model.joints[j], role, role))
+        found.insert(model.parameters.joints[j].normal_stiffness);
+    return found;
+  };
+  for (const std::string& mortar : {std::string(), tough, dry, tough + dry, stiff + tough}) {
+    INFO(mortar);
+    CHECK(normal_stiffness(mortar, BlockRole::ring) == std::set<double>{1e8});
+    CHECK(normal_stiffness(mortar, BlockRole::wall) == std::set<double>{1e9});
+  }
+  CHECK(normal_stiffness(tough + stiff, BlockRole::ring) == std::set<double>{5e9});  // the last one counts
+}
+
+TEST_CASE("Mortar that would break by itself on a region's soft joints is refused by these (by hand)",
+          "[mortar][regions]") {
+  const std::string soft = "[[regions]]\nof = [\"0,3\"]\ntangential_stiffness_Pa_per_m = 1e7\n";
+  const std::string weak =
+      "[[mortar]]\ntensile_strength_Pa = 0.05e6\nopening_energy_J_m2 = 18\ncohesion_Pa = 0.1e6\n"
+      "slip_energy_J_m2 = 125\n";
+  CHECK(refusal(weak).empty());
+  CHECK_THAT(
+      refusal(soft + weak),
+      Catch::Contains("slip_energy_J_m2 in [[mortar]], of the joint between '0,2' and '0,3") &&
+          Catch::Contains("': is 125: expected more than c^2 / p_t = 1000: the joint would break at once"));
+  // Nor is it refused where no joint is as soft as [joints] says.
+  CHECK(refusal("[joints]\ntangential_stiffness_Pa_per_m = 1e7\n[[regions]]\nof = [\"ring\", \"wall\"]\n"
+                "tangential_stiffness_Pa_per_m = 1e8\n" +
+                weak)
+            .empty());
 }

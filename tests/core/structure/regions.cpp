@@ -56,6 +56,18 @@ TEST_CASE("A bridge whose materials are no mirror image has no symmetry", "[regi
       bridge_with("[fill]\nunit_weight_N_m3 = 18000\nsurface_m = [[0, 6], [20, 7]]\n").symmetry.has_value());
 }
 
+TEST_CASE("A bridge with a dry joint in mortar is its own mirror image only with that joint's image",
+          "[regions][mortar]") {
+  const std::string mortar =
+      "[[mortar]]\ntensile_strength_Pa = 0.05e6\nopening_energy_J_m2 = 18\ncohesion_Pa = 0.1e6\n"
+      "slip_energy_J_m2 = 125\n";
+  const std::string left = "[[mortar]]\nbetween = [\"12,1\", \"12,2\"]\ndry = true\n";
+  const std::string right = "[[mortar]]\nbetween = [\"12,19\", \"12,20\"]\ndry = true\n";
+  CHECK(bridge_with(mortar).symmetry.has_value());
+  CHECK_FALSE(bridge_with(mortar + left).symmetry.has_value());
+  CHECK(bridge_with(mortar + left + right).symmetry.has_value());
+}
+
 TEST_CASE("A region of nothing is refused", "[regions]") {
   CHECK_THROWS_WITH(bridge_with("[[regions]]\nof = [\"13,1\"]\n"), Contains("'13,1'") && Contains("role"));
   CHECK_THROWS_WITH(bridge_with("[[regions]]\ndensity_kg_m3 = 1\n"), Contains("r.toml:1:") && Contains("of"));

@@ -70,3 +70,44 @@ TEST_CASE("Ring blocks know their ring, wall blocks have none", "[structure]") {
                          : centroid(block.polygon).x() < 10.0 ? 0
                                                               : 1));
 }
+
+TEST_CASE(
+    "Embedded courses are held by the foot below them, the top by its own (by the coordinates of all nodes)",
+    "[structure]") {
+  BridgeDescription description = test::small_description();
+  description.supports.embedded_courses = 1;
+  description.supports.top = SupportKind::clamped;
+  const Model bridge = make_model(description);
+  std::vector<int> holders(static_cast<std::size_t>(bridge.mesh.node_count()), 0);
+  for (const Support& support : bridge.supports) {
+    if (!support.is_foot && support.name != "top") continue;
+    for (const NodeId node : support.nodes) {
+      const Point at = bridge.mesh.position(node);
+      ++holders[static_cast<std::size_t>(value(node))];
+      if (support.name == "foot 1") CHECK(at.x() < 3.0);
+      if (support.name == "foot 2") CHECK(at.x() > 3.0);
+      CHECK((support.name == "top" ? at.y() >= 2.0 : at.y() <= 0.5));
+    }
+  }
+  for (std::size_t b = 0; b < bridge.layout.size(); ++b) {
+    const int course = bridge.layout.blocks[b].index.course;
+    if (course != 1 && course != 5) continue;
+    for (int node = bridge.mesh.block_nodes[b].begin; node < bridge.mesh.block_nodes[b].end; ++node)
+      CHECK(holders[static_cast<std::size_t>(node)] == 1);
+  }
+}
+
+TEST_CASE("Held tops and courses of blocks that have none are refused", "[structure][bridge-file]") {
+  const auto read = [](const std::string& text) { return parse_bridge_file(text, "b.toml"); };
+  const std::string block = "blocks = [{label = \"a\", vertices = [[0, 0], [1, 0], [1, 1], [0, 1]]}]\n";
+  CHECK_NOTHROW(read(block));
+  CHECK_THROWS_WITH(read(block + "[supports]\ntop = \"clamped\"\n"),
+                    "b.toml:3: top in [supports]: is held: expected free: blocks that are given one by one "
+                    "have no top course");
+  CHECK_THROWS_WITH(
+      read(block + "[supports]\nembedded_courses = 1\n"),
+      "b.toml:3: embedded_courses in [supports]: is 1: expected 0: blocks that are given one by "
+      "one lie in no courses");
+  CHECK_THROWS_WITH(read("[wall]\ncourses = 0\n[supports]\ntop = \"roller\"\n"),
+                    "b.toml:4: top in [supports]: is held: expected courses in [wall], whose top it is");
+}

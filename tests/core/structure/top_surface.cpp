@@ -111,3 +111,19 @@ TEST_CASE("Where there is no block a load is refused with its place", "[loads]")
   CHECK_THROWS_WITH(top.add_line(-1.0, 0.5, 1.0, load), Catch::Contains("x = -1 m"));
   CHECK_THROWS_WITH(top.add_line(2.5, 3.5, 1.0, load), Catch::Contains("x = 3.5 m"));
 }
+
+TEST_CASE("Soil whose surface crosses the top has the area and the middle of what is above (triangles)",
+          "[loads]") {
+  const Mesh mesh = mesh_of({rectangle("a", 0.0, 0.0, 4.0, 1.0)});
+  const TopSurface top(mesh);
+  // A triangle of base b and height h whose top is at its end weighs b h / 2 at b / 3 from that end.
+  const auto check = [&](const std::vector<Point>& surface, double area, double middle) {
+    Eigen::VectorXd masses = Eigen::VectorXd::Zero(mesh.node_count());
+    top.add_soil(surface, 2000.0, masses);
+    CHECK(masses.sum() == Approx(2000.0 * area).epsilon(1e-12));
+    CHECK(masses.dot(mesh.nodes.row(0).transpose()) == Approx(2000.0 * area * middle).epsilon(1e-12));
+  };
+  check({{0.0, 0.5}, {4.0, 1.5}}, 0.5, 4.0 - 2.0 / 3.0);
+  check({{0.0, 1.2}, {4.0, 0.2}}, 0.5 * 0.8 * 0.2, 0.8 / 3.0);
+  check({{-1.0, 2.0}, {1.0, 2.0}, {3.0, 0.0}, {4.0, 0.0}}, 1.0 + 0.5, (0.5 + 0.5 * (1.0 + 1.0 / 3.0)) / 1.5);
+}

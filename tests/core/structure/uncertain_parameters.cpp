@@ -8,6 +8,7 @@
 #include <map>
 #include <set>
 
+#include "core/structure/mortar_limits.h"
 #include "tests/support/bridges.h"
 #include "tests/support/covariance_of_draws.h"
 
@@ -230,4 +231,27 @@ TEST_CASE("A foot moves and turns as a rigid body about its middle (by hand)", "
   CHECK(left > 5);
   CHECK(right > 5);
   CHECK(held > 5);
+}
+
+TEST_CASE("Mortar on softer joints stores the same share of what breaks it (the limits of bridge files)",
+          "[uncertainty][mortar]") {
+  BridgeDescription description = test::small_description_with_mortar();
+  description.joints.mortar.opening_energy = 1.3;  // f_t^2 / (2 p_n) is 1.25
+  description.joints.mortar.slip_energy = 101.0;   // c^2 / p_t is 100
+  description.joints.mortar.compressive_strength = 1e6;
+  description.joints.mortar.crushing_energy = 1001.0;  // f_m^2 / p_n is 1000
+  const Model bridge = make_model(description);
+  for (std::uint64_t seed = 0; seed < 3; ++seed) {
+    const Parameters drawn = sampled(bridge, {}, seed).parameters;
+    for (std::size_t j = 0; j < bridge.joints.size(); ++j) {
+      const JointMaterial& joint = drawn.joints[j];
+      REQUIRE_FALSE(refused_energy(joint).has_value());
+      CHECK(joint.mortar.opening_energy * joint.normal_stiffness == Approx(1.3 * 1e9));
+      CHECK(joint.mortar.slip_energy * joint.tangential_stiffness / std::pow(joint.mortar.cohesion, 2) ==
+            Approx(1.01));
+      CHECK(joint.mortar.friction_coefficient() == Approx(joint.friction_coefficient()));
+      CHECK_FALSE(refused_cohesion(joint.mortar).has_value());
+      CHECK(joint.mortar.crushing_energy * joint.normal_stiffness == Approx(1001.0 * 1e9));
+    }
+  }
 }
