@@ -1,0 +1,79 @@
+/// Readings with a wrong sign, unit or error are said to fit nothing, instead of naming a block. Oracle: the
+/// same readings as they were made, of which the answer is known.
+
+#include <fmt/format.h>
+#include <catch2/catch.hpp>
+
+#include <fstream>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "tests/support/bridges.h"
+#include "tests/support/program.h"
+
+using Catch::Matchers::Contains;
+using voussoir::test::ProgramResult;
+namespace test = voussoir::test;
+
+namespace {
+
+/// The small bridge's singles as they are lost, the bridge not exactly known.
+struct Site {
+  test::TemporaryFolder folder;
+  std::string database = (folder / "small.h5").string();
+
+  Site() {
+    const ProgramResult built =
+        test::run("build-database", {test::example_bridge("small").string(), "-o", database, "--scenes",
+                                     "singles", "--history", "built,lost", "--quiet"});
+    if (built.exit_code != 0) throw std::runtime_error(built.err);
+  }
+
+  /// Changes of a scene, each row "point,change,sigma" [mm] told otherwise than it was read.
+  nlohmann::json answer(const std::string& scene,
+                        const std::function<std::pair<double, double>(double, double)>& told) const {
+    const ProgramResult made = test::run(
+        "make-measurements", {scene, "-d", database, "--kind", "change", "--sigma", "0.01mm", "--seed", "3"});
+    REQUIRE(made.exit_code == 0);
+    std::istringstream lines(made.out);
+    std::string text = "point,change_mm,sigma_mm\n", point, change, sigma;
+    for (std::string line; std::getline(lines, line);) {
+      std::istringstream fields(line);
+      std::getline(fields, point, ',') && std::getline(fields, change, ',') && std::getline(fields, sigma);
+      if (line.front() == '#' || point == "point") continue;
+      const auto [shown, stated] = told(change.empty() ? 0.0 : std::stod(change), std::stod(sigma));
+      text += change.empty() ? fmt::format("{},,{}\n", point, stated)
+                             : fmt::format("{},{},{}\n", point, shown, stated);
+    }
+    const std::string path = (folder / "readings.csv").string();
+    std::ofstream(path) << text;
+    const ProgramResult result = test::run("locate-damage", {path, "-d", database, "--format", "json"});
+    INFO(result.err);
+    REQUIRE(result.exit_code == 0);
+    return nlohmann::json::parse(result.out);
+  }
+};
+
+}  // namespace
+
+TEST_CASE("Turned signs, metres and errors that are too small fit no scene") {
+  const Site site;
+  const auto as_read = [](double change, double sigma) { return std::pair(change, sigma); };
+  CHECK(site.answer("2,4", as_read).at("verdict") == "located");
+  CHECK(site.answer("intact", as_read).at("verdict") == "intact");
+
+  const auto turned =
+      site.answer("2,4", [](double change, double sigma) { return std::pair(-change, sigma); });
+  CHECK(turned.at("verdict") == "unexplained");
+  CHECK_THAT(turned.at("fit").at("reason").get<std::string>(), Contains("signs"));
+
+  const auto metres =
+      site.answer("2,4", [](double change, double sigma) { return std::pair(1e-3 * change, sigma); });
+  CHECK(metres.at("verdict") == "unexplained");
+  CHECK_THAT(metres.at("fit").at("reason").get<std::string>(), Contains("millimetres"));
+
+  const auto too_sure =
+      site.answer("intact", [](double change, double sigma) { return std::pair(change, 0.1 * sigma); });
+  CHECK(too_sure.at("verdict") == "unexplained");
+}
