@@ -74,7 +74,8 @@ Trial ask(const Asking& asking, const ReadingsFile& readings, std::size_t truth)
                                         {.known_bridge = asking.known_bridge, .sampled = asking.sampled});
   LookupSettings settings = asking.lookup;
   settings.known_bridge = asking.known_bridge;
-  settings.epochs = readings.two_epochs && !asking.known_bridge ? Epochs::both : Epochs::change;
+  settings.epochs =
+      readings.two_epochs && !counts_as_known(comparison, settings) ? Epochs::both : Epochs::change;
   settings.noise = noise_of(comparison.measured, settings.noise);
   const Answer answer = locate_damage(comparison, settings);
   const Posterior& posterior = answer.posterior.value();
