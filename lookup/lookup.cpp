@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "lookup/evidence/largest_places.h"
+#include "lookup/report/verdict.h"
 #include "lookup/search/exhaustive_search.h"
 #include "lookup/search/misfit.h"
 #include "lookup/search/nearest_search.h"
@@ -20,7 +21,6 @@ constexpr double kSolverPrecision = 1e-9;  // [m] predictions are not compared m
 constexpr std::size_t kMostChecked = 20;   // scenes whose fit is checked
 constexpr std::size_t kMostMixed = 3;      // scenes that say together what the bridge is like
 constexpr std::size_t kMostNear = 3;       // scenes near the readings, asked with larger errors:
-constexpr double kLeastOfAlarm = 0.1;      // where less is said for the intact bridge, blocks are missing
 constexpr std::array kTimesErrors = {3.0, 10.0, 100.0};  // so many times what is stated
 constexpr std::size_t kMostComparisons = 500;  // rows looked at for scenes that cannot be told apart
 
@@ -211,7 +211,7 @@ void judge_unknown_bridge(const UnknownQuestion& asked, Answer& answer) {
   answer.bridge = {question.bridge(), std::move(posterior)};
   answer.fit = check_fit(answer.bridge->posterior);
   answer.residuals = sensor_residuals(observation, answer.bridge->model, answer.bridge->posterior);
-  const bool is_alarm = answer.posterior->missing_probability.front() < kLeastOfAlarm;
+  const bool is_alarm = 1.0 - intact_probability(*answer.posterior) >= kCertain;
   if (answer.fit->explained && is_alarm && !observation.unknown_level)
     if (const auto doubt = check_stated_errors(asked, answer)) answer.fit = doubt;
 }

@@ -31,11 +31,7 @@ std::vector<Part> parts_of(UnknownBridge& bridge, const Observation& observation
                            const std::vector<WeightedScene>& scenes, std::span<const UnknownCase> cases) {
   std::vector<std::size_t> rows;
   for (const WeightedScene& scene : scenes) rows.push_back(scene.row);
-  std::vector<CaseTerms> terms;
-  for (const UnknownCase& one : cases) {
-    set_case(observation, one, bridge);
-    terms.push_back(case_terms(bridge));
-  }
+  const std::vector<CaseTerms> terms = case_terms(bridge, observation, cases);
   const std::vector<ScatterLogs> logs =
       SceneLikelihoods(bridge, observation, table)(terms, rows, {}, hardware_threads());
   double total = 0.0;

@@ -51,10 +51,7 @@ ScreenedCases::ScreenedCases(UnknownBridge& bridge, const Observation& observati
     const bool few = table.most_missing < 2 || table.removed[rows[i] * table.most_missing + 1] < 0;
     (few ? few_ : many_).push_back(i);
   }
-  for (const UnknownCase& one : cases) {
-    set_case(observation, one, bridge);
-    terms_.push_back(case_terms(bridge));
-  }
+  terms_ = case_terms(bridge, observation, cases);
 }
 
 /// The intact bridge, and singles whose signals are nearest to the readings: something to try cases with.

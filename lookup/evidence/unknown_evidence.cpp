@@ -134,6 +134,16 @@ CaseTerms case_terms(const UnknownBridge& bridge) {
   return {bridge.conditions, bridge.spread, lower_of(bridge.noise)};
 }
 
+std::vector<CaseTerms> case_terms(UnknownBridge& bridge, const Observation& observation,
+                                  std::span<const UnknownCase> cases) {
+  std::vector<CaseTerms> terms;
+  for (const UnknownCase& one : cases) {
+    set_case(observation, one, bridge);
+    terms.push_back(case_terms(bridge));
+  }
+  return terms;
+}
+
 SceneLikelihoods::SceneLikelihoods(const UnknownBridge& bridge, const Observation& observation,
                                    const SceneTable& table)
     : bridge_(bridge),
@@ -223,13 +233,6 @@ Eigen::VectorXd SceneLikelihoods::pull(const CaseTerms& one, std::size_t row) {
   add_to(work.noise, work.bridge);
   const Eigen::LLT<MatrixXd> covariance(matrix_of(work.noise, bridge_.reading.size()));
   return covariance.solve(bridge_.reading - loss.signal);
-}
-
-std::vector<ScatterLogs> scatter_logs(const UnknownBridge& bridge, const Observation& observation,
-                                      const SceneTable& table, std::span<const std::size_t> rows,
-                                      int threads) {
-  const std::array<CaseTerms, 1> cases = {case_terms(bridge)};
-  return SceneLikelihoods(bridge, observation, table)(cases, rows, {}, threads);
 }
 
 }  // namespace voussoir

@@ -18,6 +18,10 @@ struct CaseTerms {
 };
 CaseTerms case_terms(const UnknownBridge& bridge);
 
+/// The same of several cases. The bridge's case is changed.
+std::vector<CaseTerms> case_terms(UnknownBridge& bridge, const Observation& observation,
+                                  std::span<const UnknownCase> cases);
+
 /// What need not be worked out, as cases with wider covariances show.
 struct CasePruning {
   std::span<const double> least;  ///< of each row: densities below do not matter
@@ -59,10 +63,5 @@ class SceneLikelihoods {
   LowerTriangle intact_;          // A A^T of the intact bridge where it is the same in both epochs
   std::vector<Products> losses_;  // of UnknownBridge::losses; empty until they are needed
 };
-
-/// The same of a few rows in the bridge's own case.
-std::vector<ScatterLogs> scatter_logs(const UnknownBridge& bridge, const Observation& observation,
-                                      const SceneTable& table, std::span<const std::size_t> rows,
-                                      int threads);
 
 }  // namespace voussoir

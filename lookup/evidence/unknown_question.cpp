@@ -88,11 +88,7 @@ double UnknownBridgeQuestion::log_evidence_of(std::span<const std::size_t> rows,
   Observation wider = observation_;
   for (double& share : wider.share) share *= times;
   for (double& floor : wider.floor) floor *= times;
-  std::vector<CaseTerms> terms;
-  for (const UnknownCase& one : cases_) {
-    set_case(wider, one, bridge_);
-    terms.push_back(case_terms(bridge_));
-  }
+  const std::vector<CaseTerms> terms = case_terms(bridge_, wider, cases_);
   const auto logs = SceneLikelihoods(bridge_, wider, table)(terms, rows, {}, hardware_threads());
   const std::vector<double> beforehand = log_prior_by_missing(table, eligible, prior);
   const std::vector<double> silence = log_chance_of_silence(observation_, table, {rows.begin(), rows.end()});

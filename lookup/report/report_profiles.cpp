@@ -154,9 +154,8 @@ std::vector<PointSet> point_sets(const ReportPictures& report) {
 std::string residuals_in_words(const ReportPictures& report) {
   return report.answer.known_bridge
              ? "Reading minus first candidate, with an unknown datum, tilt or scale as far as the readings "
-               "show "
-               "it, in units of the noise at that sensor (the bound of uniform noise, else the standard "
-               "deviation)."
+               "show it, in units of the noise at that sensor (the bound of uniform noise, else the "
+               "standard deviation)."
              : "Reading minus what the likeliest scenes and all other readings let expect, in standard "
                "deviations of that.";
 }

@@ -4,10 +4,18 @@
 
 #include <random>
 
-#include "lookup/evidence/unknown_bridge.h"
+#include "lookup/evidence/unknown_evidence.h"
 #include "tests/lookup/synthetic_library.h"
 
 namespace voussoir::test {
+
+/// log p(readings | scene, kappa) of these rows in the bridge's own case.
+inline std::vector<ScatterLogs> scatter_logs(const UnknownBridge& bridge, const Observation& observation,
+                                             const SceneTable& table, std::span<const std::size_t> rows,
+                                             int threads) {
+  const std::array<CaseTerms, 1> cases = {case_terms(bridge)};
+  return SceneLikelihoods(bridge, observation, table)(cases, rows, {}, threads);
+}
 
 /// `columns` of the basis of `columns` + 2 parameters of the bridge, the last but one of which varies
 /// together with the first two and the last of which changes nothing; two parameters of an epoch. Block 1's
