@@ -6,6 +6,7 @@
 #include <map>
 
 #include "core/error.h"
+#include "core/structure/uncertain_parameters.h"
 
 namespace voussoir {
 namespace {
@@ -13,25 +14,20 @@ namespace {
 constexpr int kMostTrials = 50;
 constexpr double kPressureTolerance = 1e-6;
 
-const Support& support_called(const Model& model, const std::string& name) {
+std::size_t support_called(const Model& model, const std::string& name) {
   const auto found = std::ranges::find(model.supports, name, &Support::name);
-  if (found != model.supports.end()) return *found;
+  if (found != model.supports.end()) return static_cast<std::size_t>(found - model.supports.begin());
   std::string names;
   for (const Support& support : model.supports) names += (names.empty() ? "" : ", ") + support.name;
   throw InputError(
       fmt::format("support in [[movements]]: '{}' does not exist: expected one of {}", name, names));
 }
 
-void move(const Support& support, const Point& way, Field& field) {
-  for (const NodeId node : support.nodes) {
-    if (support.holds_x) field(0, value(node)) += way.x();
-    if (support.holds_y) field(1, value(node)) += way.y();
-  }
-}
-
-Point force_of(const Support& support, const Field& forces) {
+Point force_of(std::size_t support, const Model& model, const Field& forces) {
   Point sum = Point::Zero();
-  for (const NodeId node : support.nodes) sum += forces.col(value(node));
+  for (const NodeId node : model.supports[support].nodes)
+    for (const int axis : {0, 1})
+      if (goes_with(model.supports, support, node, axis)) sum[axis] += forces(axis, value(node));
   return sum;
 }
 
@@ -62,17 +58,16 @@ class Mover {
   }
 
   void follow(const MovementDescription& movement, std::size_t number, MovedStructure& result) {
-    const Support& support = support_called(model_, movement.support);
+    const std::size_t support = support_called(model_, movement.support);
     const Stage from{.support_movement = moved_};
     const Point way = movement.pressure ? way_to_pressure(support, *movement.pressure, from)
                                         : Point(movement.x, movement.y);
-    Field target = moved_;
-    move(support, way, target);
+    const Field target = moved_ + rigid_movement(model_, support, way, 0.0);
     const Path path = go(from, target, movement.steps);
     Point& so_far = ways_.try_emplace(movement.support, Point::Zero()).first->second;
     for (const PathPoint& point : path.points)
       result.points.push_back(
-          {number, so_far + point.share * way, force_of(support, point.support_forces), point});
+          {number, so_far + point.share * way, force_of(support, model_, point.support_forces), point});
     result.complete = path.complete;
     if (!path.complete) return;
     so_far += way;
@@ -89,23 +84,23 @@ class Mover {
   }
 
   /// Down until the mean pressure is met.
-  Point way_to_pressure(const Support& support, double pressure, const Stage& from) const {
-    const double goal = pressure * area_under(support, model_);
+  Point way_to_pressure(std::size_t support, double pressure, const Stage& from) const {
+    const double goal = pressure * area_under(model_.supports[support], model_);
     double softest = model_.parameters.contact.normal_stiffness * mean_block_size(model_);
     for (const Material& material : model_.parameters.blocks)
       softest = std::min(softest, material.young_modulus);
     double way = pressure / softest * mean_block_size(model_);
     for (int trial = 0; trial < kMostTrials; ++trial) {
-      Field target = moved_;
-      move(support, {0.0, -way}, target);
+      const Field target = moved_ + rigid_movement(model_, support, {0.0, -way}, 0.0);
       const Path path = go(from, target, 1);
-      const double reached = path.complete ? -force_of(support, path.points.back().support_forces).y() : 0.0;
+      const double reached =
+          path.complete ? -force_of(support, model_, path.points.back().support_forces).y() : 0.0;
       if (!(reached > 0.0)) break;
       if (std::abs(reached / goal - 1.0) <= kPressureTolerance) return {0.0, -way};
       way *= goal / reached;
     }
     throw InputError(fmt::format("pressure_Pa in [[movements]]: {:g} is not reached by moving '{}'", pressure,
-                                 support.name));
+                                 model_.supports[support].name));
   }
 
   const Model& model_;

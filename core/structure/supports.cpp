@@ -136,6 +136,16 @@ std::vector<Support> supports_of(const BridgeDescription& description, const Blo
   return supports;
 }
 
+bool goes_with(const std::vector<Support>& supports, std::size_t support, NodeId node, int axis) {
+  const auto holds = [axis](const Support& one) { return axis == 0 ? one.holds_x : one.holds_y; };
+  return holds(supports[support]) &&
+         std::none_of(supports.begin(), supports.begin() + static_cast<std::ptrdiff_t>(support),
+                      [&](const Support& earlier) {
+                        return holds(earlier) &&
+                               std::ranges::find(earlier.nodes, node) != earlier.nodes.end();
+                      });
+}
+
 std::vector<bool> held_components(const std::vector<Support>& supports, const Mesh& mesh) {
   std::vector<bool> held(static_cast<std::size_t>(2 * mesh.node_count()), false);
   for (const Support& support : supports)

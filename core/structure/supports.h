@@ -32,6 +32,10 @@ std::vector<Support> box_supports(const Mesh& mesh, const SupportDescription& de
 std::vector<Support> supports_of(const BridgeDescription& description, const BlockLayout& layout,
                                  const Mesh& mesh);
 
+/// Does a node's component go where this support goes? Of a node in a corner, which two supports hold, it
+/// goes with the first of them, so with the ground. Precondition: the node is one of the support's.
+bool goes_with(const std::vector<Support>& supports, std::size_t support, NodeId node, int axis);
+
 /// Per displacement component (2 node + axis): does a support hold it?
 std::vector<bool> held_components(const std::vector<Support>& supports, const Mesh& mesh);
 

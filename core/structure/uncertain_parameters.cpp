@@ -229,8 +229,10 @@ Field rigid_movement(const Structure& structure, std::size_t support, const Poin
   Field field = Field::Zero(2, structure.mesh.node_count());
   for (const NodeId node : moving.nodes) {
     const Point arm = structure.mesh.position(node) - centre;
-    if (moving.holds_x) field(0, value(node)) = movement.x() - rotation * arm.y();
-    if (moving.holds_y) field(1, value(node)) = movement.y() + rotation * arm.x();
+    if (goes_with(structure.supports, support, node, 0))
+      field(0, value(node)) = movement.x() - rotation * arm.y();
+    if (goes_with(structure.supports, support, node, 1))
+      field(1, value(node)) = movement.y() + rotation * arm.x();
   }
   return field;
 }
