@@ -5,14 +5,15 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <limits>
 
 #include "core/random.h"
+#include "tests/lookup/evidence/textbook_likelihood.h"
 
 namespace voussoir {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+using test::kInfinity;
+
 constexpr double kBin = 1.0 / 8.0;  // of the histogram
 
 /// The value with which, in ascending order, the sum of exponentials first exceeds exp(log_rest).

@@ -7,17 +7,16 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <functional>
-#include <limits>
 
 #include "lookup/evidence/unknown_evidence.h"
 #include "tests/lookup/evidence/made_up_factors.h"
+#include "tests/lookup/evidence/textbook_likelihood.h"
 
 using namespace voussoir;
 using namespace voussoir::test;
 
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kRight = 1e-4;       // single precision, of sums of some dozen numbers
 constexpr double kAHundredth = 1e-2;  // that is promised
 

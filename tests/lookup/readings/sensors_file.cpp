@@ -14,7 +14,7 @@ const Model& sensors_bridge() {
   return bridge;
 }
 
-std::vector<Sensor> parse(const std::string& text) {
+std::vector<Sensor> sensors_of(const std::string& text) {
   SensorList list{{{"T1", Quantity::uy, Point(0, 2.5), {BlockId{0}}}}, 1};
   parse_sensors(text, "s.csv", sensors_bridge().layout, sensors_bridge().mesh, list);
   list.sensors.erase(list.sensors.begin());
@@ -23,7 +23,7 @@ std::vector<Sensor> parse(const std::string& text) {
 
 std::string error_of(const std::string& text) {
   try {
-    parse(text);
+    sensors_of(text);
   } catch (const InputError& error) {
     return error.what();
   }
@@ -42,9 +42,9 @@ const std::string kHeader = "name,quantity,x_m,y_m,x2_m,y2_m,block,block2\n";
 
 TEST_CASE("Sensors are read with their quantity, place and block") {
   const std::vector<Sensor> sensors =
-      parse(kHeader +
-            "L,ux,0.75,0.75,,,,\nV,uy,0.5,0.75,,,,\nR,tilt,0.5,0.75,,,,\nB,tilt,,,,,\"3,2\",\n"
-            "G,distance,0.8,0.8,0.8,1.2,,\n");
+      sensors_of(kHeader +
+                 "L,ux,0.75,0.75,,,,\nV,uy,0.5,0.75,,,,\nR,tilt,0.5,0.75,,,,\nB,tilt,,,,,\"3,2\",\n"
+                 "G,distance,0.8,0.8,0.8,1.2,,\n");
   REQUIRE(sensors.size() == 5);
   CHECK(sensors[0].quantity == Quantity::ux);
   CHECK(sensors[0].position == Point(0.75, 0.75));
@@ -73,12 +73,12 @@ TEST_CASE("The example's sensors are on the reference bridge, its gauge over a j
 TEST_CASE("A place where blocks meet belongs to the block that is named") {
   CHECK(error_of("name,quantity,x_m,y_m\nV,uy,0.25,1.0\n") ==
         "s.csv:2: blocks meet at x = 0.25 m, y = 1 m, expected 2,1 or 3,1 in column block");
-  CHECK(label(parse("name;quantity;x_m;y_m;block\nV;uy;0,25;1,0;3,1\n")[0].blocks.front()) == "3,1");
-  CHECK(label(parse("name;quantity;x_m;y_m;block\nV;uy;0,25;1,0;2,1\n")[0].blocks.front()) == "2,1");
+  CHECK(label(sensors_of("name;quantity;x_m;y_m;block\nV;uy;0,25;1,0;3,1\n")[0].blocks.front()) == "3,1");
+  CHECK(label(sensors_of("name;quantity;x_m;y_m;block\nV;uy;0,25;1,0;2,1\n")[0].blocks.front()) == "2,1");
 }
 
 TEST_CASE("A place belongs to a block that it is within a millimetre of") {
-  CHECK(label(parse("name,quantity,x_m,y_m\nV,uy,0.25,2.5009\n")[0].blocks.front()) == "5,1");
+  CHECK(label(sensors_of("name,quantity,x_m,y_m\nV,uy,0.25,2.5009\n")[0].blocks.front()) == "5,1");
   CHECK(error_of("name,quantity,x_m,y_m\nV,uy,0.25,2.5011\n") ==
         "s.csv:2: x = 0.25 m, y = 2.5011 m is outside the bridge, expected a place on a block");
 }

@@ -1,0 +1,177 @@
+#include "lookup/report/plan_report.h"
+
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <iterator>
+#include <nlohmann/json.hpp>
+
+#include "core/not_a_number.h"
+#include "core/units.h"
+#include "lookup/report/drawing/bridge_drawing.h"
+#include "lookup/report/drawing/colour_map.h"
+#include "lookup/report/drawing/table.h"
+#include "lookup/report/reading_words.h"
+#include "lookup/report/words.h"
+
+namespace voussoir {
+namespace {
+
+constexpr double kHardly = 0.1;  // a loss that is seen less often shows hardly
+constexpr double kPlanWidth = 1040.0;
+constexpr double kRoomAbove = 0.3;  // [m]
+constexpr double kPlanDisc = 4.0;
+constexpr std::size_t kLeastSeenListed = 15;
+
+std::string label(BlockId block, const Database& database) {
+  return database.layout()[block].label;
+}
+
+std::string labels(const std::vector<BlockId>& blocks, const Database& database) {
+  std::vector<std::string> names;
+  for (const BlockId block : blocks) names.push_back(label(block, database));
+  return fmt::format("{}", fmt::join(names, "  "));
+}
+
+template <typename Predicate>
+std::vector<BlockId> blocks_where(const SensorPlan& plan, Predicate holds) {
+  std::vector<BlockId> blocks;
+  for (const Sight& sight : plan.sights)
+    if (holds(sight)) blocks.push_back(sight.block);
+  return blocks;
+}
+
+std::vector<BlockId> seen(const SensorPlan& plan) {
+  return blocks_where(plan, [](const Sight& sight) { return sight.seen >= kSure; });
+}
+std::vector<BlockId> named(const SensorPlan& plan) {
+  return blocks_where(plan, [](const Sight& sight) { return sight.named >= kSure; });
+}
+std::vector<BlockId> hardly_seen(const SensorPlan& plan) {
+  return blocks_where(plan, [](const Sight& sight) { return sight.seen < kHardly; });
+}
+
+Table block_table(const SensorPlan& plan, const Database& database) {
+  Table table{{"block", "falls", "seen", "named", "largest_change_m", "at", "silent_sensors", "alike"}, {}};
+  for (const Sight& sight : plan.sights)
+    table.rows.push_back({label(sight.block, database), "no", sight.seen, sight.named, sight.largest,
+                          plan.point_of(sight), static_cast<double>(sight.silent),
+                          sight.alike ? label(*sight.alike, database) : ""});
+  for (const auto& [blocks, falls] : {std::pair{&plan.falls, "yes"}, std::pair{&plan.unknown, "unknown"}})
+    for (const BlockId block : *blocks)
+      table.rows.push_back({label(block, database), falls, kNan, kNan, kNan, "", kNan, ""});
+  return table;
+}
+
+std::string plan_json(const SensorPlan& plan, const PlannedBridge& bridge) {
+  nlohmann::ordered_json result = {{"database", bridge.database.path().string()},
+                                   {"digest", bridge.database.digest()},
+                                   {"history", plan.history},
+                                   {"sigma_m", bridge.settings.sigma},
+                                   {"conditions", to_string(bridge.settings.conditions)},
+                                   {"points", plan.points},
+                                   {"seen", seen(plan).size()},
+                                   {"named", named(plan).size()},
+                                   {"standing", plan.sights.size()},
+                                   {"falls", plan.falls.size()}};
+  result["chosen"] = plan.chosen;
+  result["blocks"] = nlohmann::ordered_json::parse(to_json(block_table(plan, bridge.database)));
+  return result.dump(1) + "\n";
+}
+
+using Text = std::back_insert_iterator<std::string>;
+
+void write_heading(Text to, const SensorPlan& plan, const PlannedBridge& bridge) {
+  fmt::format_to(to, "Plan:         changes between two times at {} control points, each off by {:g} mm\n",
+                 plan.points.size(), kMillimetres * bridge.settings.sigma);
+  fmt::format_to(to, "Database:     {} (bridge '{}', digest {})\n", bridge.database.path().string(),
+                 bridge.database.bridge_name(), bridge.database.digest().substr(0, kDigestShown));
+  fmt::format_to(to, "History:      {}\n", history_in_words(plan.history));
+  fmt::format_to(to, "Bridge:       uncertain as its file states, temperature and supports {}\n\n",
+                 bridge.settings.conditions == Conditions::known ? "known" : "too");
+}
+
+void write_counts(Text to, const SensorPlan& plan, const PlannedBridge& bridge) {
+  const std::size_t count = plan.sights.size();
+  fmt::format_to(to, "Seen:         the loss of {} of {} blocks, each with a chance of at least {}\n",
+                 seen(plan).size(), count, percent(kSure));
+  fmt::format_to(to, "Named:        {} of {}\n", named(plan).size(), count);
+  const std::vector<BlockId> hardly = hardly_seen(plan);
+  fmt::format_to(to, "Hardly seen:  {} of {}, each less often than {}{}\n", hardly.size(), count,
+                 percent(kHardly), hardly.empty() ? "" : ": " + labels(hardly, bridge.database));
+  if (!plan.falls.empty())
+    fmt::format_to(to, "Falls:        without one of {} more blocks something falls: {}\n", plan.falls.size(),
+                   labels(plan.falls, bridge.database));
+  if (!plan.unknown.empty())
+    fmt::format_to(to, "Not known:    what these blocks' losses show: {}\n",
+                   labels(plan.unknown, bridge.database));
+}
+
+void write_chosen(Text to, const SensorPlan& plan) {
+  if (!plan.chosen.empty())
+    fmt::format_to(to, "\nChosen, those that help most first: {}\n", fmt::join(plan.chosen, " "));
+}
+
+/// Those that are hardest to see first.
+void write_blocks(Text to, const SensorPlan& plan, const Database& database) {
+  std::vector<Sight> sights = plan.sights;
+  std::ranges::stable_sort(sights, {}, &Sight::seen);
+  const std::size_t shown = std::min(sights.size(), kLeastSeenListed);
+  fmt::format_to(to, "\nBlocks whose loss is seen least ({} of {}; --format csv lists all):\n", shown,
+                 sights.size());
+  fmt::format_to(to, "  {:<8} {:>9} {:>9} {:>12}  {:<6} {}\n", "block", "seen", "named", "change [mm]", "at",
+                 "looks most like");
+  for (const Sight& sight : std::span(sights).first(shown))
+    fmt::format_to(to, "  {:<8} {:>9} {:>9} {:>12.3f}  {:<6} {}\n", label(sight.block, database),
+                   percent(sight.seen), percent(sight.named), kMillimetres * sight.largest,
+                   plan.point_of(sight), sight.alike ? label(*sight.alike, database) : "");
+}
+
+BlockLook look_of(const SensorPlan& plan, const Database& database, BlockId block) {
+  const auto sight = std::ranges::find(plan.sights, block, &Sight::block);
+  const std::string heading =
+      fmt::format("Block ({})\n{}\n", label(block, database), place_in_words(block, database.layout()));
+  if (sight == plan.sights.end())
+    return {"stone",
+            heading + (std::ranges::find(plan.falls, block) != plan.falls.end() ? "something falls without it"
+                                                                                : "not known")};
+  return {fmt::format("block m{}", colour_level(sight->seen)),
+          heading + fmt::format("its loss is seen with {}, named with {}", percent(sight->seen),
+                                percent(sight->named))};
+}
+
+}  // namespace
+
+std::string plan_report(const SensorPlan& plan, const PlannedBridge& bridge, ReportFormat format) {
+  if (format == ReportFormat::csv) return to_csv(block_table(plan, bridge.database));
+  if (format == ReportFormat::json) return plan_json(plan, bridge);
+  std::string text;
+  const Text to(text);
+  write_heading(to, plan, bridge);
+  write_counts(to, plan, bridge);
+  write_chosen(to, plan);
+  write_blocks(to, plan, bridge.database);
+  return text;
+}
+
+std::string plan_picture(const SensorPlan& plan, const Database& database) {
+  const BlockLayout& layout = database.layout();
+  const BridgeFrame frame = frame_of(layout, kPlanWidth, kRoomAbove, 0.15);
+  Drawing drawing{frame.width, frame.height + kColourBarHeight,
+                  "The bridge; each block coloured by the chance that its loss is seen, and the sensors", ""};
+  drawing.elements = ground_element(layout, frame) + block_elements(layout, frame, [&](BlockId block) {
+                       return look_of(plan, database, block);
+                     });
+  for (const StoredPoint& point : database.control_points()) {
+    if (std::ranges::find(plan.points, point.name) == plan.points.end()) continue;
+    const Point at = frame(point.position);
+    drawing.elements += fmt::format("<circle class=\"f1\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{}\">{}</circle>\n",
+                                    at.x(), at.y(), kPlanDisc, tip_element(point.name));
+  }
+  drawing.elements +=
+      colour_bar({"chance that the block's loss is seen", {"0", "25 %", "50 %", "75 %", "100 %"}},
+                 drawing.width, drawing.height);
+  return svg_file(drawing);
+}
+
+}  // namespace voussoir
