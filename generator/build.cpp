@@ -37,7 +37,9 @@ struct Build {
 
 Provenance provenance_of(const BuildRequest& request, const SolverChoice& solver, const Model& bridge) {
   const std::string settings = build_settings(solver, bridge, request.rules);
-  return make_provenance(request.bridge, settings, results_key(request.bridge.description, settings));
+  Provenance made = make_provenance(request.bridge, settings, "");
+  made.results_key = results_key(request.bridge.description, made);
+  return made;
 }
 
 /// What the file of a part says; nothing for a whole database.

@@ -194,10 +194,7 @@ const Mesh& Database::mesh() const {
 }
 
 const std::vector<Joint>& Database::joints() const {
-  return implementation_->joints.get([&] {
-    const Sizes& sizes = implementation_->rows.sizes();
-    return read_joints(implementation_->file, sizes.blocks, count_nodes(implementation_->file));
-  });
+  return implementation_->joints.get([&] { return read_joints(implementation_->file, mesh()); });
 }
 
 std::string Database::bridge_text() const {
