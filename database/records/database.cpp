@@ -268,4 +268,16 @@ bool Database::stands_by_slip(std::size_t state) const {
   return intact && !record(*intact).states[state].slipped.empty();
 }
 
+bool is_named_database(const std::filesystem::path& path) {
+  constexpr std::size_t kBeginning = 4096;  // bytes in which the first dataset is described
+  if (!begins_like_hdf5(path)) return false;
+  try {
+    return Hdf5File(path).text_attribute(attribute::kFormat) == kFormatName;
+  } catch (const InputError&) {  // damaged, if it is one
+    const MappedFile mapped(path);
+    const ByteView beginning = mapped.bytes().first(std::min(kBeginning, mapped.bytes().size()));
+    return !std::ranges::search(beginning, view_bytes(std::string_view(kBridgeTextMeaning))).empty();
+  }
+}
+
 }  // namespace voussoir

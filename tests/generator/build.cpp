@@ -5,8 +5,10 @@
 #include "core/structure/mirror_symmetry.h"
 #include "database/records/database.h"
 #include "database/records/journal.h"
+#include "database/records/schema.h"
 #include "generator/build.h"
 #include "generator/start_field.h"
+#include "tests/support/damaged_database.h"
 #include "tests/support/file_text.h"
 #include "tests/support/made_up_solver.h"
 #include "tests/support/same_bits.h"
@@ -239,6 +241,26 @@ TEST_CASE("A build does not replace a file that is no database unless forced") {
   std::ofstream(site.request.output) << "point,uy_mm\nT1,-1\n";
   CHECK_THROWS_WITH(site.build(), Catch::Contains("no database"));
   CHECK(test::text_of(site.request.output) == "point,uy_mm\nT1,-1\n");
+  site.request.force = true;
+  CHECK(site.build().digest == digest_of_reference());
+}
+
+TEST_CASE("A build does not replace an HDF5 file of another program unless forced") {
+  Site site;
+  site.build();
+  std::string bytes = test::text_of(site.request.output);
+  SECTION("another format") {
+    bytes = test::forged_at(test::good_database(bytes), bytes.find(kFormatName), 'V');
+  }
+  SECTION("of which we cannot read even the superblock") {
+    bytes[8] = 0;
+    const std::size_t at = bytes.find(kBridgeTextMeaning);
+    REQUIRE(at < 4096);
+    bytes[at] = 'T';
+  }
+  std::ofstream(site.request.output, std::ios::binary) << bytes;
+  CHECK_THROWS_WITH(site.build(), Catch::Contains("no database; give another file with -o, or --force"));
+  CHECK(test::text_of(site.request.output) == bytes);
   site.request.force = true;
   CHECK(site.build().digest == digest_of_reference());
 }

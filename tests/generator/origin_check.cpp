@@ -12,14 +12,9 @@ namespace {
 
 /// The file with another first letter in the text of an attribute.
 std::string with_changed(const std::string& bytes, const std::string& attribute, const std::string& text) {
-  std::string changed = bytes;
   const std::size_t at = bytes.find(text, bytes.find(attribute));
   REQUIRE(at != std::string::npos);
-  changed[at] = changed[at] == 'x' ? 'y' : 'x';
-  const test::GoodDatabase good = test::good_database(bytes);
-  for (const test::FileStructure& structure : good.structures)
-    if (at >= structure.offset && at < structure.offset + structure.size) test::repair(changed, structure);
-  return changed;
+  return test::forged_at(test::good_database(bytes), at, bytes[at] == 'x' ? 'y' : 'x');
 }
 
 }  // namespace

@@ -91,6 +91,15 @@ inline void repair(std::string& bytes, const FileStructure& structure) {
   std::memcpy(bytes.data() + structure.offset + structure.size - 4, &right, sizeof right);
 }
 
+/// The file with this byte at a place, and the checksum of the structure that it lies in put right.
+inline std::string forged_at(const GoodDatabase& good, std::size_t place, char byte) {
+  std::string bytes = good.bytes;
+  bytes.at(place) = byte;
+  for (const FileStructure& structure : good.structures)
+    if (place >= structure.offset && place < structure.offset + structure.size) repair(bytes, structure);
+  return bytes;
+}
+
 inline void forge(std::string& bytes, const GoodDatabase& good, Chance& chance) {
   const FileStructure& structure = good.structures[below(chance, good.structures.size())];
   for (std::size_t count = 1 + below(chance, 3); count > 0; --count) {
