@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "core/structure/bridge_model.h"
+#include "database/format/durable_file.h"
 #include "database/records/writer.h"
 #include "database/records/xdmf.h"
 #include "generator/build_settings.h"
@@ -267,9 +268,10 @@ ExistingDatabase examine(const Build& build) {
 }
 
 /// From the parts, if there are any.
-BuildSummary build(const BuildRequest& request, const SolverChoice& solver, Progress& progress,
+BuildSummary build(BuildRequest request, const SolverChoice& solver, Progress& progress,
                    std::vector<Database> parts) {
   const auto started = std::chrono::steady_clock::now();
+  request.output = behind_links(request.output);
   const Build build = prepare(request, solver, progress);
   const std::vector<Scene> shown = xdmf_scenes(build);
   BuildSummary summary;

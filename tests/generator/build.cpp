@@ -265,6 +265,25 @@ TEST_CASE("A build does not replace an HDF5 file of another program unless force
   CHECK(site.build().digest == digest_of_reference());
 }
 
+TEST_CASE("A build writes through symbolic links, to where they lead") {
+  Site site;
+  const std::filesystem::path target = site.folder / "elsewhere" / "small.h5", link = site.folder / "link.h5";
+  std::filesystem::create_directory(target.parent_path());
+  std::filesystem::create_symlink("elsewhere/small.h5", site.folder / "nearer.h5");
+  std::filesystem::create_symlink("nearer.h5", link);
+  site.request.output = link;
+  site.request.scenes = "intact";
+  CHECK(site.build().computed == 1);  // the link leads to no file yet
+  site.request.scenes = "intact;4,1";
+  CHECK(site.build().computed == 1);
+  CHECK(std::filesystem::is_symlink(link));
+  CHECK(std::filesystem::is_regular_file(target));
+  CHECK(Database::open(target).rows() == 2);
+  site.request.output = site.folder / "circle.h5";
+  std::filesystem::create_symlink("circle.h5", site.request.output);
+  CHECK_THROWS_WITH(site.build(), Catch::Contains("circle.h5: more than 40 symbolic links"));
+}
+
 TEST_CASE("A damaged database is replaced and the reason is told") {
   const Site site;
   site.build();
