@@ -248,14 +248,32 @@ void gather(const Build& build, std::vector<Database> parts, BuildSummary& summa
 /// build, which may take hours.
 std::vector<Scene> xdmf_scenes(const Build& build) {
   if (build.request.xdmf_scenes.empty()) return {};
+  const std::filesystem::path& output = build.request.output;
+  if (index_paths(output).xdmf == output)
+    throw InputError(
+        fmt::format("--xdmf: {} would be both database and index: expected a database with another ending, "
+                    "such as .h5",
+                    output.string()));
   if (build.fields == KeepField::no)
     throw InputError("--xdmf shows fields of scenes: expected no --fields none beside it");
   std::vector<Scene> scenes = parse_scene_list(build.request.xdmf_scenes, build.bridge().layout);
   for (const Scene& scene : scenes)
     if (!std::ranges::binary_search(build.wanted, RecordKey{kNominalVariant, scene}))
       throw InputError(fmt::format("--xdmf: {} would not hold scene {}: expected scenes of --scenes",
-                                   build.request.output.string(), to_string(scene, build.bridge().layout)));
+                                   output.string(), to_string(scene, build.bridge().layout)));
   return scenes;
+}
+
+/// Of the scenes that are shown, if any; an index of the file that was replaced goes.
+void renew_index(const Build& build, const std::vector<Scene>& shown, bool replaced) {
+  const std::filesystem::path& output = build.request.output;
+  if (!shown.empty())
+    write_index(Database::open(output), shown);
+  else if (replaced && remove_index(output))
+    build.progress.say(
+        fmt::format("{} and {} showed scenes of the file that was replaced and are removed: --xdmf writes "
+                    "them anew",
+                    index_paths(output).xdmf.string(), index_paths(output).views.string()));
 }
 
 ExistingDatabase examine(const Build& build) {
@@ -292,7 +310,7 @@ BuildSummary build(BuildRequest request, const SolverChoice& solver, Progress& p
     else
       gather(build, std::move(parts), summary);
   }
-  if (!shown.empty()) write_index(Database::open(request.output), shown);
+  renew_index(build, shown, !summary.up_to_date);
   summary.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
   return summary;
 }

@@ -284,6 +284,23 @@ TEST_CASE("A build writes through symbolic links, to where they lead") {
   CHECK_THROWS_WITH(site.build(), Catch::Contains("circle.h5: more than 40 symbolic links"));
 }
 
+TEST_CASE("An index for ParaView goes with the file that it showed, and never takes the database's place") {
+  Site site;
+  site.request.scenes = "singles";
+  site.request.xdmf_scenes = "4,1";
+  site.build();
+  site.request.xdmf_scenes.clear();
+  CHECK(site.build().up_to_date);
+  CHECK(std::filesystem::exists(site.folder / "small.xdmf"));
+  site.request.scenes = "4,*";  // the scene has another row
+  site.build();
+  CHECK_FALSE(std::filesystem::exists(site.folder / "small.xdmf"));
+  CHECK_FALSE(std::filesystem::exists(site.folder / "small.views.h5"));
+  site.request.output = site.folder / "small.xdmf";
+  site.request.xdmf_scenes = "4,1";
+  CHECK_THROWS_WITH(site.build(), Catch::Contains("would be both database and index"));
+}
+
 TEST_CASE("A damaged database is replaced and the reason is told") {
   const Site site;
   site.build();
