@@ -120,9 +120,9 @@ std::string journal_key(const Build& build) {
   return key + (most_missing_of_starts(build.wanted) > 1 ? " with fields of pairs" : " without fields");
 }
 
-KnownRecords open_records(const Build& build) {
-  KnownRecords known(Journal::open(build.request.output, build.provenance, journal_key(build)), build.states,
-                     build.bridge().mesh.node_count());
+KnownRecords open_records(const Build& build, OtherRecords others) {
+  KnownRecords known(Journal::open(build.request.output, build.provenance, journal_key(build), others),
+                     build.states, build.bridge().mesh.node_count());
   if (const auto& discarded = known.journal().discarded()) {
     const auto changes = differences(build.provenance, *discarded);
     build.progress.say(fmt::format("{}: its records are of another build and are dropped ({})",
@@ -212,7 +212,7 @@ void finish(const Build& build, KnownRecords& known, BuildSummary& summary) {
 
 /// Computes what is not known and writes the file.
 void run(const Build& build, std::optional<Database> old, BuildSummary& summary) {
-  KnownRecords known = open_records(build);
+  KnownRecords known = open_records(build, OtherRecords::drop);
   summary.resumed = known.journal().size();
   if (summary.resumed > 0)
     build.progress.say(
@@ -232,11 +232,11 @@ void run(const Build& build, std::optional<Database> old, BuildSummary& summary)
 
 /// Takes all records from the parts and writes the file.
 void gather(const Build& build, std::vector<Database> parts, BuildSummary& summary) {
-  KnownRecords known = open_records(build);
+  KnownRecords known = open_records(build, OtherRecords::refuse);
   for (Database& part : parts) known.add(records_in(build, std::move(part), known));
   for (const RecordKey& key : build.wanted)
     if (!known.has_record(key)) {
-      known.journal().remove();
+      if (known.journal().size() == 0) known.journal().remove();  // else of an interrupted build of the whole
       throw Failure(fmt::format("no part has scene {}, or its record is damaged there: build the part anew",
                                 to_string(key, build.bridge().layout)));
     }
