@@ -43,12 +43,13 @@ Provenance provenance_of(const BuildRequest& request, const SolverChoice& solver
   return made;
 }
 
-/// What the file of a part says; nothing for a whole database.
+/// What the file of a part says, as it gives it back: without blanks around lists. Nothing for a whole
+/// database.
 std::optional<ShardStatement> shard_statement(const BuildRequest& request) {
   if (!request.shard) return std::nullopt;
-  return ShardStatement{*request.shard,      request.scenes, request.scenes_of_variants,
-                        request.histories,   request.loads,  request.fields == KeepField::yes,
-                        request.known_bridge};
+  return parse_shard_statement(
+      to_text(ShardStatement{*request.shard, request.scenes, request.scenes_of_variants, request.histories,
+                             request.loads, request.fields == KeepField::yes, request.known_bridge}));
 }
 
 /// The keys of all scenes that are asked for, in the order of rows.
