@@ -142,9 +142,21 @@ std::unique_ptr<ReusedRecords> records_in(const Build& build, Database old, cons
                                          known.journal());
 }
 
+/// Nothing of an old file that is too damaged to take records from, which is said.
+std::unique_ptr<ReusedRecords> usable_records_in(const Build& build, Database old,
+                                                 const KnownRecords& known) {
+  try {
+    return records_in(build, std::move(old), known);
+  } catch (const InputError& error) {
+    build.progress.say(fmt::format("no scene of the old file can be kept ({})", error.what()));
+    return nullptr;
+  }
+}
+
 /// How many records the old database gives.
 std::size_t reuse(const Build& build, Database old, KnownRecords& known) {
-  auto reused = records_in(build, std::move(old), known);
+  auto reused = usable_records_in(build, std::move(old), known);
+  if (!reused) return 0;
   const std::size_t count = reused->size();
   if (count > 0)
     build.progress.say(fmt::format("{} scenes of the old file are still valid and are kept", count));

@@ -265,6 +265,17 @@ TEST_CASE("A build does not replace an HDF5 file of another program unless force
   CHECK(site.build().digest == digest_of_reference());
 }
 
+TEST_CASE("A file whose bridge text is damaged gives no records and is built anew") {
+  const Site site;
+  site.build();
+  std::string bytes = test::text_of(site.request.output);
+  bytes.at(bytes.find("[wall]")) = '"';
+  std::ofstream(site.request.output, std::ios::binary) << bytes;
+  const BuildSummary summary = site.build();
+  CHECK(summary.reused == 0);
+  CHECK(summary.digest == digest_of_reference());
+}
+
 TEST_CASE("A build writes through symbolic links, to where they lead") {
   Site site;
   const std::filesystem::path target = site.folder / "elsewhere" / "small.h5", link = site.folder / "link.h5";
