@@ -8,10 +8,9 @@
 
 namespace voussoir {
 
-/// Problems, each naming the attribute or dataset: the text's SHA-256 and name, the results key and numbers
-/// in the settings that would make solvers search for ever. Nothing is said of the program's version, which
-/// stands for itself; the results key of another version is not known. Throws InputError if the text is no
-/// bridge file.
+/// Problems, each naming the attribute or dataset: the text's SHA-256 and name, the results key of files that
+/// this program has made, and numbers in the settings that would make solvers search for ever. Throws
+/// InputError if the text is no bridge file.
 std::vector<std::string> origin_problems(const Database& database);
 
 }  // namespace voussoir
