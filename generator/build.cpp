@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "core/structure/bridge_model.h"
+#include "database/format/durable_file.h"
 #include "database/records/writer.h"
 #include "database/records/xdmf.h"
 #include "generator/build_settings.h"
@@ -37,15 +38,18 @@ struct Build {
 
 Provenance provenance_of(const BuildRequest& request, const SolverChoice& solver, const Model& bridge) {
   const std::string settings = build_settings(solver, bridge, request.rules);
-  return make_provenance(request.bridge, settings, results_key(request.bridge.description, settings));
+  Provenance made = make_provenance(request.bridge, settings, "");
+  made.results_key = results_key(request.bridge.description, made);
+  return made;
 }
 
-/// What the file of a part says; nothing for a whole database.
+/// What the file of a part says, as it gives it back: without blanks around lists. Nothing for a whole
+/// database.
 std::optional<ShardStatement> shard_statement(const BuildRequest& request) {
   if (!request.shard) return std::nullopt;
-  return ShardStatement{*request.shard,      request.scenes, request.scenes_of_variants,
-                        request.histories,   request.loads,  request.fields == KeepField::yes,
-                        request.known_bridge};
+  return parse_shard_statement(
+      to_text(ShardStatement{*request.shard, request.scenes, request.scenes_of_variants, request.histories,
+                             request.loads, request.fields == KeepField::yes, request.known_bridge}));
 }
 
 /// The keys of all scenes that are asked for, in the order of rows.
@@ -117,9 +121,9 @@ std::string journal_key(const Build& build) {
   return key + (most_missing_of_starts(build.wanted) > 1 ? " with fields of pairs" : " without fields");
 }
 
-KnownRecords open_records(const Build& build) {
-  KnownRecords known(Journal::open(build.request.output, build.provenance, journal_key(build)), build.states,
-                     build.bridge().mesh.node_count());
+KnownRecords open_records(const Build& build, OtherRecords others) {
+  KnownRecords known(Journal::open(build.request.output, build.provenance, journal_key(build), others),
+                     build.states, build.bridge().mesh.node_count());
   if (const auto& discarded = known.journal().discarded()) {
     const auto changes = differences(build.provenance, *discarded);
     build.progress.say(fmt::format("{}: its records are of another build and are dropped ({})",
@@ -138,9 +142,21 @@ std::unique_ptr<ReusedRecords> records_in(const Build& build, Database old, cons
                                          known.journal());
 }
 
+/// Nothing of an old file that is too damaged to take records from, which is said.
+std::unique_ptr<ReusedRecords> usable_records_in(const Build& build, Database old,
+                                                 const KnownRecords& known) {
+  try {
+    return records_in(build, std::move(old), known);
+  } catch (const InputError& error) {
+    build.progress.say(fmt::format("no scene of the old file can be kept ({})", error.what()));
+    return nullptr;
+  }
+}
+
 /// How many records the old database gives.
 std::size_t reuse(const Build& build, Database old, KnownRecords& known) {
-  auto reused = records_in(build, std::move(old), known);
+  auto reused = usable_records_in(build, std::move(old), known);
+  if (!reused) return 0;
   const std::size_t count = reused->size();
   if (count > 0)
     build.progress.say(fmt::format("{} scenes of the old file are still valid and are kept", count));
@@ -209,7 +225,7 @@ void finish(const Build& build, KnownRecords& known, BuildSummary& summary) {
 
 /// Computes what is not known and writes the file.
 void run(const Build& build, std::optional<Database> old, BuildSummary& summary) {
-  KnownRecords known = open_records(build);
+  KnownRecords known = open_records(build, OtherRecords::drop);
   summary.resumed = known.journal().size();
   if (summary.resumed > 0)
     build.progress.say(
@@ -229,11 +245,11 @@ void run(const Build& build, std::optional<Database> old, BuildSummary& summary)
 
 /// Takes all records from the parts and writes the file.
 void gather(const Build& build, std::vector<Database> parts, BuildSummary& summary) {
-  KnownRecords known = open_records(build);
+  KnownRecords known = open_records(build, OtherRecords::refuse);
   for (Database& part : parts) known.add(records_in(build, std::move(part), known));
   for (const RecordKey& key : build.wanted)
     if (!known.has_record(key)) {
-      known.journal().remove();
+      if (known.journal().size() == 0) known.journal().remove();  // else of an interrupted build of the whole
       throw Failure(fmt::format("no part has scene {}, or its record is damaged there: build the part anew",
                                 to_string(key, build.bridge().layout)));
     }
@@ -245,14 +261,32 @@ void gather(const Build& build, std::vector<Database> parts, BuildSummary& summa
 /// build, which may take hours.
 std::vector<Scene> xdmf_scenes(const Build& build) {
   if (build.request.xdmf_scenes.empty()) return {};
+  const std::filesystem::path& output = build.request.output;
+  if (index_paths(output).xdmf == output)
+    throw InputError(
+        fmt::format("--xdmf: {} would be both database and index: expected a database with another ending, "
+                    "such as .h5",
+                    output.string()));
   if (build.fields == KeepField::no)
     throw InputError("--xdmf shows fields of scenes: expected no --fields none beside it");
   std::vector<Scene> scenes = parse_scene_list(build.request.xdmf_scenes, build.bridge().layout);
   for (const Scene& scene : scenes)
     if (!std::ranges::binary_search(build.wanted, RecordKey{kNominalVariant, scene}))
       throw InputError(fmt::format("--xdmf: {} would not hold scene {}: expected scenes of --scenes",
-                                   build.request.output.string(), to_string(scene, build.bridge().layout)));
+                                   output.string(), to_string(scene, build.bridge().layout)));
   return scenes;
+}
+
+/// Of the scenes that are shown, if any; an index of the file that was replaced goes.
+void renew_index(const Build& build, const std::vector<Scene>& shown, bool replaced) {
+  const std::filesystem::path& output = build.request.output;
+  if (!shown.empty())
+    write_index(Database::open(output), shown);
+  else if (replaced && remove_index(output))
+    build.progress.say(
+        fmt::format("{} and {} showed scenes of the file that was replaced and are removed: --xdmf writes "
+                    "them anew",
+                    index_paths(output).xdmf.string(), index_paths(output).views.string()));
 }
 
 ExistingDatabase examine(const Build& build) {
@@ -265,9 +299,10 @@ ExistingDatabase examine(const Build& build) {
 }
 
 /// From the parts, if there are any.
-BuildSummary build(const BuildRequest& request, const SolverChoice& solver, Progress& progress,
+BuildSummary build(BuildRequest request, const SolverChoice& solver, Progress& progress,
                    std::vector<Database> parts) {
   const auto started = std::chrono::steady_clock::now();
+  request.output = behind_links(request.output);
   const Build build = prepare(request, solver, progress);
   const std::vector<Scene> shown = xdmf_scenes(build);
   BuildSummary summary;
@@ -288,7 +323,7 @@ BuildSummary build(const BuildRequest& request, const SolverChoice& solver, Prog
     else
       gather(build, std::move(parts), summary);
   }
-  if (!shown.empty()) write_index(Database::open(request.output), shown);
+  renew_index(build, shown, !summary.up_to_date);
   summary.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
   return summary;
 }

@@ -12,11 +12,11 @@ namespace voussoir {
 
 struct BuildRequest {
   BridgeFile bridge;
-  std::filesystem::path output = "bridge.h5";
-  std::string scenes = "all";       ///< as parse_scene_list reads it
-  std::string scenes_of_variants;   ///< of variants 1, 2..; empty: the same as of variant 0
-  std::string histories = "built";  ///< as state_names reads it
-  std::string loads = "none";       ///< as state_names reads it
+  std::filesystem::path output = "bridge.h5";  ///< links are followed, not replaced
+  std::string scenes = "all";                  ///< as parse_scene_list reads it
+  std::string scenes_of_variants;              ///< of variants 1, 2..; empty: the same as of variant 0
+  std::string histories = "built";             ///< as state_names reads it
+  std::string loads = "none";                  ///< as state_names reads it
   /// Variants 1, 2..: the bridge with other parameters (see variant_of). Variant 0 is the bridge as it is.
   std::vector<VariantParameters> other_variants;
   int threads = 0;  ///< 0: one for each core

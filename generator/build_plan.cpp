@@ -56,7 +56,7 @@ std::set<Scene> starting_scenes(const Scene& solved, const std::optional<Scene>&
                                 const PlanRules& rules, const StatePlan& states) {
   std::set<Scene> scenes;
   const auto add = [&](const Scene& scene) {
-    if (!rules.warm_starts && !place_of_lost(states) &&
+    if (!rules.warm_starts && rules.collapse_fields && !place_of_lost(states) &&
         !((rules.inherited || rules.composed) && scene.missing() > 2))
       return;
     for (Scene& subset : starting_subsets(scene)) scenes.insert(std::move(subset));

@@ -54,8 +54,8 @@ struct PlanBasis {
 };
 
 /// The scenes whose states the solving of this one, and of its mirror image if that is wanted, needs: those
-/// that its searches start from (see StartingFields), and if blocks are lost those that say in how many steps
-/// (see StepsOfLoss).
+/// that its searches start from (see StartingFields), those that prove that it falls (see ProvedFalls), and
+/// if blocks are lost those that say in how many steps (see StepsOfLoss).
 std::set<Scene> starting_scenes(const Scene& solved, const std::optional<Scene>& image,
                                 const PlanRules& rules, const StatePlan& states);
 

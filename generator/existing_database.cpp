@@ -1,7 +1,6 @@
 #include "generator/existing_database.h"
 
 #include "core/error.h"
-#include "database/format/hdf5_file.h"
 
 namespace voussoir {
 namespace {
@@ -69,7 +68,7 @@ ExistingDatabase examine_existing(const std::filesystem::path& output, const Wan
     existing.changes = {"--force is given"};
     return existing;
   }
-  if (!begins_like_hdf5(output))
+  if (!is_named_database(output))
     throw Failure(
         fmt::format("{}: exists and is no database; give another file with -o, or --force to replace it",
                     output.string()));

@@ -27,7 +27,7 @@ struct WantedDatabase {
 };
 
 /// Looks at the file; `force` makes any file out of date and its records worthless. Throws Failure for a file
-/// that is no HDF5 file (unless forced): a build should not replace what is none of its own.
+/// that is no database (unless forced): a build should not replace what is none of its own.
 ExistingDatabase examine_existing(const std::filesystem::path& output, const WantedDatabase& wanted,
                                   bool force);
 

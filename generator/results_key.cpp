@@ -2,9 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "build_information.h"
 #include "database/format/sha256.h"
-#include "solver_revision.h"
 
 namespace voussoir {
 namespace {
@@ -121,9 +119,10 @@ std::string physics_text(const BridgeDescription& description) {
 
 }  // namespace
 
-std::string results_key(const BridgeDescription& description, const std::string& solver_settings) {
-  return to_hexadecimal(sha256(fmt::format("{}\n{}\n{}\n{}\n{}", physics_text(description), solver_settings,
-                                           kSolverRevision, kCompiler, kCompileFlags)));
+std::string results_key(const BridgeDescription& description, const Provenance& made) {
+  return to_hexadecimal(
+      sha256(fmt::format("{}\n{}\n{}\n{}\n{}", physics_text(description), made.solver_settings,
+                         made.solver_revision, made.compiler, made.compile_flags)));
 }
 
 }  // namespace voussoir

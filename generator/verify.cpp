@@ -13,6 +13,7 @@
 #include "database/records/stored_bridge.h"
 #include "database/search/stored_index.h"
 #include "generator/build_settings.h"
+#include "generator/origin_check.h"
 #include "generator/parallel.h"
 #include "generator/recompute.h"
 #include "generator/scene_check.h"
@@ -39,27 +40,26 @@ bool stands_in(const Database& database, const DatasetValue& value) {
   return expected.data() == stored.data() || std::ranges::equal(expected, stored);
 }
 
-/// Geometry, control points and the nominal variant are compared with what the bridge text gives, but only if
-/// the same program made them: another version may mesh blocks in another way.
-void check_geometry(const Database& database, const Model& stored, VerifyReport& report) {
+/// What all records share, as it should be: geometry, control points and the nominal variant as the bridge
+/// text gives them, but only if the same program made them: another version may mesh blocks in another way.
+std::vector<DatasetValue> expected_datasets(const Database& database, const Model& stored) {
   const Provenance provenance = database.provenance();
   const BridgeDescription description = description_of(database);
-  const Provenance own = make_provenance({provenance.bridge_name, provenance.bridge_text, description},
+  const Provenance own = make_provenance({provenance.bridge_name, provenance.bridge_text, description, {}},
                                          provenance.solver_settings, provenance.results_key);
   const bool same_program = differences(own, provenance).empty();
   const Model bridge = same_program ? make_model(description) : stored;
   std::vector<VariantParameters> variants = database.variants();
   // Of the others nothing else says what they should be.
   variants.front() = variant_parameters(bridge.parameters);
-  const auto expected = shared_datasets(provenance, bridge, variants, database.states(),
-                                        database.model_errors(), database.sensitivities());
+  return shared_datasets(provenance, bridge, variants, database.states(), database.model_errors(),
+                         database.sensitivities());
+}
+
+void check_shared(const Database& database, const std::vector<DatasetValue>& expected, VerifyReport& report) {
   for (const DatasetValue& value : expected)
     if (!stands_in(database, value))
       report.problems.push_back(fmt::format("dataset '{}': is not what the bridge text gives", value.path));
-  if (to_hexadecimal(sha256(provenance.bridge_text)) != database.bridge_sha256())
-    report.problems.push_back(
-        fmt::format("dataset '{}': does not have the SHA-256 that the file states", dataset::kBridgeText));
-  check_digest(database, expected, report);
 }
 
 /// A solver of the variant for each thread.
@@ -261,21 +261,34 @@ Model variant_in(const Database& database, const Model& nominal, std::int32_t va
   }
 }
 
+/// The bridge that the records are of, and all that they share. Nothing can be said of scenes, and nothing
+/// should be solved, if that is wrong.
+std::optional<Model> check_bridge(const Database& database, VerifyReport& report) {
+  report.problems = origin_problems(database);
+  if (!report.ok()) return std::nullopt;
+  Model nominal = bridge_of(database);
+  const std::vector<DatasetValue> expected = expected_datasets(database, nominal);
+  check_shared(database, expected, report);
+  if (!report.ok()) return std::nullopt;
+  check_digest(database, expected, report);
+  return nominal;
+}
+
 void check_content(const VerifyRequest& request, VerifyReport& report) {
   const Database database = Database::open(request.database);
   report.digest = database.digest();
   report.outcomes = count_outcomes(database);
-  const Model nominal = bridge_of(database);
-  check_geometry(database, nominal, report);
+  const std::optional<Model> nominal = check_bridge(database, report);
+  if (!nominal) return;
   check_search(database, report);
   if (const Sensitivities* const sensitivities = database.sensitivities())
     check_factors(*sensitivities, report);
-  const StatePlan plan = plan_of(database, nominal);
+  const StatePlan plan = plan_of(database, *nominal);
   for (std::int32_t variant = 0; static_cast<std::size_t>(variant) < database.variant_count(); ++variant)
-    check_variant(request, database, variant_in(database, nominal, variant), variant, plan, report);
+    check_variant(request, database, variant_in(database, *nominal, variant), variant, plan, report);
   if (!report.ok()) return;  // of damaged fields nothing can be said
   const SensitivityCheck sensitivities =
-      check_sensitivities(database, nominal, description_of(database).uncertainty, plan);
+      check_sensitivities(database, *nominal, description_of(database).uncertainty, plan);
   std::ranges::copy(sensitivities.problems, std::back_inserter(report.problems));
 }
 

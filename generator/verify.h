@@ -40,12 +40,14 @@ struct VerifyReport {
   bool ok() const { return problems.empty(); }
 };
 
-/// Checks the schema, the content digest, that geometry, control points and the nominal variant are those of
-/// the bridge text (when this very program built the file), and for every scene of every variant: checksums,
-/// that the field is decodable and missing just where blocks are, that the control table repeats the field,
-/// equilibrium of standing scenes from the stored field alone, and that mirror images have mirrored fields.
-/// Solves some scenes anew if asked for: in full, whatever is stored as composed or inherited. Throws Failure
-/// if the file cannot be read at all; whatever is wrong with its content is a problem in the report.
+/// Checks the schema, what is stated of the origin (origin_check.h), the content digest, that geometry,
+/// control points and the nominal variant are those of the bridge text (when this very program built the
+/// file), and for every scene of every variant: checksums, that the field is decodable and missing just where
+/// blocks are, that the control table repeats the field, equilibrium of standing scenes from the stored field
+/// alone, and that mirror images have mirrored fields. Where origin or geometry are wrong nothing is solved
+/// or said of scenes. Solves some scenes anew if asked for: in full, whatever is stored as composed or
+/// inherited. Throws Failure if the file cannot be read at all; whatever is wrong with its content is a
+/// problem in the report.
 VerifyReport verify_database(const VerifyRequest& request);
 
 /// Lines for people; at most twenty problems.

@@ -31,4 +31,16 @@ void put_in_place(const std::filesystem::path& finished, const std::filesystem::
   synchronise(folder, O_RDONLY | O_DIRECTORY);
 }
 
+std::filesystem::path behind_links(std::filesystem::path path) {
+  constexpr int kMostLinks = 40;  // as many as Linux follows
+  const std::filesystem::path given = path;
+  for (int links = 0; std::filesystem::is_symlink(path); ++links) {
+    if (links == kMostLinks)
+      throw Failure(fmt::format("{}: more than {} symbolic links, expected some that lead to a file",
+                                given.string(), kMostLinks));
+    path = path.parent_path() / std::filesystem::read_symlink(path);  // the latter alone if it is absolute
+  }
+  return path;
+}
+
 }  // namespace voussoir

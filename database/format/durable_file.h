@@ -9,4 +9,8 @@ namespace voussoir {
 /// name. Whoever opens `target` finds the old file or the new one, whole. Throws Failure.
 void put_in_place(const std::filesystem::path& finished, const std::filesystem::path& target);
 
+/// The file that the path leads to through symbolic links, whether it exists or not: replacing that one keeps
+/// the links. Throws Failure for links that lead round in circles.
+std::filesystem::path behind_links(std::filesystem::path path);
+
 }  // namespace voussoir

@@ -194,10 +194,7 @@ const Mesh& Database::mesh() const {
 }
 
 const std::vector<Joint>& Database::joints() const {
-  return implementation_->joints.get([&] {
-    const Sizes& sizes = implementation_->rows.sizes();
-    return read_joints(implementation_->file, sizes.blocks, count_nodes(implementation_->file));
-  });
+  return implementation_->joints.get([&] { return read_joints(implementation_->file, mesh()); });
 }
 
 std::string Database::bridge_text() const {
@@ -269,6 +266,18 @@ bool Database::stands_by_slip(std::size_t state) const {
   if (!implementation_->file.has(dataset::kSlipped)) return false;
   const auto intact = find(Scene{});
   return intact && !record(*intact).states[state].slipped.empty();
+}
+
+bool is_named_database(const std::filesystem::path& path) {
+  constexpr std::size_t kBeginning = 4096;  // bytes in which the first dataset is described
+  if (!begins_like_hdf5(path)) return false;
+  try {
+    return Hdf5File(path).text_attribute(attribute::kFormat) == kFormatName;
+  } catch (const InputError&) {  // damaged, if it is one
+    const MappedFile mapped(path);
+    const ByteView beginning = mapped.bytes().first(std::min(kBeginning, mapped.bytes().size()));
+    return !std::ranges::search(beginning, view_bytes(std::string_view(kBridgeTextMeaning))).empty();
+  }
 }
 
 }  // namespace voussoir

@@ -89,4 +89,8 @@ class Database {
   std::unique_ptr<Implementation> implementation_;
 };
 
+/// Does the file state that it is a database, of whatever schema version, or begin as one that is damaged?
+/// False for any other file, also of HDF5.
+bool is_named_database(const std::filesystem::path& path);
+
 }  // namespace voussoir

@@ -87,15 +87,15 @@ Journal::Journal(Journal&& other) noexcept
       discarded_(std::move(other.discarded_)) {}
 
 Journal Journal::open(const std::filesystem::path& target, const Provenance& provenance,
-                      const std::string& key) {
+                      const std::string& key, OtherRecords others) {
   const std::filesystem::path path = path_for(target);
   Journal journal(path, open_locked(path));
-  journal.load(provenance, key);
+  journal.load(provenance, key, others);
   return journal;
 }
 
 /// Takes in the whole frames of the same build and cuts off what follows them.
-void Journal::load(const Provenance& provenance, const std::string& key) {
+void Journal::load(const Provenance& provenance, const std::string& key, OtherRecords others) {
   const MappedFile mapped(path_);
   ByteReader reader(mapped.bytes());
   const auto magic = reader.get_bytes(kMagic.size());
@@ -103,6 +103,11 @@ void Journal::load(const Provenance& provenance, const std::string& key) {
   const auto header_frame = known ? next_frame(reader) : std::nullopt;
   const auto header = header_frame ? parse_header(*header_frame) : std::nullopt;
   if (!header || header->key != key) {
+    if (others == OtherRecords::refuse && next_frame(reader))
+      throw Failure(fmt::format(
+          "{}: holds scenes of an interrupted build-database: run that one again, delete the file "
+          "or give another file with -o",
+          path_.string()));
     if (header) discarded_ = header->provenance;
     begin(provenance, key);
     return;

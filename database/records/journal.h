@@ -18,14 +18,17 @@
 
 namespace voussoir {
 
+/// What becomes of the records that an interrupted build of another key has left.
+enum class OtherRecords { drop, refuse };
+
 class Journal : public RecordSource {
  public:
   /// Opens the journal for building `target`, or begins one, and locks it against other builders. Records of
   /// an interrupted build are kept if it was a build of the same `key`; otherwise they are thrown away and
-  /// `discarded` tells whose they were. Throws Failure if the file cannot be written or another program is
-  /// building `target`.
+  /// `discarded` tells whose they were, or Failure is thrown. Throws Failure, too, if the file cannot be
+  /// written or another program is building `target`.
   static Journal open(const std::filesystem::path& target, const Provenance& provenance,
-                      const std::string& key);
+                      const std::string& key, OtherRecords others = OtherRecords::drop);
 
   Journal(Journal&& other) noexcept;
   Journal& operator=(Journal&&) = delete;
@@ -56,7 +59,7 @@ class Journal : public RecordSource {
   };
 
   Journal(std::filesystem::path path, FileDescriptor file);
-  void load(const Provenance& provenance, const std::string& key);
+  void load(const Provenance& provenance, const std::string& key, OtherRecords others);
   void begin(const Provenance& provenance, const std::string& key);
   void write_frame(ByteView content);
   [[noreturn]] void fail(const std::string& what) const;

@@ -153,8 +153,7 @@ std::vector<DatasetValue> shared_datasets(const Provenance& provenance, const Mo
                                           const std::vector<ModelError>& model_errors,
                                           const Sensitivities* sensitivities) {
   std::vector<DatasetValue> datasets;
-  datasets.push_back(
-      text_dataset(dataset::kBridgeText, provenance.bridge_text, "the bridge file (TOML) as it was given"));
+  datasets.push_back(text_dataset(dataset::kBridgeText, provenance.bridge_text, kBridgeTextMeaning));
   datasets.push_back(text_dataset(dataset::kSolverSettings, provenance.solver_settings,
                                   "`key = value` lines: all settings that results depend on"));
   append_blocks(bridge.layout, datasets);

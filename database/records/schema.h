@@ -15,6 +15,8 @@
 namespace voussoir {
 
 inline constexpr char kFormatName[] = "voussoir database";
+/// What the first dataset says of itself: a damaged file is known by it.
+inline constexpr char kBridgeTextMeaning[] = "the bridge file (TOML) as it was given";
 inline constexpr int kSchemaVersion = 6;
 inline constexpr std::size_t kBlockLabelWidth = 32;     ///< bytes, padded with zeros
 inline constexpr std::size_t kPointNameWidth = 8;       ///< bytes, padded with zeros

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
 
 #include "core/text.h"
@@ -14,6 +15,13 @@ constexpr std::string_view kNo = "no";
 
 std::string_view word(bool value) {
   return value ? kYes : kNo;
+}
+
+/// Options may be given with line ends in them, which mean what blanks do.
+std::string in_one_line(std::string text) {
+  std::ranges::replace_if(
+      text, [](char sign) { return sign == '\n' || sign == '\r'; }, ' ');
+  return text;
 }
 
 }  // namespace
@@ -35,8 +43,9 @@ std::string to_text(const ShardStatement& statement) {
   return fmt::format(
       "shard = {}\nscenes = {}\nscenes_of_variants = {}\nhistories = {}\nloads = {}\nkeeps_fields = {}\n"
       "known_bridge = {}\n",
-      to_string(statement.shard), statement.scenes, statement.scenes_of_variants, statement.histories,
-      statement.loads, word(statement.keeps_fields), word(statement.known_bridge));
+      to_string(statement.shard), in_one_line(statement.scenes), in_one_line(statement.scenes_of_variants),
+      in_one_line(statement.histories), in_one_line(statement.loads), word(statement.keeps_fields),
+      word(statement.known_bridge));
 }
 
 std::optional<ShardStatement> parse_shard_statement(std::string_view text) {

@@ -17,9 +17,11 @@ std::vector<ControlPoint> stored_points(const Database& database) {
                                  database.path().string(), dataset::kPointNode, nodes.size(), stored.size()));
   std::vector<ControlPoint> points;
   for (std::size_t i = 0; i < nodes.size(); ++i) {
-    if (nodes[i] < 0 || nodes[i] >= database.mesh().node_count())
-      throw InputError(fmt::format("{}: control point {} has a node that does not exist",
-                                   database.path().string(), stored[i].name));
+    const IndexRange& own = database.mesh().block_nodes.at(static_cast<std::size_t>(stored[i].block));
+    if (nodes[i] < own.begin || nodes[i] >= own.end)
+      throw InputError(fmt::format("{}: control point {} has node {}, expected one of its block's ({} to {})",
+                                   database.path().string(), stored[i].name, nodes[i], own.begin,
+                                   own.end - 1));
     points.push_back({stored[i].name, NodeId{nodes[i]}, stored[i].block, stored[i].position});
   }
   return points;

@@ -6,10 +6,11 @@
 
 namespace voussoir {
 
-/// All of them throw InputError if indices, ranges or counts do not fit together.
+/// All of them throw InputError if indices, ranges or counts do not fit together: whoever has them may follow
+/// every index, and finds a block's triangles, edges and joints on the block's own nodes.
 BlockLayout read_layout(const Hdf5File& file);
 Mesh read_mesh(const Hdf5File& file, std::size_t blocks);
-std::vector<Joint> read_joints(const Hdf5File& file, std::size_t blocks, std::size_t nodes);
+std::vector<Joint> read_joints(const Hdf5File& file, const Mesh& mesh);
 std::vector<StoredPoint> read_control_points(const Hdf5File& file);
 std::vector<std::string> read_states(const Hdf5File& file);
 

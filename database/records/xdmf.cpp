@@ -29,6 +29,11 @@ std::vector<IndexedScene> find_scenes(const Database& database, const std::vecto
   return found;
 }
 
+/// As it stands in the index.
+std::string name_of_views(const std::filesystem::path& database) {
+  return escaped(index_paths(database).views.filename().string());
+}
+
 std::string data_item(const std::string& type, const std::string& shape, const std::string& place) {
   return fmt::format("<DataItem Format=\"HDF\" {} Dimensions=\"{}\">{}</DataItem>", type, shape, place);
 }
@@ -37,7 +42,7 @@ std::string grid_text(const Database& database, const IndexedScene& scene) {
   constexpr const char* kInt = "NumberType=\"Int\" Precision=\"4\"";
   constexpr const char* kFloat = "NumberType=\"Float\" Precision=\"8\"";
   const std::string file = escaped(database.path().filename().string());
-  const std::string views = escaped(index_paths(database.path()).views.filename().string());
+  const std::string views = name_of_views(database.path());
   const std::size_t triangles = database.mesh().triangles.size();
   const int nodes = database.mesh().node_count();
   std::string text = fmt::format("  <Grid Name=\"{}\" GridType=\"Uniform\">\n   <Time Value=\"{}\"/>\n",
@@ -77,6 +82,19 @@ void write_views(const Database& database, const std::vector<IndexedScene>& scen
 IndexPaths index_paths(const std::filesystem::path& database) {
   return {std::filesystem::path(database).replace_extension(".xdmf"),
           std::filesystem::path(database).replace_extension(".views.h5")};
+}
+
+bool remove_index(const std::filesystem::path& database) {
+  const IndexPaths paths = index_paths(database);
+  std::ifstream stream(paths.xdmf, std::ios::binary);
+  const std::string text{std::istreambuf_iterator<char>(stream), {}};
+  if (text.find(">" + name_of_views(database) + ":/") == std::string::npos) return false;
+  for (const std::filesystem::path& path : {paths.xdmf, paths.views}) {
+    std::error_code error;
+    std::filesystem::remove(path, error);
+    if (error) throw Failure(fmt::format("{}: cannot be removed: {}", path.string(), error.message()));
+  }
+  return true;
 }
 
 void write_index(const Database& database, const std::vector<Scene>& scenes) {

@@ -5,8 +5,10 @@
 #include "core/structure/mirror_symmetry.h"
 #include "database/records/database.h"
 #include "database/records/journal.h"
+#include "database/records/schema.h"
 #include "generator/build.h"
 #include "generator/start_field.h"
+#include "tests/support/damaged_database.h"
 #include "tests/support/file_text.h"
 #include "tests/support/made_up_solver.h"
 #include "tests/support/same_bits.h"
@@ -241,6 +243,73 @@ TEST_CASE("A build does not replace a file that is no database unless forced") {
   CHECK(test::text_of(site.request.output) == "point,uy_mm\nT1,-1\n");
   site.request.force = true;
   CHECK(site.build().digest == digest_of_reference());
+}
+
+TEST_CASE("A build does not replace an HDF5 file of another program unless forced") {
+  Site site;
+  site.build();
+  std::string bytes = test::text_of(site.request.output);
+  SECTION("another format") {
+    bytes = test::forged_at(test::good_database(bytes), bytes.find(kFormatName), 'V');
+  }
+  SECTION("of which we cannot read even the superblock") {
+    bytes[8] = 0;
+    const std::size_t at = bytes.find(kBridgeTextMeaning);
+    REQUIRE(at < 4096);
+    bytes[at] = 'T';
+  }
+  std::ofstream(site.request.output, std::ios::binary) << bytes;
+  CHECK_THROWS_WITH(site.build(), Catch::Contains("no database; give another file with -o, or --force"));
+  CHECK(test::text_of(site.request.output) == bytes);
+  site.request.force = true;
+  CHECK(site.build().digest == digest_of_reference());
+}
+
+TEST_CASE("A file whose bridge text is damaged gives no records and is built anew") {
+  const Site site;
+  site.build();
+  std::string bytes = test::text_of(site.request.output);
+  bytes.at(bytes.find("[wall]")) = '"';
+  std::ofstream(site.request.output, std::ios::binary) << bytes;
+  const BuildSummary summary = site.build();
+  CHECK(summary.reused == 0);
+  CHECK(summary.digest == digest_of_reference());
+}
+
+TEST_CASE("A build writes through symbolic links, to where they lead") {
+  Site site;
+  const std::filesystem::path target = site.folder / "elsewhere" / "small.h5", link = site.folder / "link.h5";
+  std::filesystem::create_directory(target.parent_path());
+  std::filesystem::create_symlink("elsewhere/small.h5", site.folder / "nearer.h5");
+  std::filesystem::create_symlink("nearer.h5", link);
+  site.request.output = link;
+  site.request.scenes = "intact";
+  CHECK(site.build().computed == 1);  // the link leads to no file yet
+  site.request.scenes = "intact;4,1";
+  CHECK(site.build().computed == 1);
+  CHECK(std::filesystem::is_symlink(link));
+  CHECK(std::filesystem::is_regular_file(target));
+  CHECK(Database::open(target).rows() == 2);
+  site.request.output = site.folder / "circle.h5";
+  std::filesystem::create_symlink("circle.h5", site.request.output);
+  CHECK_THROWS_WITH(site.build(), Catch::Contains("circle.h5: more than 40 symbolic links"));
+}
+
+TEST_CASE("An index for ParaView goes with the file that it showed, and never takes the database's place") {
+  Site site;
+  site.request.scenes = "singles";
+  site.request.xdmf_scenes = "4,1";
+  site.build();
+  site.request.xdmf_scenes.clear();
+  CHECK(site.build().up_to_date);
+  CHECK(std::filesystem::exists(site.folder / "small.xdmf"));
+  site.request.scenes = "4,*";  // the scene has another row
+  site.build();
+  CHECK_FALSE(std::filesystem::exists(site.folder / "small.xdmf"));
+  CHECK_FALSE(std::filesystem::exists(site.folder / "small.views.h5"));
+  site.request.output = site.folder / "small.xdmf";
+  site.request.xdmf_scenes = "4,1";
+  CHECK_THROWS_WITH(site.build(), Catch::Contains("would be both database and index"));
 }
 
 TEST_CASE("A damaged database is replaced and the reason is told") {

@@ -10,6 +10,7 @@
 #include "core/structure/mirror_symmetry.h"
 #include "database/records/journal.h"
 #include "generator/variants.h"
+#include "tests/support/file_text.h"
 #include "tests/support/made_up_solver.h"
 #include "tests/support/temporary_folder.h"
 
@@ -165,6 +166,42 @@ TEST_CASE("Parts that another version of the program made are refused") {
   Progress quiet(Progress::Mode::quiet);
   const auto other = [](const std::string&) { return quasi_static(); };
   CHECK_THROWS_WITH(merge_databases(site.merging, other, quiet), Contains("another version of the program"));
+}
+
+TEST_CASE("Merging leaves the scenes of an interrupted build of the same file alone") {
+  Site site;
+  site.request.scenes = "singles;4,*+5,1..2";
+  site.build_parts(2);
+  BuildRequest interrupted = site.request;
+  interrupted.output = site.merging.output;
+  SECTION("another build's: refused") {
+    interrupted.histories = "lost";
+    Progress quiet(Progress::Mode::quiet);
+    REQUIRE_THROWS_AS(build_database(interrupted, test::failing_solver(20), quiet), Failure);
+    const std::string journal = test::text_of(Journal::path_for(site.merging.output));
+    CHECK_THROWS_WITH(site.merge(),
+                      Contains("merged.h5.partial: holds scenes of an interrupted build-database"));
+    CHECK(test::text_of(Journal::path_for(site.merging.output)) == journal);
+  }
+  SECTION("the same build's, and a part has lost a scene: kept") {
+    interrupted.scenes = "intact;4,1";
+    Progress quiet(Progress::Mode::quiet);
+    REQUIRE_THROWS_AS(build_database(interrupted, test::failing_solver(2), quiet), Failure);
+    const auto journal = std::filesystem::file_size(Journal::path_for(site.merging.output));
+    std::string bytes = test::text_of(site.merging.parts[0]);
+    bytes[bytes.size() / 2] ^= 4;  // amid the fields
+    std::ofstream(site.merging.parts[0], std::ios::binary) << bytes;
+    CHECK_THROWS_WITH(site.merge(), Contains("no part has scene"));
+    CHECK(std::filesystem::file_size(Journal::path_for(site.merging.output)) == journal);
+  }
+}
+
+TEST_CASE("A part whose list of scenes was given with blanks and lines is up to date, and merges") {
+  Site site;
+  site.request.scenes = "  singles ;\n4,*+5,1..2 ";
+  site.build_parts(2);
+  CHECK(site.build("part1.h5", Shard{1, 2}).up_to_date);
+  CHECK(site.merge().digest == site.build("whole.h5").digest);
 }
 
 TEST_CASE("What a part says of itself comes back, and nothing else is taken for it") {

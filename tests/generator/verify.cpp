@@ -1,47 +1,14 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
-#include <fstream>
 #include <random>
 
 #include "database/records/columns.h"
-#include "database/records/database.h"
-#include "database/records/schema.h"
 #include "database/search/stored_index.h"
-#include "generator/build.h"
-#include "generator/verify.h"
-#include "tests/support/bridges.h"
-#include "tests/support/file_text.h"
+#include "tests/support/few_scenes.h"
 #include "tests/support/made_up_solver.h"
-#include "tests/support/temporary_folder.h"
 
 namespace voussoir {
 namespace {
-
-/// A database of a few scenes of the small bridge, solved for real.
-struct FewScenes {
-  test::TemporaryFolder folder;
-  std::filesystem::path path = folder / "few.h5";
-  std::string bytes;
-
-  FewScenes() {
-    Progress quiet(Progress::Mode::quiet);
-    BuildRequest request;
-    request.bridge = read_bridge_file(test::example_bridge("small"));
-    request.output = path;
-    request.scenes = "intact;4,1..3;0,5;4,1+4,2";
-    request.threads = 1;
-    build_database(request, quasi_static(), quiet);
-    bytes = test::text_of(path);
-  }
-
-  VerifyReport verify_with(const std::string& changed, std::size_t recompute = 0) const {
-    std::ofstream(path, std::ios::binary | std::ios::trunc) << changed;
-    VerifyRequest request{path};
-    request.threads = 1;
-    request.recompute = recompute;
-    return verify_database(request);
-  }
-};
 
 /// Part of a file that belongs to scenes. A report has to name the scene or, where the damage is such that
 /// the file is not read at all, the dataset.
@@ -51,20 +18,6 @@ struct Stretch {
   std::size_t offset;
   std::size_t size;
 };
-
-std::size_t place_of(const std::string& bytes, ByteView part) {
-  const auto* begin = reinterpret_cast<const char*>(part.data());
-  return static_cast<std::size_t>(std::search(bytes.begin(), bytes.end(), begin, begin + part.size()) -
-                                  bytes.begin());
-}
-
-/// Datasets are views into one mapping of the file; the control table, whose content is found nowhere else,
-/// tells where the mapping begins.
-std::size_t place_of(const std::string& bytes, const Database& database, const char* path) {
-  const ByteView anchor = database.dataset_bytes(dataset::kVertical);
-  return place_of(bytes, anchor) +
-         static_cast<std::size_t>(database.dataset_bytes(path).data() - anchor.data());
-}
 
 /// Rows of the scenes' datasets and stored chunks, one stretch a scene each. A report names the scene, or the
 /// dataset if it cannot be read at all. A scene whose removed blocks are changed has another name.
@@ -81,24 +34,19 @@ std::vector<Stretch> scene_stretches(const Database& database, const std::string
     const std::size_t width = whole.size() / database.rows();
     for (std::size_t row = 0; row < database.rows(); ++row)
       stretches.push_back({is_key ? "scene " : scene(row) + ":", path,
-                           place_of(bytes, database, column.path) + row * width, width});
+                           test::place_of(bytes, database, column.path) + row * width, width});
   }
   for (std::size_t row = 0; row < database.rows(); ++row) {
     const Bytes chunk = database.record(row).states.at(0).packed_field;
-    stretches.push_back({scene(row) + ":", dataset::kField, place_of(bytes, chunk), chunk.size()});
+    stretches.push_back({scene(row) + ":", dataset::kField, test::place_of(bytes, chunk), chunk.size()});
   }
   for (const char* name : {index_dataset::kCentre, index_dataset::kLeast, index_dataset::kMost,
                            index_dataset::kRow, index_dataset::kBounds, index_dataset::kSketch}) {
     const std::string path = index_path(kBuiltState, name);
-    stretches.push_back({"no scene", path, place_of(bytes, database, path.c_str()),
+    stretches.push_back({"no scene", path, test::place_of(bytes, database, path.c_str()),
                          database.dataset_bytes(path.c_str()).size()});
   }
   return stretches;
-}
-
-bool names(const VerifyReport& report, const std::string& what) {
-  return std::any_of(report.problems.begin(), report.problems.end(),
-                     [&](const std::string& problem) { return problem.find(what) != std::string::npos; });
 }
 
 /// A bit, chosen evenly over all stretches or, every other time, over the small datasets only.
@@ -117,7 +65,7 @@ std::pair<const Stretch*, std::size_t> choose_bit(const std::vector<Stretch>& st
 
 /// Whole files, each with one bit changed.
 void flip_bits_and_verify(int trials) {
-  const FewScenes few;
+  const test::FewScenes few;
   std::vector<Stretch> stretches;
   {
     const Database database = Database::open(few.path);
@@ -133,15 +81,29 @@ void flip_bits_and_verify(int trials) {
     INFO("trial " << trial << ", byte " << stretch->offset + bit / 8 << ", " << stretch->scene << ", "
                   << stretch->dataset);
     REQUIRE_FALSE(report.ok());
-    REQUIRE((names(report, stretch->scene) || names(report, "'" + stretch->dataset + "'")));
+    REQUIRE((test::names(report, stretch->scene) || test::names(report, "'" + stretch->dataset + "'")));
   }
+}
+
+/// Of the intact bridge and all singles, with answers that are made up.
+VerifyReport report_of_made_up() {
+  const test::TemporaryFolder folder;
+  Progress quiet(Progress::Mode::quiet);
+  BuildRequest request;
+  request.bridge = test::small_bridge_file();
+  request.output = folder / "made-up.h5";
+  request.scenes = "singles";
+  request.rules.mirror_images = false;
+  request.known_bridge = true;
+  build_database(request, test::made_up_solver(), quiet);
+  return verify_database({request.output});
 }
 
 }  // namespace
 
 TEST_CASE("A database just built is in order and its scenes come out the same when solved anew",
           "[threads]") {
-  const FewScenes few;
+  const test::FewScenes few;
   const VerifyReport report = few.verify_with(few.bytes, 6);
   CHECK(report.problems == std::vector<std::string>{});
   CHECK(report.outcomes.scenes == 6);
@@ -162,30 +124,27 @@ TEST_CASE("1,000 single bits flipped in scene data are all found, and the scene 
 }
 
 TEST_CASE("A flipped bit in the geometry is found and its dataset named, in the bridge's text the digest") {
-  const FewScenes few;
+  const test::FewScenes few;
   for (const char* path :
        {dataset::kCorners, dataset::kNodes, dataset::kPointPosition, dataset::kBridgeText,
         dataset::kJointLength, dataset::kStates, dataset::kDensity, dataset::kTangentialStiffness}) {
     std::size_t place = 0;
     {
       const Database database = Database::open(few.path);
-      place = place_of(few.bytes, database, path) + 6;
+      place = test::place_of(few.bytes, database, path) + 6;
     }
     std::string changed = few.bytes;
     changed[place] = static_cast<char>(changed[place] ^ 1);
     const VerifyReport report = few.verify_with(changed);
     INFO(path);
     CHECK_FALSE(report.ok());
-    CHECK(names(report, fmt::format("dataset '{}'", path)));
+    CHECK(test::names(report, fmt::format("dataset '{}'", path)));
     few.verify_with(few.bytes);
   }
 }
 
 TEST_CASE("Fields that are out of equilibrium are found although every checksum is right") {
-  const test::TemporaryFolder folder;
-  const BridgeFile file = read_bridge_file(test::example_bridge("small"));
-  test::write_made_up_database(folder / "made-up.h5", file, all_scenes(38, 1));
-  const VerifyReport report = verify_database({folder / "made-up.h5"});
+  const VerifyReport report = report_of_made_up();
   CHECK(report.outcomes.scenes == 39);
   REQUIRE(report.problems.size() >= report.outcomes.states.front().standing);
   CHECK_THAT(report.problems.front(),
@@ -193,10 +152,7 @@ TEST_CASE("Fields that are out of equilibrium are found although every checksum 
 }
 
 TEST_CASE("Mirror images whose fields are not mirrored are found") {
-  const test::TemporaryFolder folder;
-  const BridgeFile file = read_bridge_file(test::example_bridge("small"));
-  test::write_made_up_database(folder / "made-up.h5", file, all_scenes(38, 1));
-  const VerifyReport report = verify_database({folder / "made-up.h5"});
+  const VerifyReport report = report_of_made_up();
   CHECK(report.mirror_pairs > 10);
   CHECK(std::any_of(report.problems.begin(), report.problems.end(), [](const std::string& problem) {
     return problem.find("differs from its mirror image") != std::string::npos;

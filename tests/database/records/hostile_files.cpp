@@ -1,6 +1,7 @@
 #include <hdf5.h>
 #include <catch2/catch.hpp>
 #include <fstream>
+#include <limits>
 
 #include "core/error.h"
 #include "database/format/hdf5_handle.h"
@@ -49,6 +50,14 @@ class Forgery {
     REQUIRE(H5Dwrite(opened.get(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) >= 0);
   }
 
+  std::vector<int> numbers(const char* dataset_path) const {
+    const Hdf5Handle opened(H5Dopen2(file(), dataset_path, H5P_DEFAULT), H5Dclose);
+    const Hdf5Handle space(H5Dget_space(opened.get()), H5Sclose);
+    std::vector<int> values(static_cast<std::size_t>(H5Sget_simple_extent_npoints(space.get())));
+    REQUIRE(H5Dread(opened.get(), H5T_NATIVE_INT, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) >= 0);
+    return values;
+  }
+
   std::string refusal() {
     file_.close();
     try {
@@ -88,6 +97,25 @@ TEST_CASE("Datasets of another type, rank or size are refused and named") {
   }
 }
 
+TEST_CASE("Triangles, edges and joints that hang on nodes of other blocks are refused and named") {
+  const std::string good = small_file();
+  const auto lock = lock_hdf5();
+  const auto refusal = [&](const char* path, std::size_t place, std::size_t taken_from) {
+    Forgery forged(good);
+    std::vector<int> numbers = forged.numbers(path);
+    numbers.at(place) = numbers.at(std::min(taken_from, numbers.size() - 1));
+    forged.fill(path, H5T_NATIVE_INT, numbers);
+    return forged.refusal();
+  };
+  constexpr std::size_t kLast = std::numeric_limits<std::size_t>::max();
+  CHECK_THAT(refusal(dataset::kTriangles, 0, kLast), Catch::Contains("'geometry/triangles' names node"));
+  CHECK_THAT(refusal(dataset::kEdges, 0, kLast), Catch::Contains("'geometry/edges' names node"));
+  CHECK_THAT(refusal(dataset::kEdges, 0, 1), Catch::Contains("expected edges round each block"));
+  CHECK_THAT(refusal(dataset::kJointNodes, 0, kLast), Catch::Contains("'geometry/joint_nodes' names node"));
+  CHECK_THAT(refusal(dataset::kJointNodes, 0, 1), Catch::Contains("expected those of a boundary edge"));
+  CHECK_THAT(refusal(dataset::kJointBlocks, 0, 1), Catch::Contains("expected two in ascending order"));
+}
+
 TEST_CASE("A search index that was taken away is missed where scenes have displacements") {
   Forgery forged(small_file());
   forged.remove("search_built");
@@ -101,11 +129,8 @@ TEST_CASE("A search index that names a scene twice or has numbers out of range i
     Forgery forged(good);
     {
       const auto lock = lock_hdf5();
-      const Hdf5Handle dataset(H5Dopen2(forged.file(), path.c_str(), H5P_DEFAULT), H5Dclose);
-      const Hdf5Handle space(H5Dget_space(dataset.get()), H5Sclose);
-      const std::vector<int> numbers(static_cast<std::size_t>(H5Sget_simple_extent_npoints(space.get())),
-                                     number);
-      REQUIRE(H5Dwrite(dataset.get(), H5T_NATIVE_INT, H5S_ALL, H5S_ALL, H5P_DEFAULT, numbers.data()) >= 0);
+      const std::vector<int> numbers(forged.numbers(path.c_str()).size(), number);
+      forged.fill(path.c_str(), H5T_NATIVE_INT, numbers);
     }
     return forged.refusal();
   };

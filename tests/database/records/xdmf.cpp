@@ -3,6 +3,7 @@
 #include "database/records/xdmf.h"
 
 #include <catch2/catch.hpp>
+#include <fstream>
 
 #include "tests/support/file_text.h"
 #include "tests/support/made_up_database.h"
@@ -25,6 +26,20 @@ TEST_CASE("Labels that mean something in XML or in a path are names of scenes li
     const std::size_t row = *database.find(parse_scene(label, database.layout()));
     CHECK_THAT(text, Catch::Contains(fmt::format(">odd.views.h5:/{}</DataItem>", row)));
   }
+}
+
+TEST_CASE("An index is removed with its views, and a file of another program that has its name stays") {
+  const test::TemporaryFolder folder;
+  test::write_made_up_database(folder / "small.h5", test::small_bridge_file(), all_scenes(38, 1),
+                               KeepField::yes);
+  write_index(Database::open(folder / "small.h5"), all_scenes(38, 1));
+  CHECK(remove_index(folder / "small.h5"));
+  CHECK_FALSE(std::filesystem::exists(folder / "small.xdmf"));
+  CHECK_FALSE(std::filesystem::exists(folder / "small.views.h5"));
+  CHECK_FALSE(remove_index(folder / "small.h5"));
+  std::ofstream(folder / "small.xdmf") << "<Xdmf Version=\"3.0\"/>";
+  CHECK_FALSE(remove_index(folder / "small.h5"));
+  CHECK(std::filesystem::exists(folder / "small.xdmf"));
 }
 
 }  // namespace voussoir
