@@ -312,7 +312,8 @@ Answer locate_damage(const Comparison& comparison, const LookupSettings& setting
   const Observation observation =
       observe(comparison, known ? settings.noise : gaussian_noise(settings.noise), settings.nuisance);
   answer.readings = comparison.measured.count();
-  answer.counted = observation.count;
+  for (std::size_t i = 0; i < observation.reading.size(); ++i)
+    if (!std::isnan(observation.reading[i])) answer.counted.push_back(i);
   answer.searched = eligible.rows.size();
   answer.unresolved = eligible.unresolved;
   if (settings.epochs == Epochs::both) require_two_epochs(comparison, known);
