@@ -75,7 +75,7 @@ Observation observe(const Comparison& comparison, const NoiseModel& noise, const
     throw InputError("an unknown datum or tilt needs Gaussian noise, expected --noise-model gaussian");
   const bool is_absolute = !is_change(comparison.kind) && result.has_model_error();
   result.unknown_scale = std::max(nuisance.scale, is_absolute ? kLeastUnknownScale : 0.0);
-  result.levelling = levelling_columns(comparison, nuisance);
+  result.levelling = levelling_columns(comparison, comparison.measured, nuisance);
   return result;
 }
 
