@@ -220,6 +220,24 @@ TEST_CASE("Scenes that the sensors cannot tell apart are reported together") {
             .find("cannot tell 1,6 from: 1,7\n") != std::string::npos);
 }
 
+TEST_CASE("What cannot be told from a scene does not depend on how many are listed (an equal row)") {
+  SyntheticLibrary library(4, 9);
+  const std::size_t hidden = library.row_of({{BlockId{5}}});
+  std::ranges::copy(library.intact(),
+                    library.vertical.begin() + static_cast<std::ptrdiff_t>(hidden * library.table.points));
+  Random random(7);
+  const Measurements measured = library.measure(0, 0.01, NoiseShape::uniform, random);
+  for (const std::size_t top : {1, 3, 10, 40}) {
+    LookupSettings settings;
+    settings.top = top;
+    const Answer answer = locate_damage(absolute_readings(library.library(), measured), settings);
+    CHECK(answer.candidates.size() == top);
+    REQUIRE(answer.candidates.front().row == 0);
+    CHECK(answer.posterior->credible == std::vector<std::size_t>{0});  // far likelier beforehand
+    CHECK(answer.candidates.front().same_readings == std::vector<Scene>{{{BlockId{5}}}});
+  }
+}
+
 TEST_CASE("A library without the wanted numbers of missing blocks is a failure with a reason") {
   const SyntheticLibrary library(2, 3);
   LookupSettings settings;
