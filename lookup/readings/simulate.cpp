@@ -39,6 +39,17 @@ void add_levelling_errors(const Comparison& comparison, const Nuisance& nuisance
     measured.displacement[i] += errors[static_cast<Eigen::Index>(i)];
 }
 
+/// What a load adds is a difference, which nobody reads of what falls, whatever the database keeps of it.
+void expect_readings(const Comparison& comparison, std::size_t row) {
+  const Library& library = comparison.library;
+  if (!is_loaded(comparison.kind)) return expect_displacements(library, row);
+  if (library.table.has_displacements(row)) return;
+  throw Failure(fmt::format(
+      "scene {} does not stand both under the load and without it, so that nobody reads what the load adds: "
+      "expected a scene that does",
+      to_string(library.table.scene(row), library.layout)));
+}
+
 /// An error in units of sigma. Precondition: shape is not automatic.
 double draw_error(NoiseShape shape, double degrees_of_freedom, Random& random) {
   switch (shape) {
@@ -80,7 +91,7 @@ ReadingsFile blank_file(const SensorList& list, ReadingKind kind, const std::vec
 ReadingsFile simulate_file(const ReadingsFile& blank, const Comparison& comparison, std::size_t row,
                            const NoiseModel& noise, const Nuisance& nuisance, Random& random) {
   const std::vector<double> origin = origin_of(comparison);
-  expect_displacements(comparison.library, row);
+  expect_readings(comparison, row);
   const std::span<const double> prediction = comparison.library.table.row(row);
   std::vector<double> truth(prediction.size());
   for (std::size_t i = 0; i < truth.size(); ++i) truth[i] = prediction[i] - origin[i];

@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "core/error.h"
 #include "tests/lookup/synthetic_library.h"
 
 using namespace voussoir;
@@ -108,4 +109,25 @@ TEST_CASE("A simulated levelling turns about the middle of its own points (their
   }
   CHECK(size > 1e-6);
   CHECK(std::abs(sum) < 1e-12);
+}
+
+TEST_CASE("What a load adds to a scene that falls is no reading, and no other database would have one") {
+  test::SyntheticLibrary library(2, 5);
+  std::fill_n(library.vertical.begin() + static_cast<std::ptrdiff_t>(3 * library.table.points),
+              library.table.points, std::nan(""));
+  const NoiseModel exact{.shape = NoiseShape::gaussian, .relative = 0.0, .silence = 0.0};
+  const auto message = [&](ReadingKind kind) {
+    Random random(8);
+    try {
+      simulate_file(blank_file(control_point_sensors(library.points), kind, {"axle"}),
+                    comparison_with(library, kind), 3, exact, {}, random);
+    } catch (const Failure& failure) {
+      return std::string(failure.what());
+    }
+    return std::string("no error");
+  };
+  CHECK(message(ReadingKind::load) ==
+        "scene 1,3 does not stand both under the load and without it, so that nobody reads what the load "
+        "adds: expected a scene that does");
+  CHECK_THAT(message(ReadingKind::absolute), Catch::Matchers::Contains("--collapses field"));
 }
