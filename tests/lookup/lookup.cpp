@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.h"
+#include "lookup/readings/csv_text.h"
 #include "lookup/report/report.h"
 #include "lookup/report/words.h"
 #include "lookup/search/misfit.h"
@@ -305,6 +306,20 @@ TEST_CASE("The CSV report has one quoted scene a line") {
   const std::string text = csv_report(answer, library.library());
   CHECK(text.find("rank,scene,misfit,posterior,outcome,place\n1,\"") == 0);
   CHECK(std::count(text.begin(), text.end(), '\n') == 3);
+}
+
+TEST_CASE("Labels with quotation marks are fields of the CSV report that are read again") {
+  SyntheticLibrary library(4, 6);
+  library.layout.blocks[8].label = "the \"loose\" one, #9";
+  const std::size_t row = library.row_of({{BlockId{8}}});
+  LookupSettings settings;
+  settings.top = 1;
+  const Answer answer =
+      locate_damage(absolute_readings(library.library(), as_measurements(library.table.row(row))), settings);
+  const CsvTable table = read_csv(csv_report(answer, library.library()), "report.csv", "rank");
+  REQUIRE(table.rows.size() == 1);
+  CHECK(table.rows[0].fields[1] == to_string(Scene{{BlockId{8}}}, library.layout));
+  CHECK(table.rows[0].fields[1] == "the \"loose\" one, #9");
 }
 
 TEST_CASE("Places and numbers are said in plain words") {
