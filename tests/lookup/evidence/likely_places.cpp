@@ -12,7 +12,7 @@
 namespace voussoir {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kEndless = std::numeric_limits<double>::infinity();
 constexpr double kBin = 1.0 / 8.0;  // of the histogram
 
 /// The value with which, in ascending order, the sum of exponentials first exceeds exp(log_rest).
@@ -23,7 +23,7 @@ double first_that_matters(std::vector<double> values, double log_rest) {
     sum += std::exp(static_cast<long double>(value));
     if (sum > std::exp(static_cast<long double>(log_rest))) return value;
   }
-  return kInfinity;
+  return kEndless;
 }
 
 }  // namespace
@@ -35,7 +35,7 @@ TEST_CASE("What is not likely sums up to the rest at most, and to a bin less at 
     const double range = 60.0 * random.uniform();
     for (int i = 0; i < 1 + repeat * 20; ++i) values.push_back(range * (random.uniform() - 0.7));
     const double log_rest = 20.0 * (random.uniform() - 0.7);
-    const std::vector<std::size_t> likely = likely_places(values, log_rest, kInfinity);
+    const std::vector<std::size_t> likely = likely_places(values, log_rest, kEndless);
     REQUIRE(std::is_sorted(likely.begin(), likely.end()));
     std::vector<bool> is_likely(values.size(), false);
     for (const std::size_t place : likely) is_likely[place] = true;
@@ -50,12 +50,12 @@ TEST_CASE("What is not likely sums up to the rest at most, and to a bin less at 
 
 TEST_CASE(
     "Of some places others do not count, what is not finite is not summed up, and what has to stay does") {
-  const std::vector<double> values = {0.0, std::nan(""), -kInfinity, kInfinity, -20.0, 3.0, -5.0};
-  CHECK(likely_places(values, -1.0, kInfinity) == std::vector<std::size_t>{0, 1, 3, 5});
+  const std::vector<double> values = {0.0, std::nan(""), -kEndless, kEndless, -20.0, 3.0, -5.0};
+  CHECK(likely_places(values, -1.0, kEndless) == std::vector<std::size_t>{0, 1, 3, 5});
   CHECK(likely_places(values, -1.0, -10.0) == std::vector<std::size_t>{0, 1, 3, 5, 6});
   const std::vector<std::size_t> some = {6, 4, 0};
-  CHECK(likely_places(some, values, -1.0, kInfinity) == std::vector<std::size_t>{0});
-  CHECK(likely_places(values, -kInfinity, kInfinity) == std::vector<std::size_t>{0, 1, 3, 4, 5, 6});
+  CHECK(likely_places(some, values, -1.0, kEndless) == std::vector<std::size_t>{0});
+  CHECK(likely_places(values, -kEndless, kEndless) == std::vector<std::size_t>{0, 1, 3, 4, 5, 6});
 }
 
 }  // namespace voussoir

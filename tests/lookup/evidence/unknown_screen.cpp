@@ -17,7 +17,7 @@ using namespace voussoir::test;
 
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kBeyondAll = std::numeric_limits<double>::infinity();
 constexpr double kRight = 1e-4;       // single precision, of sums of some dozen numbers
 constexpr double kAHundredth = 1e-2;  // that is promised
 
@@ -54,9 +54,9 @@ int compare_estimates(const AskedBridge& asked, const UnknownSettings& settings,
     for (std::size_t row = 0; row < table.rows && table.scene(row).missing() < 2; ++row) {
       const std::array<std::size_t, 1> rows = {row};
       const double evidence = over_scatter(scatter_logs(bridge, observation, table, rows, 1)[0]);
-      if (evidence == -kInfinity || !counts(row, bridge)) continue;
-      std::vector<float> logs(cases.size(), static_cast<float>(kInfinity));
-      screen.refine(std::array{ScreenedRow{row, -kInfinity, logs.data()}}, ScreenDirections::all);
+      if (evidence == -kBeyondAll || !counts(row, bridge)) continue;
+      std::vector<float> logs(cases.size(), static_cast<float>(kBeyondAll));
+      screen.refine(std::array{ScreenedRow{row, -kBeyondAll, logs.data()}}, ScreenDirections::all);
       CAPTURE(row, k);
       REQUIRE(std::abs(static_cast<double>(logs[k]) - evidence) < margin);
       ++compared;
