@@ -2,6 +2,7 @@
 
 #include <iostream>
 
+#include "core/failure_json.h"
 #include "core/heap.h"
 #include "core/structure/bridge_model.h"
 #include "core/text_file.h"
@@ -52,7 +53,7 @@ int run(BuildOptions& options) {
 int main(int argc, char** argv) {
   keep_freed_memory();
   BuildOptions options;
-  return run_writer("build-database", options.json, [&] {
+  return run_writer("build-database", asks_for_json(argc, argv), [&] {
     parse_build_options(argc, argv, options);
     return options.exit_code ? *options.exit_code : run(options);
   });

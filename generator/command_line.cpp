@@ -4,7 +4,7 @@
 #include <iostream>
 
 #include "core/error.h"
-#include "generator/summary.h"
+#include "core/failure_json.h"
 
 namespace voussoir {
 namespace {
@@ -26,7 +26,9 @@ std::optional<int> parse_command_line(CLI::App& app, int argc, char** argv) {
     app.parse(argc, argv);
     return std::nullopt;
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : kBadUsage;
+    if (app.exit(error) == 0) return 0;  // --help, --version
+    if (asks_for_json(argc, argv)) std::cout << failure_to_json(error.what());
+    return kBadUsage;
   }
 }
 
@@ -43,7 +45,7 @@ void add_format_option(CLI::App& app, bool& json, const std::string& of_what) {
       ->default_str("text");
 }
 
-int run_writer(const std::string& name, const bool& json, const std::function<int()>& program) {
+int run_writer(const std::string& name, bool json, const std::function<int()>& program) {
   std::signal(SIGXFSZ, SIG_IGN);
   try {
     return program();

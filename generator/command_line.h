@@ -9,7 +9,7 @@
 namespace voussoir {
 
 /// Parses the command line. The exit code if the program is to end at once: after --help or --version, or
-/// when it has told what is wrong with the command line itself.
+/// when it has told what is wrong with the command line itself (to programs, too, if they ask for JSON).
 std::optional<int> parse_command_line(CLI::App& app, int argc, char** argv);
 
 /// --threads.
@@ -19,9 +19,9 @@ void add_threads_option(CLI::App& app, int& threads);
 void add_format_option(CLI::App& app, bool& json, const std::string& of_what);
 
 /// Runs a program that writes a database. What it throws becomes a message for people on the standard error
-/// and, if `json` is set by then, a line for schedulers on the standard output. Exit codes: the program's
-/// own, 1 could not be done, 2 bad input. That the file may not grow further shows as an error of writing, as
+/// and, with `json`, a line for schedulers on the standard output. Exit codes: the program's own, 1 could not
+/// be done, 2 bad input. That the file may not grow further shows as an error of writing, as
 /// a full disk does.
-int run_writer(const std::string& name, const bool& json, const std::function<int()>& program);
+int run_writer(const std::string& name, bool json, const std::function<int()>& program);
 
 }  // namespace voussoir

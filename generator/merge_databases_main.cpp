@@ -2,6 +2,7 @@
 
 #include <iostream>
 
+#include "core/failure_json.h"
 #include "generator/command_line.h"
 #include "generator/merge_options.h"
 #include "generator/summary.h"
@@ -23,7 +24,7 @@ int run(const MergeOptions& options) {
 
 int main(int argc, char** argv) {
   MergeOptions options;
-  return run_writer("merge-databases", options.json, [&] {
+  return run_writer("merge-databases", asks_for_json(argc, argv), [&] {
     parse_merge_options(argc, argv, options);
     return options.exit_code ? *options.exit_code : run(options);
   });

@@ -57,9 +57,4 @@ std::string to_json(const BuildSummary& summary) {
   return json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
-std::string failure_to_json(const std::string& message) {
-  const nlohmann::ordered_json json = {{"ok", false}, {"error", message}};
-  return json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
-}
-
 }  // namespace voussoir

@@ -15,7 +15,4 @@ std::string to_text(const BuildSummary& summary);
 /// "computed", "resumed", "reused", "merged", "changes", "seconds", "bytes", "digest"}.
 std::string to_json(const BuildSummary& summary);
 
-/// The same for a build that failed: {"ok": false, "error": ...}.
-std::string failure_to_json(const std::string& message);
-
 }  // namespace voussoir

@@ -2,7 +2,7 @@
 
 #include <iostream>
 
-#include "core/error.h"
+#include "core/failure_json.h"
 #include "generator/verify_options.h"
 
 using namespace voussoir;
@@ -23,6 +23,7 @@ int main(int argc, char** argv) {
     return options.exit_code ? *options.exit_code : run(options);
   } catch (const std::exception& error) {
     std::cerr << "verify-database: " << error.what() << '\n';
+    if (asks_for_json(argc, argv)) std::cout << failure_to_json(error.what());
     return 1;
   }
 }

@@ -12,6 +12,7 @@
 #include <cstdlib>
 
 #include "core/error.h"
+#include "core/failure_json.h"
 #include "core/heap.h"
 #include "core/text.h"
 
@@ -22,8 +23,10 @@ constexpr int kDone = 0;
 constexpr int kFailed = 1;
 constexpr int kBadInput = 2;
 
-int complain(const CLI::App& app, const std::exception& error, int code) {
-  fmt::print(stderr, "{}: {}\n", app.get_name(), error.what());
+/// To people, and to programs that ask for JSON.
+int complain(const CLI::App& app, const std::string& message, bool json, int code) {
+  fmt::print(stderr, "{}: {}\n", app.get_name(), message);
+  if (json) std::fputs(failure_to_json(message).c_str(), stdout);
   return code;
 }
 
@@ -93,6 +96,7 @@ void share_heap() {
 
 int run_program(CLI::App& app, int argc, char** argv, const std::function<ProgramOutput()>& program) {
   prepare_heap();
+  const bool json = asks_for_json(argc, argv);
   try {
     app.parse(argc, argv);
     const ProgramOutput output = program();
@@ -102,12 +106,11 @@ int run_program(CLI::App& app, int argc, char** argv, const std::function<Progra
     leave(kFailed);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
-    fmt::print(stderr, "{}: {} (see {} --help)\n", app.get_name(), error.what(), app.get_name());
-    return kBadInput;
+    return complain(app, fmt::format("{} (see {} --help)", error.what(), app.get_name()), json, kBadInput);
   } catch (const InputError& error) {
-    return complain(app, error, kBadInput);
+    return complain(app, error.what(), json, kBadInput);
   } catch (const std::exception& error) {
-    return complain(app, error, kFailed);
+    return complain(app, error.what(), json, kFailed);
   }
 }
 

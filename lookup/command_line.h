@@ -26,8 +26,8 @@ struct ProgramOutput {
 };
 
 /// Parses the command line, runs the program and turns exceptions into messages on the standard error and
-/// exit codes: 0 done, 1 could not be done, 2 bad usage or bad input. An answer goes to the standard output
-/// only when it is whole.
+/// exit codes: 0 done, 1 could not be done, 2 bad usage or bad input. With --format json the message is on
+/// the standard output, too (failure_to_json). An answer goes there only when it is whole.
 int run_program(CLI::App& app, int argc, char** argv, const std::function<ProgramOutput()>& program);
 
 /// All threads take memory from the program's heap, instead of each from one of its own that grows page by

@@ -7,6 +7,8 @@
 #include "lookup/readings/sensors_file.h"
 #include "lookup/readings/stated_sigmas.h"
 #include "lookup/report/report_words.h"
+#include "lookup/report/words.h"
+#include "lookup/weighed_databases.h"
 
 namespace voussoir {
 namespace {
@@ -17,8 +19,19 @@ SensorList sensors_of(const Database& database, const LocateDamageOptions& optio
   return list;
 }
 
+/// The same assumptions must not count twice.
+void require_another(const Database& database, const Desks& desks) {
+  for (const Desk& desk : desks)
+    if (desk.database.digest() == database.digest())
+      throw InputError(fmt::format("{} and {} are the same database (digest {}), expected each once",
+                                   desk.database.path().string(), database.path().string(),
+                                   database.digest().substr(0, kDigestShown)));
+}
+
 void open_desk(const LocateDamageOptions& options, const std::optional<std::string>& named, Desks& desks) {
-  Desk& desk = desks.emplace_back(options, finish(options), Database::open(find_database(named)));
+  Database database = Database::open(find_database(named));
+  require_another(database, desks);
+  Desk& desk = desks.emplace_back(options, finish(options), std::move(database));
   if (const auto& part = desk.database.shard())
     throw Failure(fmt::format("{}: is part {} of a database, expected the whole: see merge-databases",
                               desk.database.path().string(), to_string(part->shard)));
@@ -52,17 +65,13 @@ AskedDatabase summary_of(const Answered& asked) {
   return summary;
 }
 
-/// What one database leaves out speaks for it.
-void require_same_readings(const std::vector<Answered>& all) {
-  const auto of = [](const Answered& one) {
-    return fmt::format("{} in {}", one.answer.counted, one.desk->database.path().string());
-  };
-  for (const Answered& one : all)
-    if (one.answer.counted != all.front().answer.counted)
-      throw InputError(
-          fmt::format("not as many readings count in all databases ({}; {}), as some points are held: "
-                      "expected errors that are no share of what moves (sigma_mm or --sigma)",
-                      of(all.front()), of(one)));
+void require_comparable(const std::vector<Answered>& all) {
+  std::vector<DatabaseReadings> readings;
+  for (const auto& [desk, comparison, settings, answer, databases] : all)
+    readings.push_back(database_readings(desk->database.path().string(), desk->database.control_points(),
+                                         comparison, answer));
+  require_one_bridge(readings);
+  require_same_readings(readings);
 }
 
 /// One of several: messages say which.
@@ -89,7 +98,7 @@ Answered ask(Desks& desks, const ReadingsText& readings) {
   if (desks.size() == 1) return ask_one(desks.front(), readings);
   std::vector<Answered> all;
   for (Desk& desk : desks) all.push_back(ask_one_of_several(desk, readings));
-  require_same_readings(all);
+  require_comparable(all);
   std::vector<AskedDatabase> databases;
   for (const Answered& one : all) databases.push_back(summary_of(one));
   weigh(databases);

@@ -26,7 +26,8 @@ struct Desk {
 
 using Desks = std::list<Desk>;  // a desk stays where it is
 
-/// Throws Failure for what is no whole database, InputError for options and files that do not go together.
+/// Throws Failure for what is no whole database, InputError for options and files that do not go together and
+/// for a database that comes twice.
 Desks open_desks(const LocateDamageOptions& options);
 
 /// A question with the answer of the database whose assumptions are likeliest.
@@ -39,7 +40,7 @@ struct Answered {
 };
 
 /// Puts a question to all databases. Throws InputError for readings that one of them cannot be asked about,
-/// or of which not as many count in all.
+/// and for databases that cannot be weighed against each other (weighed_databases.h).
 Answered ask(Desks& desks, const ReadingsText& readings);
 
 }  // namespace voussoir

@@ -136,11 +136,11 @@ void add_nuisance_options(CLI::App& app, LocateDamageOptions& options) {
       ->check(checked_by(parse_noise_level, "LEVEL"))
       ->option_text("LEVEL");
   app.add_option("--unknown-datum", options.unknown_datum_mm,
-                 "how far all readings may be shifted [mm]; gaussian only")
+                 "standard deviation of a shift of all heights of one levelling [mm]; gaussian only")
       ->check(number_in_range(0.0, kLargestError, "MM"))
       ->option_text("MM");
   app.add_option("--unknown-tilt", options.unknown_tilt_mm_per_m,
-                 "how far the levelling may be tilted [mm per m]; gaussian only")
+                 "standard deviation of a rotation of one levelling [mm per m]; gaussian only")
       ->check(number_in_range(0.0, kLargestError, "MM/M"))
       ->option_text("MM/M");
 }

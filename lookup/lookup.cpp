@@ -7,6 +7,7 @@
 #include "core/error.h"
 #include "lookup/evidence/largest_places.h"
 #include "lookup/report/verdict.h"
+#include "lookup/same_readings.h"
 #include "lookup/search/exhaustive_search.h"
 #include "lookup/search/misfit.h"
 #include "lookup/search/nearest_search.h"
@@ -14,15 +15,12 @@
 namespace voussoir {
 namespace {
 
-/// Scenes whose predictions differ by less than this, as the root of the sum of squares in units of sigma,
-/// are one scene to these sensors: even a hundred repeated measurements would hardly tell them apart.
-constexpr double kSameReadings = 0.1;
-constexpr double kSolverPrecision = 1e-9;  // [m] predictions are not compared more closely
-constexpr std::size_t kMostChecked = 20;   // scenes whose fit is checked
-constexpr std::size_t kMostMixed = 3;      // scenes that say together what the bridge is like
-constexpr std::size_t kMostNear = 3;       // scenes near the readings, asked with larger errors:
+constexpr std::size_t kMostChecked = 20;  // scenes whose fit is checked
+constexpr std::size_t kMostMixed = 3;     // scenes that say together what the bridge is like
+constexpr std::size_t kMostNear = 3;      // scenes near the readings, asked with larger errors:
 constexpr std::array kTimesErrors = {3.0, 10.0, 100.0};  // so many times what is stated
-constexpr std::size_t kMostComparisons = 500;  // rows looked at for scenes that cannot be told apart
+constexpr std::size_t kMostComparisons = 500;  // rows looked at for scenes that cannot be told apart:
+constexpr std::size_t kBestCompared = 10;      // the credible ones and so many of the best
 
 Eligible eligible_or_failure(const SceneTable& table, const Prior& prior) {
   Eligible eligible = eligible_rows(table, prior.missing);
@@ -85,44 +83,16 @@ std::vector<ScoredRow> scored_by_posterior(const Library& library, const Observa
 }
 
 /// The misfit search's candidates in the order of their posterior.
-void order_by_posterior(std::vector<ScoredRow>& rows, const Posterior& posterior) {
+void order_by_posterior(std::span<ScoredRow> rows, const Posterior& posterior) {
   std::stable_sort(rows.begin(), rows.end(), [&](const ScoredRow& a, const ScoredRow& b) {
     return posterior.probability[a.row] > posterior.probability[b.row];
   });
 }
 
-/// What the readings' errors are expected to be if a scene is the truth, and what it predicts.
-struct Expectation {
-  std::span<const double> prediction;
-  std::vector<double> inverse_scale;  ///< zero where there is no reading
-};
-
-Expectation expectation_of(const Observation& observation, const ErrorScales& scales,
-                           std::span<const double> prediction) {
-  const ExpectedErrors expected = expected_errors(observation, scales, prediction);
-  Expectation result{prediction, std::vector<double>(prediction.size(), 0.0)};
-  for (std::size_t i = 0; i < prediction.size(); ++i)
-    if (!std::isnan(observation.reading[i]))
-      result.inverse_scale[i] =
-          1.0 / std::max(std::hypot(expected.instrument[i], expected.model[i]), kSolverPrecision);
-  return result;
-}
-
-bool same_readings(const Expectation& one, std::span<const double> other) {
-  double sum = 0.0;
-  for (std::size_t i = 0; i < other.size(); ++i) {
-    if (one.inverse_scale[i] == 0.0) continue;
-    const double difference = (one.prediction[i] - other[i]) * one.inverse_scale[i];
-    sum += difference * difference;
-    if (sum > kSameReadings * kSameReadings) return false;
-  }
-  return !std::isnan(sum);
-}
-
 std::vector<std::size_t> rows_to_compare(const std::vector<ScoredRow>& found, const Posterior& posterior) {
   std::vector<std::size_t> rows = posterior.credible;
   rows.resize(std::min(rows.size(), kMostComparisons));
-  for (const ScoredRow& row : found)
+  for (const ScoredRow& row : std::span(found).first(std::min(found.size(), kBestCompared)))
     if (std::find(rows.begin(), rows.end(), row.row) == rows.end()) rows.push_back(row.row);
   return rows;
 }
@@ -153,12 +123,9 @@ void add_same_readings(const Library& library, const Observation& observation,
                        const std::vector<ScoredRow>& found, Answer& answer) {
   const ErrorScales scales = scales_at(observation, std::max(answer.noise->level, kSmallestLevel));
   const std::vector<std::size_t> others = rows_to_compare(found, *answer.posterior);
-  for (Candidate& candidate : answer.candidates) {
-    const Expectation expected = expectation_of(observation, scales, library.table.row(candidate.row));
-    for (const std::size_t other : others)
-      if (other != candidate.row && same_readings(expected, library.table.row(other)))
-        candidate.same_readings.push_back(library.table.scene(other));
-  }
+  for (Candidate& candidate : answer.candidates)
+    for (const std::size_t row : same_readings(observation, scales, library.table, candidate.row, others))
+      candidate.same_readings.push_back(library.table.scene(row));
 }
 
 /// The noise, the fit and the residuals if the best candidate is the truth.
@@ -216,14 +183,26 @@ void judge_unknown_bridge(const UnknownQuestion& asked, Answer& answer) {
     if (const auto doubt = check_stated_errors(asked, answer)) answer.fit = doubt;
 }
 
-/// The candidates' rows, best first.
+/// What scenes are compared with must not depend on how many are listed.
+LookupSettings with_compared(LookupSettings settings) {
+  settings.top = std::max(settings.top, kBestCompared);
+  return settings;
+}
+
+/// Of found rows those that become candidates.
+std::span<ScoredRow> listed(std::vector<ScoredRow>& found, const LookupSettings& settings) {
+  return std::span(found).first(std::min(found.size(), settings.top));
+}
+
+/// The candidates' rows, best first, and behind them those that they are compared with beside.
 std::vector<ScoredRow> found_rows(const Library& library, const Observation& observation,
                                   const Preparation& preparation, const LookupSettings& settings,
                                   Answer& answer) {
+  const LookupSettings wider = with_compared(settings);
   if (answer.posterior && settings.search == Search::exhaustive)
-    return scored_by_posterior(library, observation, preparation, *answer.posterior, settings.top);
-  std::vector<ScoredRow> found = scored_by_misfit(library, observation, preparation, settings, answer);
-  if (answer.posterior) order_by_posterior(found, *answer.posterior);
+    return scored_by_posterior(library, observation, preparation, *answer.posterior, wider.top);
+  std::vector<ScoredRow> found = scored_by_misfit(library, observation, preparation, wider, answer);
+  if (answer.posterior) order_by_posterior(listed(found, settings), *answer.posterior);
   return found;
 }
 
@@ -312,7 +291,8 @@ Answer locate_damage(const Comparison& comparison, const LookupSettings& setting
   const Observation observation =
       observe(comparison, known ? settings.noise : gaussian_noise(settings.noise), settings.nuisance);
   answer.readings = comparison.measured.count();
-  answer.counted = observation.count;
+  for (std::size_t i = 0; i < observation.reading.size(); ++i)
+    if (!std::isnan(observation.reading[i])) answer.counted.push_back(i);
   answer.searched = eligible.rows.size();
   answer.unresolved = eligible.unresolved;
   if (settings.epochs == Epochs::both) require_two_epochs(comparison, known);
@@ -322,12 +302,13 @@ Answer locate_damage(const Comparison& comparison, const LookupSettings& setting
     question.emplace(comparison, observation,
                      UnknownSettings{settings.epochs, settings.conditions, settings.nuisance.scale});
   if (settings.objective == Objective::posterior) {
-    const RowValues evidence = question ? question->log_evidence(eligible, answer.prior, settings.top)
-                                        : preparation.screen()(observation, settings.top);
+    const std::size_t count = with_compared(settings).top;
+    const RowValues evidence = question ? question->log_evidence(eligible, answer.prior, count)
+                                        : preparation.screen()(observation, count);
     answer.posterior = posterior(library.table, eligible, evidence, answer.prior, library.layout.size());
   }
-  const std::vector<ScoredRow> found = found_rows(library, observation, preparation, settings, answer);
-  for (const ScoredRow& row : found)
+  std::vector<ScoredRow> found = found_rows(library, observation, preparation, settings, answer);
+  for (const ScoredRow& row : listed(found, settings))
     answer.candidates.push_back(candidate_of(library, row, answer.posterior));
   if (!answer.posterior || found.empty()) return answer;
   if (question)

@@ -65,7 +65,7 @@ struct Answer {
   bool contested = false;  ///< another database that may as well be right comes to another answer
   Prior prior;             ///< as it was used (stated_prior)
   std::size_t readings = 0;
-  std::size_t counted = 0;             ///< of these (Observation::count)
+  std::vector<std::size_t> counted;    ///< channels whose readings say something (Observation::reading)
   std::size_t searched = 0;            ///< scenes
   std::size_t unresolved = 0;          ///< scenes left out because the solver gave no answer
   std::vector<GeneticResult> genetic;  ///< with Search::genetic: for each number of missing blocks but 0

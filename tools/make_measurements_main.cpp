@@ -103,7 +103,7 @@ std::string make_measurements(const Options& options) {
   if (!options.history.empty()) settings.history = options.history;
   const Comparison comparison = compare(blank, list, database, settings);
   Random random(options.seed);
-  const Levelling levelling{1e-3 * options.datum_mm, 1e-3 * options.tilt_mm_per_m};
+  const Nuisance levelling{.datum = 1e-3 * options.datum_mm, .tilt = 1e-3 * options.tilt_mm_per_m};
   const ReadingsFile file =
       simulate_file(blank, comparison, find_row(database, options.scene), noise, levelling, random);
   const std::string text = heading(options, comparison, database) + to_csv(file, list);
@@ -144,10 +144,11 @@ void add_error_options(CLI::App& app, Options& options) {
       ->excludes(model)
       ->excludes(floor)
       ->option_text("MM");
-  app.add_option("--datum", options.datum_mm, "standard deviation of a shift of all heights [mm], default 0")
+  app.add_option("--datum", options.datum_mm,
+                 "standard deviation of a shift of all heights of one levelling [mm], default 0")
       ->check(number_in_range(0.0, 1e6, "MM"));
   app.add_option("--tilt", options.tilt_mm_per_m,
-                 "standard deviation of a rotation of all heights [mm per m], default 0")
+                 "standard deviation of a rotation of all heights of one levelling [mm per m], default 0")
       ->check(number_in_range(0.0, 1e6, "MM/M"));
   app.add_option("--silent-sensors", options.silence, "chance that a sensor gives no reading, default 0%")
       ->check(checked_by(parse_noise_level, "LEVEL"));

@@ -3,7 +3,6 @@
 #include <CLI/CLI.hpp>
 #include <iostream>
 
-#include "core/error.h"
 #include "core/text_file.h"
 #include "core/threads.h"
 #include "lookup/command_line.h"
@@ -39,20 +38,21 @@ std::string in_format(const std::string& format,
   return format == "markdown" ? to_markdown(results) : to_text(results);
 }
 
-int run(const Options& options) {
+voussoir::ProgramOutput run(const Options& options) {
   using namespace voussoir::validation;
   const std::vector<Study> studies = chosen_studies(options.studies, options.quick);
   if (options.list) {
-    for (const Study& study : studies) std::cout << fmt::format("{:<20} {}\n", study.name, study.title);
-    return 0;
+    std::string names;
+    for (const Study& study : studies) names += fmt::format("{:<20} {}\n", study.name, study.title);
+    return names;
   }
   const std::vector<StudyResult> results =
       run_studies(studies, options.threads, [](const StudyResult& result) {
         std::cerr << fmt::format("{} ({:.1f} s)\n", result.title, result.seconds);
       });
-  std::cout << in_format(options.format, results);
   if (!options.page.empty()) voussoir::write_file(options.page, to_page(results));
-  return tally(results).all_good() ? 0 : 1;
+  const Tally found = tally(results);
+  return {in_format(options.format, results), found.all_good() ? std::string() : to_sentence(found)};
 }
 
 }  // namespace
@@ -61,14 +61,5 @@ int main(int argc, char** argv) {
   CLI::App app("Holds the solvers against known answers and hard cases.", "validate");
   Options options;
   add_options(app, options);
-  CLI11_PARSE(app, argc, argv);
-  try {
-    return run(options);
-  } catch (const voussoir::InputError& error) {
-    std::cerr << "validate: " << error.what() << '\n';
-    return 2;
-  } catch (const std::exception& error) {
-    std::cerr << "validate: " << error.what() << '\n';
-    return 1;
-  }
+  return voussoir::run_program(app, argc, argv, [&] { return run(options); });
 }

@@ -7,6 +7,7 @@
 
 #include "core/simd/column_products.h"
 #include "core/threads.h"
+#include "lookup/evidence/scene_evidence.h"
 
 namespace voussoir {
 namespace {

@@ -238,7 +238,8 @@ std::vector<std::size_t> ScreenedCases::known_to_need_it() const {
   return places;
 }
 
-/// Scenes that may count, of one kind if they lack as many blocks and all of these losses are known.
+/// Scenes that may count and are not worked out. Those of one kind lack as many blocks, each of whose losses
+/// is known; all others, such as those with factors of their own, are kOther.
 LeftScenes ScreenedCases::left_scenes(std::size_t count) const {
   std::vector<std::size_t> places = candidates(count);
   std::erase_if(places, [&](std::size_t place) { return is_worked_out_[place]; });

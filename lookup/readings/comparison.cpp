@@ -113,6 +113,16 @@ void require_control_points(const ReadingsFile& file, const SensorList& list) {
                               in_quotes(list.sensors[reading.sensor].name))));
 }
 
+/// A bridge that falls by itself shows nothing that readings could be compared with.
+void require_standing(const Database& database, const Library& library) {
+  const std::span<const double> intact = intact_predictions(library.table);
+  if (std::ranges::any_of(intact, [](double value) { return std::isfinite(value); })) return;
+  throw InputError(
+      at_line(database.path().string(), 0,
+              "the intact bridge shows nothing of what was read, as it does not stand: expected a database "
+              "of a bridge that stands, under the loads, too (build-database --draw shows how it is held)"));
+}
+
 }  // namespace
 
 Comparison absolute_readings(Library library, Measurements measured) {
@@ -133,6 +143,7 @@ Comparison compare(const ReadingsFile& file, const SensorList& list, const Datab
                                          : library_of_channels(database, states.base, channels),
                     .measured = {},
                     .model_error = {}};
+  require_standing(database, result.library);
   enter(file, settings.sigma, result);
   result.model_error = settings.model_error ? ModelError{*settings.model_error, 0.0, {}}
                                             : model_error_of(database, states.base, channels, result.library);

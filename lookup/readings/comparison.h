@@ -47,8 +47,9 @@ struct ComparisonSettings {
 /// with the history `built`, all others with `lost`, or with the other one where the database lacks states.
 /// Changes and absolute readings at control points are compared with the database's own table and its search
 /// index; for all others a library of their own is computed, from the fields where sensors are no control
-/// points. Throws InputError for histories and loads that the database lacks and, unless the bridge is to
-/// count as known, for sensors that are no control points; Failure without the fields.
+/// points. Throws InputError for histories and loads that the database lacks, for a bridge that does not
+/// stand and, unless it is to count as known, for sensors that are no control points; Failure without the
+/// fields.
 Comparison compare(const ReadingsFile& file, const SensorList& list, const Database& database,
                    const ComparisonSettings& settings);
 

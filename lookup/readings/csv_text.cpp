@@ -231,4 +231,11 @@ CsvTable read_csv(std::string_view text, const std::string& file, std::string_vi
   return table;
 }
 
+std::string csv_field(const std::string& text) {
+  if (text.find_first_of(",\"#\r\n") == std::string::npos) return text;
+  std::string doubled;
+  for (const char c : text) doubled += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return '"' + doubled + '"';
+}
+
 }  // namespace voussoir

@@ -34,4 +34,7 @@ struct CsvTable {
 /// formula failed (#N/A). `columns` says which header was expected.
 CsvTable read_csv(std::string_view text, const std::string& file, std::string_view columns);
 
+/// A text as a field of a table with commas that read_csv reads: in quotation marks where it needs them.
+std::string csv_field(const std::string& text);
+
 }  // namespace voussoir

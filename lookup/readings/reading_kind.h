@@ -18,4 +18,9 @@ constexpr bool is_loaded(ReadingKind kind) {
   return kind == ReadingKind::load || kind == ReadingKind::load_change;
 }
 
+/// Of how many levellings a reading is the difference: one in each epoch, or two, with the load and without.
+constexpr int levellings(ReadingKind kind) {
+  return (is_change(kind) ? 2 : 1) * (is_loaded(kind) ? 2 : 1);
+}
+
 }  // namespace voussoir

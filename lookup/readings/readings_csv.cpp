@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/units.h"
+#include "lookup/readings/csv_text.h"
 
 namespace voussoir {
 namespace {
@@ -14,14 +15,6 @@ namespace {
 std::string in_millimetres(double metres, ReadingKind kind) {
   if (std::isnan(metres)) return "";
   return fmt::format("{:.{}f}", kMillimetres * metres, kind == ReadingKind::absolute ? 4 : 6);
-}
-
-/// A name as a field of the table.
-std::string field(const std::string& name) {
-  if (name.find_first_of(",\"#") == std::string::npos) return name;
-  std::string doubled;
-  for (const char c : name) doubled += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return '"' + doubled + '"';
 }
 
 std::string value_columns(const ReadingsFile& file, const SensorList& list) {
@@ -42,8 +35,8 @@ std::string to_csv(const ReadingsFile& file, const SensorList& list) {
   std::string text = fmt::format("point,{}{}{}\n", loads ? "load," : "", value_columns(file, list),
                                  sigmas ? ",sigma_mm" : "");
   for (const Reading& reading : file.readings) {
-    text += field(list.sensors[reading.sensor].name) + ",";
-    if (loads) text += field(reading.load) + ",";
+    text += csv_field(list.sensors[reading.sensor].name) + ",";
+    if (loads) text += csv_field(reading.load) + ",";
     if (file.two_epochs)
       text += in_millimetres(reading.before, file.kind) + "," + in_millimetres(reading.after, file.kind);
     else

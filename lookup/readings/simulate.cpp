@@ -29,25 +29,25 @@ double draw_student(double nu, Random& random) {
 }
 
 /// Adds to all heights of a levelling a shift and a rotation.
-void add_levelling_errors(const Comparison& comparison, const Levelling& levelling, Random& random,
+void add_levelling_errors(const Comparison& comparison, const Nuisance& nuisance, Random& random,
                           Measurements& measured) {
-  const std::vector<StoredPoint>& points = comparison.library.points;
-  const auto group_of = [&](std::size_t i) {
-    return comparison.levelling.empty() ? 0 : comparison.levelling[i];
-  };
-  int groups = 0;
-  double mean_x = 0.0;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    groups = std::max(groups, group_of(i) + 1);
-    mean_x += points[i].position.x() / static_cast<double>(points.size());
-  }
-  for (int group = 0; group < groups; ++group) {
-    const double shift = levelling.datum * random.gaussian();
-    const double rotation = levelling.tilt * random.gaussian();
-    for (std::size_t i = 0; i < points.size(); ++i)
-      if (group_of(i) == group)
-        measured.displacement[i] += shift + rotation * (points[i].position.x() - mean_x);
-  }
+  const Eigen::MatrixXd columns = levelling_columns(comparison, measured, nuisance);
+  Eigen::VectorXd drawn(columns.cols());
+  for (double& one : drawn) one = random.gaussian();
+  const Eigen::VectorXd errors = columns * drawn;
+  for (std::size_t i = 0; i < measured.displacement.size(); ++i)
+    measured.displacement[i] += errors[static_cast<Eigen::Index>(i)];
+}
+
+/// What a load adds is a difference, which nobody reads of what falls, whatever the database keeps of it.
+void expect_readings(const Comparison& comparison, std::size_t row) {
+  const Library& library = comparison.library;
+  if (!is_loaded(comparison.kind)) return expect_displacements(library, row);
+  if (library.table.has_displacements(row)) return;
+  throw Failure(fmt::format(
+      "scene {} does not stand both under the load and without it, so that nobody reads what the load adds: "
+      "expected a scene that does",
+      to_string(library.table.scene(row), library.layout)));
 }
 
 /// An error in units of sigma. Precondition: shape is not automatic.
@@ -89,15 +89,14 @@ ReadingsFile blank_file(const SensorList& list, ReadingKind kind, const std::vec
 }
 
 ReadingsFile simulate_file(const ReadingsFile& blank, const Comparison& comparison, std::size_t row,
-                           const NoiseModel& noise, const Levelling& levelling, Random& random) {
+                           const NoiseModel& noise, const Nuisance& nuisance, Random& random) {
   const std::vector<double> origin = origin_of(comparison);
-  expect_displacements(comparison.library, row);
+  expect_readings(comparison, row);
   const std::span<const double> prediction = comparison.library.table.row(row);
   std::vector<double> truth(prediction.size());
   for (std::size_t i = 0; i < truth.size(); ++i) truth[i] = prediction[i] - origin[i];
   Measurements measured = simulate_readings(truth, noise, random);
-  if (levelling.datum > 0.0 || levelling.tilt > 0.0)
-    add_levelling_errors(comparison, levelling, random, measured);
+  add_levelling_errors(comparison, nuisance, random, measured);
   const bool sigma_says_all =
       noise.shape == NoiseShape::gaussian && noise.relative == 0.0 && noise.floor > 0.0;
   ReadingsFile file = blank;

@@ -8,6 +8,7 @@
 #include "core/random.h"
 #include "lookup/readings/comparison.h"
 #include "lookup/readings/noise_model.h"
+#include "lookup/readings/nuisance.h"
 
 namespace voussoir {
 
@@ -17,20 +18,15 @@ namespace voussoir {
 Measurements simulate_readings(std::span<const double> displacements, const NoiseModel& noise,
                                Random& random);
 
-/// Standard deviations of what all heights of one levelling have in common, of a change that of the change.
-struct Levelling {
-  double datum = 0.0;  ///< [m] of a shift
-  double tilt = 0.0;   ///< [-] of a rotation (metres per metre) about the middle of the levelled points
-};
-
 /// A file that has no readings yet: a row for every sensor of the list, under every load if there are loads.
 ReadingsFile blank_file(const SensorList& list, ReadingKind kind, const std::vector<std::string>& loads);
 
 /// The file's rows as the sensors would read them in a scene, with errors. `blank` is what `comparison` was
-/// made of; of two epochs the first is what the intact bridge shows, and errors are those of the change.
-/// `row` is the scene's in the comparison's library. Gaussian noise without relative part is stated as each
-/// row's sigma. Throws Failure if the scene has no displacements.
+/// made of; of two epochs the first is what the intact bridge shows, and errors are those of the change. Of
+/// `nuisance` datum and tilt are drawn, for every levelling. `row` is the scene's in the comparison's
+/// library. Gaussian noise without relative part is stated as each row's sigma. Throws Failure if the scene
+/// has no displacements.
 ReadingsFile simulate_file(const ReadingsFile& blank, const Comparison& comparison, std::size_t row,
-                           const NoiseModel& noise, const Levelling& levelling, Random& random);
+                           const NoiseModel& noise, const Nuisance& nuisance, Random& random);
 
 }  // namespace voussoir

@@ -28,7 +28,7 @@ double parse_sigma(std::string_view text) {
 }
 
 NoiseModel noise_of(const Measurements& measured, NoiseModel wanted) {
-  if (wanted.relative || !all_state_sigmas(measured)) return wanted;
+  if (!all_state_sigmas(measured)) return wanted;
   wanted.relative = 0.0;
   if (wanted.shape == NoiseShape::automatic) wanted.shape = NoiseShape::gaussian;
   return wanted;

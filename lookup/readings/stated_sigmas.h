@@ -20,8 +20,8 @@ constexpr bool is_sigma(double millimetres) {
 /// "0.02mm" or "0.02" (millimetres) -> 2e-5 [m]. Throws InputError unless it is_sigma.
 double parse_sigma(std::string_view text);
 
-/// The noise of these readings. If every reading states its own standard deviation, nothing relative is left
-/// to be unknown: the level is zero and, unless another shape is wanted, the shape Gaussian.
+/// The noise of these readings. If every reading states its own standard deviation, nothing relative is left,
+/// whatever level is wanted: it is zero and, unless another shape is wanted, the shape Gaussian.
 NoiseModel noise_of(const Measurements& measured, NoiseModel wanted);
 
 }  // namespace voussoir

@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "core/solve/state_name.h"
+#include "core/structure/control_point.h"
 #include "core/text.h"
 
 namespace voussoir {
@@ -14,14 +15,8 @@ namespace {
 
 constexpr double kInside = 1e-9;  // barycentric coordinates may be negative by this much: rounding
 
-/// The node of a control point: the one at its place that belongs to its block.
 NodeId node_of(const StoredPoint& point, const Mesh& mesh) {
-  const IndexRange range = mesh.block_nodes[static_cast<std::size_t>(value(point.block))];
-  int nearest = range.begin;
-  for (int node = range.begin; node < range.end; ++node)
-    if ((mesh.nodes.col(node) - point.position).norm() < (mesh.nodes.col(nearest) - point.position).norm())
-      nearest = node;
-  return NodeId{nearest};
+  return point_at(point.name, mesh, point.block, point.position).node;
 }
 
 std::vector<PlaceDisplacement> at_points(const Database& database, std::size_t row, std::size_t state,

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "lookup/readings/csv_text.h"
 #include "lookup/report/words.h"
 
 namespace voussoir {
@@ -22,9 +23,10 @@ std::string csv_report(const Answer& answer, const Library& library) {
   std::string text = "rank,scene,misfit,posterior,outcome,place\n";
   int rank = 0;
   for (const Candidate& candidate : answer.candidates)
-    text += fmt::format("{},\"{}\",{},{},{},\"{}\"\n", ++rank, to_string(candidate.scene, library.layout),
-                        candidate.misfit, candidate.posterior ? fmt::format("{}", *candidate.posterior) : "",
-                        to_string(candidate.outcome), place_in_words(candidate.scene, library.layout));
+    text +=
+        fmt::format("{},{},{},{},{},{}\n", ++rank, csv_field(to_string(candidate.scene, library.layout)),
+                    candidate.misfit, candidate.posterior ? fmt::format("{}", *candidate.posterior) : "",
+                    to_string(candidate.outcome), csv_field(place_in_words(candidate.scene, library.layout)));
   return text;
 }
 

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/support/bridges.h"
+#include "tests/support/file_text.h"
 #include "tests/support/program.h"
 #include "tests/support/temporary_folder.h"
 
@@ -22,10 +23,13 @@ struct Assumptions {
               without_arch = build("without-arch", "roller", "false");
 
   std::string build(const std::string& name, const std::string& sides, const std::string& arch) const {
+    return build_from(name, test::text_of(test::example_bridge("small")) + "\n[supports]\nsides = \"" +
+                                sides + "\"\n[control_points]\narch = " + arch + "\n");
+  }
+  std::string build_from(const std::string& name, const std::string& bridge) const {
     const std::string file = (folder / (name + ".toml")).string(),
                       database = (folder / (name + ".h5")).string();
-    std::ofstream(file) << std::ifstream(test::example_bridge("small")).rdbuf() << "\n[supports]\nsides = \""
-                        << sides << "\"\n[control_points]\narch = " << arch << "\n";
+    std::ofstream(file) << bridge;
     REQUIRE(test::run("build-database",
                       {file, "-o", database, "--scenes", "singles", "--history", "built,lost", "--quiet"})
                 .exit_code == 0);
@@ -111,15 +115,6 @@ TEST_CASE("A reading at a point that is held alone is no question") {
   CHECK(Assumptions::locate({readings}, {sliding}).exit_code == 0);
 }
 
-TEST_CASE("A database that is asked twice is as likely as itself and contests nothing") {
-  const auto& [folder, sliding, held, without_arch] = assumptions();
-  const std::string readings = assumptions().readings_of(sliding, "4,2");
-  const json twice = json::parse(Assumptions::locate({readings, "--format", "json"}, {sliding, sliding}).out);
-  CHECK(twice["databases"][0]["probability"] == 0.5);
-  CHECK(twice["databases"][1]["probability"] == 0.5);
-  CHECK(twice["verdict"] == "located");
-}
-
 TEST_CASE("Databases that cannot be weighed against each other are refused") {
   const auto& [folder, sliding, held, without_arch] = assumptions();
   const std::string readings = assumptions().readings_of(sliding);
@@ -137,11 +132,29 @@ TEST_CASE("Databases that cannot be weighed against each other are refused") {
   const test::ProgramResult relative =
       Assumptions::locate({(folder / "relative.csv").string()}, {sliding, held});
   CHECK(relative.exit_code == 2);
-  CHECK_THAT(relative.err, Catch::Matchers::Contains("3 in " + sliding + "; 2 in " + held) &&
-                               Catch::Matchers::Contains("expected errors that are no share of what moves"));
+  CHECK_THAT(relative.err, Catch::Matchers::Contains("the reading of T1 counts in " + sliding +
+                                                     " and not in " + held + ", as the point is held there"));
+  refused({}, {sliding, sliding}, sliding + " and " + sliding + " are the same database (digest ");
   refused({}, {sliding, without_arch},
           "unknown point 'A1', expected T1 to T14, or a sensor of a file that --sensors names (asked of " +
               without_arch + ")");
+}
+
+TEST_CASE("A database of another bridge is refused, though its sensors have the same names") {
+  const auto& [folder, sliding, held, without_arch] = assumptions();
+  std::string longer = test::text_of(test::example_bridge("small"));
+  longer.replace(longer.find("length_m = 6.0"), 14, "length_m = 7.0");
+  longer.replace(longer.find("centre_x_m = 3.0"), 16, "centre_x_m = 3.5");
+  const std::string other = assumptions().build_from("longer", longer);
+  const std::string readings = assumptions().readings_of(sliding);
+  CHECK(Assumptions::locate({readings}, {other}).exit_code == 0);
+  const test::ProgramResult both = Assumptions::locate({readings}, {sliding, other});
+  CHECK(both.exit_code == 2);
+  CHECK(both.out.empty());
+  // The arch is half a metre further to the right.
+  CHECK_THAT(both.err, Catch::Matchers::Contains("sensor A1 is at x 1.75, y 0 m in " + sliding +
+                                                 " and at x 2.25, y 0 m in " + other +
+                                                 ", expected at most 0.3 m in between"));
 }
 
 }  // namespace voussoir

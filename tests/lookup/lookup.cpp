@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.h"
+#include "lookup/readings/csv_text.h"
 #include "lookup/report/report.h"
 #include "lookup/report/words.h"
 #include "lookup/search/misfit.h"
@@ -220,6 +221,24 @@ TEST_CASE("Scenes that the sensors cannot tell apart are reported together") {
             .find("cannot tell 1,6 from: 1,7\n") != std::string::npos);
 }
 
+TEST_CASE("What cannot be told from a scene does not depend on how many are listed (an equal row)") {
+  SyntheticLibrary library(4, 9);
+  const std::size_t hidden = library.row_of({{BlockId{5}}});
+  std::ranges::copy(library.intact(),
+                    library.vertical.begin() + static_cast<std::ptrdiff_t>(hidden * library.table.points));
+  Random random(7);
+  const Measurements measured = library.measure(0, 0.01, NoiseShape::uniform, random);
+  for (const std::size_t top : {1, 3, 10, 40}) {
+    LookupSettings settings;
+    settings.top = top;
+    const Answer answer = locate_damage(absolute_readings(library.library(), measured), settings);
+    CHECK(answer.candidates.size() == top);
+    REQUIRE(answer.candidates.front().row == 0);
+    CHECK(answer.posterior->credible == std::vector<std::size_t>{0});  // far likelier beforehand
+    CHECK(answer.candidates.front().same_readings == std::vector<Scene>{{{BlockId{5}}}});
+  }
+}
+
 TEST_CASE("A library without the wanted numbers of missing blocks is a failure with a reason") {
   const SyntheticLibrary library(2, 3);
   LookupSettings settings;
@@ -287,6 +306,20 @@ TEST_CASE("The CSV report has one quoted scene a line") {
   const std::string text = csv_report(answer, library.library());
   CHECK(text.find("rank,scene,misfit,posterior,outcome,place\n1,\"") == 0);
   CHECK(std::count(text.begin(), text.end(), '\n') == 3);
+}
+
+TEST_CASE("Labels with quotation marks are fields of the CSV report that are read again") {
+  SyntheticLibrary library(4, 6);
+  library.layout.blocks[8].label = "the \"loose\" one, #9";
+  const std::size_t row = library.row_of({{BlockId{8}}});
+  LookupSettings settings;
+  settings.top = 1;
+  const Answer answer =
+      locate_damage(absolute_readings(library.library(), as_measurements(library.table.row(row))), settings);
+  const CsvTable table = read_csv(csv_report(answer, library.library()), "report.csv", "rank");
+  REQUIRE(table.rows.size() == 1);
+  CHECK(table.rows[0].fields[1] == to_string(Scene{{BlockId{8}}}, library.layout));
+  CHECK(table.rows[0].fields[1] == "the \"loose\" one, #9");
 }
 
 TEST_CASE("Places and numbers are said in plain words") {

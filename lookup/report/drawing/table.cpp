@@ -6,21 +6,14 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "core/text.h"
+#include "lookup/readings/csv_text.h"
 #include "lookup/report/drawing/svg.h"
 
 namespace voussoir {
 namespace {
 
-std::string csv_text(const std::string& text) {
-  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-  std::string doubled;
-  for (const char c : text) doubled += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return '"' + doubled + '"';
-}
-
 std::string csv_cell(const TableCell& cell) {
-  if (const auto* text = std::get_if<std::string>(&cell)) return csv_text(*text);
+  if (const auto* text = std::get_if<std::string>(&cell)) return csv_field(*text);
   const double number = std::get<double>(cell);
   return std::isnan(number) ? "" : fmt::format("{}", number);
 }
@@ -50,7 +43,7 @@ bool holds_numbers(const Table& table, std::size_t column) {
 std::string to_csv(const Table& table) {
   std::string text;
   for (std::size_t i = 0; i < table.columns.size(); ++i)
-    text += (i == 0 ? "" : ",") + csv_text(table.columns[i]);
+    text += (i == 0 ? "" : ",") + csv_field(table.columns[i]);
   text += '\n';
   for (const std::vector<TableCell>& row : table.rows) {
     for (std::size_t i = 0; i < row.size(); ++i) text += (i == 0 ? "" : ",") + csv_cell(row[i]);

@@ -173,15 +173,6 @@ TEST_CASE("Points that no scene moves are left out, and readings only there are 
   CHECK_THROWS_AS(log_evidence_of_each(library.observe(only, noise), library.table, rows), InputError);
 }
 
-TEST_CASE(
-    "Readings of a bridge that does not stand are refused by that reason (no displacement at any point)") {
-  Observation observation;
-  observation.intact = {std::nan(""), std::nan("")};
-  CHECK_THROWS_WITH(require_readings(observation), Catch::Contains("it does not stand: expected a database"));
-  observation.intact[1] = -1e-3;
-  CHECK_THROWS_WITH(require_readings(observation), Catch::Contains("no reading at a control point that can"));
-}
-
 TEST_CASE("The estimated level of a scene is that of the noise that made its readings") {
   const SyntheticLibrary library(3, 12);
   Random random(6);

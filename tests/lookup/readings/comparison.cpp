@@ -1,6 +1,8 @@
 #include "lookup/readings/comparison.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
+#include <limits>
 
 #include "core/error.h"
 #include "lookup/readings/sensors_file.h"
@@ -208,4 +210,20 @@ TEST_CASE("What the database lacks is refused with what it has") {
              Contains("plain.h5: has no history 'lost' but the states built"));
   CHECK_THAT(message("point,change_mm\nR,1\n", shelf().plain, "name;quantity;block\nR;tilt;2,1\n", {}),
              Contains("holds no fields"));
+}
+
+TEST_CASE("A database of a bridge that does not stand is named, and what was expected (all NaN)") {
+  const test::TemporaryFolder folder;
+  const DatabaseContent content = test::made_up_content(
+      test::small_bridge_file(), small_bridge(), all_scenes(small_bridge().layout.size(), 1), KeepField::no);
+  write_database(folder / "fallen.h5", content, [&](std::size_t row) {
+    Record record = test::made_up_record(small_bridge(), content.keys[row], 1, KeepField::no);
+    std::ranges::fill(record.states[0].vertical, std::numeric_limits<double>::quiet_NaN());
+    return record;
+  });
+  CHECK_THROWS_WITH(
+      compare_text("point,uy_mm\nT1,1\n", Database::open(folder / "fallen.h5")),
+      Contains(
+          "fallen.h5: the intact bridge shows nothing of what was read, as it does not stand: expected") &&
+          Contains("of a bridge that stands"));
 }

@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "core/error.h"
 #include "tests/lookup/synthetic_library.h"
 
 using namespace voussoir;
@@ -68,7 +69,7 @@ TEST_CASE(
   const SensorList list = control_point_sensors(library.points);
   const Comparison comparison = comparison_with(library, ReadingKind::change);
   const NoiseModel exact{.shape = NoiseShape::gaussian, .relative = 0.0, .silence = 0.0};
-  const Levelling levelling{2e-4, 1e-4};
+  const Nuisance levelling{.datum = 2e-4, .tilt = 1e-4};
   double shifts = 0.0, tilts = 0.0;
   constexpr int kDraws = 2000;
   Random random(6);
@@ -85,6 +86,48 @@ TEST_CASE(
     shifts += std::pow(0.5 * (at(9) + at(0)), 2) / kDraws;  // in the middle of the points
   }
   // The mean of n squares of a Gaussian is off by sqrt(2 / n) of itself: four times that, halved by the root.
-  CHECK(std::sqrt(tilts) == Approx(levelling.tilt).epsilon(2.0 * std::sqrt(2.0 / kDraws)));
-  CHECK(std::sqrt(shifts) == Approx(levelling.datum).epsilon(2.0 * std::sqrt(2.0 / kDraws)));
+  // A change is the difference of two levellings.
+  CHECK(std::sqrt(0.5 * tilts) == Approx(levelling.tilt).epsilon(2.0 * std::sqrt(2.0 / kDraws)));
+  CHECK(std::sqrt(0.5 * shifts) == Approx(levelling.datum).epsilon(2.0 * std::sqrt(2.0 / kDraws)));
+}
+
+TEST_CASE("A simulated levelling turns about the middle of its own points (their errors add up to nothing)") {
+  const test::SyntheticLibrary library(2, 5);
+  Comparison comparison = comparison_with(library, ReadingKind::absolute);
+  for (std::size_t i = 0; i < library.points.size(); ++i)
+    comparison.levelling.push_back(i < 4 ? 0 : kNoLevelling);
+  const NoiseModel exact{.shape = NoiseShape::gaussian, .relative = 0.0, .silence = 0.0};
+  Random random(7);
+  const ReadingsFile file =
+      simulate_file(blank_file(control_point_sensors(library.points), ReadingKind::absolute, {}), comparison,
+                    0, exact, {.tilt = 1e-4}, random);
+  double sum = 0.0, size = 0.0;
+  for (std::size_t i = 0; i < library.points.size(); ++i) {
+    const double error = file.readings[i].value - library.intact()[i];
+    sum += error, size += std::abs(error);
+    if (i >= 4) CHECK(error == 0.0);
+  }
+  CHECK(size > 1e-6);
+  CHECK(std::abs(sum) < 1e-12);
+}
+
+TEST_CASE("What a load adds to a scene that falls is no reading, and no other database would have one") {
+  test::SyntheticLibrary library(2, 5);
+  std::fill_n(library.vertical.begin() + static_cast<std::ptrdiff_t>(3 * library.table.points),
+              library.table.points, std::nan(""));
+  const NoiseModel exact{.shape = NoiseShape::gaussian, .relative = 0.0, .silence = 0.0};
+  const auto message = [&](ReadingKind kind) {
+    Random random(8);
+    try {
+      simulate_file(blank_file(control_point_sensors(library.points), kind, {"axle"}),
+                    comparison_with(library, kind), 3, exact, {}, random);
+    } catch (const Failure& failure) {
+      return std::string(failure.what());
+    }
+    return std::string("no error");
+  };
+  CHECK(message(ReadingKind::load) ==
+        "scene 1,3 does not stand both under the load and without it, so that nobody reads what the load "
+        "adds: expected a scene that does");
+  CHECK_THAT(message(ReadingKind::absolute), Catch::Matchers::Contains("--collapses field"));
 }

@@ -34,8 +34,10 @@ TEST_CASE("Where every reading states its sigma the noise is Gaussian and nothin
   CHECK(noise_of(with_sigmas(2), {}).shape == NoiseShape::automatic);
 }
 
-TEST_CASE("A stated level or shape of the noise stays as it was stated") {
+TEST_CASE("A stated shape of the noise stays, a level where there is a reading that it is of") {
   CHECK(noise_of(with_sigmas(3), {NoiseShape::laplace, std::nullopt}).shape == NoiseShape::laplace);
-  CHECK(noise_of(with_sigmas(3), {NoiseShape::automatic, 0.05}).relative == 0.05);
-  CHECK(noise_of(with_sigmas(3), {NoiseShape::automatic, 0.05}).shape == NoiseShape::automatic);
+  CHECK(noise_of(with_sigmas(2), {NoiseShape::automatic, 0.05}).relative == 0.05);
+  CHECK(noise_of(with_sigmas(2), {NoiseShape::automatic, 0.05}).shape == NoiseShape::automatic);
+  CHECK(noise_of(with_sigmas(3), {NoiseShape::automatic, 0.05}).relative == 0.0);
+  CHECK(noise_of(with_sigmas(3), {NoiseShape::automatic, 0.05}).shape == NoiseShape::gaussian);
 }

@@ -1,0 +1,49 @@
+/// @file Which databases may be weighed against each other. Oracle: places and names written down.
+
+#include "lookup/weighed_databases.h"
+
+#include <catch2/catch.hpp>
+
+#include "core/error.h"
+
+using namespace voussoir;
+using Catch::Matchers::Message;
+
+namespace {
+
+DatabaseReadings readings_in(const std::string& file, double width, const Point& crown) {
+  return {file, width, {{"T1", Point(0.0, 3.0)}, {"A4", crown}}, {"T1", "A4"}};
+}
+
+}  // namespace
+
+TEST_CASE("Databases are of one bridge if no sensor is further apart than half a metre") {
+  const DatabaseReadings thick = readings_in("thick.h5", 20.0, Point(3.0, 2.0));
+  CHECK_NOTHROW(require_one_bridge(std::vector{thick, readings_in("thin.h5", 20.0, Point(3.0, 2.499))}));
+  CHECK_THROWS_MATCHES(
+      require_one_bridge(std::vector{thick, thick, readings_in("other.h5", 20.0, Point(3.0, 2.501))}),
+      InputError,
+      Message("sensor A4 is at x 3, y 2 m in thick.h5 and at x 3, y 2.501 m in other.h5, expected at most "
+              "0.5 m in between: several databases are one bridge under different assumptions"));
+}
+
+TEST_CASE("Of a short bridge they may be a twentieth of its width apart") {
+  const DatabaseReadings one = readings_in("a.h5", 4.0, Point(3.0, 2.0));
+  CHECK_NOTHROW(require_one_bridge(std::vector{one, readings_in("b.h5", 5.0, Point(3.19, 2.0))}));
+  CHECK_THROWS_AS(require_one_bridge(std::vector{one, readings_in("b.h5", 5.0, Point(3.21, 2.0))}),
+                  InputError);
+}
+
+TEST_CASE("As many readings in each database are not the same ones") {
+  const DatabaseReadings all = readings_in("all.h5", 20.0, Point(3.0, 2.0));
+  DatabaseReadings left = all, right = all;
+  CHECK_NOTHROW(require_same_readings(std::vector{all, left}));
+  left.counted = {"T1"};
+  right.counted = {"A4"};
+  left.file = "left.h5", right.file = "right.h5";
+  CHECK_THROWS_MATCHES(
+      require_same_readings(std::vector{left, right}), InputError,
+      Message("the reading of T1 counts in left.h5 and not in right.h5, as the point is held there: "
+              "expected errors that are no share of what moves (sigma_mm or --sigma)"));
+  CHECK_THROWS_AS(require_same_readings(std::vector{left, all}), InputError);
+}
