@@ -38,9 +38,10 @@ void draw(BlockId block, const LossGaussian& loss, int draws, Random& random, Al
   drawn.rows = rows;
   drawn.blocks.push_back(block);
   const auto n = static_cast<Index>(rows.size());
+  drawn.readings.conservativeResize(n, drawn.readings.cols() + draws);
+  if (n == 0) return;  // the block takes all sensors with it
   const MatrixXd standard = MatrixXd::NullaryExpr(n, draws, [&] { return random.gaussian(); });
   const Eigen::LLT<MatrixXd> factor(MatrixXd(loss.covariance(rows, rows)));
-  drawn.readings.conservativeResize(n, drawn.readings.cols() + draws);
   drawn.readings.rightCols(draws) = (factor.matrixL() * standard).colwise() + loss.signal(rows);
 }
 
@@ -63,17 +64,18 @@ std::optional<ArrayXd> log_densities(const DrawnReadings& drawn, const LossGauss
                                      double log_silence) {
   const VectorXd mean = loss.signal(drawn.rows);
   if (mean.hasNaN()) return std::nullopt;
-  const Eigen::LLT<MatrixXd> factor(MatrixXd(loss.covariance(drawn.rows, drawn.rows)));
-  const double log_root = MatrixXd(factor.matrixLLT()).diagonal().array().log().sum();
   const double silent =
       static_cast<double>(rows_with_reading(loss.signal).size() - drawn.rows.size()) * log_silence;
-  ArrayXd logs(drawn.readings.cols());
+  ArrayXd logs = ArrayXd::Constant(drawn.readings.cols(), silent);
+  if (drawn.rows.empty()) return logs;
+  const Eigen::LLT<MatrixXd> factor(MatrixXd(loss.covariance(drawn.rows, drawn.rows)));
+  const double log_root = MatrixXd(factor.matrixLLT()).diagonal().array().log().sum();
   const auto chunks = static_cast<std::size_t>((logs.size() + kChunk - 1) / kChunk);
   for_each_index_on_threads(chunks, hardware_threads(), [&](std::size_t chunk) {
     const Index first = static_cast<Index>(chunk) * kChunk, count = std::min(kChunk, logs.size() - first);
     MatrixXd white = drawn.readings.middleCols(first, count).colwise() - mean;
     factor.matrixL().solveInPlace(white);
-    logs.segment(first, count) = silent - log_root - 0.5 * white.colwise().squaredNorm().transpose().array();
+    logs.segment(first, count) -= log_root + 0.5 * white.colwise().squaredNorm().transpose().array();
   });
   return logs;
 }

@@ -102,6 +102,7 @@ TEST_CASE("plan-sensors chooses so many sensors of those that it may, and draws 
     CHECK(allowed.contains(point));
     CHECK(drawn.find("<title>" + point.get<std::string>() + "</title>") != std::string::npos);
   }
+  CHECK(planned().plan_json({"--sigma", "0.01mm", "--points", "T1"})["points"] == json{"T1"});
   const json all = planned().plan_json({"--sigma", "0.01mm"});
   CHECK(all["chosen"].empty());
   CHECK(all["seen"] >= plan["seen"]);

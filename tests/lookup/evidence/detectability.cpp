@@ -99,3 +99,22 @@ TEST_CASE("The same seed gives the same shares; smaller errors show more", "[pla
   CHECK(seen(1e-6) > seen(2e-5));
   CHECK(seen(2e-5) > seen(1e-3));
 }
+
+TEST_CASE("A loss that silences the only sensors is seen by their silence alone (by hand)", "[plan]") {
+  PlannedBridge planned(2e-5);
+  for (std::size_t i = 0; i < planned.library.points.size(); ++i)  // points 3 and 4 are on block 9
+    if (i != 2 && i != 3) planned.comparison.measured.displacement[i] = std::nan("");
+  planned.observation = observe(planned.comparison, {NoiseShape::gaussian, 0.0});
+  planned.bridge = unknown_bridge(planned.comparison, planned.observation, {0.0, 1.0}, {});
+  const std::vector<Sight> sights = sights_of(planned.bridge, settings());
+  const auto on_top = std::ranges::find(sights, BlockId{9}, &Sight::block);
+  REQUIRE(on_top != sights.end());
+  CHECK(on_top->silent == 2);
+  // 0.01 beside 0.9 and ten other losses of 0.01, whose sensors both fall silent with a chance of 0.01: of
+  // the sum .01 + .01 (.9 + .1) = .02 the intact bridge has .009, the block itself .01.
+  CHECK(on_top->named == 0.0);
+  CHECK(on_top->seen == 0.0);
+  SightSettings surer = settings();
+  surer.certain = 0.49;
+  CHECK(sights_of(planned.bridge, surer)[static_cast<std::size_t>(on_top - sights.begin())].named == 1.0);
+}
