@@ -51,6 +51,13 @@ std::vector<BlockId> hardly_seen(const SensorPlan& plan) {
   return blocks_where(plan, [](const Sight& sight) { return sight.seen < kHardly; });
 }
 
+/// Over all blocks without which the bridge stands; 0 if there are none.
+double mean_of(const SensorPlan& plan, double Sight::*share) {
+  double sum = 0.0;
+  for (const Sight& sight : plan.sights) sum += sight.*share;
+  return plan.sights.empty() ? 0.0 : sum / static_cast<double>(plan.sights.size());
+}
+
 Table block_table(const SensorPlan& plan, const Database& database) {
   Table table{{"block", "falls", "seen", "named", "largest_change_m", "at", "silent_sensors", "alike"}, {}};
   for (const Sight& sight : plan.sights)
@@ -72,6 +79,8 @@ std::string plan_json(const SensorPlan& plan, const PlannedBridge& bridge) {
                                    {"points", plan.points},
                                    {"seen", seen(plan).size()},
                                    {"named", named(plan).size()},
+                                   {"mean_seen", mean_of(plan, &Sight::seen)},
+                                   {"mean_named", mean_of(plan, &Sight::named)},
                                    {"standing", plan.sights.size()},
                                    {"falls", plan.falls.size()}};
   result["chosen"] = plan.chosen;
@@ -93,12 +102,13 @@ void write_heading(Text to, const SensorPlan& plan, const PlannedBridge& bridge)
 
 void write_counts(Text to, const SensorPlan& plan, const PlannedBridge& bridge) {
   const std::size_t count = plan.sights.size();
-  fmt::format_to(to, "Seen:         the loss of {} of {} blocks, each with a chance of at least {}\n",
-                 seen(plan).size(), count, percent(kSure));
-  fmt::format_to(to, "Named:        {} of {}\n", named(plan).size(), count);
+  fmt::format_to(to, "Seen:         of {} losses {}, each with a chance of at least {}; on average {}\n",
+                 count, seen(plan).size(), percent(kSure), percent(mean_of(plan, &Sight::seen)));
+  fmt::format_to(to, "Named:        {}; on average {}\n", named(plan).size(),
+                 percent(mean_of(plan, &Sight::named)));
   const std::vector<BlockId> hardly = hardly_seen(plan);
-  fmt::format_to(to, "Hardly seen:  {} of {}, each less often than {}{}\n", hardly.size(), count,
-                 percent(kHardly), hardly.empty() ? "" : ": " + labels(hardly, bridge.database));
+  fmt::format_to(to, "Hardly seen:  {}, each less often than {}{}\n", hardly.size(), percent(kHardly),
+                 hardly.empty() ? "" : ": " + labels(hardly, bridge.database));
   if (!plan.falls.empty())
     fmt::format_to(to, "Falls:        without one of {} more blocks something falls: {}\n", plan.falls.size(),
                    labels(plan.falls, bridge.database));

@@ -50,6 +50,7 @@ TEST_CASE("plan-sensors has every block once, and falls are those of the databas
   const json plan = planned().plan_json({"--sigma", "0.01mm"});
   std::set<std::string> blocks;
   std::size_t seen = 0, named = 0, falls = 0;
+  double sum = 0.0;
   for (const json& block : plan["blocks"]) {
     blocks.insert(block["block"]);
     const test::ProgramResult field = test::run(
@@ -60,7 +61,9 @@ TEST_CASE("plan-sensors has every block once, and falls are those of the databas
     seen += block["seen"] >= 0.9 ? 1 : 0;
     named += block["named"] >= 0.9 ? 1 : 0;
     CHECK(block["named"] <= block["seen"]);
+    sum += block["seen"].get<double>();
   }
+  CHECK(plan["mean_seen"] == Approx(sum / static_cast<double>(blocks.size() - falls)));
   CHECK(blocks.size() == plan["blocks"].size());
   CHECK(plan["seen"] == seen);
   CHECK(plan["named"] == named);
