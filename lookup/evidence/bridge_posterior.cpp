@@ -75,8 +75,7 @@ SceneGaussian scene_gaussian(const UnknownBridge& bridge, const Observation& obs
                              const SceneTable& table, std::size_t row) {
   SceneGaussian scene{*scene_loss(bridge, observation, table, row), {}, {}, {}, {}};
   scene.difference = bridge.reading - scene.loss.signal;
-  scene.bridge =
-      in_rows(bridge.rows, bridge.factors->intact.bridge, bridge.factors->of(table.scene(row)).bridge);
+  scene.bridge = bridge_columns(bridge, table.scene(row));
   scene.scatter = matrix_of(outer_product(scene.bridge), scene.bridge.rows());
   scene.epoch = epoch_columns(bridge, scene.loss);
   return scene;
@@ -134,8 +133,7 @@ void explain(const UnknownBridge& bridge, const SceneGaussian& scene, BridgePost
   const Index parameters = bridge.factors->of_epoch();
   result.signal = scene.loss.signal;
   result.from_bridge = scene.bridge * result.bridge_mean;
-  const VectorXd of_intact =
-      in_rows(bridge.rows, bridge.factors->intact.bridge, bridge.factors->intact.bridge) * result.bridge_mean;
+  const VectorXd of_intact = bridge_columns(bridge, {}) * result.bridge_mean;
   result.times_signal = times_of(result.signal, result.from_bridge - of_intact);
   result.times_movement = times_of(bridge.movement, of_intact);
   const MatrixXd each = scene.epoch * result.epoch_mean.asDiagonal();

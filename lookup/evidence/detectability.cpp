@@ -32,29 +32,44 @@ struct DrawnReadings {
 
 using AllDrawn = std::map<std::vector<Index>, DrawnReadings>;
 
-void draw(BlockId block, const LossGaussian& loss, int draws, Random& random, AllDrawn& all) {
+/// Blocks by the sensors that their losses leave, with room for the draws.
+AllDrawn blocks_by_rows(const UnknownBridge& bridge, int draws) {
+  AllDrawn all;
+  for (const BlockId block : blocks_with_sensitivities(bridge)) {
+    const VectorXd& signal = bridge.losses[static_cast<std::size_t>(value(block))].signal;
+    all[rows_with_reading(signal)].blocks.push_back(block);
+  }
+  for (auto& [rows, drawn] : all) {
+    const auto blocks = static_cast<Index>(drawn.blocks.size());
+    drawn.rows = rows;
+    drawn.readings.resize(static_cast<Index>(rows.size()), blocks * draws);
+    drawn.log_all = drawn.log_own = drawn.log_intact = ArrayXd::Constant(blocks * draws, kImpossible);
+    drawn.log_other.assign(drawn.blocks.size(), kImpossible);
+    drawn.other.resize(drawn.blocks.size());
+  }
+  return all;
+}
+
+/// The Gaussian is made here and once more to explain the draws: those of all blocks at once would take
+/// gigabytes of a long bridge.
+void draw(const UnknownBridge& bridge, BlockId block, int draws, Random& random, AllDrawn& all) {
+  const LossGaussian loss = loss_gaussian(bridge, block);
   const std::vector<Index> rows = rows_with_reading(loss.signal);
-  DrawnReadings& drawn = all[rows];
-  drawn.rows = rows;
-  drawn.blocks.push_back(block);
+  if (rows.empty()) return;  // the block takes all sensors with it
+  DrawnReadings& drawn = all.at(rows);
+  const auto place = static_cast<Index>(std::ranges::find(drawn.blocks, block) - drawn.blocks.begin());
   const auto n = static_cast<Index>(rows.size());
-  drawn.readings.conservativeResize(n, drawn.readings.cols() + draws);
-  if (n == 0) return;  // the block takes all sensors with it
   const MatrixXd standard = MatrixXd::NullaryExpr(n, draws, [&] { return random.gaussian(); });
   const Eigen::LLT<MatrixXd> factor(MatrixXd(loss.covariance(rows, rows)));
-  drawn.readings.rightCols(draws) = (factor.matrixL() * standard).colwise() + loss.signal(rows);
+  drawn.readings.middleCols(place * draws, draws) =
+      (factor.matrixL() * standard).colwise() + loss.signal(rows);
 }
 
 AllDrawn drawn_readings(const UnknownBridge& bridge, const SightSettings& settings) {
   Random random(settings.seed);
-  AllDrawn all;
+  AllDrawn all = blocks_by_rows(bridge, settings.draws);
   for (const BlockId block : blocks_with_sensitivities(bridge))
-    draw(block, loss_gaussian(bridge, block), settings.draws, random, all);
-  for (auto& [rows, drawn] : all) {
-    drawn.log_all = drawn.log_own = drawn.log_intact = ArrayXd::Constant(drawn.readings.cols(), kImpossible);
-    drawn.log_other.assign(drawn.blocks.size(), kImpossible);
-    drawn.other.resize(drawn.blocks.size());
-  }
+    draw(bridge, block, settings.draws, random, all);
   return all;
 }
 

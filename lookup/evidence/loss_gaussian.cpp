@@ -13,9 +13,8 @@ LossGaussian loss_gaussian(const UnknownBridge& bridge, std::optional<BlockId> l
     loss.signal = loss.known.front()->signal;
     scene.removed = {*lost};
   }
-  const Eigen::MatrixXd factor =
-      in_rows(bridge.rows, bridge.factors->intact.bridge, bridge.factors->of(scene).bridge);
-  return {loss.signal, scene_noise(bridge, loss) + factor * factor.transpose()};
+  const Eigen::MatrixXd columns = bridge_columns(bridge, scene);
+  return {loss.signal, scene_noise(bridge, loss) + columns * columns.transpose()};
 }
 
 std::vector<BlockId> blocks_with_sensitivities(const UnknownBridge& bridge) {

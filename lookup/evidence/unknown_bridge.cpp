@@ -252,6 +252,10 @@ std::optional<SceneLoss> scene_loss(const UnknownBridge& bridge, const Observati
   return loss;
 }
 
+MatrixXd bridge_columns(const UnknownBridge& bridge, const Scene& scene) {
+  return in_rows(bridge.rows, bridge.factors->intact.bridge, bridge.factors->of(scene).bridge);
+}
+
 MatrixXd epoch_columns(const UnknownBridge& bridge, const SceneLoss& loss) {
   const MatrixXd& intact = bridge.factors->intact.epoch;
   MatrixXd after = intact;

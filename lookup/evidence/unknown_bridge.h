@@ -154,6 +154,9 @@ struct SceneLoss {
 std::optional<SceneLoss> scene_loss(const UnknownBridge& bridge, const Observation& observation,
                                     const SceneTable& table, std::size_t row);
 
+/// A of a scene: a column for each column of the basis of the bridge's parameters.
+Eigen::MatrixXd bridge_columns(const UnknownBridge& bridge, const Scene& scene);
+
 /// E of a scene, conditions being as the bridge file states: a column for each epoch in y and parameter.
 Eigen::MatrixXd epoch_columns(const UnknownBridge& bridge, const SceneLoss& loss);
 
