@@ -6,7 +6,7 @@
 #include <map>
 
 #include "core/error.h"
-#include "core/structure/uncertain_parameters.h"
+#include "core/structure/rigid_movement.h"
 
 namespace voussoir {
 namespace {

@@ -8,10 +8,10 @@
 #include <iterator>
 #include <map>
 
-#include "core/geometry/box.h"
 #include "core/random.h"
 #include "core/structure/correlation_by_distance.h"
 #include "core/structure/mortar_limits.h"
+#include "core/structure/rigid_movement.h"
 
 namespace voussoir {
 namespace {
@@ -80,12 +80,6 @@ void add_own_stiffness(const Structure& structure, const Uncertainty& uncertaint
     result.correlation_factor.bottomRightCorner(pairs, pairs) = correlations.llt().matrixL();
   }
   std::ranges::move(own, std::back_inserter(result.of_bridge));
-}
-
-Point middle(const Support& support, const Mesh& mesh) {
-  Box box;
-  for (const NodeId node : support.nodes) box.extend(mesh.position(node));
-  return box.center();
 }
 
 }  // namespace
@@ -220,21 +214,6 @@ Field movement_of(const Structure& structure, const UncertainAction& action, dou
     default:
       return Field::Zero(2, structure.mesh.node_count());
   }
-}
-
-Field rigid_movement(const Structure& structure, std::size_t support, const Point& movement,
-                     double rotation) {
-  const Support& moving = structure.supports[support];
-  const Point centre = middle(moving, structure.mesh);
-  Field field = Field::Zero(2, structure.mesh.node_count());
-  for (const NodeId node : moving.nodes) {
-    const Point arm = structure.mesh.position(node) - centre;
-    if (goes_with(structure.supports, support, node, 0))
-      field(0, value(node)) = movement.x() - rotation * arm.y();
-    if (goes_with(structure.supports, support, node, 1))
-      field(1, value(node)) = movement.y() + rotation * arm.x();
-  }
-  return field;
 }
 
 }  // namespace voussoir

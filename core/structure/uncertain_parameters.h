@@ -90,9 +90,4 @@ Model sampled(const Model& bridge, const Uncertainty& uncertainty, std::uint64_t
 /// rad]; zero if it is no movement.
 Field movement_of(const Structure& structure, const UncertainAction& action, double value);
 
-/// Displacements [m], 2 x nodes, of a support that moves and turns (counter-clockwise, small) as a rigid body
-/// about the middle of its nodes; zero elsewhere, and in directions that it does not hold or an earlier one
-/// does.
-Field rigid_movement(const Structure& structure, std::size_t support, const Point& movement, double rotation);
-
 }  // namespace voussoir

@@ -6,6 +6,7 @@
 
 #include "core/solve/history.h"
 #include "core/statics/equilibrium.h"
+#include "core/structure/rigid_movement.h"
 #include "core/structure/uncertain_parameters.h"
 #include "tests/support/bridges.h"
 #include "tools/validation/assemblies.h"
