@@ -34,7 +34,7 @@ double composed_error(std::span<const double> composed, std::span<const double> 
 Composition::Composition(const StageEquations& intact, const Field& displacement) {
   const EquilibriumSystem& system = *intact.system;
   const Structure& structure = *system.structure;
-  ComponentRows influence = vertical_readings(structure, structure.control_points);
+  ComponentRows influence = reading_columns(structure, structure.control_points);
   if (TransposedSolver(system).solve(intact, displacement, influence)) influence_ = influence;
 }
 
@@ -54,9 +54,9 @@ std::optional<Solution> Composition::of(const Scene& scene, const StartingFields
   double error_sum = 0.0, signal_sum = 0.0, points = 0.0;
   for (std::size_t i = 0; i < structure.control_points.size(); ++i) {
     const ControlPoint& point = structure.control_points[i];
-    if (scene.lacks(point.block)) continue;
+    if (lacks(scene, point)) continue;
     error_sum += std::abs(error[static_cast<Eigen::Index>(i)]);
-    signal_sum += std::abs(signal(1, value(point.node)));
+    signal_sum += std::abs(reading_at(point, signal));
     points += 1.0;
   }
   if (!(kComposedMargin * error_sum <= allowed_error(signal_sum, points))) return std::nullopt;

@@ -122,8 +122,8 @@ class StateResidual {
 
  private:
   Eigen::VectorXd nominal(std::size_t scene) const {
-    return vertical_displacements(first_order_.nominal.states[scene][state_]->displacement,
-                                  study_.bridge.control_points);
+    return readings_at(study_.bridge.control_points,
+                       first_order_.nominal.states[scene][state_]->displacement);
   }
 
   /// Squares, as ErrorFit finds them.

@@ -21,9 +21,8 @@ Settlements settlements_of(const SceneGroup& group, const StatePlan& plan, const
   Settlements settlements;
   for (const std::size_t state : kept_states(plan)) {
     const Solution& solution = *group.states[state];
-    settlements.push_back(stands(solution)
-                              ? vertical_displacements(solution.displacement, bridge.control_points)
-                              : Eigen::VectorXd());
+    settlements.push_back(stands(solution) ? readings_at(bridge.control_points, solution.displacement)
+                                           : Eigen::VectorXd());
   }
   return settlements;
 }

@@ -82,7 +82,7 @@ double largest_difference(const Solution& recomputed, const RecordedState& store
     return field ? largest_difference(recomputed.displacement.reshaped(), field->reshaped())
                  : std::numeric_limits<double>::infinity();
   }
-  return largest_difference(vertical_displacements(recomputed.displacement, bridge.control_points),
+  return largest_difference(readings_at(bridge.control_points, recomputed.displacement),
                             Eigen::Map<const Eigen::VectorXd>(
                                 stored.vertical.data(), static_cast<Eigen::Index>(stored.vertical.size())));
 }

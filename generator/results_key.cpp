@@ -92,13 +92,22 @@ std::string support_text(const SupportDescription& supports) {
 }
 
 std::string points_text(const ControlPointDescription& points) {
-  const auto& [top, arch] = points;
-  return row("points", top, arch);
+  const auto& [top, arch, face] = points;
+  return row("points", top, arch) + (face ? "face\n" : "");
+}
+
+/// Texts in quotes and numbers by their bits; a place that is missing is none.
+std::string sensor_text(const SensorDescription& sensor) {
+  const auto& [name, quantity, from, to, block, to_block] = sensor;
+  std::string text = fmt::format("sensor {} '{}' '{}'\n", name, block, to_block) + row("reads", quantity);
+  if (from) text += row("from", from->x(), from->y());
+  if (to) text += row("to", to->x(), to->y());
+  return text;
 }
 
 std::string physics_text(const BridgeDescription& description) {
   const auto& [name, wall, spans, parts, blocks, material, joints, mortar, regions, fill, supports,
-               control_points, mesh, gravity, joint_tolerance, loads, movements, uncertainty,
+               control_points, sensors, mesh, gravity, joint_tolerance, loads, movements, uncertainty,
                collapse_fields] = description;
   static_cast<void>(movements);        // no scene is solved under them
   static_cast<void>(uncertainty);      // no solution depends on it
@@ -108,6 +117,7 @@ std::string physics_text(const BridgeDescription& description) {
   std::string text = wall_text(wall);
   for (const SpanDescription& span : spans) text += span_text(span);
   for (const MortarRegion& region : mortar) text += region_text(region);
+  for (const SensorDescription& sensor : sensors) text += sensor_text(sensor);
   for (const WallPart& part : parts) text += part_text(part);
   for (const Block& block : blocks) text += block_text(block);
   for (const Region& region : regions) text += region_text(region);

@@ -135,9 +135,8 @@ void SampledHistories::solve(const Batch& batch, std::size_t state, Found& found
 Settled SampledHistories::settled(const std::vector<Solution>& states) const {
   Settled result;
   for (const Solution& solution : states)
-    result.push_back(stands(solution)
-                         ? vertical_displacements(solution.displacement, study_.bridge.control_points)
-                         : Eigen::VectorXd());
+    result.push_back(stands(solution) ? readings_at(study_.bridge.control_points, solution.displacement)
+                                      : Eigen::VectorXd());
   return result;
 }
 

@@ -12,7 +12,7 @@ struct SensitivityEquations {
       : system(bridge),
         coefficients(system, bridge.parameters),
         uncertain(std::move(parameters)),
-        readings(vertical_readings(bridge, bridge.control_points)) {}
+        readings(reading_columns(bridge, bridge.control_points)) {}
 
   EquilibriumSystem system;
   Coefficients coefficients;

@@ -15,9 +15,9 @@ int StepsOfLoss::of(const Scene& scene) const {
 
 bool differ_in_signal(const Field& one_step, const Field& many_steps, const Field& intact,
                       const std::vector<ControlPoint>& points) {
-  const Eigen::VectorXd one = vertical_displacements(one_step, points);
-  const Eigen::VectorXd many = vertical_displacements(many_steps, points);
-  const Eigen::VectorXd unmoved = vertical_displacements(intact, points);
+  const Eigen::VectorXd one = readings_at(points, one_step);
+  const Eigen::VectorXd many = readings_at(points, many_steps);
+  const Eigen::VectorXd unmoved = readings_at(points, intact);
   const auto l1 = [](const auto& values) {
     return values.array().isNaN().select(0.0, values.array()).abs().sum();
   };

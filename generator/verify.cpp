@@ -134,15 +134,14 @@ std::vector<double> intact_displacements(const RecomputedVariant& variant, std::
     return {stored.begin(), stored.end()};
   }
   const auto states = variant.starts->find(intact).value();
-  const Eigen::VectorXd vertical =
-      vertical_displacements(states[kBuilt].displacement, variant.bridge.control_points);
+  const Eigen::VectorXd vertical = readings_at(variant.bridge.control_points, states[kBuilt].displacement);
   return {vertical.begin(), vertical.end()};
 }
 
 /// Of a composed state against its solution: composed_error.
 double error_of_composed(const RecomputedVariant& variant, const RecordKey& key, const RecordedState& stored,
                          const Solution& anew) {
-  const Eigen::VectorXd solved = vertical_displacements(anew.displacement, variant.bridge.control_points);
+  const Eigen::VectorXd solved = readings_at(variant.bridge.control_points, anew.displacement);
   return composed_error(stored.vertical, {solved.data(), static_cast<std::size_t>(solved.size())},
                         intact_displacements(variant, key.variant));
 }

@@ -58,7 +58,8 @@ void add_reading_options(CLI::App& app, LocateDamageOptions& options) {
       ->allow_extra_args(false)
       ->option_text("FILE");
   app.add_option("--sensors", options.sensors,
-                 "CSV of sensors that readings may name beside control points, with --known-bridge: name, "
+                 "CSV of sensors that readings may name beside control points and those of the bridge file, "
+                 "with --known-bridge: name, "
                  "quantity (ux, uy, tilt, distance), x_m, y_m, x2_m, y2_m, block, block2")
       ->option_text("FILE");
   add_choice<std::string>(

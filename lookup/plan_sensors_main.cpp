@@ -34,8 +34,9 @@ void add_reading_options(CLI::App& app, Options& options) {
       ->required()
       ->check(voussoir::checked_by(voussoir::parse_sigma, "MM"))
       ->option_text("MM");
-  app.add_option("--points", settings.points,
-                 "control points that can be read, such as T1,T8,A3; default: all")
+  app.add_option(
+         "--points", settings.points,
+         "control points, and sensors of the bridge file, that can be read, such as T1,T8,A3; default: all")
       ->delimiter(',')
       ->option_text("LIST");
   app.add_option("--choose", settings.choose,

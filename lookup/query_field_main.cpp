@@ -50,7 +50,8 @@ void add_options(CLI::App& app, Options& options) {
   app.add_option("-d,--database", options.database, "default: $VOUSSOIR_DATABASE, else ./bridge.h5")
       ->option_text("FILE");
   app.add_option("--at", options.at,
-                 "control points such as T12,A3, coordinates X,Y in metres, or control for all")
+                 "control points, or sensors of the bridge file that move, such as T12,A3, coordinates X,Y "
+                 "in metres, or control for all")
       ->option_text("PLACES");
   app.add_option(
          "--history", options.history,

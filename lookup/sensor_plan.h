@@ -11,7 +11,7 @@
 namespace voussoir {
 
 struct PlanSettings {
-  std::vector<std::string> points = {};  ///< control points that may be read; empty: all
+  std::vector<std::string> points = {};  ///< of the database that may be read; empty: all
   double sigma = 0.0;                    ///< [m] standard deviation of the change at each of them
   std::optional<std::size_t>
       choose{};  ///< how many of them, those that help most (rows_that_help); nothing: all
@@ -23,6 +23,7 @@ struct PlanSettings {
 struct SensorPlan {
   std::string history;                ///< that changes are compared with
   std::vector<std::string> points;    ///< that are read
+  bool has_tilts = false;             ///< is one of them a tilt?
   std::vector<std::string> chosen{};  ///< the same, those first that help most; empty: none was chosen
   std::vector<Sight> sights;          ///< of the blocks without which the bridge stands
   std::vector<BlockId> falls{};       ///< blocks whose loss lets something fall: nobody needs to measure

@@ -17,15 +17,20 @@ double width_of(const std::vector<StoredPoint>& points) {
 }
 
 std::string place_in(const DatabaseReadings& one, const std::string& sensor) {
-  const Point& place = one.sensors.at(sensor);
+  const Point& place = one.sensors.at(sensor).position;
   return fmt::format("x {:g}, y {:g} m in {}", place.x(), place.y(), one.file);
 }
 
 void require_same_places(const DatabaseReadings& one, const DatabaseReadings& other) {
   const double most = std::min(kMostApart, kMostApartOfWidth * std::min(one.width, other.width));
-  for (const auto& [sensor, place] : one.sensors) {
+  for (const auto& [sensor, read] : one.sensors) {
     const auto found = other.sensors.find(sensor);
-    if (found == other.sensors.end() || (found->second - place).norm() <= most) continue;
+    if (found == other.sensors.end()) continue;
+    if (found->second.quantity != read.quantity)
+      throw InputError(fmt::format("sensor {} reads {} in {} and {} in {}, expected the same in both", sensor,
+                                   to_string(read.quantity), one.file, to_string(found->second.quantity),
+                                   other.file));
+    if ((found->second.position - read.position).norm() <= most) continue;
     throw InputError(
         fmt::format("sensor {} is at {} and at {}, expected at most {:.2g} m in between: several databases "
                     "are one bridge under different assumptions",
@@ -50,7 +55,7 @@ DatabaseReadings database_readings(const std::string& file, const std::vector<St
   const std::vector<StoredPoint>& channels = comparison.library.points;
   for (std::size_t i = 0; i < channels.size(); ++i)
     if (comparison.measured.silent[i] || !std::isnan(comparison.measured.displacement[i]))
-      result.sensors.emplace(channels[i].name, channels[i].position);
+      result.sensors.emplace(channels[i].name, ReadPlace{channels[i].position, quantity_of(comparison, i)});
   for (const std::size_t channel : answer.counted) result.counted.insert(channels[channel].name);
   return result;
 }

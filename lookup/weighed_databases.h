@@ -11,12 +11,18 @@
 
 namespace voussoir {
 
+/// What a sensor reads where.
+struct ReadPlace {
+  Point position;  ///< [m]
+  Quantity quantity;
+};
+
 /// What one database makes of a file of readings.
 struct DatabaseReadings {
-  std::string file;                      ///< of the database
-  double width = 0.0;                    ///< [m] from its first control point to its last
-  std::map<std::string, Point> sensors;  ///< that the readings are of: where they are [m]
-  std::set<std::string> counted;         ///< of these, whose readings count
+  std::string file;                          ///< of the database
+  double width = 0.0;                        ///< [m] from its first control point to its last
+  std::map<std::string, ReadPlace> sensors;  ///< that the readings are of
+  std::set<std::string> counted;             ///< of these, whose readings count
 };
 
 DatabaseReadings database_readings(const std::string& file, const std::vector<StoredPoint>& control_points,
@@ -27,7 +33,8 @@ DatabaseReadings database_readings(const std::string& file, const std::vector<St
 /// them less.
 inline constexpr double kMostApart = 0.5, kMostApartOfWidth = 0.05;
 
-/// Throws InputError naming a sensor, both databases and both places unless all are of one bridge.
+/// Throws InputError naming a sensor, both databases and both places or quantities unless all are of one
+/// bridge.
 void require_one_bridge(std::span<const DatabaseReadings> all);
 
 /// What one database leaves out speaks for it. Throws InputError naming a reading that counts in one and not

@@ -40,7 +40,7 @@ Readings quasi_static_readings(const Model& bridge, const std::vector<Scene>& sc
   const std::vector<Solution> solutions = solver.solve(starts);
   readings.seconds = (processor_seconds() - begin) / static_cast<double>(scenes.size());
   for (const Solution& solution : solutions)
-    readings.of_scene.push_back(vertical_displacements(solution.displacement, bridge.control_points));
+    readings.of_scene.push_back(readings_at(bridge.control_points, solution.displacement));
   return readings;
 }
 
@@ -52,8 +52,7 @@ Readings dynamic_readings(const Model& bridge, const std::vector<Scene>& scenes,
   const std::vector<DynamicSolution> solutions = solver.solve(scenes);
   readings.seconds = (processor_seconds() - begin) / static_cast<double>(scenes.size());
   for (const DynamicSolution& solution : solutions)
-    readings.of_scene.push_back(
-        vertical_displacements(solution.solution.displacement, bridge.control_points));
+    readings.of_scene.push_back(readings_at(bridge.control_points, solution.solution.displacement));
   return readings;
 }
 

@@ -58,12 +58,15 @@ void append_stage(const EquilibriumSystem& system, const Coefficients& coefficie
   }
 }
 
-Eigen::MatrixXd vertical_readings(const Structure& structure, const std::vector<ControlPoint>& points) {
-  Eigen::MatrixXd readings =
+Eigen::MatrixXd reading_columns(const Structure& structure, const std::vector<ControlPoint>& points) {
+  Eigen::MatrixXd columns =
       Eigen::MatrixXd::Zero(2 * structure.mesh.node_count(), static_cast<Eigen::Index>(points.size()));
-  for (std::size_t i = 0; i < points.size(); ++i)
-    readings(2 * value(points[i].node) + 1, static_cast<Eigen::Index>(i)) = 1.0;
-  return readings;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    auto column = columns.col(static_cast<Eigen::Index>(i));
+    if (points[i].weights.empty()) column[2 * value(points[i].node) + 1] = 1.0;
+    for (const NodeWeight& part : points[i].weights) column.segment<2>(2 * value(part.node)) += part.weight;
+  }
+  return columns;
 }
 
 SensitivitySolver::SensitivitySolver(const EquilibriumSystem& system, const UncertainParameters& uncertain)

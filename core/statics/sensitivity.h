@@ -40,8 +40,8 @@ using SolvedHistory = std::vector<SolvedStep>;
 void append_stage(const EquilibriumSystem& system, const Coefficients& coefficients, const Stage& stage,
                   const Solution& solution, int steps, SolvedHistory& history);
 
-/// The displacement components 2 node + 1 of the points: what a control point's vertical displacement reads.
-Eigen::MatrixXd vertical_readings(const Structure& structure, const std::vector<ControlPoint>& points);
+/// What each point reads, as weights of the displacement components (2 node + axis): components x points.
+Eigen::MatrixXd reading_columns(const Structure& structure, const std::vector<ControlPoint>& points);
 
 /// Not thread-safe: one a thread.
 class SensitivitySolver {

@@ -17,7 +17,7 @@ using Json = nlohmann::json;
 constexpr std::size_t kLargestFile = 1 << 26;  ///< [bytes]
 
 /// What is read, for messages: "survey.json: block 3".
-struct Place {
+struct Source {
   const std::string& file;
   std::size_t block;
 
@@ -26,59 +26,59 @@ struct Place {
   }
 };
 
-BlockRole role_of(const Json& entry, const Place& place) {
+BlockRole role_of(const Json& entry, const Source& source) {
   const auto role = entry.find("role");
   if (role == entry.end()) return BlockRole::wall;
   const auto found = role->is_string() ? find_role(role->get<std::string>()) : std::nullopt;
-  if (!found) place.refuse(fmt::format("role: expected one of {}", role_names()));
+  if (!found) source.refuse(fmt::format("role: expected one of {}", role_names()));
   return *found;
 }
 
-Polygon vertices_of(const Json& entry, const Place& place) {
+Polygon vertices_of(const Json& entry, const Source& source) {
   const auto vertices = entry.find("vertices");
-  if (vertices == entry.end() || !vertices->is_array()) place.refuse("expected \"vertices\": [[x, y], ..]");
+  if (vertices == entry.end() || !vertices->is_array()) source.refuse("expected \"vertices\": [[x, y], ..]");
   Polygon polygon;
   for (const Json& vertex : *vertices) {
     const bool pair =
         vertex.is_array() && vertex.size() >= 2 && vertex[0].is_number() && vertex[1].is_number();
     const Point point = pair ? Point(vertex[0].get<double>(), vertex[1].get<double>()) : Point::Zero();
     if (!pair || !(point.cwiseAbs().maxCoeff() <= kLargestLength))
-      place.refuse(fmt::format("vertex {}: expected [x, y], numbers of at most {:g} m", polygon.size() + 1,
-                               kLargestLength));
+      source.refuse(fmt::format("vertex {}: expected [x, y], numbers of at most {:g} m", polygon.size() + 1,
+                                kLargestLength));
     polygon.push_back(point);
   }
   if (polygon.size() < 3 || polygon.size() > kMostCorners)
-    place.refuse(fmt::format("{} vertices: expected 3 to {}", polygon.size(), kMostCorners));
+    source.refuse(fmt::format("{} vertices: expected 3 to {}", polygon.size(), kMostCorners));
   return polygon;
 }
 
-std::string label_of(const Json& entry, const Place& place) {
+std::string label_of(const Json& entry, const Source& source) {
   const auto label = entry.find("label");
-  if (label == entry.end()) return fmt::format("{}", place.block);
+  if (label == entry.end()) return fmt::format("{}", source.block);
   if (label->is_number_integer()) return fmt::format("{}", label->get<std::int64_t>());
-  if (!label->is_string()) place.refuse("label: expected a text or a whole number");
+  if (!label->is_string()) source.refuse("label: expected a text or a whole number");
   return label->get<std::string>();
 }
 
-int ring_of(const Json& entry, BlockRole role, const Place& place) {
+int ring_of(const Json& entry, BlockRole role, const Source& source) {
   if (role != BlockRole::ring) return kNoRing;
   const auto ring = entry.find("ring");
   if (ring == entry.end()) return 0;
   if (!ring->is_number_unsigned() || ring->get<std::uint64_t>() >= kMostRings)
-    place.refuse(fmt::format("ring: expected a whole number from 0 to {}", kMostRings - 1));
+    source.refuse(fmt::format("ring: expected a whole number from 0 to {}", kMostRings - 1));
   return ring->get<int>();
 }
 
-Block block_of(const Json& entry, const Place& place) {
-  if (!entry.is_object()) place.refuse("expected {\"label\": .., \"role\": .., \"vertices\": [[x, y], ..]}");
+Block block_of(const Json& entry, const Source& source) {
+  if (!entry.is_object()) source.refuse("expected {\"label\": .., \"role\": .., \"vertices\": [[x, y], ..]}");
   for (const auto& [key, unused] : entry.items())
     if (key != "label" && key != "role" && key != "ring" && key != "vertices")
-      place.refuse(fmt::format("unknown key {}: expected label, role, ring and vertices", in_quotes(key)));
+      source.refuse(fmt::format("unknown key {}: expected label, role, ring and vertices", in_quotes(key)));
   Block block;
-  block.role = role_of(entry, place);
-  block.ring = ring_of(entry, block.role, place);
-  block.label = label_of(entry, place);
-  block.polygon = vertices_of(entry, place);
+  block.role = role_of(entry, source);
+  block.ring = ring_of(entry, block.role, source);
+  block.label = label_of(entry, source);
+  block.polygon = vertices_of(entry, source);
   return block;
 }
 

@@ -11,6 +11,7 @@
 #include "core/geometry/polygon.h"
 #include "core/structure/block.h"
 #include "core/structure/mortar.h"
+#include "core/structure/sensor_description.h"
 #include "core/structure/uncertainty.h"
 
 namespace voussoir {
@@ -146,10 +147,12 @@ struct MovementDescription {
 };
 
 /// Which sets of points are measured. T1.. are the upper corners of the top course's blocks, A1.. the
-/// intrados corners of the arch blocks, both from left to right.
+/// intrados corners of the arch blocks, both from left to right, F1.. the middles of the blocks of walls,
+/// piers, abutments and parapets, as they are laid.
 struct ControlPointDescription {
   bool top = true;
   bool arch = true;
+  bool face = false;
 };
 
 /// How blocks are cut into triangles; the defaults are the paper's Fig. 2 as far as one rule can follow it.
@@ -206,6 +209,7 @@ struct BridgeDescription {
   FillWeight fill{};
   SupportDescription supports;
   ControlPointDescription control_points;
+  std::vector<SensorDescription> sensors{};
   MeshDescription mesh;
   double gravity = 9.81;          ///< [m/s2] downwards
   double joint_tolerance = 1e-6;  ///< [m] edges closer than this form a joint

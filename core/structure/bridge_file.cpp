@@ -15,6 +15,7 @@
 #include "core/structure/mortar_section.h"
 #include "core/structure/movements_section.h"
 #include "core/structure/parts_section.h"
+#include "core/structure/sensors_section.h"
 #include "core/structure/spans_section.h"
 #include "core/structure/uncertainty_section.h"
 #include "core/structure/usual_values.h"
@@ -55,6 +56,7 @@ void check_held_courses(const TomlSection& section, const BridgeDescription& des
 void read_control_points(TomlSection section, ControlPointDescription& points) {
   section.flag("top", points.top);
   section.flag("arch", points.arch);
+  section.flag("face", points.face);
   section.refuse_unknown_keys();
 }
 
@@ -170,6 +172,14 @@ std::vector<long> read_spans_and_walls(TomlSection& top, BridgeDescription& desc
   return span_lines;
 }
 
+/// [[regions]], which take from the bridge's material and joints what they do not say.
+void read_regions(TomlSection& top, BridgeDescription& description) {
+  if (const toml::array* regions = top.tables("regions", "[[regions]]"))
+    for (const toml::node& node : *regions)
+      description.regions.push_back(read_region(TomlSection(top.file(), node.as_table(), " in [[regions]]"),
+                                                description.material, description.joints));
+}
+
 BridgeDescription interpret(const toml::table& root, const std::string& file,
                             std::vector<std::string>& notes) {
   BridgeDescription description;
@@ -185,13 +195,12 @@ BridgeDescription interpret(const toml::table& root, const std::string& file,
   read_wall(section("wall"), description.wall);
   read_material(section("material"), description.material);
   read_joints(section("joints"), description.joints, description.joint_tolerance);
-  if (const toml::array* regions = top.tables("regions", "[[regions]]"))
-    for (const toml::node& node : *regions)
-      description.regions.push_back(read_region(TomlSection(file, node.as_table(), " in [[regions]]"),
-                                                description.material, description.joints));
+  read_regions(top, description);
   read_fill(section("fill"), description.fill);
   read_supports(section("supports"), description.supports);
   read_control_points(section("control_points"), description.control_points);
+  if (const toml::array* sensors = top.tables("sensors", "[[sensors]]"))
+    description.sensors = read_sensors(*sensors, file);
   read_mesh(section("mesh"), description.mesh);
   description.uncertainty = read_uncertainty(section("uncertainty"));
 

@@ -2,8 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "core/error.h"
+#include "core/geometry/polygon.h"
+#include "core/structure/placed_sensor.h"
+#include "core/text.h"
 
 namespace voussoir {
 namespace {
@@ -31,6 +35,49 @@ std::pair<Point, Point> upper_corners(const Polygon& polygon) {
   return {*left, *right};
 }
 
+/// Soil and backing lie behind the wall, and arches have points of their own.
+bool shows_its_face(BlockRole role) {
+  return role != BlockRole::ring && role != BlockRole::backing && role != BlockRole::fill;
+}
+
+/// What the middle of a block reads, without a name.
+ControlPoint middle_of(const Block& block, BlockId id, const Mesh& mesh) {
+  const Point at = centroid(block.polygon);
+  ControlPoint point = point_at("", mesh, id, at);
+  point.weights = displacement_weights({at, id}, Point(0.0, 1.0), mesh);
+  return point;
+}
+
+/// Points of one kind, numbered as they come.
+struct Family {
+  char letter;
+  std::vector<ControlPoint> points{};
+
+  void add(ControlPoint point) {
+    point.name = fmt::format("{}{}", letter, points.size() + 1);
+    points.push_back(std::move(point));
+  }
+  void add_pair(const Mesh& mesh, BlockId block, const std::pair<Point, Point>& corners) {
+    add(point_at("", mesh, block, corners.first));
+    add(point_at("", mesh, block, corners.second));
+  }
+};
+
+ControlPoint described_sensor(const SensorDescription& sensor, const BlockLayout& layout, const Mesh& mesh) {
+  try {
+    PlacedSensor placed = place_sensor(sensor, layout, mesh);
+    return {sensor.name,
+            node_at(mesh, placed.blocks.front(), placed.position),
+            placed.blocks.front(),
+            placed.position,
+            sensor.quantity,
+            std::move(placed.weights),
+            placed.blocks.size() > 1 ? std::optional(placed.blocks.back()) : std::nullopt};
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("sensor {} in [[sensors]]: {}", in_quotes(sensor.name), error.what()));
+  }
+}
+
 }  // namespace
 
 ControlPoint point_at(const std::string& name, const Mesh& mesh, BlockId block, const Point& place) {
@@ -39,30 +86,40 @@ ControlPoint point_at(const std::string& name, const Mesh& mesh, BlockId block, 
 
 std::vector<ControlPoint> find_control_points(const BlockLayout& layout, const Mesh& mesh,
                                               const BridgeDescription& description) {
-  std::vector<ControlPoint> points;
-  const auto add_pair = [&](char family, int& count, BlockId id, const std::pair<Point, Point>& corners) {
-    points.push_back(point_at(fmt::format("{}{}", family, ++count), mesh, id, corners.first));
-    points.push_back(point_at(fmt::format("{}{}", family, ++count), mesh, id, corners.second));
-  };
-  int top_count = 0;
-  int arch_count = 0;
-  for (int pass = 0; pass < 2; ++pass)
-    for (std::size_t b = 0; b < layout.size(); ++b) {
-      const Block& block = layout.blocks[b];
-      const BlockId id{static_cast<std::int32_t>(b)};
-      if (pass == 0 && description.control_points.top && block.top_course)
-        add_pair('T', top_count, id, upper_corners(block.polygon));
-      if (pass == 1 && description.control_points.arch && block.intrados)
-        add_pair('A', arch_count, id, {block.intrados->front(), block.intrados->back()});
-    }
+  const auto& [top, arch, face] = description.control_points;
+  Family upper{'T'}, intrados{'A'}, middle{'F'};
+  for (std::size_t b = 0; b < layout.size(); ++b) {
+    const Block& block = layout.blocks[b];
+    const BlockId id{static_cast<std::int32_t>(b)};
+    if (top && block.top_course) upper.add_pair(mesh, id, upper_corners(block.polygon));
+    if (arch && block.intrados) intrados.add_pair(mesh, id, {block.intrados->front(), block.intrados->back()});
+    if (face && shows_its_face(block.role)) middle.add(middle_of(block, id, mesh));
+  }
+  std::vector<ControlPoint> points = std::move(upper.points);
+  std::ranges::move(intrados.points, std::back_inserter(points));
+  std::ranges::move(middle.points, std::back_inserter(points));
+  for (const SensorDescription& sensor : description.sensors) {
+    if (std::ranges::find(points, sensor.name, &ControlPoint::name) != points.end())
+      throw InputError(fmt::format("sensor {} in [[sensors]] is there already, expected another name",
+                                   in_quotes(sensor.name)));
+    points.push_back(described_sensor(sensor, layout, mesh));
+  }
   return points;
 }
 
-Eigen::VectorXd vertical_displacements(const Field& field, const std::vector<ControlPoint>& points) {
-  Eigen::VectorXd displacements(static_cast<Eigen::Index>(points.size()));
+bool lacks(const Scene& scene, const ControlPoint& point) {
+  return scene.lacks(point.block) || (point.other_block && scene.lacks(*point.other_block));
+}
+
+double reading_at(const ControlPoint& point, const Field& field) {
+  return point.weights.empty() ? field(1, value(point.node)) : weighted_sum(point.weights, field);
+}
+
+Eigen::VectorXd readings_at(const std::vector<ControlPoint>& points, const Field& field) {
+  Eigen::VectorXd readings(static_cast<Eigen::Index>(points.size()));
   for (std::size_t i = 0; i < points.size(); ++i)
-    displacements[static_cast<Eigen::Index>(i)] = field(1, value(points[i].node));
-  return displacements;
+    readings[static_cast<Eigen::Index>(i)] = reading_at(points[i], field);
+  return readings;
 }
 
 }  // namespace voussoir

@@ -183,8 +183,6 @@ std::uint64_t size_of(Extent extent, const Sizes& sizes) {
   return sizeof(Sha256);
 }
 
-constexpr std::int32_t kNoBlock = -1;
-
 std::vector<std::int32_t> numbers_in(ByteView bytes) {
   std::vector<std::int32_t> numbers;
   assign(numbers, bytes);

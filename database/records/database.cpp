@@ -24,8 +24,11 @@ void check_version(const Hdf5File& file) {
 }
 
 void check_points(const Hdf5File& file, const std::vector<StoredPoint>& points, std::size_t blocks) {
+  const auto exists = [&](BlockId block) {
+    return value(block) >= 0 && static_cast<std::size_t>(block) < blocks;
+  };
   for (const StoredPoint& point : points)
-    file.require(value(point.block) >= 0 && static_cast<std::size_t>(point.block) < blocks,
+    file.require(exists(point.block) && (!point.other_block || exists(*point.other_block)),
                  fmt::format("control point {} belongs to a block that does not exist", point.name));
 }
 
@@ -195,6 +198,10 @@ const Mesh& Database::mesh() const {
 
 const std::vector<Joint>& Database::joints() const {
   return implementation_->joints.get([&] { return read_joints(implementation_->file, mesh()); });
+}
+
+std::vector<std::vector<NodeWeight>> Database::point_weights() const {
+  return read_weights(implementation_->file, control_points(), mesh());
 }
 
 std::string Database::bridge_text() const {

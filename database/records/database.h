@@ -22,11 +22,13 @@
 
 namespace voussoir {
 
-/// A control point as the database knows it.
+/// A control point, or a sensor of the bridge file, as the database knows it.
 struct StoredPoint {
   std::string name;
-  Point position;  ///< [m] in the reference configuration
-  BlockId block;   ///< the block it belongs to; without that block the point has no displacement
+  Point position;  ///< [m] in the reference configuration; of a distance the middle
+  BlockId block;   ///< the block it belongs to; without that block the point shows nothing
+  Quantity quantity = Quantity::uy;
+  std::optional<BlockId> other_block{};  ///< of a distance between two blocks the second: the same holds
 };
 
 /// The records of a bridge: a row for each scene of each variant, in row_order, each with the same states.
@@ -45,7 +47,9 @@ class Database {
   const std::filesystem::path& path() const;
   const std::string& digest() const;  ///< SHA-256 of the content, hexadecimal
   const std::string& bridge_name() const;
-  const std::vector<StoredPoint>& control_points() const;
+  const std::vector<StoredPoint>& control_points() const;  ///< and the sensors of the bridge file
+  /// What each of them reads; none: how far its node goes up.
+  std::vector<std::vector<NodeWeight>> point_weights() const;
   const std::vector<std::string>& states() const;          ///< names, at least one
   const std::vector<ModelError>& model_errors() const;     ///< one for each state
   const std::vector<VariantParameters>& variants() const;  ///< read on first use

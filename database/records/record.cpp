@@ -14,7 +14,7 @@ RecordedState make_state(const Solution& solution, const std::vector<ControlPoin
   state.extent = solution.extent;
   state.moving = solution.moving;
   state.origin = solution.origin;
-  const Eigen::VectorXd vertical = vertical_displacements(solution.displacement, points);
+  const Eigen::VectorXd vertical = readings_at(points, solution.displacement);
   state.vertical.assign(vertical.begin(), vertical.end());
   if (keep == KeepField::yes) {
     state.packed_field = pack_field(solution.displacement);

@@ -119,6 +119,38 @@ void append_joints(const std::vector<Joint>& joints, std::vector<DatasetValue>& 
       dataset_of(dataset::kJointLength, ElementType::float64, lengths, kFlat, "m", "length of each joint"));
 }
 
+/// Whether a point reads how far its node goes up.
+bool is_plain(const ControlPoint& point) {
+  return point.weights.empty();
+}
+
+void append_weights(const std::vector<ControlPoint>& points, std::vector<DatasetValue>& datasets) {
+  std::vector<std::uint8_t> quantities;
+  std::vector<std::int32_t> others, of_point, nodes;
+  std::vector<double> weights;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    quantities.push_back(static_cast<std::uint8_t>(points[i].quantity));
+    others.push_back(points[i].other_block ? value(*points[i].other_block) : kNoBlock);
+    for (const NodeWeight& part : points[i].weights) {
+      of_point.push_back(static_cast<std::int32_t>(i));
+      nodes.push_back(value(part.node));
+      weights.insert(weights.end(), {part.weight.x(), part.weight.y()});
+    }
+  }
+  datasets.push_back(flag_dataset(dataset::kPointQuantity, quantities,
+                                  "what each point reads: 0 u_x, 1 u_y, 2 tilt [rad, counter-clockwise], 3 "
+                                  "how much longer a distance becomes"));
+  datasets.push_back(int_dataset(dataset::kPointOtherBlock, others, kFlat,
+                                 "of a distance between two blocks the second one, else -1"));
+  datasets.push_back(
+      int_dataset(dataset::kWeightPoint, of_point, kFlat,
+                  "point that each weight belongs to; those without any read u_y of their node"));
+  datasets.push_back(int_dataset(dataset::kWeightNode, nodes, kFlat, "node that each weight is of"));
+  datasets.push_back(
+      dataset_of(dataset::kWeight, ElementType::float64, weights, 2, "1",
+                 "how much u_x and u_y of the node count in what the point reads (tilts: 1/m)"));
+}
+
 void append_points(const std::vector<ControlPoint>& points, std::vector<DatasetValue>& datasets) {
   std::vector<std::string> names;
   std::vector<Point> positions;
@@ -136,6 +168,7 @@ void append_points(const std::vector<ControlPoint>& points, std::vector<DatasetV
       point_dataset(dataset::kPointPosition, positions, "x, y of the control points before loading"));
   datasets.push_back(int_dataset(dataset::kPointBlock, blocks, kFlat, "block of each control point"));
   datasets.push_back(int_dataset(dataset::kPointNode, nodes, kFlat, "node at each control point"));
+  if (!std::ranges::all_of(points, is_plain)) append_weights(points, datasets);
 }
 
 }  // namespace

@@ -24,6 +24,8 @@ inline constexpr std::size_t kStateNameWidth = 32;      ///< bytes, padded with 
 inline constexpr std::size_t kParameterNameWidth = 80;  ///< bytes, padded with zeros
 inline constexpr std::size_t kUnitWidth = 8;            ///< bytes, padded with zeros
 
+inline constexpr std::int32_t kNoBlock = -1;  ///< in the place of a block's number
+
 /// Paths of datasets.
 namespace dataset {
 inline constexpr char kBridgeText[] = "bridge/text";
@@ -50,6 +52,11 @@ inline constexpr char kPointName[] = "control/point_name";
 inline constexpr char kPointPosition[] = "control/point_position";
 inline constexpr char kPointBlock[] = "control/point_block";
 inline constexpr char kPointNode[] = "control/point_node";
+inline constexpr char kPointQuantity[] = "control/point_quantity";
+inline constexpr char kPointOtherBlock[] = "control/point_other_block";
+inline constexpr char kWeightPoint[] = "control/weight_point";
+inline constexpr char kWeightNode[] = "control/weight_node";
+inline constexpr char kWeight[] = "control/weight";
 inline constexpr char kStates[] = "history/states";
 inline constexpr char kErrorShare[] = "model_error/share";
 inline constexpr char kErrorCommon[] = "model_error/common";
@@ -114,8 +121,9 @@ DatasetValue text_dataset(const char* path, const std::string& text, const char*
 
 /// The datasets that all records share (bridge text, settings, geometry, control points, states, model error,
 /// sensitivities unless they are null, variants) in the order in which the content digest takes them. Those
-/// of joints are missing if the bridge has none: an empty dataset has no place that could be mapped. Throws
-/// Failure for a name that is too long to be stored.
+/// of joints are missing if the bridge has none: an empty dataset has no place that could be mapped; and
+/// those of what points read if all are control points. Throws Failure for a name that is too long to be
+/// stored.
 std::vector<DatasetValue> shared_datasets(const Provenance& provenance, const Model& bridge,
                                           const std::vector<VariantParameters>& variants,
                                           const std::vector<std::string>& states,

@@ -15,6 +15,7 @@ std::vector<ControlPoint> stored_points(const Database& database) {
   if (nodes.size() != stored.size())
     throw InputError(fmt::format("{}: dataset '{}' has {} rows where {} were expected",
                                  database.path().string(), dataset::kPointNode, nodes.size(), stored.size()));
+  auto weights = database.point_weights();
   std::vector<ControlPoint> points;
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     const IndexRange& own = database.mesh().block_nodes.at(static_cast<std::size_t>(stored[i].block));
@@ -22,7 +23,8 @@ std::vector<ControlPoint> stored_points(const Database& database) {
       throw InputError(fmt::format("{}: control point {} has node {}, expected one of its block's ({} to {})",
                                    database.path().string(), stored[i].name, nodes[i], own.begin,
                                    own.end - 1));
-    points.push_back({stored[i].name, NodeId{nodes[i]}, stored[i].block, stored[i].position});
+    points.push_back({stored[i].name, NodeId{nodes[i]}, stored[i].block, stored[i].position,
+                      stored[i].quantity, std::move(weights[i]), stored[i].other_block});
   }
   return points;
 }

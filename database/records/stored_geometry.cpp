@@ -133,6 +133,22 @@ std::span<const std::uint8_t> read_flags(const Hdf5File& file, const char* path,
   return flags;
 }
 
+bool is_node_of(BlockId block, std::int32_t node, const Mesh& mesh) {
+  const IndexRange& own = mesh.block_nodes.at(static_cast<std::size_t>(value(block)));
+  return node >= own.begin && node < own.end;
+}
+
+void read_quantities(const Hdf5File& file, std::vector<StoredPoint>& points) {
+  const auto quantities =
+      read_flags(file, dataset::kPointQuantity, points.size(), static_cast<std::uint8_t>(Quantity::distance));
+  const auto others = read_ints(file, dataset::kPointOtherBlock, kFlat);
+  require_size(file, dataset::kPointOtherBlock, others.size(), points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    points[i].quantity = static_cast<Quantity>(quantities[i]);
+    if (others[i] != kNoBlock) points[i].other_block = BlockId{others[i]};
+  }
+}
+
 }  // namespace
 
 BlockLayout read_layout(const Hdf5File& file) {
@@ -224,7 +240,33 @@ std::vector<StoredPoint> read_control_points(const Hdf5File& file) {
   std::vector<StoredPoint> points;
   for (std::size_t i = 0; i < blocks.size(); ++i)
     points.push_back({names[i], {positions[2 * i], positions[2 * i + 1]}, BlockId{blocks[i]}});
+  if (file.has(dataset::kPointQuantity)) read_quantities(file, points);
   return points;
+}
+
+std::vector<std::vector<NodeWeight>> read_weights(const Hdf5File& file,
+                                                  const std::vector<StoredPoint>& points, const Mesh& mesh) {
+  std::vector<std::vector<NodeWeight>> weights(points.size());
+  if (!file.has(dataset::kPointQuantity)) return weights;
+  const auto of_point = read_indices(file, dataset::kWeightPoint, kFlat, points.size());
+  const auto nodes =
+      read_indices(file, dataset::kWeightNode, kFlat, static_cast<std::size_t>(mesh.node_count()));
+  const auto numbers = read_points(file, dataset::kWeight);
+  require_size(file, dataset::kWeightNode, nodes.size(), of_point.size());
+  require_size(file, dataset::kWeight, numbers.size() / 2, of_point.size());
+  for (std::size_t i = 0; i < of_point.size(); ++i) {
+    const auto place = static_cast<std::size_t>(of_point[i]);
+    const StoredPoint& point = points[place];
+    file.require(is_node_of(point.block, nodes[i], mesh) ||
+                     (point.other_block && is_node_of(*point.other_block, nodes[i], mesh)),
+                 fmt::format("dataset '{}' has node {} in row {}, expected one of a block of sensor {}",
+                             dataset::kWeightNode, nodes[i], i, point.name));
+    weights[place].push_back({NodeId{nodes[i]}, {numbers[2 * i], numbers[2 * i + 1]}});
+  }
+  for (std::size_t i = 0; i < points.size(); ++i)
+    file.require(points[i].quantity == Quantity::uy || !weights[i].empty(),
+                 fmt::format("dataset '{}' has no weights of sensor {}", dataset::kWeight, points[i].name));
+  return weights;
 }
 
 }  // namespace voussoir

@@ -12,6 +12,9 @@ BlockLayout read_layout(const Hdf5File& file);
 Mesh read_mesh(const Hdf5File& file, std::size_t blocks);
 std::vector<Joint> read_joints(const Hdf5File& file, const Mesh& mesh);
 std::vector<StoredPoint> read_control_points(const Hdf5File& file);
+/// What each of the points reads; none: how far its node goes up. Precondition: the points' blocks exist.
+std::vector<std::vector<NodeWeight>> read_weights(const Hdf5File& file,
+                                                  const std::vector<StoredPoint>& points, const Mesh& mesh);
 std::vector<std::string> read_states(const Hdf5File& file);
 
 }  // namespace voussoir

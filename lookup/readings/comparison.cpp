@@ -26,12 +26,16 @@ std::vector<Channel> control_point_channels(const SensorList& list) {
   return channels;
 }
 
+bool is_vertical(const Channel& channel) {
+  return channel.sensor->quantity == Quantity::uy;
+}
+
 /// Readings of heights with one load were levelled together; other instruments have no common level.
 std::vector<int> levelling_of(const std::vector<Channel>& channels) {
   std::vector<int> groups;
   std::vector<std::string> loads;
   for (const Channel& channel : channels) {
-    if (channel.sensor->quantity != Quantity::uy) {
+    if (!is_vertical(channel)) {
       groups.push_back(kNoLevelling);
       continue;
     }
@@ -101,15 +105,15 @@ ModelError model_error_of(const Database& database, std::size_t base, const std:
   return result;
 }
 
-/// Of other sensors than control points the database has no sensitivities.
+/// Of sensors that are not its own the database has no sensitivities.
 void require_control_points(const ReadingsFile& file, const SensorList& list) {
   for (const Reading& reading : file.readings)
     if (reading.sensor >= list.control_points)
       throw InputError(
           at_line(file.name, reading.line,
-                  fmt::format("sensor {} is no control point: what it shows of a bridge that is not "
-                              "exactly known is not in the database; expected control points, or "
-                              "--known-bridge",
+                  fmt::format("sensor {} is not of the database: what it shows of a bridge that is not "
+                              "exactly known follows when the database is built with it ([[sensors]] in the "
+                              "bridge file); expected a sensor of the database, or --known-bridge",
                               in_quotes(list.sensors[reading.sensor].name))));
 }
 
@@ -155,7 +159,7 @@ Comparison compare(const ReadingsFile& file, const SensorList& list, const Datab
     require_control_points(file, list);
     result.factors = reading_factors(*sensitivities, states.base, channels, result.library.layout.size());
   }
-  if (own_table) return result;
+  if (own_table && std::ranges::all_of(channels, is_vertical)) return result;
   result.levelling = levelling_of(channels);
   for (const Channel& channel : channels) {
     result.quantity.push_back(channel.sensor->quantity);
@@ -167,6 +171,10 @@ Comparison compare(const ReadingsFile& file, const SensorList& list, const Datab
 /// In the database's own table the channels are control points, else the file's rows.
 std::size_t channel_of(const Comparison& comparison, const Reading& reading, std::size_t position) {
   return comparison.library.storage == nullptr ? reading.sensor : position;
+}
+
+Quantity quantity_of(const Comparison& comparison, std::size_t channel) {
+  return comparison.quantity.empty() ? Quantity::uy : comparison.quantity[channel];
 }
 
 std::vector<double> origin_of(const Comparison& comparison) {

@@ -46,15 +46,17 @@ struct ComparisonSettings {
 /// Readings beside the predictions of the database's states. Without a wish absolute readings are compared
 /// with the history `built`, all others with `lost`, or with the other one where the database lacks states.
 /// Changes and absolute readings at control points are compared with the database's own table and its search
-/// index; for all others a library of their own is computed, from the fields where sensors are no control
-/// points. Throws InputError for histories and loads that the database lacks, for a bridge that does not
-/// stand and, unless it is to count as known, for sensors that are no control points; Failure without the
+/// index; for all others a library of their own is computed, from the fields where sensors are not the
+/// database's. Throws InputError for histories and loads that the database lacks, for a bridge that does not
+/// stand and, unless it is to count as known, for sensors that are not the database's; Failure without the
 /// fields.
 Comparison compare(const ReadingsFile& file, const SensorList& list, const Database& database,
                    const ComparisonSettings& settings);
 
 /// The channel of the file's reading number `position`.
 std::size_t channel_of(const Comparison& comparison, const Reading& reading, std::size_t position);
+
+Quantity quantity_of(const Comparison& comparison, std::size_t channel);
 
 /// What has been added to the readings of each channel [m]: the intact bridge's prediction to changes, else
 /// zero.

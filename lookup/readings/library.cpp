@@ -72,7 +72,7 @@ class Predictions {
   double shown(const Channel& channel, std::size_t row, std::size_t state,
                const std::vector<Field>& fields) const {
     return channel.sensor->weights.empty() ? tables_[state].row(row)[channel.point]
-                                           : reading_of(*channel.sensor, fields[state]);
+                                           : weighted_sum(channel.sensor->weights, fields[state]);
   }
 
   const Database& database_;

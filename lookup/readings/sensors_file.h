@@ -1,5 +1,5 @@
 #pragma once
-/// @file Files of sensors, beside the control points that every database has.
+/// @file Files of sensors, beside those that the database has.
 ///
 /// A CSV table (csv_text.h, decimal_mark.h) with the columns `name`; `quantity`: ux, uy, tilt or distance;
 /// the place `x_m,y_m`, and for a distance the other place `x2_m,y2_m`; and, where blocks meet at a place,
@@ -15,9 +15,6 @@
 #include "lookup/readings/sensor.h"
 
 namespace voussoir {
-
-/// Places are given to the millimetre: as near [m] to a block they belong to it, and to both of two blocks.
-inline constexpr double kPlaceTolerance = 1e-3;
 
 /// Appends the file's sensors to the list. Throws InputError "file:line: ..." for a name that is there
 /// already, an unknown quantity, a place outside the bridge or where blocks meet and none is named, a

@@ -7,7 +7,7 @@
 
 #include "core/error.h"
 #include "core/solve/state_name.h"
-#include "core/structure/control_point.h"
+#include "core/structure/reading_weights.h"
 #include "core/text.h"
 
 namespace voussoir {
@@ -15,8 +15,22 @@ namespace {
 
 constexpr double kInside = 1e-9;  // barycentric coordinates may be negative by this much: rounding
 
-NodeId node_of(const StoredPoint& point, const Mesh& mesh) {
-  return point_at(point.name, mesh, point.block, point.position).node;
+/// Tilts and distances are of no one place.
+bool moves(const StoredPoint& point) {
+  return point.quantity == Quantity::ux || point.quantity == Quantity::uy;
+}
+
+/// What a database without fields knows of a point: what it reads.
+Point read_displacement(const StoredPoint& point, double reading) {
+  constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+  return point.quantity == Quantity::ux ? Point(reading, kUnknown) : Point(kUnknown, reading);
+}
+
+/// Of the place of a point, by the triangle of its block about it.
+Point displacement_of(const StoredPoint& point, const Mesh& mesh, const Field& field) {
+  const Place place{point.position, point.block};
+  return {weighted_sum(displacement_weights(place, Point(1.0, 0.0), mesh), field),
+          weighted_sum(displacement_weights(place, Point(0.0, 1.0), mesh), field)};
 }
 
 std::vector<PlaceDisplacement> at_points(const Database& database, std::size_t row, std::size_t state,
@@ -27,10 +41,8 @@ std::vector<PlaceDisplacement> at_points(const Database& database, std::size_t r
   std::vector<PlaceDisplacement> result;
   for (const std::size_t i : points) {
     const StoredPoint& point = database.control_points()[i];
-    const Point displacement = has_fields
-                                   ? Point(field.col(value(node_of(point, database.mesh()))))
-                                   : Point(std::numeric_limits<double>::quiet_NaN(), table.row(row)[i]);
-    result.push_back({point.name, displacement});
+    result.push_back({point.name, has_fields ? displacement_of(point, database.mesh(), field)
+                                             : read_displacement(point, table.row(row)[i])});
   }
   return result;
 }
@@ -43,6 +55,9 @@ std::size_t find_point(const Database& database, std::string_view name) {
     throw InputError(fmt::format(
         "--at: unknown point {}, expected control, coordinates X,Y in metres, or names from {} to {}",
         in_quotes(name), points.front().name, points.back().name));
+  if (!moves(*found))
+    throw InputError(fmt::format("--at: sensor {} reads a {}, expected a point that moves", in_quotes(name),
+                                 to_string(found->quantity)));
   return static_cast<std::size_t>(found - points.begin());
 }
 
@@ -115,7 +130,9 @@ std::vector<PlaceDisplacement> displacements_at(const Database& database, std::s
     return {{fmt::format("{},{}", place->x(), place->y()), displacement_at(database, row, state, *place)}};
   std::vector<std::size_t> points;
   if (at == "control")
-    for (std::size_t i = 0; i < database.control_points().size(); ++i) points.push_back(i);
+    for (std::size_t i = 0; i < database.control_points().size(); ++i) {
+      if (moves(database.control_points()[i])) points.push_back(i);
+    }
   else
     for (const std::string_view name : parts) points.push_back(find_point(database, name));
   return at_points(database, row, state, points);

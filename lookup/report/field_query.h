@@ -29,10 +29,10 @@ std::size_t find_row(const Database& database, std::string_view scene);
 /// Throws Failure if the scene falls in a state and the database keeps only that.
 void expect_displacements(const Database& database, std::size_t row, std::size_t state);
 
-/// `at` is "control" (all control points), names of control points such as "T12,A3", or coordinates "X,Y" in
-/// metres, where the displacement is interpolated within the triangle that holds the place. Throws InputError
-/// for unknown points and places outside the scene's blocks, Failure for coordinates in a database without
-/// fields.
+/// `at` is "control" (all control points and the bridge file's sensors of ux and uy), names of such as
+/// "T12,A3", or coordinates "X,Y" in metres, where the displacement is interpolated within the triangle that
+/// holds the place. Throws InputError for unknown points, sensors of a tilt or a distance and places outside
+/// the scene's blocks, Failure for coordinates in a database without fields.
 std::vector<PlaceDisplacement> displacements_at(const Database& database, std::size_t row, std::size_t state,
                                                 std::string_view at);
 

@@ -91,8 +91,9 @@ std::string plan_json(const SensorPlan& plan, const PlannedBridge& bridge) {
 using Text = std::back_insert_iterator<std::string>;
 
 void write_heading(Text to, const SensorPlan& plan, const PlannedBridge& bridge) {
-  fmt::format_to(to, "Plan:         changes between two times at {} control points, each off by {:g} mm\n",
-                 plan.points.size(), kMillimetres * bridge.settings.sigma);
+  fmt::format_to(to, "Plan:         changes between two times at {} points, each off by {:g} mm{}\n",
+                 plan.points.size(), kMillimetres * bridge.settings.sigma,
+                 plan.has_tilts ? " (tilts: mm per m)" : "");
   fmt::format_to(to, "Database:     {} (bridge '{}', digest {})\n", bridge.database.path().string(),
                  bridge.database.bridge_name(), bridge.database.digest().substr(0, kDigestShown));
   fmt::format_to(to, "History:      {}\n", history_in_words(plan.history));

@@ -59,9 +59,11 @@ std::string axis_in_words(ReadingKind kind, Quantity quantity) {
 }
 
 std::string readings_in_words(const Comparison& comparison, std::size_t readings) {
-  const bool control_points = comparison.library.storage == nullptr;
+  const std::string_view what = comparison.library.storage != nullptr ? "rows"
+                                : comparison.quantity.empty()         ? "control points"
+                                                                      : "sensors";
   const std::size_t channels = comparison.library.points.size();
-  return fmt::format("{} of {} {} have a {}", readings, channels, control_points ? "control points" : "rows",
+  return fmt::format("{} of {} {} have a {}", readings, channels, what,
                      comparison.kind == ReadingKind::absolute
                          ? "reading"
                          : fmt::format("reading ({})", value_in_words(comparison.kind)));
@@ -71,10 +73,6 @@ std::string history_in_words(const std::string& history) {
   if (history == kBuiltState) return history + " (missing blocks were never there)";
   if (history == kLostState) return history + " (missing blocks went while the bridge carried its weight)";
   return history;
-}
-
-Quantity quantity_of(const Comparison& comparison, std::size_t channel) {
-  return comparison.quantity.empty() ? Quantity::uy : comparison.quantity[channel];
 }
 
 ShownReadings shown_readings(const Comparison& comparison, std::size_t row) {

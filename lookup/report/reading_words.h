@@ -31,9 +31,6 @@ std::string history_in_words(const std::string& history);
 /// order)", or how many sampled bridges, and what those cannot know. Precondition: there are factors.
 std::string evidence_in_words(const Comparison& comparison);
 
-/// The quantity of a channel.
-Quantity quantity_of(const Comparison& comparison, std::size_t channel);
-
 /// Readings as they are shown [m]: without what `compare` added to changes.
 struct ShownReadings {
   std::vector<double> reading;   ///< by channel; NaN where there is none

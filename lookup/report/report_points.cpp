@@ -27,7 +27,8 @@ ReportPictures::ReportPictures(const Answer& of, const Comparison& with)
 Site site_of(const ReportPictures& report, std::size_t point) {
   const auto& points = report.library.points;
   if (report.library.layout[points[point].block].role == BlockRole::ring) return Site::arch;
-  if (report.library.storage == nullptr) return Site::top;
+  if (report.library.storage == nullptr)
+    return report.library.layout[points[point].block].top_course ? Site::top : Site::elsewhere;
   const auto lower = [](const StoredPoint& a, const StoredPoint& b) {
     return a.position.y() < b.position.y();
   };

@@ -97,8 +97,9 @@ IndexedSearch::IndexedSearch(const SceneTable& table, const SearchIndex& index,
       most_rows_(largest_cluster(index)),
       units_(clusters_by_unit(index)) {
   for (const StoredPoint& point : points)
-    point_block_.push_back(static_cast<std::size_t>(value(point.block)));
-  for (const std::size_t block : point_block_) blocks_ = std::max(blocks_, block + 1);
+    point_blocks_.push_back({static_cast<std::size_t>(value(point.block)),
+                             static_cast<std::size_t>(value(point.other_block.value_or(point.block)))});
+  for (const auto& [block, other] : point_blocks_) blocks_ = std::max({blocks_, block + 1, other + 1});
   for (const std::int32_t block : table.removed)
     blocks_ = std::max(blocks_, static_cast<std::size_t>(block + 1));
   std::vector<bool> is_eligible(table.rows, false);
@@ -120,8 +121,9 @@ IndexedSearch::IndexedSearch(const SceneTable& table, const SearchIndex& index,
 void IndexedSearch::sort_out_blocks(Query& query) const {
   query.impossible.assign(blocks_ + kFirstBlock, 0);
   query.impossible[kNotEligible] = 1;
-  for (std::size_t i = 0; i < point_block_.size(); ++i)
-    if (!std::isnan(query.exact[i])) query.impossible[point_block_[i] + kFirstBlock] = 1;
+  for (std::size_t i = 0; i < point_blocks_.size(); ++i)
+    if (!std::isnan(query.exact[i]))
+      for (const std::size_t block : point_blocks_[i]) query.impossible[block + kFirstBlock] = 1;
 }
 
 void IndexedSearch::find_distances(Query& query) const {

@@ -2,6 +2,7 @@
 /// @file Exact search under Eq. 1, faster than scoring every row: bounds from the database's search index
 /// rule out nearly all rows, and only the rest are scored.
 
+#include <array>
 #include <span>
 #include <vector>
 
@@ -45,8 +46,8 @@ class IndexedSearch {
   const SceneTable& table_;
   SearchIndex index_;
   const Eligible& eligible_;
-  std::size_t most_rows_;                 // of a cluster
-  std::vector<std::size_t> point_block_;  // of each point
+  std::size_t most_rows_;                                 // of a cluster
+  std::vector<std::array<std::size_t, 2>> point_blocks_;  // of each point; twice the same if it has one
   std::size_t blocks_ = 0;
   std::vector<UnitClusters> units_;
   std::vector<std::uint32_t> unit_;     // of each cluster

@@ -61,7 +61,7 @@ Eigen::VectorXd solved_anew(QuasiStaticSolver& solver, const Model& bridge, cons
       stage.uneven_temperature[static_cast<Eigen::Index>(block)] = way;
     const Solution solution = solver.solve(StageTask{.stage = stage});
     REQUIRE(stands(solution));
-    return vertical_displacements(solution.displacement, bridge.control_points);
+    return readings_at(bridge.control_points, solution.displacement);
   };
   return action.parameter.sigma * (settled(step) - settled(-step)) / (2.0 * step);
 }
@@ -101,8 +101,7 @@ TEST_CASE("A database's sensitivities predict what a little more stiffness and h
         stage.stage = in_epoch(stage.stage, bridge, uncertain, change.of_epoch);
       const auto solutions = solve_history(solver, moved, &parameters);
       REQUIRE(solutions.back().outcome == Outcome::standing);
-      const Eigen::VectorXd now =
-          vertical_displacements(solutions.back().displacement, bridge.control_points);
+      const Eigen::VectorXd now = readings_at(bridge.control_points, solutions.back().displacement);
       const auto table = database.table(kNominalVariant, state);
       const auto row = table.row(*database.find(scene));
       const Eigen::VectorXd before = Eigen::Map<const Eigen::VectorXd>(row.data(), now.size());

@@ -46,8 +46,8 @@ struct Reference {
     return signal(solve_history(newton, history).back().displacement);
   }
   Eigen::VectorXd signal(const Field& field) const {
-    const Eigen::VectorXd change = vertical_displacements(field, bridge.control_points) -
-                                   vertical_displacements(*starts.intact(0), bridge.control_points);
+    const Eigen::VectorXd change =
+        readings_at(bridge.control_points, field) - readings_at(bridge.control_points, *starts.intact(0));
     return change.array().isNaN().select(0.0, change);
   }
 };

@@ -32,7 +32,7 @@ struct SyntheticLibrary {
   SyntheticLibrary(int courses, int length, int most = 2)
       : blocks(static_cast<std::size_t>(courses * length)), most_missing(static_cast<std::size_t>(most)) {
     for (int course = 1; course <= courses; ++course)
-      for (int position = 1; position <= length; ++position) add_block(course, position);
+      for (int position = 1; position <= length; ++position) add_block(course, position, course == courses);
     for (int i = 0; i < 2 * length; ++i)
       points.push_back({"T" + std::to_string(i + 1), Point((i + 1) / 2, courses),
                         BlockId{static_cast<std::int32_t>((courses - 1) * length + i / 2)}});
@@ -64,8 +64,9 @@ struct SyntheticLibrary {
   }
 
  private:
-  void add_block(int course, int position) {
+  void add_block(int course, int position, bool is_on_top) {
     Block block;
+    block.top_course = is_on_top;
     block.index = {course, position};
     block.label = to_string(block.index);
     block.kind = BlockKind::plain;

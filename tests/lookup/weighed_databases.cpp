@@ -12,7 +12,8 @@ using Catch::Matchers::Message;
 namespace {
 
 DatabaseReadings readings_in(const std::string& file, double width, const Point& crown) {
-  return {file, width, {{"T1", Point(0.0, 3.0)}, {"A4", crown}}, {"T1", "A4"}};
+  return {
+      file, width, {{"T1", {Point(0.0, 3.0), Quantity::uy}}, {"A4", {crown, Quantity::uy}}}, {"T1", "A4"}};
 }
 
 }  // namespace
@@ -32,6 +33,14 @@ TEST_CASE("Of a short bridge they may be a twentieth of its width apart") {
   CHECK_NOTHROW(require_one_bridge(std::vector{one, readings_in("b.h5", 5.0, Point(3.19, 2.0))}));
   CHECK_THROWS_AS(require_one_bridge(std::vector{one, readings_in("b.h5", 5.0, Point(3.21, 2.0))}),
                   InputError);
+}
+
+TEST_CASE("A sensor of one name reads the same of one bridge") {
+  const DatabaseReadings one = readings_in("a.h5", 20.0, Point(3.0, 2.0));
+  DatabaseReadings other = readings_in("b.h5", 20.0, Point(3.0, 2.0));
+  other.sensors.at("A4").quantity = Quantity::tilt;
+  CHECK_THROWS_MATCHES(require_one_bridge(std::vector{one, other}), InputError,
+                       Message("sensor A4 reads uy in a.h5 and tilt in b.h5, expected the same in both"));
 }
 
 TEST_CASE("As many readings in each database are not the same ones") {

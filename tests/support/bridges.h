@@ -14,6 +14,35 @@ inline BridgeDescription small_description() {
   return read_bridge_file(example_bridge("small")).description;
 }
 
+/// Sensors of every quantity, one of them over a joint.
+inline constexpr char kSmallSensors[] = R"(
+[[sensors]]
+name = "V1"
+x_m = 1.5
+y_m = 2.5
+block = "5,3"
+[[sensors]]
+name = "H1"
+quantity = "ux"
+x_m = 0.75
+y_m = 1.8
+[[sensors]]
+name = "N1"
+quantity = "tilt"
+block = "4,2"
+[[sensors]]
+name = "G1"
+quantity = "distance"
+x_m = 0.25
+y_m = 0.75
+x2_m = 0.25
+y2_m = 1.25
+)";
+
+inline BridgeFile small_file_with_sensors() {
+  return parse_bridge_file(read_bridge_file(example_bridge("small")).text + kSmallSensors, "small");
+}
+
 /// Its joints filled with a weak lime mortar.
 inline BridgeDescription small_description_with_mortar() {
   BridgeDescription description = small_description();
@@ -78,7 +107,7 @@ inline Model reference_bridge() {
 
 /// What the bridge's control points read [m].
 inline Eigen::VectorXd readings(const Model& bridge, const Field& field) {
-  return vertical_displacements(field, bridge.control_points);
+  return readings_at(bridge.control_points, field);
 }
 
 }  // namespace voussoir::test

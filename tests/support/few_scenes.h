@@ -23,7 +23,7 @@ struct FewScenes {
   FewScenes() {
     Progress quiet(Progress::Mode::quiet);
     BuildRequest request;
-    request.bridge = read_bridge_file(example_bridge("small"));
+    request.bridge = small_file_with_sensors();
     request.output = path;
     request.scenes = "intact;4,1..3;0,5;4,1+4,2";
     request.threads = 1;

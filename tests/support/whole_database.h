@@ -27,6 +27,7 @@ inline void read_all(const std::filesystem::path& path) {
   const Database database = Database::open(path);
   static_cast<void>(database.layout());
   static_cast<void>(database.mesh());
+  static_cast<void>(database.point_weights());
   static_cast<void>(database.provenance());
   static_cast<void>(database.search_index());
   static_cast<void>(database.joints());

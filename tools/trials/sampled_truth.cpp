@@ -110,7 +110,7 @@ std::vector<State> go_to_epoch(QuasiStaticSolver& solver, const std::vector<Mode
 }
 
 std::vector<double> shown(const State& state, const Model& bridge) {
-  const Eigen::VectorXd vertical = vertical_displacements(state.displacement, bridge.control_points);
+  const Eigen::VectorXd vertical = readings_at(bridge.control_points, state.displacement);
   return {vertical.begin(), vertical.end()};
 }
 

@@ -19,12 +19,11 @@ Signals signals_of(const BridgeDescription& description, JointRule rule = JointR
   settings.joint_rule = rule;
   QuasiStaticSolver solver(bridge, settings);
   const Field intact = solver.solve(Scene{}).displacement;
-  Signals signals = {{"intact", vertical_displacements(intact, bridge.control_points)}};
+  Signals signals = {{"intact", readings_at(bridge.control_points, intact)}};
   for (const std::string name : kScenes)
-    signals[name] =
-        vertical_displacements(solver.solve(parse_scene(name, bridge.layout), intact).displacement,
-                               bridge.control_points) -
-        signals["intact"];
+    signals[name] = readings_at(bridge.control_points,
+                                solver.solve(parse_scene(name, bridge.layout), intact).displacement) -
+                    signals["intact"];
   return signals;
 }
 
@@ -190,8 +189,8 @@ Findings load_steps() {
   Findings findings;
   const Model bridge = make_model({});
   for (const std::string name : {"intact", "10,4", "10,12"}) {
-    const Eigen::VectorXd once = vertical_displacements(in_load_steps(name, 1), bridge.control_points);
-    const Eigen::VectorXd often = vertical_displacements(in_load_steps(name, 10), bridge.control_points);
+    const Eigen::VectorXd once = readings_at(bridge.control_points, in_load_steps(name, 1));
+    const Eigen::VectorXd often = readings_at(bridge.control_points, in_load_steps(name, 10));
     findings.cases.push_back(absolute_case({.name = fmt::format("Load steps, {}", name),
                                             .quantity = "difference of d between 1 and 10 steps, relative",
                                             .expected = 0.0,

@@ -25,12 +25,11 @@ Signals polished_signals(const Setting& setting, const std::vector<Solution>& so
   for (std::size_t i = 0; i < solutions.size(); ++i) {
     const std::string& name = setting.scenes[i].scene;
     if (solutions[i].outcome == Outcome::standing)
-      signals[name] =
-          vertical_displacements(solver
-                                     .solve({.stage = {.scene = parse_scene(name, setting.bridge.layout)},
-                                             .start = &solutions[i].displacement})
-                                     .displacement,
-                                 setting.bridge.control_points);
+      signals[name] = readings_at(setting.bridge.control_points,
+                                  solver
+                                      .solve({.stage = {.scene = parse_scene(name, setting.bridge.layout)},
+                                              .start = &solutions[i].displacement})
+                                      .displacement);
   }
   for (auto& [name, signal] : signals)
     if (name != "intact" && signals.contains("intact")) signal -= signals["intact"];
@@ -95,9 +94,8 @@ void run_setting(const Setting& setting, double tolerance, const Signals* refere
                  .iterations = solutions[i].iterations};
     row.correct = solutions[i].outcome == expectation.outcome;
     if (solutions[i].outcome == Outcome::standing) {
-      Eigen::VectorXd signal =
-          vertical_displacements(solutions[i].displacement, setting.bridge.control_points);
-      if (i > 0) signal -= vertical_displacements(solutions[0].displacement, setting.bridge.control_points);
+      Eigen::VectorXd signal = readings_at(setting.bridge.control_points, solutions[i].displacement);
+      if (i > 0) signal -= readings_at(setting.bridge.control_points, solutions[0].displacement);
       if (expected.contains(expectation.scene))
         row.error = relative_difference(signal, expected.at(expectation.scene));
       row.correct = row.correct && in_equilibrium(setting.bridge, expectation.scene, solutions[i]) &&

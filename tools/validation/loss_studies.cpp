@@ -45,7 +45,7 @@ class Losses {
   Eigen::VectorXd change(const Solution& from, const Solution& to) const {
     if (from.outcome != Outcome::standing || to.outcome != Outcome::standing)
       throw std::runtime_error("the bridge does not stand");
-    return vertical_displacements(to.displacement - from.displacement, bridge_.control_points);
+    return readings_at(bridge_.control_points, to.displacement - from.displacement);
   }
 
  private:

@@ -27,8 +27,8 @@ HardCase step_case(const Model& bridge, double share, double critical, const Eig
   try {
     const DynamicSolution solution = moved(bridge, share * critical);
     row.verdict = std::string(to_string(solution.solution.outcome));
-    row.error = relative_difference(
-        vertical_displacements(solution.solution.displacement, bridge.control_points), tightest);
+    row.error =
+        relative_difference(readings_at(bridge.control_points, solution.solution.displacement), tightest);
     row.iterations = solution.solution.iterations;
   } catch (const InputError&) {
     row.verdict = "refused";
@@ -45,7 +45,7 @@ Findings time_steps() {
   const Model bridge = make_model(small_bridge());
   const double critical = DynamicSolver(bridge).critical_step();
   const Eigen::VectorXd tightest =
-      vertical_displacements(moved(bridge, 0.05 * critical).solution.displacement, bridge.control_points);
+      readings_at(bridge.control_points, moved(bridge, 0.05 * critical).solution.displacement);
   for (const double share : {0.1, 0.3, 0.9, 0.99, 1.0, 1.01, 2.0, 100.0})
     findings.hard_cases.push_back(step_case(bridge, share, critical, tightest));
   return findings;
@@ -79,15 +79,14 @@ Findings starting_guesses() {
   const Field answer = solver.solve(scene).displacement;
   for (const auto& [name, start] : bad_starts(bridge, answer)) {
     const Solution solution = solver.solve(scene, start);
-    HardCase row{
-        .sweep = "starting guess",
-        .setting = name,
-        .scene = kScene,
-        .verdict = std::string(to_string(solution.outcome)),
-        .expected = "standing, as from rest within 1e-6",
-        .error = relative_difference(vertical_displacements(solution.displacement, bridge.control_points),
-                                     vertical_displacements(answer, bridge.control_points)),
-        .iterations = solution.iterations};
+    HardCase row{.sweep = "starting guess",
+                 .setting = name,
+                 .scene = kScene,
+                 .verdict = std::string(to_string(solution.outcome)),
+                 .expected = "standing, as from rest within 1e-6",
+                 .error = relative_difference(readings_at(bridge.control_points, solution.displacement),
+                                              readings_at(bridge.control_points, answer)),
+                 .iterations = solution.iterations};
     row.correct = solution.outcome == Outcome::standing && *row.error < 1e-6;
     findings.hard_cases.push_back(row);
   }
@@ -101,10 +100,9 @@ Findings single_precision() {
     const Model bridge = make_model(reference ? BridgeDescription{} : small_bridge());
     const std::string name = reference ? "10,4" : kScene;
     QuasiStaticSolver solver(bridge);
-    const Eigen::VectorXd intact =
-        vertical_displacements(solver.solve(Scene{}).displacement, bridge.control_points);
-    const Eigen::VectorXd damaged = vertical_displacements(
-        solver.solve(parse_scene(name, bridge.layout)).displacement, bridge.control_points);
+    const Eigen::VectorXd intact = readings_at(bridge.control_points, solver.solve(Scene{}).displacement);
+    const Eigen::VectorXd damaged =
+        readings_at(bridge.control_points, solver.solve(parse_scene(name, bridge.layout)).displacement);
     const Eigen::VectorXd rounded =
         damaged.cast<float>().cast<double>() - intact.cast<float>().cast<double>();
     HardCase row{.sweep = "single precision storage",

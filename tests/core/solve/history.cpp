@@ -13,7 +13,7 @@ using namespace voussoir;
 namespace {
 
 Eigen::VectorXd settlements(const Model& bridge, const Solution& solution) {
-  return vertical_displacements(solution.displacement, bridge.control_points);
+  return readings_at(bridge.control_points, solution.displacement);
 }
 
 }  // namespace

@@ -20,7 +20,7 @@ Eigen::VectorXd control_displacements(const Model& bridge, QuasiStaticSolver& so
                                       const std::string& scene) {
   const Solution solution = solver.solve(parse_scene(scene, bridge.layout));
   REQUIRE(solution.outcome == Outcome::standing);
-  const Eigen::VectorXd d = vertical_displacements(solution.displacement, bridge.control_points);
+  const Eigen::VectorXd d = readings_at(bridge.control_points, solution.displacement);
   return d.array().isNaN().select(0.0, d);
 }
 

@@ -29,7 +29,7 @@ struct Bench {
   UncertainParameters uncertain = uncertain_parameters(bridge, {});
   QuasiStaticSolver solver{bridge, tight()};
   Coefficients coefficients{solver.system(), bridge.parameters};
-  Eigen::MatrixXd readings = vertical_readings(bridge, bridge.control_points);
+  Eigen::MatrixXd readings = reading_columns(bridge, bridge.control_points);
   SensitivitySolver sensitivities{solver.system(), uncertain};
 
   std::size_t of_bridge() const { return uncertain.of_bridge.size(); }
@@ -104,7 +104,7 @@ struct Draw {
 };
 
 double reading_of(const Bench& bench, const std::vector<Solution>& solutions, Eigen::Index reading) {
-  return vertical_displacements(solutions.back().displacement, bench.bridge.control_points)[reading];
+  return readings_at(bench.bridge.control_points, solutions.back().displacement)[reading];
 }
 
 struct Readings {
@@ -175,8 +175,8 @@ TEST_CASE("Adjoint sensitivities of all that an epoch may do are central differe
   const auto vertical_at = [&](Eigen::Index parameter, double way) {
     Eigen::VectorXd there = bench.nominal();
     there[parameter] += way;
-    return Eigen::VectorXd(vertical_displacements(bench.solve(stages, there, &nominal).back().displacement,
-                                                  bench.bridge.control_points));
+    return Eigen::VectorXd(
+        readings_at(bench.bridge.control_points, bench.solve(stages, there, &nominal).back().displacement));
   };
   for (std::size_t i = bench.of_bridge(); i < bench.parameters(); ++i) {
     INFO(bench.uncertain.all()[i].name);
@@ -246,7 +246,7 @@ TEST_CASE("Adjoint sensitivities are central differences where joints have slipp
   append_stage(bench.solver.system(), bench.coefficients, {.scene = scene}, nominal, 1, history);
   const Eigen::MatrixXd adjoint = bench.sensitivities.solve(history, bench.readings).value();
   const auto vertical = [&](const Solution& solution) {
-    return vertical_displacements(solution.displacement, bench.bridge.control_points);
+    return readings_at(bench.bridge.control_points, solution.displacement);
   };
   int compared = 0;
   for (std::size_t parameter = 0; parameter < bench.of_bridge(); parameter += 7) {

@@ -153,8 +153,7 @@ TEST_CASE(
   const EquilibriumSystem& system = solver.system();
   const Coefficients coefficients(system, bridge.parameters);
   CHECK(unbalanced_force(StageEquations(system, coefficients, settled), moved.displacement) < 1e-7);
-  const Eigen::VectorXd change =
-      vertical_displacements(moved.displacement - still.displacement, bridge.control_points);
+  const Eigen::VectorXd change = readings_at(bridge.control_points, moved.displacement - still.displacement);
   CHECK(change.head(1)[0] < -0.9e-3);    // T1 stands on the foot that settled
   CHECK(std::abs(change[39]) < 0.1e-3);  // T40 on the other one
   const Solution again = solver.solve(StageTask{.stage = {}});
@@ -188,10 +187,9 @@ TEST_CASE(
   const Solution later =
       solver.solve(StageTask{.stage = softer, .start = &built.displacement, .before = &built});
   REQUIRE(stands(later));
-  const double sank =
-      vertical_displacements(later.displacement - built.displacement, bridge.control_points).sum();
+  const double sank = readings_at(bridge.control_points, later.displacement - built.displacement).sum();
   const double expected_sank =
-      vertical_displacements(expected.displacement - built.displacement, bridge.control_points).sum();
+      readings_at(bridge.control_points, expected.displacement - built.displacement).sum();
   CHECK(sank == Approx(expected_sank).epsilon(0.05));
   CHECK(solver.solve(StageTask{}).displacement == built.displacement);
 }

@@ -47,7 +47,8 @@ std::vector<double> numbers_of(const BridgeDescription& d) {
                                  double(d.mesh.split_at_corners),
                                  d.gravity,
                                  d.joint_tolerance,
-                                 d.material.thermal_expansion};
+                                 d.material.thermal_expansion,
+                                 double(d.control_points.face)};
   const std::vector<double> uncertain = numbers_of(d.uncertainty);
   numbers.insert(numbers.end(), uncertain.begin(), uncertain.end());
   numbers.push_back(double(d.collapse_fields));
@@ -106,6 +107,7 @@ const std::vector<Key> kKeys = {{"[wall]\nlength_m = 30.0", 0, 30.0},
                                 {"gravity_m_s2 = 1.62", 21, 1.62},
                                 {"[joints]\ntolerance_m = 1e-4", 22, 1e-4},
                                 {"[material]\nthermal_expansion_per_K = 1e-5", 23, 1e-5},
+                                {"[control_points]\nface = true", 24, 1.0},
                                 {"[uncertainty]\njoint_stiffness_cv = 0.1", 24, 0.1},
                                 {"[uncertainty]\nregional_stiffness_cv = 0.12", 25, 0.12},
                                 {"[uncertainty]\ncommon_stiffness_cv = 0.15", 26, 0.15},

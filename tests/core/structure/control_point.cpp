@@ -88,13 +88,36 @@ TEST_CASE("Points of a bridge of two spans are mirror images of each other, last
   }
 }
 
+TEST_CASE("Points on the face are the middles of the wall's blocks and read them exactly (closed form)",
+          "[control-points]") {
+  BridgeDescription description = read_bridge_file(test::example_bridge("reference")).description;
+  description.control_points = {.top = false, .arch = false, .face = true};
+  const Model bridge = make_model(description);
+  REQUIRE(bridge.control_points.size() == 193);  // 212 blocks without the arch's 19
+  const Eigen::Vector2d slope(3e-4, -2e-4);
+  Field field = Field::Zero(2, bridge.mesh.node_count());
+  field.row(1) = 1e-3 + (slope.transpose() * bridge.mesh.nodes).array();
+  const Eigen::VectorXd read = readings_at(bridge.control_points, field);
+  std::size_t next = 0;
+  for (std::size_t b = 0; b < bridge.layout.size(); ++b) {
+    const Block& block = bridge.layout.blocks[b];
+    if (block.role == BlockRole::ring) continue;
+    const ControlPoint& point = bridge.control_points[next];
+    CHECK(point.name == fmt::format("F{}", next + 1));
+    CHECK(static_cast<std::size_t>(value(point.block)) == b);
+    CHECK(read[static_cast<Eigen::Index>(next)] ==
+          Approx(1e-3 + slope.dot(centroid(block.polygon))).epsilon(1e-12));
+    ++next;
+  }
+}
+
 TEST_CASE("Vertical displacements are those of the points' nodes, in the points' order (written out)",
           "[control-points]") {
   const Model bridge = test::small_bridge();
   Field field(2, bridge.mesh.node_count());
   for (Eigen::Index node = 0; node < field.cols(); ++node)
     field.col(node) << 0.5, -bridge.mesh.nodes(0, node) - 100.0 * bridge.mesh.nodes(1, node);
-  const Eigen::VectorXd d = vertical_displacements(field, bridge.control_points);
+  const Eigen::VectorXd d = readings_at(bridge.control_points, field);
   REQUIRE(d.size() == static_cast<Eigen::Index>(bridge.control_points.size()));
   for (Eigen::Index i = 0; i < d.size(); ++i) {
     const Point& place = bridge.control_points[static_cast<std::size_t>(i)].position;

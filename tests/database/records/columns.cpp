@@ -11,6 +11,7 @@
 #include "database/records/columns.h"
 #include "database/records/database.h"
 #include "database/records/schema.h"
+#include "tests/support/bridges.h"
 #include "tests/support/file_text.h"
 #include "tests/support/hdf5_datasets.h"
 #include "tests/support/made_up_database.h"
@@ -21,6 +22,12 @@ namespace {
 
 std::string source_text(const std::string& path) {
   return test::text_of(std::filesystem::path(VOUSSOIR_SOURCE_DIR) / path);
+}
+
+std::size_t weight_count(const Model& bridge) {
+  std::size_t count = 0;
+  for (const ControlPoint& point : bridge.control_points) count += point.weights.size();
+  return count;
 }
 
 /// A row of the table of datasets.
@@ -42,7 +49,7 @@ struct ManySizes {
   static constexpr std::size_t kScenes = 50, kVariants = 3, kStates = 4;
   test::TemporaryFolder folder;
   std::filesystem::path path = folder / "sizes.h5";
-  BridgeFile file = test::small_bridge_file();
+  BridgeFile file = test::small_file_with_sensors();
   Model bridge = make_model(file.description);
   std::map<std::string, std::uint64_t> extents;
 
@@ -60,6 +67,7 @@ struct ManySizes {
                {"Q", kStates},
                {"V", kVariants},
                {"P", bridge.control_points.size()},
+               {"P1", weight_count(bridge)},
                {"W", places_for(bridge.control_points.size())},
                {"K", database.search_index().clusters()},
                {"K + 1", database.search_index().clusters() + 1},

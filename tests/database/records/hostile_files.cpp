@@ -8,6 +8,7 @@
 #include "database/records/database.h"
 #include "database/records/schema.h"
 #include "database/search/stored_index.h"
+#include "tests/support/bridges.h"
 #include "tests/support/made_up_database.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/whole_database.h"
@@ -257,6 +258,42 @@ TEST_CASE("Indices that point outside of their tables are refused") {
     CHECK_THAT(refusal(dataset::kPointBlock, bridge.control_points.size(), number),
                Catch::Contains("does not exist"));
   }
+}
+
+TEST_CASE("What sensors read is refused if it is of another block, of no point or of no number") {
+  auto scenes = all_scenes(38, 1);
+  const BridgeFile sensed = test::small_file_with_sensors();
+  const Model bridge = make_model(sensed.description);
+  const std::string good = test::made_up_bytes(sensed, scenes);
+  std::size_t count = 0;
+  for (const ControlPoint& point : bridge.control_points) count += point.weights.size();
+  const std::size_t points = bridge.control_points.size();
+  const auto lock = lock_hdf5();
+  const auto refusal = [&](const char* path, hid_t type, const auto& values) {
+    Forgery forged(good);
+    forged.fill(path, type, values);
+    return forged.refusal();
+  };
+  const auto ints = [](std::size_t size, std::int32_t number) {
+    return std::vector<std::int32_t>(size, number);
+  };
+  for (const std::int32_t number : {-2, 1000000}) {
+    CHECK_THAT(refusal(dataset::kWeightPoint, H5T_STD_I32LE, ints(count, number)),
+               Catch::Contains(dataset::kWeightPoint));
+    CHECK_THAT(refusal(dataset::kWeightNode, H5T_STD_I32LE, ints(count, number)),
+               Catch::Contains(dataset::kWeightNode));
+    CHECK_THAT(refusal(dataset::kPointOtherBlock, H5T_STD_I32LE, ints(points, number)),
+               Catch::Contains("does not exist"));
+  }
+  CHECK_THAT(refusal(dataset::kWeightNode, H5T_STD_I32LE, ints(count, 0)),
+             Catch::Contains("expected one of a block of sensor V1"));
+  CHECK_THAT(
+      refusal(dataset::kWeightPoint, H5T_STD_I32LE, ints(count, static_cast<std::int32_t>(points) - 1)),
+      Catch::Contains("of a block of sensor G1") || Catch::Contains("has no weights of sensor"));
+  CHECK_THAT(refusal(dataset::kPointQuantity, H5T_STD_U8LE, std::vector<std::uint8_t>(points, 4)),
+             Catch::Contains(dataset::kPointQuantity));
+  CHECK_THAT(refusal(dataset::kWeight, H5T_NATIVE_DOUBLE, std::vector<double>(2 * count, std::nan(""))),
+             Catch::Contains(dataset::kWeight));
 }
 
 TEST_CASE("A field that would swell to far more than a field when decompressed is refused") {

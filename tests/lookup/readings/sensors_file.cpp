@@ -72,7 +72,7 @@ TEST_CASE("The example's sensors are on the reference bridge, its gauge over a j
 
 TEST_CASE("A place where blocks meet belongs to the block that is named") {
   CHECK(error_of("name,quantity,x_m,y_m\nV,uy,0.25,1.0\n") ==
-        "s.csv:2: blocks meet at x = 0.25 m, y = 1 m, expected 2,1 or 3,1 in column block");
+        "s.csv:2: blocks meet at x = 0.25 m, y = 1 m, expected 2,1 or 3,1 as block");
   CHECK(label(sensors_of("name;quantity;x_m;y_m;block\nV;uy;0,25;1,0;3,1\n")[0].blocks.front()) == "3,1");
   CHECK(label(sensors_of("name;quantity;x_m;y_m;block\nV;uy;0,25;1,0;2,1\n")[0].blocks.front()) == "2,1");
 }
@@ -105,12 +105,15 @@ TEST_CASE("Wrong sensors are refused with the file, the line, the value and what
        "s.csv:2: x = 0.5 m, y = 0.75 m is not on block 3,1, expected 2,1"},
       {kHeader + "V,uy,0.5,0.75,,,\"99,1\",\n",
        "s.csv:2: there is no block 99,1: this bridge has no course 99"},
-      {kHeader + "V,uy,0.5,0.75,,,\"2,1+3,1\",\n", "s.csv:2: '2,1+3,1' in column block, expected one block"},
-      {kHeader + "V,uy,0.5,0.75,1,,,\n", "s.csv:2: '1' in column x2_m, expected nothing but for a distance"},
+      {kHeader + "V,uy,0.5,0.75,,,\"2,1+3,1\",\n", "s.csv:2: '2,1+3,1': expected one block"},
+      {kHeader + "V,uy,0.5,0.75,1,1,,\n",
+       "s.csv:2: a second place or block, expected none but of a distance"},
+      {kHeader + "V,uy,0.5,0.75,,,,\"2,1\"\n",
+       "s.csv:2: a second place or block, expected none but of a distance"},
       {kHeader + "R,tilt,,,,,,\n", "s.csv:2: a tilt without place and without block, expected one of them"},
       {kHeader + "G,distance,0.5,0.75,0.5,0.75,,\n",
        "s.csv:2: a distance between places that are one, expected more than 0.001 m"},
       {kHeader + "G,distance,0.5,0.75,,,,\n",
-       "s.csv:2: '' is no coordinate, expected a number in metres in column x2_m"}};
+       "s.csv:2: no place, expected x_m and y_m, of a distance x2_m and y2_m, too"}};
   for (const auto& [text, message] : wrong) CHECK(error_of(text) == message);
 }

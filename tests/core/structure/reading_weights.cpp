@@ -1,4 +1,4 @@
-#include "lookup/readings/sensor.h"
+#include "core/structure/reading_weights.h"
 
 #include <catch2/catch.hpp>
 
@@ -22,10 +22,6 @@ BlockId block(const char* name) {
   return parse_scene(name, small_bridge().layout).removed.front();
 }
 
-double shown(std::vector<NodeWeight> weights, const Field& field) {
-  return reading_of({"S", Quantity::uy, Point::Zero(), {}, std::move(weights)}, field);
-}
-
 const Point kShift(3e-3, -2e-3);
 const Eigen::Matrix2d kGradient = (Eigen::Matrix2d() << 1e-4, -3e-4, 5e-4, 2e-4).finished();
 
@@ -45,9 +41,9 @@ TEST_CASE(
         at += mesh.position(node) / 3.0;
       const Place place{at, BlockId{static_cast<std::int32_t>(id)}};
       const Point expected = kShift + kGradient * at;
-      CHECK(shown(displacement_weights(place, Point(1, 0), mesh), field) ==
+      CHECK(weighted_sum(displacement_weights(place, Point(1, 0), mesh), field) ==
             Approx(expected.x()).margin(1e-16));
-      CHECK(shown(displacement_weights(place, Point(0, 1), mesh), field) ==
+      CHECK(weighted_sum(displacement_weights(place, Point(0, 1), mesh), field) ==
             Approx(expected.y()).margin(1e-16));
       for (const NodeWeight& part : displacement_weights(place, Point(0, 1), mesh))
         CHECK(part.weight.y() == Approx(1.0 / 3.0).epsilon(1e-9));  // of its own triangle, not another's
@@ -59,13 +55,14 @@ TEST_CASE("A tilt is the angle of a small rotation about any centre, counter-clo
   const double angle = 2e-4;
   const Field field = linear_field(kShift, (Eigen::Matrix2d() << 0, -angle, angle, 0).finished());
   for (std::size_t id = 0; id < mesh.block_nodes.size(); ++id)
-    CHECK(shown(rotation_weights(BlockId{static_cast<std::int32_t>(id)}, mesh), field) ==
+    CHECK(weighted_sum(rotation_weights(BlockId{static_cast<std::int32_t>(id)}, mesh), field) ==
           Approx(angle).epsilon(1e-12));
 }
 
 TEST_CASE("A uniform stretch tilts a rectangular block by nothing (symmetry)") {
   const Field field = linear_field(kShift, (Eigen::Matrix2d() << 1e-3, 0, 0, -1e-3).finished());
-  CHECK(shown(rotation_weights(block("2,1"), small_bridge().mesh), field) == Approx(0.0).margin(1e-16));
+  CHECK(weighted_sum(rotation_weights(block("2,1"), small_bridge().mesh), field) ==
+        Approx(0.0).margin(1e-16));
 }
 
 TEST_CASE(
@@ -75,21 +72,21 @@ TEST_CASE(
   const Place to{{0.75, 0.9}, block("2,1")};
   const Point way = to.position - from.position;
   const Field stretched = linear_field(kShift, kGradient);
-  CHECK(shown(distance_weights(from, to, mesh), stretched) ==
+  CHECK(weighted_sum(distance_weights(from, to, mesh), stretched) ==
         Approx(way.dot(kGradient * way) / way.norm()).epsilon(1e-12));
-  CHECK(shown(distance_weights(to, from, mesh), stretched) ==
-        Approx(shown(distance_weights(from, to, mesh), stretched)).epsilon(1e-12));
+  CHECK(weighted_sum(distance_weights(to, from, mesh), stretched) ==
+        Approx(weighted_sum(distance_weights(from, to, mesh), stretched)).epsilon(1e-12));
   const Field turned = linear_field(kShift, (Eigen::Matrix2d() << 0, -2e-4, 2e-4, 0).finished());
-  CHECK(shown(distance_weights(from, to, mesh), turned) == Approx(0.0).margin(1e-16));
+  CHECK(weighted_sum(distance_weights(from, to, mesh), turned) == Approx(0.0).margin(1e-16));
 }
 
-TEST_CASE("A sensor on a block that is gone shows nothing") {
+TEST_CASE("A sensor on a block that is gone shows nothing", "[sensors]") {
   Field field = linear_field(kShift, kGradient);
   const IndexRange gone = small_bridge().mesh.block_nodes[static_cast<std::size_t>(value(block("2,1")))];
   field.middleCols(gone.begin, gone.size()).setConstant(std::nan(""));
   const Place from{{0.5, 0.75}, block("2,1")};
   const Place to{{0.5, 1.25}, block("3,1")};
-  CHECK(std::isnan(shown(distance_weights(from, to, small_bridge().mesh), field)));
-  CHECK(std::isnan(shown(rotation_weights(block("2,1"), small_bridge().mesh), field)));
-  CHECK_FALSE(std::isnan(shown(rotation_weights(block("3,1"), small_bridge().mesh), field)));
+  CHECK(std::isnan(weighted_sum(distance_weights(from, to, small_bridge().mesh), field)));
+  CHECK(std::isnan(weighted_sum(rotation_weights(block("2,1"), small_bridge().mesh), field)));
+  CHECK_FALSE(std::isnan(weighted_sum(rotation_weights(block("3,1"), small_bridge().mesh), field)));
 }

@@ -1,0 +1,19 @@
+#pragma once
+/// @file Reading [[sensors]] of a bridge file.
+
+#include <string>
+#include <vector>
+
+#include "core/structure/sensor_description.h"
+#include "core/structure/toml_section.h"
+
+namespace voussoir {
+
+/// Names are short, as databases keep them [bytes].
+inline constexpr std::size_t kLongestSensorName = 8;
+inline constexpr std::size_t kMostSensors = 1000;
+
+/// Throws InputError "file:line: message". Whether the places are on the bridge is found with its blocks.
+std::vector<SensorDescription> read_sensors(const toml::array& tables, const std::string& file);
+
+}  // namespace voussoir
