@@ -92,7 +92,8 @@ std::vector<ControlPoint> find_control_points(const BlockLayout& layout, const M
     const Block& block = layout.blocks[b];
     const BlockId id{static_cast<std::int32_t>(b)};
     if (top && block.top_course) upper.add_pair(mesh, id, upper_corners(block.polygon));
-    if (arch && block.intrados) intrados.add_pair(mesh, id, {block.intrados->front(), block.intrados->back()});
+    if (arch && block.intrados)
+      intrados.add_pair(mesh, id, {block.intrados->front(), block.intrados->back()});
     if (face && shows_its_face(block.role)) middle.add(middle_of(block, id, mesh));
   }
   std::vector<ControlPoint> points = std::move(upper.points);
