@@ -59,6 +59,7 @@ std::optional<std::size_t> point_there(const Model& bridge, const Point& place, 
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t p = 0; p < bridge.control_points.size(); ++p) {
     const ControlPoint& point = bridge.control_points[p];
+    if (point.quantity != Quantity::uy) continue;
     const double away = (centroid(bridge.layout[point.block].polygon) - middle).norm();
     if ((point.position - place).norm() > kSamePlace || away >= least) continue;
     least = away;
@@ -72,6 +73,7 @@ SharedPoints shared_points(const std::string& file, const Model& bridge, const D
   SharedPoints shared;
   for (std::size_t s = 0; s < first.control_points().size(); ++s) {
     const StoredPoint& point = first.control_points()[s];
+    if (point.quantity != Quantity::uy) continue;
     if (!std::ranges::all_of(desks, [&](const Desk& desk) { return has_sensor(desk, point.name); })) continue;
     const Point moved(shift, 0.0);
     const auto there =

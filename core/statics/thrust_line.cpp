@@ -50,8 +50,8 @@ ThrustPoint resultant(const std::vector<const JointForces*>& stretches, const Po
 
 std::vector<ThrustPoint> thrust_lines(const Structure& structure, const std::vector<JointForces>& joints) {
   const std::map<int, Point> below = places_below(structure.layout);
-  using Place = std::tuple<int, BlockId, BlockId>;
-  std::map<Place, std::vector<const JointForces*>> of_pair;
+  using RingJoint = std::tuple<int, BlockId, BlockId>;
+  std::map<RingJoint, std::vector<const JointForces*>> of_pair;
   for (const JointForces& stretch : joints) {
     const Joint& joint = structure.joints[stretch.joint];
     const int ring = structure.layout.blocks[static_cast<std::size_t>(value(joint.first))].ring;

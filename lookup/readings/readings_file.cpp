@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <optional>
 
@@ -17,6 +18,7 @@ namespace voussoir {
 namespace {
 
 constexpr double kSamePlace = 1e-6;  // [m] points closer than this share a place
+constexpr double kFarAway = std::numeric_limits<double>::max();
 
 /// Nothing, or what programs write where they have no number.
 bool says_nothing(std::string_view text) {
@@ -97,11 +99,14 @@ class ReadingsReader {
     return static_cast<std::size_t>(found - sensors_.begin());
   }
 
-  /// The nearest control point; of several at the same place the first that has no row yet.
+  /// The nearest control point, or sensor of vertical displacements; of several at the same place the first
+  /// that has no row yet.
   std::size_t placed_point(const CsvLine& line, const std::string& load) const {
     const double x = coordinate(line, columns_.x);
     const Point place(x, coordinate(line, columns_.y));
-    const auto distance = [&](std::size_t i) { return (sensors_[i].position - place).norm(); };
+    const auto distance = [&](std::size_t i) {
+      return sensors_[i].quantity == Quantity::uy ? (sensors_[i].position - place).norm() : kFarAway;
+    };
     std::size_t nearest = 0;
     for (std::size_t i = 1; i < control_points_; ++i) {
       const double gain = distance(nearest) - distance(i);
@@ -109,6 +114,10 @@ class ReadingsReader {
           std::abs(gain) <= kSamePlace && line_of_.contains({nearest, load}) && !line_of_.contains({i, load});
       if (gain > kSamePlace || twin) nearest = i;
     }
+    if (distance(nearest) == kFarAway)
+      table_.fail(line.number,
+                  "no sensor of vertical displacements in the database, expected sensors by name in a column "
+                  "point");
     if (distance(nearest) > kPointTolerance)
       table_.fail(
           line.number,

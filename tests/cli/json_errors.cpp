@@ -22,9 +22,9 @@ void check_error(const std::string& name, std::vector<std::string> arguments, in
     const test::ProgramResult result = test::run(name, with_format);
     CHECK(result.exit_code == exit_code);
     REQUIRE_FALSE(result.out.empty());
-    const auto json = nlohmann::json::parse(result.out);
-    CHECK(json.at("ok") == false);
-    CHECK_THAT(result.err, Catch::Matchers::Contains(json.at("error").get<std::string>()));
+    const auto printed = nlohmann::json::parse(result.out);
+    CHECK(printed.at("ok") == false);
+    CHECK_THAT(result.err, Catch::Matchers::Contains(printed.at("error").get<std::string>()));
   }
 }
 

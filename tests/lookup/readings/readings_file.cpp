@@ -111,6 +111,19 @@ TEST_CASE("Numbers are read with a point as decimal mark in every locale") {
   INFO("locale " << (set != nullptr ? set : "not installed"));
 }
 
+TEST_CASE("Coordinates mean no tilt and no gauge, however near it is") {
+  std::vector<StoredPoint> points = kPoints;
+  points.push_back({"N1", Point(1, 2), BlockId{2}, Quantity::tilt});
+  points.insert(points.begin(), {"H1", Point(1, 2), BlockId{2}, Quantity::ux});
+  const std::string text = "x_m,y_m,change_mm\n1,2,-3\n";
+  const ReadingsFile read = parse_readings(text, "m.csv", control_point_sensors(points));
+  CHECK(points[read.readings[0].sensor].name == "A1");
+  const SensorList no_height = control_point_sensors({points.front(), points.back()});
+  CHECK_THROWS_MATCHES(parse_readings(text, "m.csv", no_height), InputError,
+                       Catch::Matchers::Message("m.csv:2: no sensor of vertical displacements in the "
+                                                "database, expected sensors by name in a column point"));
+}
+
 TEST_CASE("Coordinates mean the nearest control point, and twins at one place are taken from left to right") {
   const ReadingsFile read = parse("x_m,y_m,uy_mm\n1.02,5.99,-1\n1.0,6.0,-2\n1,2,-3\n");
   CHECK(read.readings[0].sensor == 1);
