@@ -58,11 +58,6 @@ struct BlankQuestion {
     for (const ReadingRow& row : bridge.rows) names.push_back(comparison.library.points[row.channel].name);
     return names;
   }
-  bool has_tilts() const {
-    return std::ranges::any_of(bridge.rows, [&](const ReadingRow& row) {
-      return quantity_of(comparison, row.channel) == Quantity::tilt;
-    });
-  }
 };
 
 SightSettings sight_settings(const BlankQuestion& question, const Database& database) {
@@ -111,7 +106,7 @@ SensorPlan plan_sensors(const Database& database, const PlanSettings& settings) 
   if (settings.choose)
     acting.points = chosen = points_that_help(BlankQuestion(database, list, settings), *settings.choose);
   const BlankQuestion question(database, list, acting);
-  SensorPlan plan{question.comparison.history, question.points(), question.has_tilts(), std::move(chosen),
+  SensorPlan plan{question.comparison.history, question.points(), std::move(chosen),
                   sights_of(question.bridge, sight_settings(question, database))};
   add_others(question, plan);
   return plan;

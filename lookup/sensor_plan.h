@@ -23,7 +23,6 @@ struct PlanSettings {
 struct SensorPlan {
   std::string history;                ///< that changes are compared with
   std::vector<std::string> points;    ///< that are read
-  bool has_tilts = false;             ///< is one of them a tilt?
   std::vector<std::string> chosen{};  ///< the same, those first that help most; empty: none was chosen
   std::vector<Sight> sights;          ///< of the blocks without which the bridge stands
   std::vector<BlockId> falls{};       ///< blocks whose loss lets something fall: nobody needs to measure

@@ -90,10 +90,20 @@ std::string plan_json(const SensorPlan& plan, const PlannedBridge& bridge) {
 
 using Text = std::back_insert_iterator<std::string>;
 
+bool is_read(const SensorPlan& plan, const StoredPoint& point) {
+  return std::ranges::find(plan.points, point.name) != plan.points.end();
+}
+
+bool reads_tilts(const SensorPlan& plan, const Database& database) {
+  return std::ranges::any_of(database.control_points(), [&](const StoredPoint& point) {
+    return point.quantity == Quantity::tilt && is_read(plan, point);
+  });
+}
+
 void write_heading(Text to, const SensorPlan& plan, const PlannedBridge& bridge) {
   fmt::format_to(to, "Plan:         changes between two times at {} points, each off by {:g} mm{}\n",
                  plan.points.size(), kMillimetres * bridge.settings.sigma,
-                 plan.has_tilts ? " (tilts: mm per m)" : "");
+                 reads_tilts(plan, bridge.database) ? " (tilts: mm per m)" : "");
   fmt::format_to(to, "Database:     {} (bridge '{}', digest {})\n", bridge.database.path().string(),
                  bridge.database.bridge_name(), bridge.database.digest().substr(0, kDigestShown));
   fmt::format_to(to, "History:      {}\n", history_in_words(plan.history));
@@ -174,7 +184,7 @@ std::string plan_picture(const SensorPlan& plan, const Database& database) {
                        return look_of(plan, database, block);
                      });
   for (const StoredPoint& point : database.control_points()) {
-    if (std::ranges::find(plan.points, point.name) == plan.points.end()) continue;
+    if (!is_read(plan, point)) continue;
     const Point at = frame(point.position);
     drawing.elements += fmt::format("<circle class=\"f1\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{}\">{}</circle>\n",
                                     at.x(), at.y(), kPlanDisc, tip_element(point.name));

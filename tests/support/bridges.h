@@ -43,6 +43,13 @@ inline BridgeFile small_file_with_sensors() {
   return parse_bridge_file(read_bridge_file(example_bridge("small")).text + kSmallSensors, "small");
 }
 
+/// Of all its points.
+inline std::size_t weight_count(const Structure& bridge) {
+  std::size_t count = 0;
+  for (const ControlPoint& point : bridge.control_points) count += point.weights.size();
+  return count;
+}
+
 /// Its joints filled with a weak lime mortar.
 inline BridgeDescription small_description_with_mortar() {
   BridgeDescription description = small_description();

@@ -24,12 +24,6 @@ std::string source_text(const std::string& path) {
   return test::text_of(std::filesystem::path(VOUSSOIR_SOURCE_DIR) / path);
 }
 
-std::size_t weight_count(const Model& bridge) {
-  std::size_t count = 0;
-  for (const ControlPoint& point : bridge.control_points) count += point.weights.size();
-  return count;
-}
-
 /// A row of the table of datasets.
 struct Row {
   std::string type, shape, units, meaning;
@@ -67,7 +61,7 @@ struct ManySizes {
                {"Q", kStates},
                {"V", kVariants},
                {"P", bridge.control_points.size()},
-               {"P1", weight_count(bridge)},
+               {"P1", test::weight_count(bridge)},
                {"W", places_for(bridge.control_points.size())},
                {"K", database.search_index().clusters()},
                {"K + 1", database.search_index().clusters() + 1},

@@ -265,9 +265,7 @@ TEST_CASE("What sensors read is refused if it is of another block, of no point o
   const BridgeFile sensed = test::small_file_with_sensors();
   const Model bridge = make_model(sensed.description);
   const std::string good = test::made_up_bytes(sensed, scenes);
-  std::size_t count = 0;
-  for (const ControlPoint& point : bridge.control_points) count += point.weights.size();
-  const std::size_t points = bridge.control_points.size();
+  const std::size_t count = test::weight_count(bridge), points = bridge.control_points.size();
   const auto lock = lock_hdf5();
   const auto refusal = [&](const char* path, hid_t type, const auto& values) {
     Forgery forged(good);
