@@ -85,13 +85,11 @@ void add_others(const BlankQuestion& question, SensorPlan& plan) {
   }
 }
 
-/// Beyond this distance nearly every loss is seen.
-constexpr double kEnough = 6.0;
-
-std::vector<std::string> points_that_help(const BlankQuestion& question, std::size_t count) {
+std::vector<std::string> points_that_help(const BlankQuestion& question, const Database& database,
+                                          std::size_t count) {
   const std::vector<std::string> all = question.points();
   std::vector<std::string> chosen;
-  for (const Eigen::Index row : rows_that_help(question.bridge, kEnough, count))
+  for (const Eigen::Index row : rows_that_help(question.bridge, sight_settings(question, database), count))
     chosen.push_back(all[static_cast<std::size_t>(row)]);
   return chosen;
 }
@@ -104,7 +102,8 @@ SensorPlan plan_sensors(const Database& database, const PlanSettings& settings) 
   PlanSettings acting = settings;
   std::vector<std::string> chosen;
   if (settings.choose)
-    acting.points = chosen = points_that_help(BlankQuestion(database, list, settings), *settings.choose);
+    acting.points = chosen =
+        points_that_help(BlankQuestion(database, list, settings), database, *settings.choose);
   const BlankQuestion question(database, list, acting);
   SensorPlan plan{question.comparison.history, question.points(), std::move(chosen),
                   sights_of(question.bridge, sight_settings(question, database))};

@@ -40,6 +40,7 @@ struct IndexRange {
   int begin = 0;
   int end = 0;
   int size() const { return end - begin; }
+  bool contains(int index) const { return index >= begin && index < end; }
 };
 
 struct Mesh {

@@ -1,23 +1,21 @@
 #include "core/structure/sensor_description.h"
 
 #include <algorithm>
-#include <array>
-#include <utility>
 
 namespace voussoir {
-namespace {
 
-constexpr std::array<std::pair<Quantity, std::string_view>, 4> kNames = {
-    {{Quantity::ux, "ux"}, {Quantity::uy, "uy"}, {Quantity::tilt, "tilt"}, {Quantity::distance, "distance"}}};
-
-}  // namespace
+const std::vector<std::pair<const char*, Quantity>>& quantity_names() {
+  static const std::vector<std::pair<const char*, Quantity>> names = {
+      {"ux", Quantity::ux}, {"uy", Quantity::uy}, {"tilt", Quantity::tilt}, {"distance", Quantity::distance}};
+  return names;
+}
 
 std::string_view to_string(Quantity quantity) {
-  return std::ranges::find(kNames, quantity, &std::pair<Quantity, std::string_view>::first)->second;
+  return std::ranges::find(quantity_names(), quantity, &std::pair<const char*, Quantity>::second)->first;
 }
 
 std::optional<Quantity> parse_quantity(std::string_view text) {
-  for (const auto& [quantity, name] : kNames)
+  for (const auto& [name, quantity] : quantity_names())
     if (name == text) return quantity;
   return std::nullopt;
 }

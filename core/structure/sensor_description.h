@@ -4,6 +4,8 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "core/geometry/polygon.h"
 
@@ -26,6 +28,11 @@ struct SensorDescription {
   std::string to_block{};       ///< the same for the other place
 };
 
+/// Names are short, as databases keep them [bytes].
+inline constexpr std::size_t kLongestSensorName = 8;
+
+/// As files write them.
+const std::vector<std::pair<const char*, Quantity>>& quantity_names();
 /// "ux", "uy", "tilt" or "distance".
 std::string_view to_string(Quantity quantity);
 /// Nothing for another text.

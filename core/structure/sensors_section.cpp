@@ -35,11 +35,7 @@ SensorDescription read_sensor(TomlSection section) {
   if (!is_name(sensor.name))
     section.refuse("name",
                    fmt::format("expected at most {} letters, digits, -, _ and .", kLongestSensorName));
-  section.choice("quantity", sensor.quantity,
-                 {{"ux", Quantity::ux},
-                  {"uy", Quantity::uy},
-                  {"tilt", Quantity::tilt},
-                  {"distance", Quantity::distance}});
+  section.choice("quantity", sensor.quantity, quantity_names());
   sensor.from = read_place(section, "x_m", "y_m");
   sensor.to = read_place(section, "x2_m", "y2_m");
   section.text("block", sensor.block);

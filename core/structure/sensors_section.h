@@ -9,8 +9,6 @@
 
 namespace voussoir {
 
-/// Names are short, as databases keep them [bytes].
-inline constexpr std::size_t kLongestSensorName = 8;
 inline constexpr std::size_t kMostSensors = 1000;
 
 /// Throws InputError "file:line: message". Whether the places are on the bridge is found with its blocks.

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/structure/model.h"
+#include "core/structure/sensor_description.h"
 #include "database/format/dataset_value.h"
 #include "database/records/model_error.h"
 #include "database/records/provenance.h"
@@ -18,11 +19,11 @@ inline constexpr char kFormatName[] = "voussoir database";
 /// What the first dataset says of itself: a damaged file is known by it.
 inline constexpr char kBridgeTextMeaning[] = "the bridge file (TOML) as it was given";
 inline constexpr int kSchemaVersion = 6;
-inline constexpr std::size_t kBlockLabelWidth = 32;     ///< bytes, padded with zeros
-inline constexpr std::size_t kPointNameWidth = 8;       ///< bytes, padded with zeros
-inline constexpr std::size_t kStateNameWidth = 32;      ///< bytes, padded with zeros
-inline constexpr std::size_t kParameterNameWidth = 80;  ///< bytes, padded with zeros
-inline constexpr std::size_t kUnitWidth = 8;            ///< bytes, padded with zeros
+inline constexpr std::size_t kBlockLabelWidth = 32;                 ///< bytes, padded with zeros
+inline constexpr std::size_t kPointNameWidth = kLongestSensorName;  ///< bytes, padded with zeros
+inline constexpr std::size_t kStateNameWidth = 32;                  ///< bytes, padded with zeros
+inline constexpr std::size_t kParameterNameWidth = 80;              ///< bytes, padded with zeros
+inline constexpr std::size_t kUnitWidth = 8;                        ///< bytes, padded with zeros
 
 inline constexpr std::int32_t kNoBlock = -1;  ///< in the place of a block's number
 

@@ -19,7 +19,7 @@ std::vector<ControlPoint> stored_points(const Database& database) {
   std::vector<ControlPoint> points;
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     const IndexRange& own = database.mesh().block_nodes.at(static_cast<std::size_t>(stored[i].block));
-    if (nodes[i] < own.begin || nodes[i] >= own.end)
+    if (!own.contains(nodes[i]))
       throw InputError(fmt::format("{}: control point {} has node {}, expected one of its block's ({} to {})",
                                    database.path().string(), stored[i].name, nodes[i], own.begin,
                                    own.end - 1));

@@ -70,7 +70,7 @@ std::span<const std::int32_t> read_indices(const Hdf5File& file, const char* pat
 void require_own_nodes(const Hdf5File& file, const char* path, std::span<const std::int32_t> nodes,
                        std::size_t row, const IndexRange& own) {
   for (const std::int32_t node : nodes)
-    file.require(node >= own.begin && node < own.end,
+    file.require(own.contains(node),
                  fmt::format("dataset '{}' names node {} in row {}, expected one of its block's ({} to {})",
                              path, node, row, own.begin, own.end - 1));
 }
@@ -134,8 +134,7 @@ std::span<const std::uint8_t> read_flags(const Hdf5File& file, const char* path,
 }
 
 bool is_node_of(BlockId block, std::int32_t node, const Mesh& mesh) {
-  const IndexRange& own = mesh.block_nodes.at(static_cast<std::size_t>(value(block)));
-  return node >= own.begin && node < own.end;
+  return mesh.block_nodes.at(static_cast<std::size_t>(value(block))).contains(node);
 }
 
 void read_quantities(const Hdf5File& file, std::vector<StoredPoint>& points) {

@@ -109,21 +109,43 @@ VOUSSOIR_INLINE Lanes bounds_of(const ReducedCase& one, Scenes<Lanes> scenes, co
   return bounds;
 }
 
+/// Calls work<kCount>() for scenes with so many losses. What works on factors stays outside: it would be
+/// compiled three times.
+template <class Work>
+VOUSSOIR_INLINE void for_losses(std::size_t losses, Work work) {
+  if (losses == 1) return work.template operator()<1>();
+  if (losses == 2) return work.template operator()<2>();
+  work.template operator()<3>();
+}
+
+template <class Lanes>
+VOUSSOIR_INLINE void subtract_losses(const ReducedQuestion& q, Scenes<Lanes> scenes, std::size_t losses,
+                                     Lanes* beyond, ReducedScenes<Lanes>& to) {
+  for_losses(losses, [&]<std::size_t kCount>()
+                         VOUSSOIR_INLINE_WORK { subtract_losses<Lanes, kCount>(q, scenes, beyond, to); });
+}
+
+/// The first N directions; kKnown of them are projected on already.
+template <class Lanes, std::size_t kKnown, std::size_t N>
+VOUSSOIR_INLINE void fill(const ReducedQuestion& q, Scenes<Lanes> scenes, std::size_t losses,
+                          const Lanes* beyond, ReducedScenes<Lanes>& to) {
+  project<Lanes, kKnown, N>(q, beyond, to);
+  for_losses(losses,
+             [&]<std::size_t kCount>() VOUSSOIR_INLINE_WORK { fill<Lanes, N, kCount>(q, scenes, to); });
+}
+
 /// In the first N directions, where some scene matters in a case; kKnown of them are projected on already.
 /// The cases' logarithms begin at number `first`.
-template <class Lanes, std::size_t kKnown, std::size_t N, std::size_t kCount>
-VOUSSOIR_INLINE void refine(const ReducedQuestion& q, Scenes<Lanes> scenes, std::size_t first,
-                            const Lanes* beyond, ReducedScenes<Lanes>& reduced) {
+template <class Lanes, std::size_t kKnown, std::size_t N>
+VOUSSOIR_INLINE void refine(const ReducedQuestion& q, Scenes<Lanes> scenes, std::size_t losses,
+                            std::size_t first, const Lanes* beyond, ReducedScenes<Lanes>& reduced) {
   constexpr std::size_t kPlace = place_of(static_cast<ScreenDirections>(N));
   const Lanes least = least_of<Lanes>(scenes);
   bool is_filled = false;
   for (std::size_t k = 0; k < q.cases.size(); ++k) {
     const Lanes before = logs_of<Lanes>(scenes, first + k);
     if (!any((before < least ? kImpossibleLanes<Lanes> : before) != kImpossibleLanes<Lanes>)) continue;
-    if (!is_filled) {
-      project<Lanes, kKnown, N>(q, beyond, reduced);
-      fill<Lanes, N, kCount>(q, scenes, reduced);
-    }
+    if (!is_filled) fill<Lanes, kKnown, N>(q, scenes, losses, beyond, reduced);
     is_filled = true;
     const Lanes refined = over_kappa<Lanes, N>(q, q.cases[k], reduced, q.cases[k].outside[kPlace], least);
     const Lanes after = refined < before ? refined : before;  // NaN changes nothing
@@ -132,8 +154,9 @@ VOUSSOIR_INLINE void refine(const ReducedQuestion& q, Scenes<Lanes> scenes, std:
 }
 
 /// False, and nothing done, if the scenes are rough.
-template <class Lanes, std::size_t kCount>
-VOUSSOIR_INLINE bool look(const ReducedQuestion& q, Scenes<Lanes> scenes, const Rises& rises, Lanes* beyond) {
+template <class Lanes>
+VOUSSOIR_INLINE bool look(const ReducedQuestion& q, Scenes<Lanes> scenes, std::size_t losses,
+                          const Rises& rises, Lanes* beyond) {
   constexpr auto kFew = static_cast<std::size_t>(ScreenDirections::few);
   constexpr auto N = static_cast<std::size_t>(ScreenDirections::first);
   const Lanes least = least_of<Lanes>(scenes);
@@ -145,10 +168,9 @@ VOUSSOIR_INLINE bool look(const ReducedQuestion& q, Scenes<Lanes> scenes, const 
     Lanes logs = bounds;
     if (any(bounds >= least)) {
       if (!is_filled) {
-        subtract_losses<Lanes, kCount>(q, scenes, beyond, reduced);
+        subtract_losses<Lanes>(q, scenes, losses, beyond, reduced);
         if (are_rough(q, reduced, least)) return false;
-        project<Lanes, 0, N>(q, beyond, reduced);
-        fill<Lanes, N, kCount>(q, scenes, reduced);
+        fill<Lanes, 0, N>(q, scenes, losses, beyond, reduced);
       }
       is_filled = true;
       logs = over_kappa<Lanes, N>(q, one, reduced, one.outside.front(), least);
@@ -159,38 +181,23 @@ VOUSSOIR_INLINE bool look(const ReducedQuestion& q, Scenes<Lanes> scenes, const 
     for (std::size_t i = 0; i < scenes.size(); ++i)
       scenes[i].logs[rises.before + k] = static_cast<float>(logs[i]);
   }
-  if (is_filled) refine<Lanes, N, kFew, kCount>(q, scenes, rises.before, beyond, reduced);
+  if (is_filled) refine<Lanes, N, kFew>(q, scenes, losses, rises.before, beyond, reduced);
   return true;
-}
-
-template <class Lanes, std::size_t N, std::size_t kCount>
-VOUSSOIR_INLINE bool look_closer(const ReducedQuestion& q, Scenes<Lanes> scenes, Lanes* beyond) {
-  ReducedScenes<Lanes> reduced;
-  subtract_losses<Lanes, kCount>(q, scenes, beyond, reduced);
-  if (are_rough(q, reduced, least_of<Lanes>(scenes))) return false;
-  refine<Lanes, 0, N, kCount>(q, scenes, 0, beyond, reduced);
-  return true;
-}
-
-template <class Lanes>
-VOUSSOIR_INLINE bool look_with(const ReducedQuestion& q, Scenes<Lanes> scenes, std::size_t losses,
-                               const Rises& rises, Lanes* beyond) {
-  if (losses == 1) return look<Lanes, 1>(q, scenes, rises, beyond);
-  if (losses == 2) return look<Lanes, 2>(q, scenes, rises, beyond);
-  return look<Lanes, 3>(q, scenes, rises, beyond);
 }
 
 template <class Lanes, std::size_t N>
 VOUSSOIR_INLINE bool look_closer_in(const ReducedQuestion& q, Scenes<Lanes> scenes, std::size_t losses,
                                     Lanes* beyond) {
-  if (losses == 1) return look_closer<Lanes, N, 1>(q, scenes, beyond);
-  if (losses == 2) return look_closer<Lanes, N, 2>(q, scenes, beyond);
-  return look_closer<Lanes, N, 3>(q, scenes, beyond);
+  ReducedScenes<Lanes> reduced;
+  subtract_losses<Lanes>(q, scenes, losses, beyond, reduced);
+  if (are_rough(q, reduced, least_of<Lanes>(scenes))) return false;
+  refine<Lanes, 0, N>(q, scenes, losses, 0, beyond, reduced);
+  return true;
 }
 
 template <class Lanes>
-VOUSSOIR_INLINE bool look_closer_with(const ReducedQuestion& q, Scenes<Lanes> scenes, std::size_t losses,
-                                      ScreenDirections directions, Lanes* beyond) {
+VOUSSOIR_INLINE bool look_closer(const ReducedQuestion& q, Scenes<Lanes> scenes, std::size_t losses,
+                                 ScreenDirections directions, Lanes* beyond) {
   constexpr auto kMore = static_cast<std::size_t>(ScreenDirections::more);
   if (directions == ScreenDirections::more) return look_closer_in<Lanes, kMore>(q, scenes, losses, beyond);
   return look_closer_in<Lanes, kDirections>(q, scenes, losses, beyond);
@@ -200,23 +207,23 @@ VOUSSOIR_INLINE bool look_closer_with(const ReducedQuestion& q, Scenes<Lanes> sc
 VOUSSOIR_FOR_EVERY_PROCESSOR
 bool look_at(const ReducedQuestion& q, Scenes<FloatLanes> scenes, std::size_t losses, const Rises& rises,
              FloatLanes* beyond) {
-  return look_with<FloatLanes>(q, scenes, losses, rises, beyond);
+  return look<FloatLanes>(q, scenes, losses, rises, beyond);
 }
 VOUSSOIR_FOR_EVERY_PROCESSOR
 bool look_at(const ReducedQuestion& q, Scenes<DoubleLanes> scenes, std::size_t losses, const Rises& rises,
              DoubleLanes* beyond) {
-  return look_with<DoubleLanes>(q, scenes, losses, rises, beyond);
+  return look<DoubleLanes>(q, scenes, losses, rises, beyond);
 }
 
 VOUSSOIR_FOR_EVERY_PROCESSOR
 bool look_closer_at(const ReducedQuestion& q, Scenes<FloatLanes> scenes, std::size_t losses,
                     ScreenDirections directions, FloatLanes* beyond) {
-  return look_closer_with<FloatLanes>(q, scenes, losses, directions, beyond);
+  return look_closer<FloatLanes>(q, scenes, losses, directions, beyond);
 }
 VOUSSOIR_FOR_EVERY_PROCESSOR
 bool look_closer_at(const ReducedQuestion& q, Scenes<DoubleLanes> scenes, std::size_t losses,
                     ScreenDirections directions, DoubleLanes* beyond) {
-  return look_closer_with<DoubleLanes>(q, scenes, losses, directions, beyond);
+  return look_closer<DoubleLanes>(q, scenes, losses, directions, beyond);
 }
 
 /// Memory of one thread for what is beyond by channel, filled up for all lanes.

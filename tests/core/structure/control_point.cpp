@@ -62,7 +62,7 @@ TEST_CASE("The reference bridge's 78 points have the names, blocks and places of
     CHECK((point.position - expected[i].position).norm() < 1e-12);
     CHECK((bridge.mesh.position(point.node) - expected[i].position).norm() < 1e-12);
     const IndexRange own = bridge.mesh.block_nodes[static_cast<std::size_t>(value(point.block))];
-    CHECK((value(point.node) >= own.begin && value(point.node) < own.end));
+    CHECK(own.contains(value(point.node)));
   }
 }
 
