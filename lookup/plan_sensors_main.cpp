@@ -40,7 +40,7 @@ void add_reading_options(CLI::App& app, Options& options) {
       ->delimiter(',')
       ->option_text("LIST");
   app.add_option("--choose", settings.choose,
-                 "take only so many of them, one after the other the one that helps most")
+                 "take only so many of them, with which the most losses are seen")
       ->check(CLI::Range(std::size_t{1}, std::size_t{100000}))
       ->option_text("N");
   app.add_option("--history", settings.history,

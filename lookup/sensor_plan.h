@@ -14,7 +14,7 @@ struct PlanSettings {
   std::vector<std::string> points = {};  ///< of the database that may be read; empty: all
   double sigma = 0.0;                    ///< [m] standard deviation of the change at each of them
   std::optional<std::size_t>
-      choose{};  ///< how many of them, those that help most (rows_that_help); nothing: all
+      choose{};  ///< how many of them, with which most is seen (rows_that_help); nothing: all
   std::optional<std::string> history{};  ///< as in ComparisonSettings
   Conditions conditions = Conditions::uncertain;
   double datum = 0.0;  ///< [m] Nuisance
