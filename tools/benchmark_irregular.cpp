@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 
 #include "core/error.h"
@@ -29,9 +30,15 @@ struct Run {
   StudySource source;
   std::vector<StudyRow> rows{};
 
-  void damaged(const DamagedTruth& truth) {
+  bool wants(const std::string& kind) const { return kind.find(options.kind) != std::string::npos; }
+
+  /// `taken`: one of so many scenes has been solved.
+  void damaged(const DamagedTruth& truth, std::size_t taken = 1) {
+    StudySettings settings = options.settings;
+    settings.every = std::max<std::size_t>(1, settings.every / taken);
+    settings.every_all = std::max<std::size_t>(1, settings.every_all / taken);
     source.truths.push_back(truth.name);
-    append(study_damaged(database, truth, options.settings, show));
+    append(study_damaged(database, truth, settings, show));
   }
   void intact(const IntactTruth& truth) {
     source.truths.push_back(truth.name);
@@ -59,12 +66,19 @@ void try_damaged(Run& run) {
   const BlockLayout& layout = run.database.layout();
   const auto damaged = [&](const std::string& name, const Uncertainty& uncertainty, std::uint64_t seed,
                            const std::string& scenes) {
-    run.damaged(
-        solve_damaged(run.bridge, {name, uncertainty, options.bridges, seed}, scenes, options.folder));
+    if (run.wants(name))
+      run.damaged(
+          solve_damaged(run.bridge, {name, uncertainty, options.bridges, seed}, scenes, options.folder));
   };
   for (const double scatter : options.scatters)
     damaged(fmt::format("joints {}", scatter), scattered_joints(scatter), kDamagedSeed, wall_singles(layout));
   damaged("everything", run.bridge.description.uncertainty, kDamagedSeed, wall_singles(layout));
+  const SampledTruth in_epochs{"everything, epochs too", run.bridge.description.uncertainty, options.bridges,
+                               kDamagedSeed};
+  if (run.wants(in_epochs.name))
+    run.damaged(solve_lost_between(run.bridge.description, in_epochs, {.at_random = true},
+                                   wall_blocks(layout), options.settings.every),
+                options.settings.every);
   damaged(fmt::format("joints {} pairs", kScatter), scattered_joints(kScatter), kPairsSeed,
           random_pairs(layout, kPairs, kPairsSeed));
 }
@@ -73,8 +87,9 @@ void try_damaged(Run& run) {
 void try_intact(Run& run) {
   const IrregularOptions& options = run.options;
   const auto intact = [&](const std::string& name, const Uncertainty& uncertainty, const Between& between) {
-    run.intact(solve_intact(run.bridge.description, {name, uncertainty, options.intact_bridges, kIntactSeed},
-                            between));
+    if (run.wants(name))
+      run.intact(solve_intact(run.bridge.description,
+                              {name, uncertainty, options.intact_bridges, kIntactSeed}, between));
   };
   for (const double scatter : options.scatters)
     intact(fmt::format("joints {}", scatter), scattered_joints(scatter), {});

@@ -16,6 +16,7 @@ struct IrregularOptions {
   int bridges = 20;                                     ///< of each kind, with blocks missing
   int intact_bridges = 200;                             ///< of each kind, intact
   bool intact_only = false;
+  std::string kind;                                         ///< only those whose names contain this
   ScatterEvidence evidence = ScatterEvidence::first_order;  ///< of the database, where the bridge is unknown
   StudySettings settings;
   std::string json;  ///< file; empty: none

@@ -45,6 +45,8 @@ void add_irregular_options(CLI::App& app, IrregularOptions& options) {
       ->check(CLI::PositiveNumber);
   add_asking_options(app, options);
   app.add_flag("--intact-only", options.intact_only, "of --irregular: intact bridges only");
+  app.add_option("--kind", options.kind,
+                 "of --irregular: only the kinds of bridges whose names contain this, such as 'epochs too'");
   app.add_option("--every", options.settings.every, "of --irregular: take one of so many singles")
       ->check(CLI::Range(1, kMost))
       ->capture_default_str();

@@ -22,7 +22,6 @@ constexpr double kPlanWidth = 1040.0;
 constexpr double kRoomAbove = 0.3;  // [m]
 constexpr double kPlanDisc = 4.0;
 constexpr std::size_t kLeastSeenListed = 15;
-constexpr std::size_t kFewPoints = 30;  // fewer show less than is planned: docs/plan.md
 
 std::string label(BlockId block, const Database& database) {
   return database.layout()[block].label;
@@ -118,8 +117,8 @@ void write_counts(Text to, const SensorPlan& plan, const PlannedBridge& bridge) 
                  count, seen(plan).size(), percent(kSure), percent(mean_of(plan, &Sight::seen)));
   fmt::format_to(to, "Named:        {}; on average {}\n", named(plan).size(),
                  percent(mean_of(plan, &Sight::named)));
-  if (plan.points.size() < kFewPoints)
-    fmt::format_to(to, "Few points:   a dozen saw a third to two thirds of that in trials (docs/plan.md)\n");
+  fmt::format_to(to,
+                 "In trials:    half to three quarters of that, with a dozen points less (docs/plan.md)\n");
   const std::vector<BlockId> hardly = hardly_seen(plan);
   fmt::format_to(to, "Hardly seen:  {}, each less often than {}{}\n", hardly.size(), percent(kHardly),
                  hardly.empty() ? "" : ": " + labels(hardly, bridge.database));

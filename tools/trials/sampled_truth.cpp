@@ -9,6 +9,7 @@
 #include "core/solve/combined_solver.h"
 #include "core/structure/rigid_movement.h"
 #include "core/structure/unevenness.h"
+#include "core/threads.h"
 #include "generator/build.h"
 #include "generator/variants.h"
 
@@ -96,6 +97,45 @@ std::vector<Stage> stages_of_epoch(const Model& bridge, const SampledTruth& trut
 /// A bridge warms and its supports move slowly, so that joints slide on the way: in so many parts.
 constexpr int kPartsOfWay = 16;
 
+/// What is left of a bridge without a block.
+struct Remains {
+  BlockId block;
+  State state;
+};
+
+/// Solves a stage for each of the blocks missing, side by side; those that do not stand are left out.
+template <class MakeTask>
+std::vector<Remains> solve_remains(QuasiStaticSolver& solver, const std::vector<BlockId>& blocks,
+                                   MakeTask make_task) {
+  std::vector<StageTask> tasks;
+  for (std::size_t i = 0; i < blocks.size(); ++i) {
+    tasks.push_back(make_task(i));
+    tasks.back().stage.scene = Scene{{blocks[i]}};
+  }
+  std::vector<Solution> solutions = solver.solve(tasks);
+  std::vector<Remains> remains;
+  for (std::size_t i = 0; i < blocks.size(); ++i)
+    if (stands(solutions[i])) remains.push_back({blocks[i], std::move(solutions[i])});
+  return remains;
+}
+
+/// Where they are after they have gone from one epoch to the next.
+std::vector<Remains> go_to_epoch(QuasiStaticSolver& solver, const Model& bridge, const Stage& from,
+                                 const Stage& to, std::vector<Remains> remains) {
+  for (int part = 1; part <= kPartsOfWay; ++part) {
+    const std::vector<Remains> before = std::move(remains);
+    std::vector<BlockId> blocks;
+    for (const Remains& one : before) blocks.push_back(one.block);
+    remains = solve_remains(solver, blocks, [&](std::size_t i) {
+      return StageTask{.stage = on_the_way(from, to, static_cast<double>(part) / kPartsOfWay),
+                       .start = &before[i].state.displacement,
+                       .before = &before[i].state,
+                       .parameters = &bridge.parameters};
+    });
+  }
+  return remains;
+}
+
 /// The bridges' equilibria after they have gone from one epoch to the next.
 std::vector<State> go_to_epoch(QuasiStaticSolver& solver, const std::vector<Model>& bridges,
                                const std::vector<Stage>& from, const std::vector<Stage>& to,
@@ -109,16 +149,60 @@ std::vector<State> go_to_epoch(QuasiStaticSolver& solver, const std::vector<Mode
   return states;
 }
 
+/// Sampled bridges that stand intact in the first of two epochs.
+struct EpochsOfBridges {
+  Model nominal;
+  std::vector<Model> bridges;
+  std::vector<Stage> first, second;
+  std::vector<State> built, before;
+
+  EpochsOfBridges(const BridgeDescription& description, const SampledTruth& truth, const Between& between)
+      : nominal(make_model(description)),
+        first(stages_of_epoch(nominal, truth, between, 1)),
+        second(stages_of_epoch(nominal, truth, between, 2)) {
+    for (const VariantParameters& parameters :
+         sampled_variants(nominal, truth.uncertainty, truth.bridges, truth.seed))
+      bridges.push_back(variant_of(nominal, parameters));
+    QuasiStaticSolver solver(nominal);
+    const std::vector<Stage> at_rest(bridges.size());
+    built = solve_all(solver, bridges, at_rest, {}, truth.name);
+    before = go_to_epoch(solver, bridges, at_rest, first, built, truth.name);
+  }
+};
+
 std::vector<double> shown(const State& state, const Model& bridge) {
   const Eigen::VectorXd vertical = readings_at(bridge.control_points, state.displacement);
   return {vertical.begin(), vertical.end()};
 }
 
-std::vector<BlockId> wall_blocks(const BlockLayout& layout) {
-  std::vector<BlockId> wall;
-  for (std::size_t b = 0; b < layout.size(); ++b)
-    if (layout.blocks[b].role == BlockRole::wall) wall.push_back(BlockId{static_cast<std::int32_t>(b)});
-  return wall;
+constexpr int kStepsOfLoss = 16;  // as a database's
+
+/// Of one bridge: what is left of it when a block goes in the first epoch and it enters the second; and when
+/// it was built without the block.
+TrueBridge lose_each(const EpochsOfBridges& sampled, std::size_t number, const std::vector<BlockId>& blocks) {
+  const Model &bridge = sampled.bridges[number], &nominal = sampled.nominal;
+  const Stage &first = sampled.first[number], &second = sampled.second[number];
+  const State &built = sampled.built[number], &before = sampled.before[number];
+  QuasiStaticSolver solver(nominal);
+  const auto lost =
+      go_to_epoch(solver, bridge, first, second, solve_remains(solver, blocks, [&](std::size_t) {
+                    return StageTask{.stage = first,
+                                     .start = &before.displacement,
+                                     .before = &before,
+                                     .parameters = &bridge.parameters,
+                                     .steps = kStepsOfLoss};
+                  }));
+  const auto without = go_to_epoch(
+      solver, bridge, {}, second, solve_remains(solver, blocks, [&](std::size_t) {
+        return StageTask{.stage = {}, .start = &built.displacement, .parameters = &bridge.parameters};
+      }));
+  TrueBridge result{shown(before, nominal), {}};
+  for (const Remains& one : lost) {
+    const auto same = std::ranges::find(without, one.block, &Remains::block);
+    if (same != without.end())
+      result.damaged.push_back({Scene{{one.block}}, shown(same->state, nominal), shown(one.state, nominal)});
+  }
+  return result;
 }
 
 std::string list_of(const std::vector<Scene>& scenes, const BlockLayout& layout) {
@@ -165,22 +249,34 @@ DamagedTruth solve_damaged(const BridgeFile& bridge, const SampledTruth& truth, 
 
 IntactTruth solve_intact(const BridgeDescription& description, const SampledTruth& truth,
                          const Between& between) {
-  const Model nominal = make_model(description);
-  std::vector<Model> bridges;
-  for (const VariantParameters& parameters :
-       sampled_variants(nominal, truth.uncertainty, truth.bridges, truth.seed))
-    bridges.push_back(variant_of(nominal, parameters));
-  QuasiStaticSolver solver(nominal);
-  const std::vector<Stage> at_rest(bridges.size());
-  const std::vector<Stage> first = stages_of_epoch(nominal, truth, between, 1);
-  const std::vector<Stage> second = stages_of_epoch(nominal, truth, between, 2);
-  const auto built = solve_all(solver, bridges, at_rest, {}, truth.name);
-  const auto before = go_to_epoch(solver, bridges, at_rest, first, built, truth.name);
-  const auto after = go_to_epoch(solver, bridges, first, second, before, truth.name);
+  const EpochsOfBridges sampled(description, truth, between);
+  QuasiStaticSolver solver(sampled.nominal);
+  const auto after =
+      go_to_epoch(solver, sampled.bridges, sampled.first, sampled.second, sampled.before, truth.name);
   IntactTruth result{truth.name, {}};
-  for (std::size_t b = 0; b < bridges.size(); ++b)
-    result.bridges.push_back({shown(before[b], nominal), shown(after[b], nominal)});
+  for (std::size_t b = 0; b < sampled.bridges.size(); ++b)
+    result.bridges.push_back({shown(sampled.before[b], sampled.nominal), shown(after[b], sampled.nominal)});
   return result;
+}
+
+DamagedTruth solve_lost_between(const BridgeDescription& description, const SampledTruth& truth,
+                                const Between& between, const std::vector<BlockId>& blocks,
+                                std::size_t every) {
+  const EpochsOfBridges sampled(description, truth, between);
+  DamagedTruth result{truth.name, std::vector<TrueBridge>(sampled.bridges.size())};
+  for_each_index_on_threads(sampled.bridges.size(), hardware_threads(), [&](std::size_t b) {
+    std::vector<BlockId> some;
+    for (std::size_t i = b % every; i < blocks.size(); i += every) some.push_back(blocks[i]);
+    result.bridges[b] = lose_each(sampled, b, some);
+  });
+  return result;
+}
+
+std::vector<BlockId> wall_blocks(const BlockLayout& layout) {
+  std::vector<BlockId> wall;
+  for (std::size_t b = 0; b < layout.size(); ++b)
+    if (layout.blocks[b].role == BlockRole::wall) wall.push_back(BlockId{static_cast<std::int32_t>(b)});
+  return wall;
 }
 
 std::string wall_singles(const BlockLayout& layout) {

@@ -41,7 +41,18 @@ struct Between {
 /// not stand.
 IntactTruth solve_intact(const BridgeDescription& bridge, const SampledTruth& truth, const Between& between);
 
-/// The intact bridge and all singles of the wall, as parse_scene_list reads them: those of the arch collapse.
+/// Solves bridges that lose each of these blocks, or one of `every` so many, between the two times: in the
+/// first epoch, which the intact bridge has entered, the block goes, and what is left enters the second. As
+/// built it was missing from the start, and the second epoch alone was entered. Losses after which something
+/// falls are left out. Throws Failure if an intact bridge does not stand.
+DamagedTruth solve_lost_between(const BridgeDescription& bridge, const SampledTruth& truth,
+                                const Between& between, const std::vector<BlockId>& blocks,
+                                std::size_t every = 1);
+
+/// All blocks of the wall: losses of the arch's make it collapse.
+std::vector<BlockId> wall_blocks(const BlockLayout& layout);
+
+/// The intact bridge and all singles of the wall, as parse_scene_list reads them.
 std::string wall_singles(const BlockLayout& layout);
 
 /// The same with so many random pairs of wall blocks in the place of singles.
