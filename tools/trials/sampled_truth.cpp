@@ -7,6 +7,7 @@
 #include "core/geometry/polygon.h"
 #include "core/random.h"
 #include "core/solve/combined_solver.h"
+#include "core/solve/history.h"
 #include "core/structure/rigid_movement.h"
 #include "core/structure/unevenness.h"
 #include "core/threads.h"
@@ -174,8 +175,6 @@ std::vector<double> shown(const State& state, const Model& bridge) {
   const Eigen::VectorXd vertical = readings_at(bridge.control_points, state.displacement);
   return {vertical.begin(), vertical.end()};
 }
-
-constexpr int kStepsOfLoss = 16;  // as a database's
 
 /// Of one bridge: what is left of it when a block goes in the first epoch and it enters the second; and when
 /// it was built without the block.
