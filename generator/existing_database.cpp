@@ -53,8 +53,12 @@ std::vector<std::string> find_changes(const Database& database, const WantedData
   if (wanted.sensitivities != has_sensitivities && (has_sensitivities || stands_intact(database)))
     changes.push_back(wanted.sensitivities ? "sensitivities are wanted"
                                            : "sensitivities are no longer wanted");
-  if (has_sensitivities && wanted.sensitivities && !database.sensitivities()->signals)
-    changes.push_back("factors of the signals are wanted");
+  if (has_sensitivities && wanted.sensitivities) {
+    const Sensitivities& found = *database.sensitivities();
+    if (!found.signals) changes.push_back("factors of the signals are wanted");
+    if (found.left.rows() > 0 && found.left.columns() == 0)
+      changes.push_back("what the first order leaves of signals is wanted");
+  }
   return changes;
 }
 

@@ -24,15 +24,13 @@ Eigen::MatrixXd factor_of(const std::vector<Eigen::VectorXd>& errors, Eigen::Ind
   return covariance_factor(covariance);
 }
 
-/// Scenes, the intact one and some singles, that stand in all states.
+/// The intact scene and the singles that stand in some state.
 std::vector<std::size_t> sampled_scenes(const FirstOrder& first_order) {
-  std::vector<std::size_t> standing;
+  std::vector<std::size_t> scenes = {kIntactScene};
   for (std::size_t scene = 1; scene < first_order.nominal.scenes.size(); ++scene)
-    if (std::ranges::all_of(first_order.derivatives,
+    if (std::ranges::any_of(first_order.derivatives,
                             [&](const auto& state) { return state[scene].size() > 0; }))
-      standing.push_back(scene);
-  std::vector<std::size_t> scenes = evenly_chosen(standing, kSampledSingles);
-  scenes.insert(scenes.begin(), kIntactScene);
+      scenes.push_back(scene);
   return scenes;
 }
 
@@ -67,11 +65,12 @@ std::vector<SampledScene> solve_scenes(const SensitivityStudy& study, const Nomi
 Samples solve_samples(const SensitivityStudy& study, const UncertainParameters& uncertain,
                       const FirstOrder& first_order, Progress& progress) {
   Samples samples;
-  for (std::size_t i = 0; i < kSampledBridges; ++i)
+  const std::size_t count = sampled_bridge_count(study.bridge.control_points.size());
+  for (std::size_t i = 0; i < count; ++i)
     samples.bridges.push_back(draw_bridge(study.bridge, uncertain, kFirstSampledSeed + i));
   samples.scenes = sampled_scenes(first_order);
   const std::span<const SampledBridge> bridges = samples.bridges;
-  progress.start(kSampledBridges, 0, "sampled bridges");
+  progress.start(count, 0, "sampled bridges");
   samples.few = solve_scenes(study, first_order.nominal, bridges.first(kBridgesWithSingles), samples.scenes,
                              1, progress);
   for (std::size_t i = 0; i < kBridgesWithSingles; ++i)
@@ -88,13 +87,18 @@ class StateResidual {
  public:
   StateResidual(const SensitivityStudy& study, const FirstOrder& first_order, const Samples& samples,
                 std::size_t state, const std::vector<Eigen::MatrixXd>& slopes)
-      : study_(study), first_order_(first_order), samples_(samples), state_(state), slopes_(slopes) {}
+      : study_(study),
+        first_order_(first_order),
+        samples_(samples),
+        state_(state),
+        slopes_(slopes),
+        signals_(sampled_signals()) {}
 
   FirstOrderResidual find() const {
     const Eigen::VectorXd intact = nominal(kIntactScene);
     const Eigen::MatrixXd& slope = slopes_[kIntactScene];
     std::vector<Eigen::VectorXd> of_bridge, of_epoch;
-    for (std::size_t i = 0; i < kSampledBridges; ++i) {
+    for (std::size_t i = 0; i < samples_.bridges.size(); ++i) {
       const SampledBridge& bridge = samples_.bridges[i];
       const Eigen::VectorXd& at_rest = samples_.intact[i].at_rest[state_];
       const Eigen::VectorXd& in_epoch = samples_.intact[i].in_epoch[state_];
@@ -102,23 +106,29 @@ class StateResidual {
       of_bridge.push_back(at_rest - intact - slope.leftCols(bridge.of_bridge.size()) * bridge.of_bridge);
       of_epoch.push_back(in_epoch - at_rest - slope.rightCols(bridge.of_epoch.size()) * bridge.of_epoch);
     }
-    const SignalFits fits = signals_compared() > 0 ? fits_of_signals() : kAsMuchAsItSays;
+    const SignalFits fits = signals_.empty() ? kAsMuchAsItSays : fits_of_signals();
     return {
         factor_of(of_bridge, intact.size()), factor_of(of_epoch, intact.size()), std::sqrt(fits.bridge[0]),
         std::sqrt(fits.bridge[1]),           std::sqrt(fits.epoch[0]),           std::sqrt(fits.epoch[1])};
   }
 
-  /// Of how many singles of sampled bridges the signal is known.
-  std::size_t signals_compared() const {
-    std::size_t count = 0;
-    const std::size_t scenes = samples_.scenes.size();
-    for (std::size_t i = 0; i < kBridgesWithSingles; ++i)
-      for (std::size_t j = 1; j < scenes; ++j) {
-        const SampledScene &intact = samples_.few[i * scenes], &single = samples_.few[i * scenes + j];
-        if (signal_of(intact.at_rest, single.at_rest) && signal_of(intact.in_epoch, single.in_epoch)) ++count;
-      }
-    return count;
+  /// What the first order leaves of what epochs change of each scene's signal: points x bridges, over the
+  /// root of their number.
+  std::vector<Eigen::MatrixXd> left_of_signals() const {
+    std::vector<Eigen::MatrixXd> left(first_order_.nominal.scenes.size());
+    const double root = std::sqrt(static_cast<double>(kBridgesWithSingles));
+    for (const SampledSignal& signal : signals_) {
+      Eigen::MatrixXd& to = left[signal.scene];
+      if (to.size() == 0)
+        to = Eigen::MatrixXd::Zero(signal.left_of_epoch.size(), Eigen::Index{kBridgesWithSingles});
+      to.col(static_cast<Eigen::Index>(signal.bridge)) =
+          signal.left_of_epoch.array().isNaN().select(0.0, signal.left_of_epoch) / root;
+    }
+    return left;
   }
+
+  /// Does any single stand in a sampled bridge?
+  bool has_signals() const { return !signals_.empty(); }
 
  private:
   Eigen::VectorXd nominal(std::size_t scene) const {
@@ -136,23 +146,42 @@ class StateResidual {
 
   SignalFits fits_of_signals() const {
     ErrorFit of_bridge, of_epoch;
+    for (const SampledSignal& signal : signals_) {
+      const Eigen::MatrixXd slope = slope_of_signal(signal.scene);
+      const Eigen::Index parameters = samples_.bridges.front().of_bridge.size();
+      add(slope.leftCols(parameters), signal.left_of_bridge, of_bridge);
+      add(slope.rightCols(slope.cols() - parameters), signal.left_of_epoch, of_epoch);
+    }
+    return {of_bridge.squares(), of_epoch.squares()};
+  }
+
+  Eigen::MatrixXd slope_of_signal(std::size_t scene) const { return slopes_[scene] - slopes_[kIntactScene]; }
+
+  /// A single of a sampled bridge that stands at rest and in its epoch: what the first order leaves of its
+  /// signal [m], NaN where it has no such point.
+  struct SampledSignal {
+    std::size_t bridge, scene;
+    Eigen::VectorXd left_of_bridge, left_of_epoch;
+  };
+
+  std::vector<SampledSignal> sampled_signals() const {
+    std::vector<SampledSignal> signals;
     const std::size_t scenes = samples_.scenes.size();
     for (std::size_t i = 0; i < kBridgesWithSingles; ++i)
       for (std::size_t j = 1; j < scenes; ++j) {
-        const SampledScene& intact = samples_.few[i * scenes];
-        const SampledScene& single = samples_.few[i * scenes + j];
+        const std::size_t scene = samples_.scenes[j];
+        const SampledScene &intact = samples_.few[i * scenes], &single = samples_.few[i * scenes + j];
         const auto at_rest = signal_of(intact.at_rest, single.at_rest);
         const auto in_epoch = signal_of(intact.in_epoch, single.in_epoch);
-        if (!at_rest || !in_epoch) continue;
+        if (!at_rest || !in_epoch || slopes_[scene].size() == 0) continue;
         const SampledBridge& bridge = samples_.bridges[i];
-        const Eigen::MatrixXd slope = slopes_[samples_.scenes[j]] - slopes_[kIntactScene];
-        const Eigen::MatrixXd by_bridge = slope.leftCols(bridge.of_bridge.size());
-        const Eigen::MatrixXd by_epoch = slope.rightCols(bridge.of_epoch.size());
-        const Eigen::VectorXd signal = nominal(samples_.scenes[j]) - nominal(kIntactScene);
-        add(by_bridge, *at_rest - signal - by_bridge * bridge.of_bridge, of_bridge);
-        add(by_epoch, *in_epoch - *at_rest - by_epoch * bridge.of_epoch, of_epoch);
+        const Eigen::MatrixXd slope = slope_of_signal(scene);
+        const Eigen::VectorXd nominal_signal = nominal(scene) - nominal(kIntactScene);
+        signals.push_back(
+            {i, scene, *at_rest - nominal_signal - slope.leftCols(bridge.of_bridge.size()) * bridge.of_bridge,
+             *in_epoch - *at_rest - slope.rightCols(bridge.of_epoch.size()) * bridge.of_epoch});
       }
-    return {of_bridge.squares(), of_epoch.squares()};
+    return signals;
   }
 
   /// Nothing of what does not stand, or has lost all points.
@@ -172,30 +201,38 @@ class StateResidual {
   const Samples& samples_;
   std::size_t state_;
   const std::vector<Eigen::MatrixXd>& slopes_;  ///< of each scene
+  std::vector<SampledSignal> signals_;
 };
 
 }  // namespace
 
-std::vector<FirstOrderResidual> first_order_residuals(const SensitivityStudy& study,
-                                                      const UncertainParameters& uncertain,
-                                                      const FirstOrder& first_order, Progress& progress) {
+std::size_t sampled_bridge_count(std::size_t points) {
+  constexpr std::size_t of_each_point = 5, fewest = 128, most = 400;
+  return std::clamp(of_each_point * points, fewest, most);
+}
+
+WhatIsLeft what_is_left(const SensitivityStudy& study, const UncertainParameters& uncertain,
+                        const FirstOrder& first_order, Progress& progress) {
   const std::vector<std::size_t> kept = kept_states(study.states);
   const auto points = static_cast<Eigen::Index>(study.bridge.control_points.size());
-  std::vector<FirstOrderResidual> residuals(
-      kept.size(), {Eigen::MatrixXd::Zero(points, points), Eigen::MatrixXd::Zero(points, points)});
-  if (!study.solver.make_equilibrium_solver) return residuals;
+  WhatIsLeft left;
+  left.residuals.resize(kept.size(),
+                        {Eigen::MatrixXd::Zero(points, points), Eigen::MatrixXd::Zero(points, points)});
+  left.signals.resize(kept.size(), std::vector<Eigen::MatrixXd>(first_order.nominal.scenes.size()));
+  if (!study.solver.make_equilibrium_solver) return left;
   const Samples samples = solve_samples(study, uncertain, first_order, progress);
   for (std::size_t k = 0; k < kept.size(); ++k) {
     if (first_order.derivatives[k][kIntactScene].size() == 0) continue;
     const StateResidual residual(study, first_order, samples, kept[k], first_order.derivatives[k]);
-    if (residual.signals_compared() == 0)
+    if (!residual.has_signals())
       progress.say(
           fmt::format("{}: no single stands in the sampled bridges, so what the first order leaves of "
                       "signals is not known: it is taken to be as much as the first order itself",
                       study.states[kept[k]].name));
-    residuals[k] = residual.find();
+    left.residuals[k] = residual.find();
+    left.signals[k] = residual.left_of_signals();
   }
-  return residuals;
+  return left;
 }
 
 }  // namespace voussoir

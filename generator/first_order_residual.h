@@ -7,14 +7,17 @@
 
 namespace voussoir {
 
-/// Bridges of which the intact scene is solved, with and without the movements of an epoch, and seeds of the
-/// first: enough for the directions in which the control points of a bridge can err.
-inline constexpr std::size_t kSampledBridges = 128;
+/// Bridges of which the intact scene is solved, with and without the movements of an epoch: five for each
+/// point that is read, within bounds. A covariance from hardly more samples than it has directions is too
+/// small for other bridges: the squared distances of 548 others were 1.33 times those of 1500 samples with
+/// 128 samples of the reference bridge's 78 points, and 1.06 times with 512 (docs/uncertainty.md).
+std::size_t sampled_bridge_count(std::size_t points);
+
+/// The seed of the first.
 inline constexpr std::uint64_t kFirstSampledSeed = 0x5eed0001;
 
-/// Of so many of them some singles are solved as well, evenly spread over those that stand.
-inline constexpr std::size_t kBridgesWithSingles = 6;
-inline constexpr std::size_t kSampledSingles = 24;
+/// Of so many of them the singles that stand are solved as well.
+inline constexpr std::size_t kBridgesWithSingles = 4;
 
 /// The nominal bridge's answers.
 struct NominalScenes {
@@ -27,11 +30,15 @@ struct FirstOrder {
   const Derivatives& derivatives;  ///< of its scenes
 };
 
-/// One for each kept state. A bridge that does not stand is left out. Without a solver of equilibria (see
-/// SolverChoice) they are zero; where no single stands in a sampled bridge its signals are taken to be off by
-/// as much as the first order says, and `progress` is told.
-std::vector<FirstOrderResidual> first_order_residuals(const SensitivityStudy& study,
-                                                      const UncertainParameters& uncertain,
-                                                      const FirstOrder& first_order, Progress& progress);
+struct WhatIsLeft {
+  std::vector<FirstOrderResidual> residuals;  ///< one for each kept state
+  Derivatives signals;  ///< of each kept state and scene: SceneFactors::left; empty where nothing is known
+};
+
+/// A bridge that does not stand is left out. Without a solver of equilibria (see SolverChoice) nothing is
+/// left; where no single stands in a sampled bridge its signals are taken to be off by as much as the first
+/// order says, and `progress` is told.
+WhatIsLeft what_is_left(const SensitivityStudy& study, const UncertainParameters& uncertain,
+                        const FirstOrder& first_order, Progress& progress);
 
 }  // namespace voussoir

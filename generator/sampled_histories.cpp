@@ -77,8 +77,10 @@ void SampledHistories::enter_epochs(const std::vector<Case>& cases, const Found&
                                     Found& found) const {
   for (std::size_t i = 0; i < cases.size(); ++i) found[i][kBuilt] = at_rest[i][kBuilt];
   for (int part = 1; part <= kPartsOfEpoch; ++part) {
+    const bool is_for_all = part % (kPartsOfEpoch / kPartsOfEpochWithout) == 0;
     Batch batch;
     for (std::size_t i = 0; i < cases.size(); ++i) {
+      if (cases[i].scene != kIntactScene && !is_for_all) continue;
       Stage epoch = on_the_way({}, cases[i].bridge->epoch, static_cast<double>(part) / kPartsOfEpoch);
       batch.add_next(i, stage_of(cases[i], std::move(epoch)), found[i][kBuilt], cases[i].bridge->parameters);
     }

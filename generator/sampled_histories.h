@@ -9,8 +9,12 @@ namespace voussoir {
 
 /// Parts in which a bridge warms and its supports move into an epoch: joints slide on the way. In one part
 /// the reference bridge's displacements are off by 20 micrometres (root mean square, of a change of 1130), in
-/// eight by 0.2; those of a bridge that stands by what it has slid (seed 1059) by 105 and 7 (of 1000).
-inline constexpr int kPartsOfEpoch = 8;
+/// four by 0.5; those of a bridge that stands by what it has slid (seed 1059) by 105 and 18 (of 1000).
+inline constexpr int kPartsOfEpoch = 4;
+/// And scenes that lack a block, of which there are many and which show no more than what is left of their
+/// signals: two parts are off by 0.8 micrometres.
+inline constexpr int kPartsOfEpochWithout = 2;
+static_assert(kPartsOfEpoch % kPartsOfEpochWithout == 0);
 
 /// A bridge that is drawn at random, and an epoch.
 struct SampledBridge {

@@ -90,16 +90,19 @@ std::optional<Sensitivities> find_sensitivities(const SensitivityStudy& study,
   auto derivatives = derivatives_of(study, equations, result.scenes, states, progress);
   const auto of_bridge = static_cast<Eigen::Index>(equations.uncertain.of_bridge.size());
   result.basis = sensitivity_basis(derivatives, equations.uncertain.correlation_factor, study.threads);
-  const auto residuals =
-      first_order_residuals(study, equations.uncertain, {{result.scenes, states}, derivatives}, progress);
-  result.make_room(derivatives.size(), static_cast<Eigen::Index>(study.bridge.control_points.size()));
-  result.residuals = residuals;
+  WhatIsLeft left =
+      what_is_left(study, equations.uncertain, {{result.scenes, states}, derivatives}, progress);
+  result.make_room(derivatives.size(), static_cast<Eigen::Index>(study.bridge.control_points.size()),
+                   Eigen::Index{kBridgesWithSingles});
+  result.residuals = std::move(left.residuals);
   result.unevenness = find_unevenness(study, states.front());
   Crew(study.threads).for_each_index(result.scenes.size(), [&](std::size_t i) {
     for (std::size_t state = 0; state < derivatives.size(); ++state) {
       const Eigen::MatrixXd scene = std::move(derivatives[state][i]);
       if (scene.size() > 0)
-        result.set(state, i, {projected(scene, result.basis), scene.rightCols(scene.cols() - of_bridge)});
+        result.set(state, i,
+                   SceneFactors{projected(scene, result.basis), scene.rightCols(scene.cols() - of_bridge),
+                                std::move(left.signals[state][i])});
     }
   });
   return result;

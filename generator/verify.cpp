@@ -110,8 +110,9 @@ void check_search(const Database& database, VerifyReport& report) {
 /// Of factors, which may be many, one scene after the other is looked at.
 void check_factors(const Sensitivities& sensitivities, VerifyReport& report) {
   if (!are_factors_sound(sensitivities))
-    report.problems.push_back(fmt::format("datasets '{}' and '{}': a scene without sensitivities has some",
-                                          dataset::kBridgeFactors, dataset::kEpochFactors));
+    report.problems.push_back(
+        fmt::format("datasets '{}', '{}' and '{}': a scene without sensitivities has some",
+                    dataset::kBridgeFactors, dataset::kEpochFactors, dataset::kSignalLeft));
   else if (sensitivities.signals && !are_signals_right(sensitivities))
     report.problems.push_back(fmt::format("group '{}': is not what '{}' and '{}' give", dataset::kSignals,
                                           dataset::kBridgeFactors, dataset::kEpochFactors));

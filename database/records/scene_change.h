@@ -5,13 +5,17 @@
 
 namespace voussoir {
 
-/// A scene's factors less the intact bridge's. Where a block is gone (rows are zero) nothing is read and
-/// nothing changes.
+/// A scene's factors less the intact bridge's, and what is left of its signal. Where a block is gone (rows
+/// are zero) nothing is read and nothing changes.
 SceneFactors change_of(SceneFactors scene, const SceneFactors& intact);
 
 /// What the first order leaves of a signal (FirstOrderResidual) goes along what it knows: as an error of
 /// every point by itself it would make scenes likely that scatter little. So many times as large is what a
 /// loss changes then.
 double widening(double share, double common);
+
+/// The same of an epoch's parameters, as far as no sampled bridges show what is left of this signal (columns
+/// of `left` that are not zero).
+double widening_of_epoch(const FirstOrderResidual& residual, const Eigen::MatrixXd& left);
 
 }  // namespace voussoir

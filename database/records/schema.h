@@ -74,6 +74,7 @@ inline constexpr char kEpochFactors[] = "sensitivity/epoch_factors";
 inline constexpr char kResidualBridge[] = "sensitivity/residual_bridge";
 inline constexpr char kResidualEpoch[] = "sensitivity/residual_epoch";
 inline constexpr char kResidualShare[] = "sensitivity/residual_share";
+inline constexpr char kSignalLeft[] = "sensitivity/residual_signal";
 inline constexpr char kUnevenness[] = "sensitivity/unevenness";
 inline constexpr char kSignals[] = "signals";
 inline constexpr char kSignalFirst[] = "signals/first";

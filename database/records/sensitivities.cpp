@@ -93,6 +93,10 @@ void append_factors(const Sensitivities& from, std::vector<DatasetValue>& datase
                   datasets);
   append_in_place(dataset::kEpochFactors, from.epoch, shape_of(from.epoch),
                   "and with each parameter of an epoch, by one standard deviation", datasets);
+  append_in_place(dataset::kSignalLeft, from.left, shape_of(from.left),
+                  "what the latter leave of what an epoch changes of each loss's signal in some sampled "
+                  "bridges, over the root of their number; zero where it does not stand",
+                  datasets);
 }
 
 void append_residual(const Sensitivities& from, std::vector<DatasetValue>& datasets) {
@@ -225,6 +229,7 @@ void read_factors(const Hdf5File& file, const SensitivitySizes& sizes, Sensitivi
   into.known.assign(known.begin(), known.end());
   into.bridge = read_matrices(file, dataset::kBridgeFactors, {sizes.states, scenes}, sizes.points);
   into.epoch = read_matrices(file, dataset::kEpochFactors, {sizes.states, scenes}, sizes.points);
+  into.left = read_matrices(file, dataset::kSignalLeft, {sizes.states, scenes}, sizes.points);
   file.require(
       into.bridge.columns() == into.basis.cols() && into.epoch.columns() == into.of_epoch(),
       fmt::format("datasets '{}' and '{}' have not the columns of '{}' and '{}'", dataset::kBridgeFactors,
@@ -236,11 +241,12 @@ void read_factors(const Hdf5File& file, const SensitivitySizes& sizes, Sensitivi
 
 }  // namespace
 
-void Sensitivities::make_room(std::size_t states, Eigen::Index points) {
+void Sensitivities::make_room(std::size_t states, Eigen::Index points, Eigen::Index samples) {
   const std::size_t count = states * scenes.size();
   known.assign(count, 0);
   bridge = StackedMatrices(count, points, basis.cols());
   epoch = StackedMatrices(count, points, of_epoch());
+  left = StackedMatrices(count, points, samples);
   residuals.resize(states);
 }
 
@@ -250,6 +256,7 @@ void Sensitivities::set(std::size_t state, std::size_t scene, const SceneFactors
   if (!factors.known()) return;
   bridge.own(place) = factors.bridge;
   epoch.own(place) = factors.epoch;
+  if (factors.left.size() > 0) left.own(place) = factors.left;
 }
 
 std::optional<std::size_t> Sensitivities::place_of(std::size_t state, const Scene& scene) const {
@@ -262,14 +269,17 @@ std::optional<std::size_t> Sensitivities::place_of(std::size_t state, const Scen
 std::optional<FactorsView> Sensitivities::find(std::size_t state, const Scene& scene) const {
   const auto place = place_of(state, scene);
   if (!place) return std::nullopt;
-  return FactorsView{bridge[*place], epoch[*place]};
+  return FactorsView{bridge[*place], epoch[*place], left[*place]};
 }
 
 bool are_factors_sound(const Sensitivities& sensitivities) {
   for (std::size_t place = 0; place < sensitivities.known.size(); ++place) {
-    const FactorsView factors{sensitivities.bridge[place], sensitivities.epoch[place]};
-    if (sensitivities.known[place] == 0 && !(factors.bridge.isZero(0.0) && factors.epoch.isZero(0.0)))
-      return false;
+    const FactorsView factors{sensitivities.bridge[place], sensitivities.epoch[place],
+                              sensitivities.left[place]};
+    const bool is_known = sensitivities.known[place] != 0;
+    if (!is_known && !(factors.bridge.isZero(0.0) && factors.epoch.isZero(0.0))) return false;
+    const bool is_loss = place % sensitivities.scenes.size() != 0;
+    if (!(is_known && is_loss) && !factors.left.isZero(0.0)) return false;
   }
   return true;
 }

@@ -27,6 +27,10 @@ namespace voussoir {
 struct SceneFactors {
   Eigen::MatrixXd bridge;  ///< A: points x columns of the basis
   Eigen::MatrixXd epoch;   ///< E: points x parameters of an epoch
+  /// What E leaves of what an epoch changes of the scene's signal d - d(intact), in each of some sampled
+  /// bridges and over the root of their number: points x bridges. Zero where it does not stand in a bridge,
+  /// and of the intact bridge.
+  Eigen::MatrixXd left{};
 
   bool known() const { return bridge.rows() > 0; }
 };
@@ -45,14 +49,14 @@ struct FirstOrderResidual {
   double share = 0.0;   ///< [-]
   double common = 0.0;  ///< [-]
   /// The same of what an epoch's own parameters add to a signal, s_i of E - E_intact; an error of its own in
-  /// every epoch.
+  /// every epoch. It counts as far as no sampled bridges show the scene's own (SceneFactors::left).
   double epoch_share = 0.0;   ///< [-]
   double epoch_common = 0.0;  ///< [-]
 };
 
 /// The same in place, where they are kept.
 struct FactorsView {
-  StackedMatrices::View bridge, epoch;
+  StackedMatrices::View bridge, epoch, left;
 };
 
 /// What a build makes, or what a file holds, whose factors stay where they are: they outlive this.
@@ -63,6 +67,7 @@ struct Sensitivities {
   std::vector<std::uint8_t> known;  ///< states x scenes: 1, or 0 for a scene that does not stand
   StackedMatrices bridge;           ///< states x scenes: A, zero where nothing is known
   StackedMatrices epoch;            ///< states x scenes: E
+  StackedMatrices left;             ///< states x scenes: what E leaves of signals in sampled bridges
   std::vector<FirstOrderResidual> residuals;  ///< of each state of the database
   /// What differs from part to part in an epoch (core/structure/unevenness.h) changes of the intact bridge
   /// [m], an error of its own in every epoch: of each state, points x columns that are independent and the
@@ -75,12 +80,13 @@ struct Sensitivities {
   Eigen::Index leading_columns() const { return std::min(kLeadingColumns, basis.cols()); }
 
   /// Room for factors of all scenes at so many points, of which nothing is known yet, and for residuals.
-  void make_room(std::size_t states, Eigen::Index points);
+  /// `samples`: bridges that show what E leaves of signals.
+  void make_room(std::size_t states, Eigen::Index points, Eigen::Index samples = 0);
   /// Takes in what is known of a scene, or that nothing is.
   void set(std::size_t state, std::size_t scene, const SceneFactors& factors);
 
-  /// The scene's place in `known`, `bridge` and `epoch`; nothing if nothing is known of it. Precondition: the
-  /// state exists.
+  /// The scene's place in `known`, `bridge`, `epoch` and `left`; nothing if nothing is known of it.
+  /// Precondition: the state exists.
   std::optional<std::size_t> place_of(std::size_t state, const Scene& scene) const;
   /// What is known of a scene in a state. Throws InputError if the file has a number there that is not
   /// finite.
@@ -103,7 +109,8 @@ struct SensitivitySizes {
 std::optional<Sensitivities> read_sensitivities(const Hdf5File& file, const SensitivitySizes& sizes);
 
 /// Looks at all factors, one scene after the other. Throws InputError if a number is not finite; false if
-/// there are factors of scenes of which nothing is known.
+/// there are factors of scenes of which nothing is known, or if something is left of the intact bridge's
+/// signal.
 bool are_factors_sound(const Sensitivities& sensitivities);
 
 }  // namespace voussoir

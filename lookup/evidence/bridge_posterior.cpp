@@ -130,14 +130,14 @@ double times_of(const VectorXd& movement, const VectorXd& more) {
 
 /// What the means make of the likeliest scene's readings.
 void explain(const UnknownBridge& bridge, const SceneGaussian& scene, BridgePosterior& result) {
-  const Index parameters = bridge.factors->of_epoch();
+  const Index parameters = bridge.factors->epoch_parameters();
   result.signal = scene.loss.signal;
   result.from_bridge = scene.bridge * result.bridge_mean;
   const VectorXd of_intact = bridge_columns(bridge, {}) * result.bridge_mean;
   result.times_signal = times_of(result.signal, result.from_bridge - of_intact);
   result.times_movement = times_of(bridge.movement, of_intact);
   const MatrixXd each = scene.epoch * result.epoch_mean.asDiagonal();
-  result.from_epochs = each.rightCols(parameters);
+  result.from_epochs = each.rightCols(bridge.factors->of_epoch()).leftCols(parameters);
   if (bridge.epochs > 1) result.from_epochs += each.leftCols(parameters);
   result.left =
       scene.difference - result.from_bridge - result.from_epochs.rowwise().sum() - result.from_unevenness;

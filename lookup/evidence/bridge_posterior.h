@@ -32,7 +32,7 @@ struct BridgePosterior {
   std::vector<BridgePart> parts;
   std::array<double, kScatterFactors.size()> scatter{};  ///< probability of each of kScatterFactors
   Eigen::VectorXd bridge_mean;                           ///< of the basis's columns
-  Eigen::VectorXd epoch_mean;  ///< of the parameters of each epoch in y, the second's last
+  Eigen::VectorXd epoch_mean;  ///< of the columns of each epoch in y, the second's last
   Eigen::MatrixXd epoch_covariance;
 
   // Of the likeliest scene; rows are those of y [m].

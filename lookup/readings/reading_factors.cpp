@@ -19,13 +19,21 @@ std::vector<Index> points_of(const std::vector<Channel>& channels) {
   return points;
 }
 
+/// Columns of an epoch: of its parameters, and what these leave.
+MatrixXd epoch_of(const FactorsView& from, const std::vector<Index>& points) {
+  MatrixXd columns(static_cast<Index>(points.size()), from.epoch.cols() + from.left.cols());
+  columns.leftCols(from.epoch.cols()) = from.epoch(points, Eigen::all);
+  if (from.left.cols() > 0) columns.rightCols(from.left.cols()) = from.left(points, Eigen::all);
+  return columns;
+}
+
 /// The scene's factors by channel; not known if they are unknown in one of the states.
 SceneFactors factors_of(const ReadingFactors& factors, const Scene& scene) {
   const Sensitivities& from = *factors.sensitivities;
   const auto unloaded = from.find(factors.base, scene);
   if (!unloaded) return {};
   const std::vector<Index> points = points_of(factors.channels);
-  SceneFactors result{unloaded->bridge(points, Eigen::all), unloaded->epoch(points, Eigen::all)};
+  SceneFactors result{unloaded->bridge(points, Eigen::all), epoch_of(*unloaded, points)};
   for (std::size_t k = 0; k < factors.channels.size(); ++k) {
     const Channel& channel = factors.channels[k];
     if (!channel.loaded) continue;
@@ -34,18 +42,23 @@ SceneFactors factors_of(const ReadingFactors& factors, const Scene& scene) {
     const auto i = static_cast<Index>(k);
     const Index point = points[k];
     result.bridge.row(i) = loaded->bridge.row(point) - result.bridge.row(i);
-    result.epoch.row(i) = loaded->epoch.row(point) - result.epoch.row(i);
+    result.epoch.row(i) = epoch_of(*loaded, {point}) - result.epoch.row(i);
   }
   return result;
+}
+
+/// What a loss changes of an epoch's columns, widened where no sampled bridges show what is left.
+void widen_epoch(const ReadingFactors& factors, MatrixXd& change) {
+  const Index parameters = factors.epoch_parameters();
+  const MatrixXd left = change.rightCols(change.cols() - parameters);
+  change.leftCols(parameters) *= widening_of_epoch(factors.residual, left);
 }
 
 /// What losses change in the channels' factors.
 class Losses {
  public:
   explicit Losses(const ReadingFactors& factors)
-      : factors_(factors),
-        of_bridge_(widening(factors.residual.share, factors.residual.common)),
-        of_epoch_(widening(factors.residual.epoch_share, factors.residual.epoch_common)) {
+      : factors_(factors), of_bridge_(widening(factors.residual.share, factors.residual.common)) {
     const bool loaded =
         std::ranges::any_of(factors.channels, [](const Channel& c) { return c.loaded.has_value(); });
     if (loaded || !factors.sensitivities->signals) return;
@@ -61,7 +74,12 @@ class Losses {
     const auto place = factors_.sensitivities->place_of(factors_.base, scene);
     if (!place) return {};
     const StoredSignals::Columns loss = (*stored_)[*place];
-    return {ChannelColumns(loss.epoch, points_, of_epoch_).all(),
+    const StackedMatrices::View left = factors_.sensitivities->left[*place];
+    MatrixXd epoch(static_cast<Index>(points_->size()), factors_.of_epoch());
+    epoch.leftCols(factors_.epoch_parameters()) = ChannelColumns(loss.epoch, points_, 1.0).all();
+    if (left.cols() > 0) epoch.rightCols(left.cols()) = left(*points_, Eigen::all);
+    widen_epoch(factors_, epoch);
+    return {std::move(epoch),
             {loss.lead, points_, of_bridge_},
             {loss.own, points_, of_bridge_},
             {loss.intact, points_, 1.0}};
@@ -72,7 +90,7 @@ class Losses {
     if (!own.known()) return {};
     SceneFactors change = change_of(std::move(own), factors_.intact);
     change.bridge *= of_bridge_;
-    change.epoch *= of_epoch_;
+    widen_epoch(factors_, change.epoch);
     SignalFactors signal = signal_factors(factors_.intact.bridge, change.bridge);
     return {std::move(change.epoch),
             ChannelColumns(change.bridge.leftCols(factors_.sensitivities->leading_columns())),
@@ -80,7 +98,7 @@ class Losses {
   }
 
   const ReadingFactors& factors_;
-  double of_bridge_, of_epoch_;
+  double of_bridge_;
   const StoredSignals* stored_ = nullptr;  // where they are those of the channels
   std::shared_ptr<const std::vector<Index>> points_;
 };
@@ -145,9 +163,10 @@ MatrixXd unevenness_of(const ReadingFactors& factors) {
 SceneFactors ReadingFactors::of(const Scene& scene) const {
   SceneFactors sum = intact;
   const auto add = [&](SceneFactors lost) {
-    const SceneFactors change = change_of(std::move(lost), intact);
+    SceneFactors change = change_of(std::move(lost), intact);
+    widen_epoch(*this, change.epoch);
     sum.bridge += widening(residual.share, residual.common) * change.bridge;
-    sum.epoch += widening(residual.epoch_share, residual.epoch_common) * change.epoch;
+    sum.epoch += change.epoch;
   };
   if (SceneFactors own = factors_of(*this, scene); own.known()) {
     add(std::move(own));

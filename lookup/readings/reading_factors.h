@@ -19,7 +19,7 @@ inline constexpr Eigen::Index kFirstOwnColumns = 24;
 /// What one loss changes in the channels' factors, widened by what the first order leaves of it, in a form
 /// whose size does not grow with the basis. Zero where the loss leaves no reading.
 struct LossFactors {
-  Eigen::MatrixXd epoch;  ///< of the parameters of an epoch: channels x parameters
+  Eigen::MatrixXd epoch;  ///< of an epoch: channels x columns (ReadingFactors::of_epoch)
   ChannelColumns lead;    ///< the leading columns of D
   ChannelColumns own;     ///< of all columns of D: B and H (SignalFactors)
   ChannelColumns intact;
@@ -32,7 +32,7 @@ struct ReadingFactors {
   const Sensitivities* sensitivities = nullptr;
   std::size_t base = 0;            ///< state of the channels without loads
   std::vector<Channel> channels;   ///< their sensors are not looked at
-  SceneFactors intact;             ///< with all columns
+  SceneFactors intact;             ///< with all columns; nothing is left apart
   Eigen::MatrixXd intact_product;  ///< channels x channels: A A^T of the intact bridge
   Eigen::MatrixXd
       signal_product;  ///< the sum over losses of what they change alone, nearly: where losses show
@@ -45,7 +45,10 @@ struct ReadingFactors {
 
   const std::vector<UncertainParameter>& parameters() const { return sensitivities->parameters; }
   Eigen::Index of_bridge() const { return intact.bridge.cols(); }  ///< columns
+  /// Columns: the parameters of an epoch, then what they leave of signals in each of some sampled bridges,
+  /// which is zero of the intact bridge. Losses in the same bridge leave theirs together.
   Eigen::Index of_epoch() const { return intact.epoch.cols(); }
+  Eigen::Index epoch_parameters() const { return sensitivities->of_epoch(); }
   /// All columns of a scene, widened like LossFactors, as far as they are known: of unknown losses nothing is
   /// added to the intact bridge's.
   SceneFactors of(const Scene& scene) const;

@@ -109,7 +109,8 @@ class StateFactors {
         enough
             ? columns_of(change, left_of(*sample, first ? &change : nullptr), sample->standing)
             : columns_of(first_widening() * change, MatrixXd::Zero(points(), sample->difference.cols()), 0);
-    return {left * intact_ + columns, first ? MatrixXd(first->epoch) : MatrixXd(left * intact_first_.epoch)};
+    if (!first) return {left * intact_ + columns, left * intact_first_.epoch};
+    return {left * intact_ + columns, first->epoch, first->left};
   }
 
   /// What is left of epochs, which are not sampled.
@@ -285,7 +286,8 @@ SampledBridges sampled_bridges(const Database& database) {
     made.basis = MatrixXd::Zero(sensitivities->basis.rows(), sensitivities->basis.cols() + samples);
     made.basis.leftCols(sensitivities->basis.cols()) = sensitivities->basis;
   }
-  made.make_room(database.states().size(), static_cast<Index>(database.control_points().size()));
+  made.make_room(database.states().size(), static_cast<Index>(database.control_points().size()),
+                 sensitivities != nullptr ? sensitivities->left.columns() : 0);
   for (std::size_t state = 0; state < database.states().size(); ++state)
     add_state(database, first_order ? &*first_order : nullptr, variants, state, made);
   order_columns(samples, made);

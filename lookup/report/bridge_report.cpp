@@ -34,7 +34,7 @@ double spread_beforehand_of_epochs() {
 
 /// Parameters of the bridge and those of epochs lie one behind the other.
 std::size_t first_of_epochs(const ReadingFactors& factors) {
-  return factors.parameters().size() - static_cast<std::size_t>(factors.of_epoch());
+  return factors.parameters().size() - static_cast<std::size_t>(factors.epoch_parameters());
 }
 
 KnownParameter in_own_unit(const UncertainParameter& parameter, double before, double mean,
@@ -105,7 +105,7 @@ std::vector<KnownParameter> known_of_epochs(const BridgeAnswer& bridge, const Re
   const Index columns = factors.of_epoch();
   std::vector<KnownParameter> result;
   if (model.conditions == 0.0) return result;  // they were told to be known
-  for (Index i = 0; i < columns; ++i) {
+  for (Index i = 0; i < factors.epoch_parameters(); ++i) {
     VectorXd weights = VectorXd::Zero(posterior.epoch_mean.size());
     weights[weights.size() - columns + i] = 1.0;
     if (model.epochs > 1) weights[i] = -1.0;

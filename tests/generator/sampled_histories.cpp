@@ -52,11 +52,13 @@ NamedStage without(Stage stage, const Scene& scene) {
 
 /// The stages, and then the parts in which the scene enters the epoch.
 std::vector<NamedStage> with_epoch(std::vector<NamedStage> stages, const Stage& epoch, const Scene& scene) {
-  for (int part = 1; part <= kPartsOfEpoch; ++part) {
+  const int parts = scene.removed.empty() ? kPartsOfEpoch : kPartsOfEpochWithout;
+  for (int part = 1; part <= parts; ++part) {
+    const double share = part / static_cast<double>(parts);
     NamedStage next = without(epoch, scene);
-    next.stage.temperature *= part / static_cast<double>(kPartsOfEpoch);
-    next.stage.support_movement *= part / static_cast<double>(kPartsOfEpoch);
-    next.stage.joint_stiffness = epoch.joint_stiffness.pow(part / static_cast<double>(kPartsOfEpoch));
+    next.stage.temperature *= share;
+    next.stage.support_movement *= share;
+    next.stage.joint_stiffness = epoch.joint_stiffness.pow(share);
     stages.push_back(std::move(next));
   }
   return stages;

@@ -3,12 +3,17 @@
 
 #include "generator/sensitivities.h"
 
+#include <hdf5.h>
+
 #include <catch2/catch.hpp>
 
 #include "core/solve/history.h"
 #include "core/structure/unevenness.h"
+#include "database/format/hdf5_handle.h"
+#include "database/records/schema.h"
 #include "database/records/stored_bridge.h"
 #include "generator/build.h"
+#include "generator/first_order_residual.h"
 #include "generator/sensitivity_check.h"
 #include "tests/support/bridges.h"
 #include "tests/support/made_up_database.h"
@@ -75,6 +80,29 @@ Eigen::MatrixXd covariance_anew(QuasiStaticSolver& solver, const Model& bridge,
   return derivatives * uneven.correlations * derivatives.transpose();
 }
 
+/// By how much an epoch, which the intact bridge enters before the loss, changes what the loss changes [m];
+/// nothing if anything on the way does not stand.
+std::optional<Eigen::VectorXd> signal_changed(const Model& bridge, const Stage& epoch, const Scene& scene) {
+  QuasiStaticSolver solver(bridge);
+  std::vector<NamedStage> stages = {{"", {}}};
+  const auto signal_after = [&](Stage loss) -> std::optional<Eigen::VectorXd> {
+    const Solution intact = solve_history(solver, {"", stages}).back();
+    std::vector<NamedStage> lost = stages;
+    loss.scene = scene;
+    lost.push_back({"", loss});
+    const Solution single = solve_history(solver, {"", lost}).back();
+    if (!stands(intact) || !stands(single)) return std::nullopt;
+    return readings_at(bridge.control_points, single.displacement) -
+           readings_at(bridge.control_points, intact.displacement);
+  };
+  const auto at_rest = signal_after({});
+  for (int part = 1; part <= kPartsOfEpoch; ++part)
+    stages.push_back({"", on_the_way({}, epoch, static_cast<double>(part) / kPartsOfEpoch)});
+  const auto in_epoch = signal_after(epoch);
+  if (!at_rest || !in_epoch) return std::nullopt;
+  return *in_epoch - *at_rest;
+}
+
 }  // namespace
 
 TEST_CASE("A database's sensitivities predict what a little more stiffness and heat do (solved anew)",
@@ -135,6 +163,37 @@ TEST_CASE("Unevenness is what single joints and blocks do, as far as they vary t
       CHECK((one * other.transpose() - of_joints - of_heat).norm() < 1e-5 * of_joints.norm());
 }
 
+TEST_CASE("What is left of signals is what sampled bridges show beyond the first order (each by itself)",
+          "[sensitivity][many-solutions]") {
+  const test::TemporaryFolder folder;
+  build(folder / "small.h5", 2);
+  const Database database = Database::open(folder / "small.h5");
+  const Sensitivities& found = *database.sensitivities();
+  const std::size_t state = *database.find_state("lost");
+  const Model nominal = test::small_bridge();
+  const UncertainParameters uncertain = uncertain_parameters(nominal, {});
+  int compared = 0;
+  for (const std::uint64_t number : {std::uint64_t{0}, std::uint64_t{kBridgesWithSingles - 1}}) {
+    const SampledBridge sample = draw_bridge(nominal, uncertain, kFirstSampledSeed + number);
+    for (std::size_t i = 1; i < found.scenes.size(); ++i) {
+      const auto factors = found.find(state, found.scenes[i]);
+      const auto changed =
+          signal_changed(with_parameters(nominal, sample.parameters), sample.epoch, found.scenes[i]);
+      if (!factors) continue;
+      const Eigen::VectorXd left = factors->left.col(static_cast<Eigen::Index>(number));
+      CHECK(left.isZero() == !changed);
+      if (!changed) continue;
+      const Eigen::MatrixXd slope = factors->epoch - found.find(state, {})->epoch;
+      Eigen::VectorXd expected =
+          (*changed - slope * sample.of_epoch) / std::sqrt(static_cast<double>(kBridgesWithSingles));
+      expected = changed->array().isNaN().select(0.0, expected);
+      CHECK((left - expected).cwiseAbs().maxCoeff() < 1e-4 * expected.cwiseAbs().maxCoeff() + 1e-9);
+      ++compared;
+    }
+  }
+  CHECK(compared >= 6);
+}
+
 TEST_CASE("Sensitivities and digest are the same for all numbers of threads",
           "[sensitivity][many-solutions]") {
   const test::TemporaryFolder folder;
@@ -152,6 +211,25 @@ TEST_CASE("A bridge that is said to be known has no sensitivities; without that 
   CHECK(again.computed == 0);
   CHECK(Database::open(folder / "small.h5").sensitivities() != nullptr);
   CHECK(build(folder / "small.h5", 2).up_to_date);
+}
+
+TEST_CASE("A file of before what is left of signals was kept is made again from its own records",
+          "[sensitivity]") {
+  const test::TemporaryFolder folder;
+  const std::filesystem::path path = folder / "small.h5";
+  const std::string digest = build(path, 2).digest;
+  {
+    const auto lock = lock_hdf5();
+    const Hdf5Handle file(H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT), H5Fclose);
+    REQUIRE(H5Ldelete(file.get(), dataset::kSignalLeft, H5P_DEFAULT) >= 0);
+  }
+  CHECK(Database::open(path).sensitivities()->left.columns() == 0);
+  const BuildSummary again = build(path, 2);
+  CHECK_FALSE(again.up_to_date);
+  CHECK(again.computed == 0);
+  CHECK(again.digest == digest);
+  CHECK(Database::open(path).sensitivities()->left.columns() == kBridgesWithSingles);
+  CHECK(build(path, 2).up_to_date);
 }
 
 TEST_CASE("The basis is of orthonormal directions and leaves little of every kind (definition)",

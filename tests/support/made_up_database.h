@@ -103,7 +103,7 @@ inline DatabaseContent made_up_content(const BridgeFile& file, const Model& brid
 }
 
 /// Made-up numbers for the intact bridge and the singles among the scenes, which are in their order; every
-/// fifth single has none in the last state.
+/// fifth single has none in the last state. Two sampled bridges show what is left of signals.
 inline Sensitivities made_up_sensitivities(const Model& bridge, const std::vector<Scene>& scenes,
                                            std::size_t states) {
   const auto points = static_cast<Eigen::Index>(bridge.control_points.size());
@@ -120,11 +120,13 @@ inline Sensitivities made_up_sensitivities(const Model& bridge, const std::vecto
   made.basis = Eigen::MatrixXd::Identity(3, 2);
   for (const Scene& scene : scenes)
     if (scene.missing() < 2) made.scenes.push_back(scene);
-  made.make_room(states, points);
+  made.make_room(states, points, 2);
   for (std::size_t state = 0; state < states; ++state) {
     for (std::size_t i = 0; i < made.scenes.size(); ++i)
       if (state + 1 < states || i % 5 != 4)
-        made.set(state, i, SceneFactors{numbers(points, 2), numbers(points, 2)});
+        made.set(
+            state, i,
+            SceneFactors{numbers(points, 2), numbers(points, 2), (i > 0 ? 1.0 : 0.0) * numbers(points, 2)});
     made.residuals[state] = {numbers(points, 4), numbers(points, 5), 0.1, 0.2, 0.3, 0.4};
     made.unevenness.push_back(numbers(points, 6));
   }

@@ -82,6 +82,7 @@ struct ManySizes {
                {"H1", 4},
                {"H2", 5},
                {"H3", 6},
+               {"H4", 2},
                {"Q G", kStates * 39},
                {"Q G + 1", kStates * 39 + 1},
                {"L", 2 * (kStates * 38 - 7)}};  // seven singles are unknown in the last state

@@ -86,6 +86,8 @@ TEST_CASE("Sensitivities are read back as they were written, to the last bit") {
       if (!found) continue;
       REQUIRE(found->bridge == expected->bridge);
       REQUIRE(found->epoch == expected->epoch);
+      REQUIRE(found->left == expected->left);
+      CHECK(found->left.isZero() == scene.removed.empty());
     }
     const FirstOrderResidual& expected = small.made.residuals[state];
     CHECK(stored->residuals[state].bridge == expected.bridge);
@@ -165,9 +167,10 @@ TEST_CASE("Datasets of sensitivities of another type or shape are refused and na
   for (const char* path :
        {dataset::kUncertainName, dataset::kUncertainUnit, dataset::kUncertainSigma,
         dataset::kUncertainOfEpoch, dataset::kSensitivityBasis, dataset::kSensitivityRemoved,
-        dataset::kSensitivityKnown, dataset::kBridgeFactors, dataset::kEpochFactors, dataset::kResidualBridge,
-        dataset::kResidualEpoch, dataset::kResidualShare, dataset::kUnevenness, dataset::kSignalFirst,
-        dataset::kSignalOwn, dataset::kSignalIntact, dataset::kSignalLead, dataset::kSignalEpoch}) {
+        dataset::kSensitivityKnown, dataset::kBridgeFactors, dataset::kEpochFactors, dataset::kSignalLeft,
+        dataset::kResidualBridge, dataset::kResidualEpoch, dataset::kResidualShare, dataset::kUnevenness,
+        dataset::kSignalFirst, dataset::kSignalOwn, dataset::kSignalIntact, dataset::kSignalLead,
+        dataset::kSignalEpoch}) {
     INFO(path);
     SmallDatabase small;
     static_cast<void>(small.write(small.made));
@@ -229,6 +232,11 @@ TEST_CASE("Factors and signals that have been changed are found") {
   CHECK(are_factors_sound(*read().sensitivities()));
   change(path, dataset::kEpochFactors, H5T_NATIVE_DOUBLE, unknown * block, 1e-9);
   CHECK_FALSE(are_factors_sound(*read().sensitivities()));
+  for (const std::size_t nothing_is_left : {std::size_t{0}, unknown}) {
+    static_cast<void>(small.write(small.made));
+    change(path, dataset::kSignalLeft, H5T_NATIVE_DOUBLE, nothing_is_left * block, 1e-9);
+    CHECK_FALSE(are_factors_sound(*read().sensitivities()));
+  }
   static_cast<void>(small.write(small.made));
   for (const char* numbers :
        {dataset::kSignalOwn, dataset::kSignalIntact, dataset::kSignalLead, dataset::kSignalEpoch}) {

@@ -11,6 +11,7 @@
 #include "lookup/evidence/bridge_posterior.h"
 #include "tests/lookup/evidence/dense_normal.h"
 #include "tests/lookup/evidence/made_up_factors.h"
+#include "tests/lookup/evidence/widened_loss.h"
 
 using namespace voussoir;
 using namespace voussoir::test;
@@ -88,17 +89,14 @@ struct PartCauses {
   }
 };
 
-/// What the loss of a scene's blocks changes, as the first order says and what it leaves along it.
+/// What the loss of a scene's blocks changes, as the first order says and what it leaves.
 SceneFactors loss_of_blocks(const Sensitivities& from, const Scene& scene) {
   const FactorsView intact = from.find(0, {}).value();
-  const FirstOrderResidual& left = from.residuals[0];
-  SceneFactors sum{0.0 * intact.bridge, 0.0 * intact.epoch};
+  SceneFactors sum{0.0 * intact.bridge, 0.0 * epoch_columns_of(intact)};
   for (const BlockId block : scene.removed) {
-    const FactorsView own = from.find(0, {{block}}).value();
-    sum.bridge += std::sqrt(1.0 + std::pow(left.share, 2) + std::pow(left.common, 2)) *
-                  MatrixXd(own.bridge - intact.bridge);
-    sum.epoch += std::sqrt(1.0 + std::pow(left.epoch_share, 2) + std::pow(left.epoch_common, 2)) *
-                 MatrixXd(own.epoch - intact.epoch);
+    const SceneFactors loss = widened_loss(from, {{block}});
+    sum.bridge += loss.bridge;
+    sum.epoch += loss.epoch;
   }
   return sum;
 }
@@ -113,13 +111,13 @@ PartCauses causes_of_part(const MixedQuestion& question, const Scene& scene, con
                           double kappa) {
   const Sensitivities& from = question.sensitivities;
   const FirstOrderResidual& left = from.residuals[0];
-  const MatrixXd bridge = from.find(0, {})->bridge, epoch = from.find(0, {})->epoch;
+  const MatrixXd bridge = from.find(0, {})->bridge, epoch = epoch_columns_of(*from.find(0, {}));
   const MatrixXd none = MatrixXd::Zero(question.points(), 1);
-  const auto [bridge_change, epoch_change] = loss_of_blocks(from, scene);
+  const SceneFactors change = loss_of_blocks(from, scene);
   const double heavy_tails = in.conditions * std::max(1.0, 2.0 * in.conditions);
   PartCauses causes{{}, {}, bridge.cols(), epoch.cols(), from.unevenness[0].cols()};
-  causes.add(bridge, bridge + bridge_change, kappa);
-  causes.add_each(epoch, epoch + epoch_change, in.conditions * in.conditions);
+  causes.add(bridge, bridge + change.bridge, kappa);
+  causes.add_each(epoch, epoch + change.epoch, in.conditions * in.conditions);
   causes.add_each(from.unevenness[0], from.unevenness[0], 1.0);
   causes.add(left.bridge, left.bridge, 1.0);
   causes.add_each(left.epoch, left.epoch, heavy_tails * heavy_tails);

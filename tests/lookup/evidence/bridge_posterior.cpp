@@ -102,7 +102,7 @@ TEST_CASE(
     CHECK(one.mean == Approx(row.dot(mean.head(m))).epsilon(1e-6).margin(1e-9));
     CHECK(one.deviation == Approx(std::sqrt(row.dot(of_columns * row))).epsilon(1e-6));
   }
-  for (Index i = 0; i < posterior.epoch_mean.size(); ++i) {
+  for (Index i = 0; i < readings.sensitivities.of_epoch(); ++i) {
     const Index at = m + i;
     CHECK(posterior.epoch_mean[i] == Approx(mean[at]).epsilon(1e-6).margin(1e-9));
     CHECK(posterior.epoch_covariance(i, i) == Approx(covariance(at, at)).epsilon(1e-6));

@@ -2,6 +2,7 @@
 /// @file Made-up factors of a synthetic library: what parameters change falls off smoothly, and every block's
 /// loss changes it in its own way.
 
+#include <cmath>
 #include <random>
 
 #include "lookup/evidence/unknown_evidence.h"
@@ -17,9 +18,22 @@ inline std::vector<ScatterLogs> scatter_logs(const UnknownBridge& bridge, const 
   return SceneLikelihoods(bridge, observation, table)(cases, rows, {}, threads);
 }
 
+inline constexpr Eigen::Index kLeftIn = 3;  ///< sampled bridges
+
+/// Points x bridges [m]. Every other scene does not stand in the last of them.
+inline Eigen::MatrixXd left_in_sampled_bridges(Eigen::Index points, std::size_t scene, double size) {
+  const Eigen::MatrixXd left =
+      Eigen::MatrixXd::NullaryExpr(points, kLeftIn, [&](Eigen::Index i, Eigen::Index j) {
+        return size * std::sin(static_cast<double>(1 + 3 * i + 5 * j) * static_cast<double>(scene + 1));
+      });
+  return scene % 2 == 0 ? Eigen::MatrixXd(left * Eigen::Vector3d(1.0, 1.0, 0.0).asDiagonal()) : left;
+}
+
 /// `columns` of the basis of `columns` + 2 parameters of the bridge, the last but one of which varies
-/// together with the first two and the last of which changes nothing; two parameters of an epoch. Block 1's
-/// loss, which makes scenes collapse, has no factors; the pair of blocks 2 and 4 has its own.
+/// together with the first two and the last of which changes nothing; two parameters of an epoch, which leave
+/// something in some sampled bridges.
+/// Block 1's loss, which makes scenes collapse, has no factors; the pair of blocks 2 and 4 has its own, of
+/// which no sampled bridge shows what is left.
 inline Sensitivities made_up_sensitivities_of(const SyntheticLibrary& library, Eigen::Index columns = 5,
                                               double size = 1e-4) {
   std::mt19937_64 random(7);
@@ -37,7 +51,7 @@ inline Sensitivities made_up_sensitivities_of(const SyntheticLibrary& library, E
   result.basis.row(columns).head(2) << 0.6, 0.8;
   result.scenes = all_scenes(library.blocks, 1);
   result.scenes.push_back({{BlockId{2}, BlockId{4}}});
-  result.make_room(1, points);
+  result.make_room(1, points, kLeftIn);
   const SceneFactors intact{numbers(points, columns, size), numbers(points, 2, size)};
   for (std::size_t i = 0; i < result.scenes.size(); ++i) {
     const Scene& scene = result.scenes[i];
@@ -46,11 +60,11 @@ inline Sensitivities made_up_sensitivities_of(const SyntheticLibrary& library, E
       own.bridge += numbers(points, columns, 0.2 * size);
       own.epoch += numbers(points, 2, 0.1 * size);
     }
+    if (scene.removed.size() == 1) own.left = left_in_sampled_bridges(points, i, 0.1 * size);
     for (Eigen::Index point = 0; point < points; ++point)
-      if (scene.lacks(library.points[static_cast<std::size_t>(point)].block)) {
-        own.bridge.row(point).setZero();
-        own.epoch.row(point).setZero();
-      }
+      if (scene.lacks(library.points[static_cast<std::size_t>(point)].block))
+        for (Eigen::MatrixXd* of : {&own.bridge, &own.epoch, &own.left})
+          if (of->size() > 0) of->row(point).setZero();
     if (scene != Scene{{BlockId{1}}}) result.set(0, i, own);
   }
   result.residuals = {

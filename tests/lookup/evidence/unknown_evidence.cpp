@@ -8,6 +8,7 @@
 
 #include "tests/lookup/evidence/dense_normal.h"
 #include "tests/lookup/evidence/made_up_factors.h"
+#include "tests/lookup/evidence/widened_loss.h"
 
 using namespace voussoir;
 using namespace voussoir::test;
@@ -58,28 +59,16 @@ struct Question {
   }
 };
 
-std::optional<SceneFactors> stored(const Sensitivities& from, const Scene& scene) {
-  const auto found = from.find(0, scene);
-  return found ? std::optional(SceneFactors{found->bridge, found->epoch}) : std::nullopt;
-}
-
 /// What a scene changes in the factors: its own or the sum of its blocks' own.
 SceneFactors changed_by(const Sensitivities& from, const Scene& scene) {
-  const SceneFactors intact = stored(from, {}).value();
-  const auto less_intact = [&](SceneFactors own) {
-    for (Index i = 0; i < own.bridge.rows(); ++i)
-      if (!own.bridge.row(i).isZero()) {
-        own.bridge.row(i) -= intact.bridge.row(i);
-        own.epoch.row(i) -= intact.epoch.row(i);
-      }
-    return own;
-  };
-  if (const auto own = stored(from, scene)) return less_intact(*own);
-  SceneFactors sum{0.0 * intact.bridge, 0.0 * intact.epoch};
+  if (!scene.removed.empty() && from.find(0, scene)) return widened_loss(from, scene);
+  const FactorsView intact = from.find(0, {}).value();
+  SceneFactors sum{0.0 * intact.bridge, 0.0 * epoch_columns_of(intact)};
   for (const BlockId block : scene.removed)
-    if (const auto own = stored(from, {{block}})) {
-      sum.bridge += less_intact(*own).bridge;
-      sum.epoch += less_intact(*own).epoch;
+    if (from.find(0, {{block}})) {
+      const SceneFactors loss = widened_loss(from, {{block}});
+      sum.bridge += loss.bridge;
+      sum.epoch += loss.epoch;
     }
   return sum;
 }
@@ -123,8 +112,9 @@ class TwoEpochs {
   }
 
   void add_parameters(double kappa) {
-    const SceneFactors intact = stored(from(), {}).value();
-    const SceneFactors change = widened(changed_by(from(), scene_));
+    const FactorsView of = from().find(0, {}).value();
+    const SceneFactors intact{of.bridge, epoch_columns_of(of)};
+    const SceneFactors change = changed_by(from(), scene_);
     add(intact.bridge, intact.bridge + change.bridge, kappa);
     add_each(conditions_ * intact.epoch, conditions_ * (intact.epoch + change.epoch));
   }
@@ -140,14 +130,6 @@ class TwoEpochs {
     add_each(level, level);
     const MatrixXd own = question_.comparison.model_error.intact.front() * MatrixXd::Identity(p_, p_);
     add(own, own);
-  }
-
-  /// The first order, and what it leaves along it.
-  SceneFactors widened(SceneFactors change) const {
-    const FirstOrderResidual& residual = from().residuals[0];
-    change.bridge *= std::sqrt(1.0 + std::pow(residual.share, 2) + std::pow(residual.common, 2));
-    change.epoch *= std::sqrt(1.0 + std::pow(residual.epoch_share, 2) + std::pow(residual.epoch_common, 2));
-    return change;
   }
 
   /// The model's own error in a loss: one factor of its signal.
@@ -166,7 +148,7 @@ class TwoEpochs {
     for (std::size_t b = 0; b < question_.library.blocks; ++b) {
       const BlockId block{static_cast<std::int32_t>(b)};
       if (!from().find(0, {{block}})) continue;
-      const SceneFactors of = widened(changed_by(from(), {{block}}));
+      const SceneFactors of = changed_by(from(), {{block}});
       double norm = 0.0;
       const VectorXd signal = signal_of(block).tail(p_ - 1);
       for (const double one : signal) norm += std::isnan(one) ? 0.0 : one * one;

@@ -72,6 +72,9 @@ TEST_CASE("Beside the first order samples add what it leaves of each of them") {
       const MatrixXd expected = columns * columns.transpose() +
                                 mean_square(site.database(), state, single(block), numbers_to(12), &first);
       CHECK(covariance(sampled, state, single(block)).isApprox(expected, 1e-10));
+      const auto left = [&](const Sensitivities& of) { return of.find(state, single(block)).value().left; };
+      CHECK(left(sampled.sensitivities) == left(first));  // epochs are not sampled
+      CHECK_FALSE(left(first).isZero());
     }
   const FirstOrderResidual& residual = sampled.sensitivities.residuals[1];
   CHECK(residual.bridge.cols() == 0);

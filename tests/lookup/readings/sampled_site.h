@@ -142,7 +142,8 @@ inline Sensitivities first_order_of_stored_bridge() {
   made.parameters = uncertain_of_stored_bridge().all();
   made.basis = varied_basis();
   made.scenes = all_scenes(stored_bridge().layout.size(), 1);
-  made.make_room(kStates, p);
+  constexpr Eigen::Index samples = 2;
+  made.make_room(kStates, p, samples);
   for (std::size_t state = 0; state < kStates; ++state) {
     for (std::size_t k = 0; k < made.scenes.size(); ++k) {
       const Scene& scene = made.scenes[k];
@@ -158,6 +159,8 @@ inline Sensitivities first_order_of_stored_bridge() {
           p, kVaried, [&](Eigen::Index i, Eigen::Index j) { return number(1000, i, j); });
       factors.epoch = Eigen::MatrixXd::NullaryExpr(
           p, epoch, [&](Eigen::Index i, Eigen::Index j) { return number(2000, i, j); });
+      factors.left = Eigen::MatrixXd::NullaryExpr(
+          p, samples, [&](Eigen::Index i, Eigen::Index j) { return block == 0 ? 0.0 : number(3000, i, j); });
       made.set(state, k, factors);
     }
     made.residuals[state] = {
