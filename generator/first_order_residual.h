@@ -30,6 +30,7 @@ struct FirstOrder {
   const Derivatives& derivatives;  ///< of its scenes
 };
 
+/// What sampled bridges show beyond the first order.
 struct WhatIsLeft {
   std::vector<FirstOrderResidual> residuals;  ///< one for each kept state
   Derivatives signals;  ///< of each kept state and scene: SceneFactors::left; empty where nothing is known

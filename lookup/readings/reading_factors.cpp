@@ -19,12 +19,15 @@ std::vector<Index> points_of(const std::vector<Channel>& channels) {
   return points;
 }
 
-/// Columns of an epoch: of its parameters, and what these leave.
+/// Columns of an epoch: those of its parameters at these points, and what they leave.
+MatrixXd with_left(MatrixXd epoch, const StackedMatrices::View& left, const std::vector<Index>& points) {
+  epoch.conservativeResize(Eigen::NoChange, epoch.cols() + left.cols());
+  if (left.cols() > 0) epoch.rightCols(left.cols()) = left(points, Eigen::all);
+  return epoch;
+}
+
 MatrixXd epoch_of(const FactorsView& from, const std::vector<Index>& points) {
-  MatrixXd columns(static_cast<Index>(points.size()), from.epoch.cols() + from.left.cols());
-  columns.leftCols(from.epoch.cols()) = from.epoch(points, Eigen::all);
-  if (from.left.cols() > 0) columns.rightCols(from.left.cols()) = from.left(points, Eigen::all);
-  return columns;
+  return with_left(from.epoch(points, Eigen::all), from.left, points);
 }
 
 /// The scene's factors by channel; not known if they are unknown in one of the states.
@@ -74,10 +77,8 @@ class Losses {
     const auto place = factors_.sensitivities->place_of(factors_.base, scene);
     if (!place) return {};
     const StoredSignals::Columns loss = (*stored_)[*place];
-    const StackedMatrices::View left = factors_.sensitivities->left[*place];
-    MatrixXd epoch(static_cast<Index>(points_->size()), factors_.of_epoch());
-    epoch.leftCols(factors_.epoch_parameters()) = ChannelColumns(loss.epoch, points_, 1.0).all();
-    if (left.cols() > 0) epoch.rightCols(left.cols()) = left(*points_, Eigen::all);
+    MatrixXd epoch = with_left(ChannelColumns(loss.epoch, points_, 1.0).all(),
+                               factors_.sensitivities->left[*place], *points_);
     widen_epoch(factors_, epoch);
     return {std::move(epoch),
             {loss.lead, points_, of_bridge_},
