@@ -9,7 +9,6 @@
 #include "generator/covariance_factor.h"
 #include "generator/error_fit.h"
 #include "generator/parallel.h"
-#include "generator/scene_list.h"
 
 namespace voussoir {
 namespace {

@@ -17,11 +17,8 @@ double widening(double share, double common) {
   return std::sqrt(1.0 + std::pow(share, 2) + std::pow(common, 2));
 }
 
-double widening_of_epoch(const FirstOrderResidual& residual, const Eigen::MatrixXd& left) {
-  const Eigen::Index bridges = left.cols();
-  Eigen::Index shown = 0;
-  for (Eigen::Index i = 0; i < bridges; ++i)
-    if (!left.col(i).isZero(0.0)) ++shown;
+double widening_of_epoch(const FirstOrderResidual& residual, const Eigen::Ref<const Eigen::MatrixXd>& left) {
+  const Eigen::Index bridges = left.cols(), shown = (left.array() != 0.0).colwise().any().count();
   const double not_shown =
       bridges == 0 ? 1.0 : 1.0 - static_cast<double>(shown) / static_cast<double>(bridges);
   const double root = std::sqrt(not_shown);

@@ -16,6 +16,6 @@ double widening(double share, double common);
 
 /// The same of an epoch's parameters, as far as no sampled bridges show what is left of this signal (columns
 /// of `left` that are not zero).
-double widening_of_epoch(const FirstOrderResidual& residual, const Eigen::MatrixXd& left);
+double widening_of_epoch(const FirstOrderResidual& residual, const Eigen::Ref<const Eigen::MatrixXd>& left);
 
 }  // namespace voussoir

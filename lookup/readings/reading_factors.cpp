@@ -53,8 +53,8 @@ SceneFactors factors_of(const ReadingFactors& factors, const Scene& scene) {
 /// What a loss changes of an epoch's columns, widened where no sampled bridges show what is left.
 void widen_epoch(const ReadingFactors& factors, MatrixXd& change) {
   const Index parameters = factors.epoch_parameters();
-  const MatrixXd left = change.rightCols(change.cols() - parameters);
-  change.leftCols(parameters) *= widening_of_epoch(factors.residual, left);
+  change.leftCols(parameters) *=
+      widening_of_epoch(factors.residual, change.rightCols(change.cols() - parameters));
 }
 
 /// What losses change in the channels' factors.
