@@ -108,7 +108,8 @@ std::vector<std::string> kept_names(const StatePlan& plan) {
   return names;
 }
 
-/// Records fit into the same journal if results, variants, states and the choice of fields are the same.
+/// Records fit into the same journal if results, what is measured, variants, states and the choice of fields
+/// are the same.
 std::string journal_key(const Build& build) {
   Sha256Stream hash;
   for (const DatasetValue& dataset : parameter_datasets(build.variants)) hash.add(dataset.bytes);
@@ -116,6 +117,7 @@ std::string journal_key(const Build& build) {
     hash.add(view_bytes(state.name));
     hash.add(std::as_bytes(numbers_of(state.load)));
   }
+  hash.add(view_bytes(points_key(build.request.bridge.description)));
   const std::string key = build.provenance.results_key + " " + to_hexadecimal(hash.finish());
   if (build.fields == KeepField::yes) return key + " with fields";
   return key + (most_missing_of_starts(build.wanted) > 1 ? " with fields of pairs" : " without fields");

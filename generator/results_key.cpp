@@ -113,21 +113,28 @@ std::string physics_text(const BridgeDescription& description) {
   static_cast<void>(uncertainty);      // no solution depends on it
   static_cast<void>(collapse_fields);  // stands among the settings
   static_cast<void>(loads);            // whose states are told apart by load case
+  static_cast<void>(control_points);   // points_key
+  static_cast<void>(sensors);
   static_cast<void>(name);
   std::string text = wall_text(wall);
   for (const SpanDescription& span : spans) text += span_text(span);
   for (const MortarRegion& region : mortar) text += region_text(region);
-  for (const SensorDescription& sensor : sensors) text += sensor_text(sensor);
   for (const WallPart& part : parts) text += part_text(part);
   for (const Block& block : blocks) text += block_text(block);
   for (const Region& region : regions) text += region_text(region);
   text += row("fill", fill.unit_weight);
   for (const Point& point : fill.surface) text += row("surface", point.x(), point.y());
   return text + material_text(material) + joint_text(joints) + support_text(supports) + mesh_text(mesh) +
-         points_text(control_points) + row("load", gravity) + row("tolerance", joint_tolerance);
+         row("load", gravity) + row("tolerance", joint_tolerance);
 }
 
 }  // namespace
+
+std::string points_key(const BridgeDescription& description) {
+  std::string text = points_text(description.control_points);
+  for (const SensorDescription& sensor : description.sensors) text += sensor_text(sensor);
+  return to_hexadecimal(sha256(text));
+}
 
 std::string results_key(const BridgeDescription& description, const Provenance& made) {
   return to_hexadecimal(

@@ -6,9 +6,13 @@
 #include "core/solve/state_name.h"
 #include "database/format/field_codec.h"
 #include "database/records/stored_bridge.h"
+#include "generator/results_key.h"
 
 namespace voussoir {
 namespace {
+
+/// Scenes with more missing blocks may be composed where what is measured shows no difference.
+constexpr int kMostSolved = 2;
 
 /// The fields of all states, if the database has any; nothing if one is damaged.
 std::optional<std::vector<Field>> fields_of(const Database& database, const Record& record,
@@ -61,7 +65,8 @@ ReusedRecords::ReusedRecords(Database old, const NewRecords& records, const Reco
     const SceneTable table = old_.table(number, 0);
     for (std::size_t row = 0; row < table.rows; ++row) {
       const RecordKey key{static_cast<std::int32_t>(old_variant_.size() - 1), table.scene(row)};
-      const bool useful = key.scene.missing() <= most_starting || wanted.contains(key);
+      const bool useful = (key.scene.missing() <= most_starting || wanted.contains(key)) &&
+                          (same_points_ || key.scene.missing() <= kMostSolved);
       std::vector<Field> fields;
       if (useful && !known.contains(key) && old_record(key, fields)) keys_.insert(key);
     }
@@ -70,6 +75,7 @@ ReusedRecords::ReusedRecords(Database old, const NewRecords& records, const Reco
 
 void ReusedRecords::match_states(const BridgeDescription& description) {
   const BridgeDescription before = description_of(old_);
+  same_points_ = points_key(description) == points_key(before);
   has_kept_ = has_all_ = true;
   for (const PlannedState& state : plan_) {
     const bool same = is_same_state(state.name, description, before);
@@ -88,7 +94,7 @@ bool ReusedRecords::keeps_as_it_is() const {
   for (const std::size_t state : kept_states(plan_)) kept.push_back(old_state_[state]);
   for (std::size_t i = 0; i < kept.size(); ++i)
     if (kept[i] != i) return false;
-  return fields_ == KeepField::no && kept.size() == old_.states().size();
+  return fields_ == KeepField::no && kept.size() == old_.states().size() && same_points_;
 }
 
 std::vector<std::string> ReusedRecords::state_names() const {
@@ -114,7 +120,7 @@ std::optional<Record> ReusedRecords::old_record(const RecordKey& key, std::vecto
 
 /// The old file may have other states and have numbered its variants otherwise.
 bool ReusedRecords::fits(const Record& record, const RecordKey& key) const {
-  if (fields_ == KeepField::no || record.key != key) return false;
+  if (fields_ == KeepField::no || record.key != key || !same_points_) return false;
   const std::vector<std::size_t> kept = kept_states(plan_);
   if (kept.size() != record.states.size()) return false;
   for (std::size_t i = 0; i < kept.size(); ++i)

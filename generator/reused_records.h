@@ -25,9 +25,10 @@ class ReusedRecords {
  public:
   /// Takes over, from an older database with the same results key, the states with the same
   /// history and the same load case of variants with the same parameters, of scenes that are wanted or can
-  /// start others. Records whose checksums are not right stay behind, and so do those that `known` has
-  /// already. Without fields, records can only be taken as they are, into a database without fields that has
-  /// the same states.
+  /// start others; where other points are measured what they show is read from the fields, and scenes with
+  /// three and more missing blocks stay behind (results_key.h). So do records whose checksums are not right,
+  /// and those that `known` has already. Without fields, records can only be taken as they are, into a
+  /// database without fields that has the same states and points.
   ReusedRecords(Database old, const NewRecords& records, const RecordSource& known);
 
   /// The scenes of which all that the new database keeps is there.
@@ -56,6 +57,7 @@ class ReusedRecords {
   const StatePlan& plan_;
   std::vector<std::optional<std::size_t>>
       old_state_;  ///< of each state of the plan: its number in the old database
+  bool same_points_ = false;
   bool has_kept_ = false;
   bool has_all_ = false;
   std::vector<std::optional<std::int32_t>> old_variant_;  ///< of each variant: its number in the old database

@@ -242,12 +242,13 @@ StepsOfLoss StateSolving::steps_of_loss(const StageSolver& solver, const SearchB
     searches.push_back(one_step_search(single, lost, states, basis));
   }
   const std::vector<Solution> in_one_step = solve_searches(solver, searches);
+  const std::vector<ControlPoint> points = surface_points(bridge_.layout, bridge_.mesh);
   StepsOfLoss steps;
   for (std::size_t i = 0; i < singles.size(); ++i) {
     const Solution& one_step = in_one_step[i];
     const bool jumps = !stands(one_step) || has_slipped(one_step);
     if (jumps || differ_in_signal(one_step.displacement, *basis.starts.find(singles[i], lost),
-                                  *basis.starts.intact(kBuilt), bridge_.control_points))
+                                  *basis.starts.intact(kBuilt), points))
       steps.add(singles[i].removed.front());
   }
   return steps;

@@ -13,11 +13,12 @@ namespace voussoir {
 /// block, and none in eight (docs/numerics.md). A single takes kStepsOfLoss.
 inline constexpr int kStepsOfSeveral = 8;
 
-/// Signals that differ by less, L1 over the control points over the better signal's, are taken for one [-].
+/// Signals that differ by less, L1 over some points over the better signal's, are taken for one [-].
 inline constexpr double kSameSignal = 0.01;
 
 /// Many steps are needed where a joint slips while the blocks go and stops. Blocks for which that is so when
-/// they go alone are known by solving their singles in one step, too.
+/// they go alone are known by solving their singles in one step, too: by their signals on top and on the
+/// intrados (surface_points), so that records are the same whatever is measured.
 class StepsOfLoss {
  public:
   /// This block's signal in one step is another than in kStepsOfLoss, or it needs a jump.
