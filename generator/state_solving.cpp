@@ -242,7 +242,7 @@ StepsOfLoss StateSolving::steps_of_loss(const StageSolver& solver, const SearchB
     searches.push_back(one_step_search(single, lost, states, basis));
   }
   const std::vector<Solution> in_one_step = solve_searches(solver, searches);
-  const std::vector<ControlPoint> points = surface_points(bridge_.layout, bridge_.mesh);
+  const std::vector<ControlPoint> points = deciding_points(bridge_);
   StepsOfLoss steps;
   for (std::size_t i = 0; i < singles.size(); ++i) {
     const Solution& one_step = in_one_step[i];

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/solve/history.h"
+#include "core/structure/bridge_description.h"
 
 namespace voussoir {
 
@@ -11,6 +12,12 @@ int StepsOfLoss::of(const Scene& scene) const {
   const bool needs_many =
       std::ranges::any_of(scene.removed, [&](BlockId block) { return needing_many_.contains(block); });
   return needs_many ? kStepsOfSeveral : 1;
+}
+
+std::vector<ControlPoint> deciding_points(const Structure& structure) {
+  BridgeDescription top;
+  top.control_points = {.top = true, .arch = false, .face = false};
+  return find_control_points(structure.layout, structure.mesh, top);
 }
 
 bool differ_in_signal(const Field& one_step, const Field& many_steps, const Field& intact,

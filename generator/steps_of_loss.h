@@ -5,6 +5,7 @@
 
 #include "core/structure/control_point.h"
 #include "core/structure/scene.h"
+#include "core/structure/structure.h"
 
 namespace voussoir {
 
@@ -17,8 +18,8 @@ inline constexpr int kStepsOfSeveral = 8;
 inline constexpr double kSameSignal = 0.01;
 
 /// Many steps are needed where a joint slips while the blocks go and stops. Blocks for which that is so when
-/// they go alone are known by solving their singles in one step, too: by their signals on top and on the
-/// intrados (surface_points), so that records are the same whatever is measured.
+/// they go alone are known by solving their singles in one step, too: by their signals along the top, so that
+/// records are the same whatever is measured.
 class StepsOfLoss {
  public:
   /// This block's signal in one step is another than in kStepsOfLoss, or it needs a jump.
@@ -30,6 +31,9 @@ class StepsOfLoss {
  private:
   std::set<BlockId> needing_many_;
 };
+
+/// The upper corners of the top course's blocks: signals there decide.
+std::vector<ControlPoint> deciding_points(const Structure& structure);
 
 /// Do the signals of these fields, less that of the intact bridge, differ by more than kSameSignal?
 bool differ_in_signal(const Field& one_step, const Field& many_steps, const Field& intact,

@@ -84,12 +84,6 @@ ControlPoint point_at(const std::string& name, const Mesh& mesh, BlockId block, 
   return {.name = name, .node = node_at(mesh, block, place), .block = block, .position = place};
 }
 
-std::vector<ControlPoint> surface_points(const BlockLayout& layout, const Mesh& mesh) {
-  BridgeDescription top_and_arch;
-  top_and_arch.control_points = {.top = true, .arch = true, .face = false};
-  return find_control_points(layout, mesh, top_and_arch);
-}
-
 std::vector<ControlPoint> find_control_points(const BlockLayout& layout, const Mesh& mesh,
                                               const BridgeDescription& description) {
   const auto& [top, arch, face] = description.control_points;

@@ -26,10 +26,6 @@ struct ControlPoint {
 ControlPoint point_at(const std::string& name, const Mesh& mesh, BlockId block, const Point& place);
 
 /// T1..: upper corners of each block of the top course; A1..: intrados corners of each arch block that
-/// reaches the intrados; left to right. Whatever is measured.
-std::vector<ControlPoint> surface_points(const BlockLayout& layout, const Mesh& mesh);
-
-/// T1..: upper corners of each block of the top course; A1..: intrados corners of each arch block that
 /// reaches the intrados; left to right; F1..: if asked for, the middles of all blocks whose face is seen.
 /// Then the sensors of the description, in its order. Throws InputError, naming the sensor, for one that
 /// cannot be placed and for names that are there already.

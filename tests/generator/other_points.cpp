@@ -42,7 +42,7 @@ struct PointsSite {
 }  // namespace
 
 TEST_CASE("Where sensors are added every solved scene is kept, and the file is that of a new build") {
-  const std::string scenes = "intact;singles;4,1+4,2;4,1+5,3";
+  const std::string scenes = "intact;singles;4,1+4,2;4,1+5,3;5,1+5,4";
   PointsSite site(scenes);
   const std::size_t count = site.build().computed;
   site.measure(kSensor);
