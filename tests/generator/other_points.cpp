@@ -4,7 +4,6 @@
 #include <catch2/catch.hpp>
 
 #include "database/records/database.h"
-#include "database/records/journal.h"
 #include "generator/build.h"
 #include "generator/results_key.h"
 #include "generator/verify.h"
@@ -56,6 +55,16 @@ TEST_CASE("Where sensors are added every solved scene is kept, and the file is t
   const BuildSummary before = site.build();
   CHECK(before.computed == 0);
   CHECK(before.digest == PointsSite(scenes).build().digest);
+}
+
+TEST_CASE("Control points that are switched off leave every solved scene, too") {
+  const std::string without = "[control_points]\narch = false\n";
+  PointsSite site("singles");
+  const std::size_t count = site.build().computed;
+  site.measure(without);
+  const BuildSummary again = site.build();
+  CHECK(again.reused == count);
+  CHECK(again.digest == PointsSite("singles", without).build().digest);
 }
 
 TEST_CASE("Three missing blocks are solved anew where other points are measured") {
