@@ -17,28 +17,69 @@
 namespace voussoir {
 namespace {
 
-/// The bridges' equilibria after a stage, side by side; `before` are the states that they start from. Those
-/// that have none under their weight are set in motion, each with a solver of its own.
-std::vector<State> solve_all(QuasiStaticSolver& solver, const std::vector<Model>& bridges,
-                             const std::vector<Stage>& stages, const std::vector<State>& before,
-                             const std::string& name) {
+/// One of the sampled bridges, whole or without a block, on its way.
+struct Case {
+  std::size_t bridge;
+  Scene scene;
+  State state;
+};
+
+/// Solves a stage of each case, side by side; those that do not stand are left out.
+template <class MakeTask>
+std::vector<Case> solve(QuasiStaticSolver& solver, const std::vector<Model>& bridges,
+                        const std::vector<Case>& cases, MakeTask make_task) {
   std::vector<StageTask> tasks;
-  for (std::size_t b = 0; b < bridges.size(); ++b)
-    tasks.push_back({.stage = stages[b],
-                     .start = before.empty() ? nullptr : &before[b].displacement,
-                     .before = before.empty() ? nullptr : &before[b],
-                     .parameters = &bridges[b].parameters});
-  std::vector<State> states;
-  for (Solution& solution : solver.solve(tasks)) {
-    const Model& bridge = bridges[states.size()];
-    const StageTask at_rest{.stage = stages[states.size()]};
-    if (before.empty() && !stands(solution)) solution = CombinedSolver(bridge).solve({&at_rest, 1}).front();
-    if (solution.outcome != Outcome::standing)
-      throw Failure(
-          fmt::format("{}: intact bridge {} is {}", name, states.size() + 1, to_string(solution.outcome)));
-    states.push_back(std::move(solution));
+  for (const Case& one : cases) {
+    tasks.push_back(make_task(one));
+    tasks.back().stage.scene = one.scene;
+    tasks.back().parameters = &bridges[one.bridge].parameters;
   }
-  return states;
+  std::vector<Solution> solutions = solver.solve(tasks);
+  std::vector<Case> standing;
+  for (std::size_t i = 0; i < cases.size(); ++i)
+    if (stands(solutions[i])) standing.push_back({cases[i].bridge, cases[i].scene, std::move(solutions[i])});
+  return standing;
+}
+
+/// A bridge warms and its supports move slowly, so that joints slide on the way: in so many parts.
+constexpr int kPartsOfWay = 16;
+
+/// Where they are after they have gone from one epoch to the next; `from` and `to` have a stage for each
+/// bridge.
+std::vector<Case> go_to_epoch(QuasiStaticSolver& solver, const std::vector<Model>& bridges,
+                              const std::vector<Stage>& from, const std::vector<Stage>& to,
+                              std::vector<Case> cases) {
+  for (int part = 1; part <= kPartsOfWay; ++part)
+    cases = solve(solver, bridges, cases, [&](const Case& before) {
+      return StageTask{.stage = on_the_way(from[before.bridge], to[before.bridge],
+                                           static_cast<double>(part) / kPartsOfWay),
+                       .start = &before.state.displacement,
+                       .before = &before.state};
+    });
+  return cases;
+}
+
+/// The intact bridges at rest. Those that have no equilibrium under their weight are set in motion, each with
+/// a solver of its own; what does not stand then is left out.
+std::vector<Case> stand_at_rest(QuasiStaticSolver& solver, const std::vector<Model>& bridges) {
+  std::vector<StageTask> tasks;
+  for (const Model& bridge : bridges) tasks.push_back({.stage = {}, .parameters = &bridge.parameters});
+  std::vector<Case> cases;
+  for (std::size_t b = 0; Solution & solution : solver.solve(tasks)) {
+    const StageTask at_rest{.stage = {}};
+    if (!stands(solution)) solution = CombinedSolver(bridges[b]).solve({&at_rest, 1}).front();
+    if (stands(solution)) cases.push_back({b, {}, std::move(solution)});
+    ++b;
+  }
+  return cases;
+}
+
+/// The cases, if they are all of so many intact bridges.
+std::vector<Case> if_all_stand(std::vector<Case> cases, std::size_t bridges, const std::string& name) {
+  for (std::size_t b = 0; b < bridges; ++b)
+    if (b == cases.size() || cases[b].bridge != b)
+      throw Failure(fmt::format("{}: intact bridge {} does not stand", name, b + 1));
+  return cases;
 }
 
 constexpr std::uint64_t kEpochs =
@@ -95,67 +136,12 @@ std::vector<Stage> stages_of_epoch(const Model& bridge, const SampledTruth& trut
   return stages;
 }
 
-/// A bridge warms and its supports move slowly, so that joints slide on the way: in so many parts.
-constexpr int kPartsOfWay = 16;
-
-/// What is left of a bridge without a block.
-struct Remains {
-  BlockId block;
-  State state;
-};
-
-/// Solves a stage for each of the blocks missing, side by side; those that do not stand are left out.
-template <class MakeTask>
-std::vector<Remains> solve_remains(QuasiStaticSolver& solver, const std::vector<BlockId>& blocks,
-                                   MakeTask make_task) {
-  std::vector<StageTask> tasks;
-  for (std::size_t i = 0; i < blocks.size(); ++i) {
-    tasks.push_back(make_task(i));
-    tasks.back().stage.scene = Scene{{blocks[i]}};
-  }
-  std::vector<Solution> solutions = solver.solve(tasks);
-  std::vector<Remains> remains;
-  for (std::size_t i = 0; i < blocks.size(); ++i)
-    if (stands(solutions[i])) remains.push_back({blocks[i], std::move(solutions[i])});
-  return remains;
-}
-
-/// Where they are after they have gone from one epoch to the next.
-std::vector<Remains> go_to_epoch(QuasiStaticSolver& solver, const Model& bridge, const Stage& from,
-                                 const Stage& to, std::vector<Remains> remains) {
-  for (int part = 1; part <= kPartsOfWay; ++part) {
-    const std::vector<Remains> before = std::move(remains);
-    std::vector<BlockId> blocks;
-    for (const Remains& one : before) blocks.push_back(one.block);
-    remains = solve_remains(solver, blocks, [&](std::size_t i) {
-      return StageTask{.stage = on_the_way(from, to, static_cast<double>(part) / kPartsOfWay),
-                       .start = &before[i].state.displacement,
-                       .before = &before[i].state,
-                       .parameters = &bridge.parameters};
-    });
-  }
-  return remains;
-}
-
-/// The bridges' equilibria after they have gone from one epoch to the next.
-std::vector<State> go_to_epoch(QuasiStaticSolver& solver, const std::vector<Model>& bridges,
-                               const std::vector<Stage>& from, const std::vector<Stage>& to,
-                               std::vector<State> states, const std::string& name) {
-  for (int part = 1; part <= kPartsOfWay; ++part) {
-    std::vector<Stage> stages;
-    for (std::size_t b = 0; b < bridges.size(); ++b)
-      stages.push_back(on_the_way(from[b], to[b], static_cast<double>(part) / kPartsOfWay));
-    states = solve_all(solver, bridges, stages, states, name);
-  }
-  return states;
-}
-
 /// Sampled bridges that stand intact in the first of two epochs.
 struct EpochsOfBridges {
   Model nominal;
   std::vector<Model> bridges;
   std::vector<Stage> first, second;
-  std::vector<State> built, before;
+  std::vector<Case> built, before;  ///< of each bridge
 
   EpochsOfBridges(const BridgeDescription& description, const SampledTruth& truth, const Between& between)
       : nominal(make_model(description)),
@@ -165,10 +151,11 @@ struct EpochsOfBridges {
          sampled_variants(nominal, truth.uncertainty, truth.bridges, truth.seed))
       bridges.push_back(variant_of(nominal, parameters));
     QuasiStaticSolver solver(nominal);
-    const std::vector<Stage> at_rest(bridges.size());
-    built = solve_all(solver, bridges, at_rest, {}, truth.name);
-    before = go_to_epoch(solver, bridges, at_rest, first, built, truth.name);
+    built = if_all_stand(stand_at_rest(solver, bridges), bridges.size(), truth.name);
+    before = if_all_stand(go_to_epoch(solver, bridges, at_rest(), first, built), bridges.size(), truth.name);
   }
+
+  std::vector<Stage> at_rest() const { return std::vector<Stage>(bridges.size()); }
 };
 
 std::vector<double> shown(const State& state, const Model& bridge) {
@@ -179,27 +166,29 @@ std::vector<double> shown(const State& state, const Model& bridge) {
 /// Of one bridge: what is left of it when a block goes in the first epoch and it enters the second; and when
 /// it was built without the block.
 TrueBridge lose_each(const EpochsOfBridges& sampled, std::size_t number, const std::vector<BlockId>& blocks) {
-  const Model &bridge = sampled.bridges[number], &nominal = sampled.nominal;
-  const Stage &first = sampled.first[number], &second = sampled.second[number];
-  const State &built = sampled.built[number], &before = sampled.before[number];
-  QuasiStaticSolver solver(nominal);
-  const auto lost =
-      go_to_epoch(solver, bridge, first, second, solve_remains(solver, blocks, [&](std::size_t) {
-                    return StageTask{.stage = first,
-                                     .start = &before.displacement,
-                                     .before = &before,
-                                     .parameters = &bridge.parameters,
-                                     .steps = kStepsOfLoss};
-                  }));
-  const auto without = go_to_epoch(
-      solver, bridge, {}, second, solve_remains(solver, blocks, [&](std::size_t) {
-        return StageTask{.stage = {}, .start = &built.displacement, .parameters = &bridge.parameters};
-      }));
-  TrueBridge result{shown(before, nominal), {}};
-  for (const Remains& one : lost) {
-    const auto same = std::ranges::find(without, one.block, &Remains::block);
+  const State &built = sampled.built[number].state, &before = sampled.before[number].state;
+  QuasiStaticSolver solver(sampled.nominal);
+  std::vector<Case> losses;
+  for (const BlockId block : blocks) losses.push_back({number, Scene{{block}}, {}});
+  const auto enter_second = [&](const std::vector<Stage>& from, std::vector<Case> cases) {
+    return go_to_epoch(solver, sampled.bridges, from, sampled.second, std::move(cases));
+  };
+  const auto lost = enter_second(sampled.first, solve(solver, sampled.bridges, losses, [&](const Case&) {
+                                   return StageTask{.stage = sampled.first[number],
+                                                    .start = &before.displacement,
+                                                    .before = &before,
+                                                    .steps = kStepsOfLoss};
+                                 }));
+  const auto without =
+      enter_second(sampled.at_rest(), solve(solver, sampled.bridges, losses, [&](const Case&) {
+                     return StageTask{.stage = {}, .start = &built.displacement};
+                   }));
+  TrueBridge result{shown(before, sampled.nominal), {}};
+  for (const Case& one : lost) {
+    const auto same = std::ranges::find(without, one.scene, &Case::scene);
     if (same != without.end())
-      result.damaged.push_back({Scene{{one.block}}, shown(same->state, nominal), shown(one.state, nominal)});
+      result.damaged.push_back(
+          {one.scene, shown(same->state, sampled.nominal), shown(one.state, sampled.nominal)});
   }
   return result;
 }
@@ -251,10 +240,12 @@ IntactTruth solve_intact(const BridgeDescription& description, const SampledTrut
   const EpochsOfBridges sampled(description, truth, between);
   QuasiStaticSolver solver(sampled.nominal);
   const auto after =
-      go_to_epoch(solver, sampled.bridges, sampled.first, sampled.second, sampled.before, truth.name);
+      if_all_stand(go_to_epoch(solver, sampled.bridges, sampled.first, sampled.second, sampled.before),
+                   sampled.bridges.size(), truth.name);
   IntactTruth result{truth.name, {}};
   for (std::size_t b = 0; b < sampled.bridges.size(); ++b)
-    result.bridges.push_back({shown(sampled.before[b], sampled.nominal), shown(after[b], sampled.nominal)});
+    result.bridges.push_back(
+        {shown(sampled.before[b].state, sampled.nominal), shown(after[b].state, sampled.nominal)});
   return result;
 }
 
