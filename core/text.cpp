@@ -53,6 +53,15 @@ std::string readable(std::string_view sign) {
   return letter ? std::string(sign) : fmt::format("<U+{:04X}>", number);
 }
 
+constexpr std::size_t kMostParts = 8;  // of names in words
+
+/// What is numbered on from a name: T10 after T9. Nothing without a number.
+std::string next_name(const std::string& name) {
+  const std::size_t digits = name.find_last_not_of("0123456789") + 1;
+  const auto number = parse_whole_number(std::string_view(name).substr(digits));
+  return number ? fmt::format("{}{}", name.substr(0, digits), *number + 1) : "";
+}
+
 }  // namespace
 
 std::string_view trimmed(std::string_view text) {
@@ -97,6 +106,21 @@ std::string in_quotes(std::string_view text) {
     place += bytes;
   }
   return result + (place < text.size() ? "...'" : "'");
+}
+
+std::string names_in_words(const std::vector<std::string>& names) {
+  std::string text;
+  std::size_t parts = 0;
+  for (std::size_t first = 0; first < names.size(); ++parts) {
+    std::size_t last = first;
+    while (last + 1 < names.size() && names[last + 1] == next_name(names[last])) ++last;
+    if (last == first + 1) last = first;  // two are named themselves
+    if (parts == kMostParts) return text + ", ...";
+    text += fmt::format("{}{}", parts > 0 ? ", " : "", names[first]);
+    if (last > first) text += " to " + names[last];
+    first = last + 1;
+  }
+  return text;
 }
 
 std::string escaped(std::string_view text) {

@@ -25,6 +25,17 @@ std::optional<double> parse_number(std::string_view text);
 /// neither ASCII nor a Latin letter is named by its number: <U+2212>, or <0xE9> for a byte that is no UTF-8.
 std::string in_quotes(std::string_view text);
 
+/// Names that are numbered on are named by the first and the last: "T1 to T20, N1, N2". Of many such parts
+/// the last are left out.
+std::string names_in_words(const std::vector<std::string>& names);
+
+template <class Things>
+std::vector<std::string> names_of(const Things& things) {
+  std::vector<std::string> names;
+  for (const auto& thing : things) names.push_back(thing.name);
+  return names;
+}
+
 /// The text with &, <, > and quotation marks as character references.
 std::string escaped(std::string_view text);
 

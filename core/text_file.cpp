@@ -1,10 +1,20 @@
 #include "core/text_file.h"
 
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
 #include <fstream>
 
 #include "core/error.h"
 
 namespace voussoir {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view kHdf5 = "\x89HDF\r\n\x1a\n";  // begins every HDF5 file
+
+}  // namespace
 
 std::string read_text(const std::filesystem::path& file, std::size_t largest, const std::string& expected) {
   std::ifstream stream(file, std::ios::binary);
@@ -18,9 +28,42 @@ std::string read_text(const std::filesystem::path& file, std::size_t largest, co
   return text;
 }
 
-void write_file(const std::filesystem::path& file, const std::string& text) {
-  std::ofstream stream(file, std::ios::binary);
-  if (!(stream << text && stream.flush())) throw Failure(fmt::format("{}: cannot be written", file.string()));
+void check_output(const std::string& option, const fs::path& file, const std::vector<std::string>& endings,
+                  std::span<const fs::path> read) {
+  std::error_code none;
+  const bool is_there = fs::exists(file, none), is_special = is_there && !fs::is_regular_file(file, none);
+  if (is_special && !fs::is_directory(file, none)) return;  // a terminal, a pipe
+  if (!endings.empty() && std::ranges::find(endings, file.extension().string()) == endings.end())
+    throw InputError(fmt::format("{}: {}: expected a file that ends in {}", option, file.string(),
+                                 fmt::join(endings, " or ")));
+  if (!is_there || is_special) return;
+  const auto refuse = [&](const char* what) {
+    throw InputError(
+        fmt::format("{}: {} {}, which would be lost: expected another file", option, file.string(), what));
+  };
+  for (const fs::path& other : read)
+    if (fs::equivalent(file, other, none)) refuse("is read by this very command");
+  std::string begin(kHdf5.size(), '\0');
+  std::ifstream(file, std::ios::binary).read(begin.data(), static_cast<std::streamsize>(begin.size()));
+  if (begin == kHdf5) refuse("is a database");
+  if (file.extension() == ".toml") refuse("is a bridge file");
+}
+
+/// Beside it first. Where that cannot be, or it is no file (a terminal, a pipe), at once.
+void write_file(const fs::path& file, const std::string& text) {
+  std::error_code none;
+  const fs::path target = fs::exists(file, none) ? fs::canonical(file) : file;
+  const bool replaces = fs::is_regular_file(target, none);
+  const fs::path written = replaces ? fs::path(target.string() + ".new") : target;
+  errno = 0;
+  std::ofstream stream(written, std::ios::binary);
+  const bool done = static_cast<bool>(stream << text && stream.flush());
+  const std::string reason = errno != 0 ? fmt::format(": {}", std::strerror(errno)) : "";
+  stream.close();
+  if (done && replaces) fs::rename(written, target);
+  if (done) return;
+  if (replaces) fs::remove(written, none);
+  throw Failure(fmt::format("{}: cannot be written{}", file.string(), reason));
 }
 
 }  // namespace voussoir

@@ -2,7 +2,9 @@
 /// @file Whole texts from and to disk.
 
 #include <filesystem>
+#include <span>
 #include <string>
+#include <vector>
 
 namespace voussoir {
 
@@ -10,7 +12,14 @@ namespace voussoir {
 /// or is larger than `largest` bytes.
 std::string read_text(const std::filesystem::path& file, std::size_t largest, const std::string& expected);
 
-/// Writes a whole text to a file. Throws Failure naming the file if it cannot be written.
+/// What is written must not take the place of what is read, of a database or of a bridge file, and be what
+/// its name says. Throws InputError naming the file, after the option that gave it, if it is one of `read`
+/// or, being there already, HDF5 or TOML, or if its name has none of the `endings` (none given: any will do).
+void check_output(const std::string& option, const std::filesystem::path& file,
+                  const std::vector<std::string>& endings, std::span<const std::filesystem::path> read = {});
+
+/// Writes a whole text to a file; what it had is kept until all is written. Throws Failure naming the file
+/// and the reason if it cannot be written.
 void write_file(const std::filesystem::path& file, const std::string& text);
 
 }  // namespace voussoir

@@ -296,7 +296,7 @@ ExistingDatabase examine(const Build& build) {
   return examine_existing(
       request.output,
       {build.provenance, build.variants, build.wanted, kept_names(build.states), build.fields,
-       wants_sensitivities(request) && !request.shard, shard_statement(request)},
+       wants_sensitivities(request) && !request.shard, shard_statement(request), request.drop},
       request.force);
 }
 

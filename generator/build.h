@@ -26,6 +26,7 @@ struct BuildRequest {
   std::optional<Shard> shard;  ///< compute this part only, for merge_databases (generator/merge.h)
   bool known_bridge = false;   ///< leave out the sensitivities to what is uncertain of the bridge
   bool force = false;          ///< build anew even if the file is up to date
+  bool drop = false;           ///< valid scenes and states of an existing file that are not wanted may go
 };
 
 struct BuildSummary {

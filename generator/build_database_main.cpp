@@ -27,6 +27,7 @@ int run(BuildOptions& options) {
   const Model bridge = model_of(options.request.bridge);
   if (!options.quiet) say(options.request.bridge, without_effect(description, bridge));
   if (options.drawing) {
+    check_output("--draw", *options.drawing, {".svg"});
     write_file(*options.drawing, bridge_drawing(bridge, description));
     return 0;
   }

@@ -28,8 +28,9 @@ constexpr const char* kFooter =
     "but\n"
     "for round-off. Alone 'composed' and 'early-motions' have errors of their own, the first of which is\n"
     "bounded and the other below half a percent of a fall, and what is 'inherited' has no displacements.\n"
-    "Where joints are stiffer along than across (tangential over normal stiffness above 1) friction may\n"
-    "leave several answers, and a scene that is said to fall may stand without a skip, or the reverse.\n"
+    "Friction may leave several answers: in bridges where much falls up to two scenes in a hundred that are\n"
+    "said to fall, or left open, stand without a skip, or the reverse, the more so where joints are stiffer\n"
+    "along than across (tangential over normal stiffness above 1).\n"
     "tools/benchmark accuracy shows what each gains.\n\n"
     "Exit codes: 0 done, 1 could not be done, 2 bad usage or bad bridge file. With --format json the last\n"
     "line of stdout is one JSON object, {\"ok\": true, ...} or {\"ok\": false, \"error\": ...}.";
@@ -167,6 +168,8 @@ void add_options(CLI::App& app, BuildOptions& options, Words& words) {
       ->delimiter(',')
       ->check(CLI::IsMember(switch_names()));
   app.add_flag("--force", options.request.force, "build anew even if the file is up to date");
+  app.add_flag("--drop", options.request.drop,
+               "let scenes and states of an existing file go that are still valid and not asked for");
   app.add_flag("--quiet", options.quiet, "no progress and no messages");
 }
 

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "generator/build_plan.h"
-#include "generator/scene_solving.h"
+#include "generator/solvers.h"
 
 namespace voussoir {
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "generator/field_difference.h"
 #include "generator/verify.h"
 
 namespace voussoir {

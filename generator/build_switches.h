@@ -12,9 +12,9 @@ namespace voussoir {
 struct BuildSwitch {
   std::string_view name;
   /// Without it no control displacement as built, of at most two missing blocks, changes by more than this
-  /// [m], and no outcome, unless joints are stiffer along than across: there friction leaves several answers,
-  /// and a search may find another one. In later states, scenes that friction hardly holds may come to rest
-  /// elsewhere (docs/numerics.md).
+  /// [m], and no outcome (near-falls: one in a thousand), unless joints are stiffer along than across: there
+  /// friction leaves several answers, and a search may find another one. In later states, scenes that
+  /// friction hardly holds may come to rest elsewhere (docs/numerics.md).
   double largest_change;
   void (*switch_off)(PlanRules& rules, Skips& skips);
 };

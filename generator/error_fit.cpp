@@ -5,6 +5,13 @@
 #include <cmath>
 
 namespace voussoir {
+namespace {
+
+/// The square of the sine between the two terms, at least, by which signals tell them apart. Those of one
+/// point are the same.
+constexpr double kApart = 1e-12;
+
+}  // namespace
 
 void ErrorFit::add(const Eigen::VectorXd& signal, const Eigen::VectorXd& error) {
   double sum = 0.0;
@@ -25,8 +32,10 @@ void ErrorFit::add(const Eigen::VectorXd& signal, const Eigen::VectorXd& error) 
 }
 
 Eigen::Vector2d ErrorFit::squares() const {
-  if (normal_.determinant() <= 0.0) return Eigen::Vector2d::Zero();
-  const Eigen::Vector2d both = normal_.inverse() * right_;
+  if (normal_(1, 1) == 0.0) return Eigen::Vector2d::Zero();
+  const bool are_apart = normal_.determinant() > kApart * normal_(0, 0) * normal_(1, 1);
+  const Eigen::Vector2d both =
+      are_apart ? Eigen::Vector2d(normal_.inverse() * right_) : Eigen::Vector2d(-1.0, 0.0);
   if (both.minCoeff() >= 0.0) return both;
   const Eigen::Index kept = both[0] < 0.0 ? 1 : 0;
   Eigen::Vector2d one = Eigen::Vector2d::Zero();

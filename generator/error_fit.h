@@ -11,8 +11,8 @@ class ErrorFit {
  public:
   void add(const Eigen::VectorXd& signal, const Eigen::VectorXd& error);
 
-  /// share^2 and common^2. Where one would be negative it is zero, and the other is fitted alone; zero
-  /// without signals that tell them apart.
+  /// share^2 and common^2. Where one would be negative it is zero, and the other is fitted alone, as common^2
+  /// is where signals do not tell them apart; zero without signals.
   Eigen::Vector2d squares() const;
 
  private:

@@ -1,5 +1,7 @@
 #include "generator/existing_database.h"
 
+#include <algorithm>
+
 #include "core/error.h"
 
 namespace voussoir {
@@ -62,6 +64,22 @@ std::vector<std::string> find_changes(const Database& database, const WantedData
   return changes;
 }
 
+/// What of a file whose records are valid is not wanted is not thrown away unasked.
+void check_nothing_is_lost(const Database& database, const WantedDatabase& wanted) {
+  std::size_t scenes = 0;
+  for (std::size_t row = 0; row < database.rows(); ++row)
+    if (!std::ranges::binary_search(wanted.keys, database.key(row))) ++scenes;
+  std::vector<std::string> states;
+  for (const std::string& state : database.states())
+    if (std::ranges::find(wanted.states, state) == wanted.states.end()) states.push_back(state);
+  if (scenes == 0 && states.empty()) return;
+  throw Failure(fmt::format(
+      "{}: {} of its {} scenes{} would be lost, which are still valid: ask for them, too, give another file "
+      "with -o, or --drop to let them go",
+      database.path().string(), states.empty() ? scenes : database.rows(), database.rows(),
+      states.empty() ? "" : fmt::format(" as {}", fmt::join(states, ", "))));
+}
+
 }  // namespace
 
 ExistingDatabase examine_existing(const std::filesystem::path& output, const WantedDatabase& wanted,
@@ -82,6 +100,7 @@ ExistingDatabase examine_existing(const std::filesystem::path& output, const Wan
     existing.up_to_date = existing.changes.empty();
     existing.reusable = existing.database->has_fields() &&
                         existing.database->provenance().results_key == wanted.provenance.results_key;
+    if (existing.reusable && !wanted.shard && !wanted.drop) check_nothing_is_lost(*existing.database, wanted);
   } catch (const InputError& error) {
     existing = {};
     existing.changes = {fmt::format("the old file cannot be used ({})", error.what())};

@@ -24,10 +24,12 @@ struct WantedDatabase {
   KeepField fields;
   bool sensitivities;  ///< those of an uncertain bridge, if it stands
   std::optional<ShardStatement> shard;
+  bool drop;  ///< BuildRequest::drop
 };
 
-/// Looks at the file; `force` makes any file out of date and its records worthless. Throws Failure for a file
-/// that is no database (unless forced): a build should not replace what is none of its own.
+/// Looks at the file; `force` makes any file out of date and its records worthless. Throws Failure (unless
+/// forced) for a file that is no database, as a build should not replace what is none of its own, and for one
+/// whose valid records would be dropped, as scenes or states are no longer wanted.
 ExistingDatabase examine_existing(const std::filesystem::path& output, const WantedDatabase& wanted,
                                   bool force);
 

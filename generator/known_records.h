@@ -10,7 +10,8 @@
 
 namespace voussoir {
 
-/// Where finished records are found during a build. Reading is not thread-safe, asking and appending are.
+/// Where finished records are found during a build. The journal may be asked, read and appended to from
+/// several threads.
 class KnownRecords {
  public:
   /// A journal of records with all states of the plan, of fields with so many nodes.

@@ -6,7 +6,7 @@
 #include "database/records/model_error.h"
 #include "database/records/record.h"
 #include "generator/progress.h"
-#include "generator/scene_solving.h"
+#include "generator/solvers.h"
 
 namespace voussoir {
 

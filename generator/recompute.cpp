@@ -21,9 +21,6 @@ std::vector<std::size_t> choose_rows(std::size_t rows, std::size_t count, std::u
   return chosen;
 }
 
-namespace {
-
-/// What other scenes start from, too, is solved once.
 std::vector<Solution> recompute_start(const RecordKey& key, const RecomputedVariant& variant,
                                       const StageSolver& solver) {
   const bool is_kept = key.scene.missing() <= 1;
@@ -32,8 +29,6 @@ std::vector<Solution> recompute_start(const RecordKey& key, const RecomputedVari
   if (is_kept) variant.starts->add(key, states);
   return states;
 }
-
-}  // namespace
 
 std::optional<std::vector<Solution>> SolvedStarts::find(const RecordKey& key) const {
   const std::scoped_lock lock(mutex_);

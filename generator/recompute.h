@@ -36,6 +36,10 @@ struct RecomputedVariant {
   std::shared_ptr<SolvedStarts> starts = std::make_shared<SolvedStarts>();  ///< with these rules
 };
 
+/// All states of the intact bridge or of a single, from which others start: solved once.
+std::vector<Solution> recompute_start(const RecordKey& key, const RecomputedVariant& variant,
+                                      const StageSolver& solver);
+
 /// What searches of a variant begin with whose scenes start from these: the stored fields of the intact
 /// bridge and singles, or those solved anew where the database has not all of them. `solver` is the
 /// variant's.

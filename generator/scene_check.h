@@ -1,7 +1,6 @@
 #pragma once
 /// @file Checks of stored scenes.
 
-#include <optional>
 #include <span>
 
 #include "database/records/database.h"

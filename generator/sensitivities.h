@@ -6,8 +6,8 @@
 #include "database/records/sensitivities.h"
 #include "generator/known_records.h"
 #include "generator/progress.h"
-#include "generator/scene_solving.h"
 #include "generator/sensitivity_basis.h"
+#include "generator/solvers.h"
 
 namespace voussoir {
 

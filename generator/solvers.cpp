@@ -1,8 +1,9 @@
+#include "generator/solvers.h"
+
 #include <memory>
 
 #include "core/solve/combined_solver.h"
 #include "core/solve/outcomes_only.h"
-#include "generator/scene_solving.h"
 
 namespace voussoir {
 namespace {

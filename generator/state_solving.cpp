@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "core/structure/mirror_symmetry.h"
+#include "generator/scene_solving.h"
 
 namespace voussoir {
 namespace {

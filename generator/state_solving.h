@@ -11,7 +11,7 @@
 #include "generator/build_plan.h"
 #include "generator/composition.h"
 #include "generator/proved_falls.h"
-#include "generator/scene_solving.h"
+#include "generator/solvers.h"
 #include "generator/start_field.h"
 #include "generator/steps_of_loss.h"
 

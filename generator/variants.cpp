@@ -24,18 +24,15 @@ double friction_angle(double coefficient) {
   return angle;
 }
 
-/// Where blocks meet that did not touch at rest: the median joint.
-JointMaterial typical_joint(std::vector<JointMaterial> joints, const JointMaterial& if_none) {
-  if (joints.empty()) return if_none;
-  const auto median = [&](double JointMaterial::*value) {
-    const auto middle = joints.begin() + static_cast<std::ptrdiff_t>(joints.size() / 2);
-    std::nth_element(joints.begin(), middle, joints.end(),
-                     [&](const JointMaterial& a, const JointMaterial& b) { return a.*value < b.*value; });
-    return (*middle).*value;
-  };
-  return {.normal_stiffness = median(&JointMaterial::normal_stiffness),
-          .tangential_stiffness = median(&JointMaterial::tangential_stiffness),
-          .friction_angle = median(&JointMaterial::friction_angle)};
+/// By how much blocks are heavier than the bridge's [-]: so is the soil that lies on them, as the densities
+/// of all blocks alike are uncertain.
+double heavier_by(const std::vector<double>& density, const std::vector<Material>& blocks) {
+  double sum = 0.0, nominal = 0.0;
+  for (std::size_t b = 0; b < density.size(); ++b) {
+    sum += density[b];
+    nominal += blocks[b].density;
+  }
+  return nominal > 0.0 ? sum / nominal : 1.0;
 }
 
 bool same_in_images(const std::vector<double>& values, const std::vector<std::size_t>& images) {
@@ -70,7 +67,8 @@ Model variant_of(const Model& bridge, const VariantParameters& parameters) {
       joint.friction_angle = friction_angle(parameters.friction_coefficient[j]);
     joint.mortar = mortar_on(joint, bridge.parameters.joints[j]);
   }
-  variant.parameters.contact = typical_joint(variant.parameters.joints, bridge.parameters.contact);
+  variant.parameters.laid_mass *= heavier_by(parameters.density, bridge.parameters.blocks);
+  variant.parameters.contact = drawn_contact(variant.parameters.joints, bridge.parameters);
   if (variant.symmetry && !are_symmetric(parameters, bridge.joints, *variant.symmetry))
     variant.symmetry.reset();
   return variant;

@@ -13,6 +13,7 @@
 #include "database/records/stored_bridge.h"
 #include "database/search/stored_index.h"
 #include "generator/build_settings.h"
+#include "generator/field_difference.h"
 #include "generator/origin_check.h"
 #include "generator/parallel.h"
 #include "generator/recompute.h"
@@ -126,37 +127,39 @@ struct Recomputed {
   std::vector<std::string> problems{};
 };
 
-/// Control displacements of the intact bridge as built: stored, or as they were solved to start the others.
-std::vector<double> intact_displacements(const RecomputedVariant& variant, std::int32_t number) {
+/// Control displacements of the intact bridge as built: stored, or solved.
+std::vector<double> intact_displacements(const RecomputedVariant& variant, std::int32_t number,
+                                         const StageSolver& solver) {
   const RecordKey intact{number, Scene{}};
   const SceneTable table = variant.database.table(number, kBuilt);
   if (const auto row = table.find(intact.scene)) {
     const auto stored = table.row(*row);
     return {stored.begin(), stored.end()};
   }
-  const auto states = variant.starts->find(intact).value();
+  const std::vector<Solution> states = recompute_start(intact, variant, solver);
   const Eigen::VectorXd vertical = readings_at(variant.bridge.control_points, states[kBuilt].displacement);
   return {vertical.begin(), vertical.end()};
 }
 
 /// Of a composed state against its solution: composed_error.
 double error_of_composed(const RecomputedVariant& variant, const RecordKey& key, const RecordedState& stored,
-                         const Solution& anew) {
+                         const Solution& anew, const StageSolver& solver) {
   const Eigen::VectorXd solved = readings_at(variant.bridge.control_points, anew.displacement);
   return composed_error(stored.vertical, {solved.data(), static_cast<std::size_t>(solved.size())},
-                        intact_displacements(variant, key.variant));
+                        intact_displacements(variant, key.variant, solver));
 }
 
 /// Compares a stored state with its solution; what is wrong.
 std::optional<std::string> compare(const RecomputedVariant& variant, const RecordKey& key,
-                                   const RecordedState& stored, const Solution& anew, Recomputed& result) {
+                                   const RecordedState& stored, const Solution& anew,
+                                   const StageSolver& solver, Recomputed& result) {
   if (stored.origin == Origin::inherited) ++result.inherited;
   if (anew.outcome != stored.outcome)
     return fmt::format("it is {}, not {}", to_string(anew.outcome), to_string(stored.outcome));
   if (stored.origin == Origin::inherited) return std::nullopt;
   if (stored.origin == Origin::composed) {
     ++result.composed;
-    const double error = error_of_composed(variant, key, stored, anew);
+    const double error = error_of_composed(variant, key, stored, anew, solver);
     result.composed_error = std::max(result.composed_error, error);
     return error <= 1.0
                ? std::nullopt
@@ -176,7 +179,8 @@ Recomputed recompute_row(const RecomputedVariant& variant, std::size_t row, cons
   const std::vector<std::size_t> kept = kept_states(variant.plan);
   Recomputed result;
   for (std::size_t state = 0; state < kept.size(); ++state)
-    if (const auto problem = compare(variant, key, stored.states[state], solutions[kept[state]], result))
+    if (const auto problem =
+            compare(variant, key, stored.states[state], solutions[kept[state]], solver, result))
       result.problems.push_back(fmt::format("scene {}: solved anew {} {}",
                                             to_string(key, variant.bridge.layout),
                                             variant.database.states()[state], *problem));

@@ -7,13 +7,9 @@
 #include <vector>
 
 #include "generator/outcome_counts.h"
-#include "generator/scene_solving.h"
+#include "generator/solvers.h"
 
 namespace voussoir {
-
-/// Two separate solutions of the same scene may differ by this much [m]: the solver stops at a residual of
-/// 1e-8 of a block's weight, which the softest motions of a bridge turn into less than a nanometre.
-inline constexpr double kSameDisplacement = 1e-9;
 
 struct VerifyRequest {
   std::filesystem::path database;

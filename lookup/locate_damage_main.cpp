@@ -1,5 +1,7 @@
 /// @file locate-damage: which blocks are missing, from measured displacements.
 
+#include <array>
+
 #include "core/text_file.h"
 #include "core/threads.h"
 #include "lookup/command_line.h"
@@ -12,6 +14,9 @@ namespace {
 
 std::string report_one(voussoir::Desks& desks, const voussoir::LocateDamageOptions& options) {
   const std::string& file = options.measurements.front();
+  if (options.page)
+    voussoir::check_output("--report", *options.page, {".html", ".htm", ".svg"},
+                           std::array{std::filesystem::path(file)});
   const auto [desk, comparison, settings, answer, databases] = ask(desks, voussoir::read_readings(file));
   const voussoir::Source source{file,
                                 desk->database.path().string(),

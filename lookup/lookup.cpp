@@ -1,12 +1,12 @@
 #include "lookup/lookup.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <ranges>
 
 #include "core/error.h"
 #include "lookup/evidence/largest_places.h"
-#include "lookup/report/verdict.h"
+#include "lookup/other_explanations.h"
 #include "lookup/same_readings.h"
 #include "lookup/search/exhaustive_search.h"
 #include "lookup/search/misfit.h"
@@ -15,10 +15,8 @@
 namespace voussoir {
 namespace {
 
-constexpr std::size_t kMostChecked = 20;  // scenes whose fit is checked
-constexpr std::size_t kMostMixed = 3;     // scenes that say together what the bridge is like
-constexpr std::size_t kMostNear = 3;      // scenes near the readings, asked with larger errors:
-constexpr std::array kTimesErrors = {3.0, 10.0, 100.0};  // so many times what is stated
+constexpr std::size_t kMostChecked = 20;       // scenes whose fit is checked
+constexpr std::size_t kMostMixed = 3;          // scenes that say together what the bridge is like
 constexpr std::size_t kMostComparisons = 500;  // rows looked at for scenes that cannot be told apart:
 constexpr std::size_t kBestCompared = 10;      // the credible ones and so many of the best
 
@@ -138,36 +136,9 @@ void judge_known_bridge(const Library& library, const Observation& observation, 
   answer.fit = fit_of(library, observation, answer);
 }
 
-/// A question about a bridge that is not exactly known, and what it is asked of.
-struct UnknownQuestion {
-  UnknownBridgeQuestion& question;
-  const Observation& observation;
-  const Preparation& preparation;
-};
-
-/// Do larger errors than those that are stated explain the readings far better, with no block missing or by
-/// scenes that are near them? A scene that scatters much, if errors of 0.02 mm are said to be 0.002, seems
-/// to.
-std::optional<Fit> check_stated_errors(const UnknownQuestion& asked, const Answer& answer) {
-  std::vector<std::size_t> rows = {answer.posterior->credible.front()};
-  for (const ScoredRow& near : asked.preparation.smallest_misfits(asked.observation, kMostNear))
-    rows.push_back(near.row);
-  const Eligible& eligible = asked.preparation.eligible();
-  if (eligible.missing.front() == 0) rows.push_back(eligible.rows.front());
-  std::ranges::sort(rows);
-  rows.erase(std::ranges::unique(rows).begin(), rows.end());
-  for (const double times : kTimesErrors) {
-    const double log = asked.question.log_evidence_of(rows, eligible, answer.prior, times);
-    if (log > answer.posterior->log_evidence - std::log(kSmallestChance))
-      return Fit{false, answer.fit->chance,
-                 fmt::format("errors {:g} times as large as stated explain them far better", times)};
-  }
-  return std::nullopt;
-}
-
 /// The same, and what the readings say of the bridge, averaged over the likeliest scenes.
 void judge_unknown_bridge(const UnknownQuestion& asked, Answer& answer) {
-  const auto& [question, observation, preparation] = asked;
+  const auto& [question, observation, preparation, library] = asked;
   answer.noise = {NoiseShape::gaussian, question.level(), observation.unknown_level};
   answer.fit = {false, 0.0, "no scene can show them: each lacks a block that has a reading, or fell"};
   std::vector<WeightedScene> scenes;
@@ -178,9 +149,8 @@ void judge_unknown_bridge(const UnknownQuestion& asked, Answer& answer) {
   answer.bridge = {question.bridge(), std::move(posterior)};
   answer.fit = check_fit(answer.bridge->posterior);
   answer.residuals = sensor_residuals(observation, answer.bridge->model, answer.bridge->posterior);
-  const bool is_alarm = 1.0 - intact_probability(*answer.posterior) >= kCertain;
-  if (answer.fit->explained && is_alarm && !observation.unknown_level)
-    if (const auto doubt = check_stated_errors(asked, answer)) answer.fit = doubt;
+  if (answer.fit->explained)
+    if (const auto doubt = find_other(asked, answer)) answer.fit = doubt;
 }
 
 /// What scenes are compared with must not depend on how many are listed.
@@ -235,6 +205,19 @@ void require_known_scatter(const Comparison& comparison, const LookupSettings& s
                     comparison.sampled->count, kRemedy));
 }
 
+/// Where nothing changed a share of the change is an error of zero, and any scatter would be damage.
+void require_stated_errors(const Comparison& comparison, const Observation& observation) {
+  if (!is_change(comparison.kind) || !observation.unknown_level) return;
+  const auto has_error = [&](std::size_t i) {
+    return std::isnan(observation.reading[i]) || observation.floor[i] > 0.0;
+  };
+  if (std::ranges::all_of(std::views::iota(std::size_t{0}, observation.reading.size()), has_error)) return;
+  throw InputError(
+      "changes without an error, expected a column sigma_mm, --sigma 0.02mm, or --floor 0.02 (mm): where "
+      "nothing "
+      "has changed no share of the change is one");
+}
+
 /// The first of two epochs teaches what a bridge is like that is not exactly known.
 void require_two_epochs(const Comparison& comparison, bool known) {
   if (comparison.before.empty())
@@ -243,6 +226,14 @@ void require_two_epochs(const Comparison& comparison, bool known) {
     throw InputError(
         "both epochs are to count, expected a bridge that is not exactly known: a database with "
         "sensitivities, without --known-bridge");
+}
+
+void require_answerable(const Comparison& comparison, const LookupSettings& settings,
+                        const Observation& observation) {
+  const bool known = counts_as_known(comparison, settings);
+  if (settings.epochs == Epochs::both) require_two_epochs(comparison, known);
+  if (!known) require_known_scatter(comparison, settings);
+  if (settings.objective == Objective::posterior) require_stated_errors(comparison, observation);
 }
 
 }  // namespace
@@ -295,8 +286,7 @@ Answer locate_damage(const Comparison& comparison, const LookupSettings& setting
     if (!std::isnan(observation.reading[i])) answer.counted.push_back(i);
   answer.searched = eligible.rows.size();
   answer.unresolved = eligible.unresolved;
-  if (settings.epochs == Epochs::both) require_two_epochs(comparison, known);
-  if (!known) require_known_scatter(comparison, settings);
+  require_answerable(comparison, settings, observation);
   std::optional<UnknownBridgeQuestion> question;
   if (!known)
     question.emplace(comparison, observation,
@@ -312,7 +302,7 @@ Answer locate_damage(const Comparison& comparison, const LookupSettings& setting
     answer.candidates.push_back(candidate_of(library, row, answer.posterior));
   if (!answer.posterior || found.empty()) return answer;
   if (question)
-    judge_unknown_bridge({*question, observation, preparation}, answer);
+    judge_unknown_bridge({*question, observation, preparation, library}, answer);
   else
     judge_known_bridge(library, observation, found.front().row, answer);
   if (is_change(comparison.kind))

@@ -19,6 +19,7 @@ constexpr double kLargestDatum = 1e6;  // [mm]
 
 std::string plan(const Options& options) {
   const auto database = voussoir::Database::open(voussoir::find_database(options.database));
+  if (options.picture) voussoir::check_output("--report", *options.picture, {".svg"});
   const voussoir::SensorPlan plan = voussoir::plan_sensors(database, options.settings);
   if (options.picture) voussoir::write_file(*options.picture, voussoir::plan_picture(plan, database));
   return voussoir::plan_report(plan, {database, options.settings}, options.format);

@@ -4,10 +4,10 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "core/text.h"
 #include "lookup/evidence/posterior.h"
 #include "lookup/evidence/sensor_choice.h"
 #include "lookup/readings/comparison.h"
-#include "lookup/report/verdict.h"
 
 namespace voussoir {
 namespace {
@@ -24,8 +24,8 @@ ReadingsFile blank_readings(const SensorList& list, const std::vector<std::strin
 void require_points(const SensorList& list, const std::vector<std::string>& points) {
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (std::ranges::find(list.sensors, points[i], &Sensor::name) == list.sensors.end())
-      throw InputError(fmt::format("--points: unknown point {}, expected names from {} to {}", points[i],
-                                   list.sensors.front().name, list.sensors.back().name));
+      throw InputError(fmt::format("--points: unknown point {}, expected {}", points[i],
+                                   names_in_words(names_of(list.sensors))));
     if (std::ranges::count(points, points[i]) > 1)
       throw InputError(fmt::format("--points: {} comes twice, expected each once", points[i]));
   }
@@ -42,6 +42,12 @@ struct BlankQuestion {
                            {.history = settings.history})),
         observation(observe(comparison, {.shape = NoiseShape::gaussian, .relative = 0.0},
                             {.datum = settings.datum})) {
+    const SceneTable& table = comparison.library.table;
+    const auto intact = table.find(Scene{});
+    if (!intact || static_cast<Outcome>(table.outcome[*intact]) != Outcome::standing)
+      throw Failure(
+          fmt::format("{}: the intact bridge does not stand, so nothing is known of what is uncertain of it",
+                      database.path().string()));
     if (!comparison.factors)
       throw Failure(
           fmt::format("{}: knows nothing of what is uncertain of the bridge, expected a database that was "

@@ -2,6 +2,7 @@
 
 #include "core/error.h"
 #include "core/text_file.h"
+#include "core/units.h"
 #include "lookup/command_line.h"
 #include "lookup/readings/readings_csv.h"
 #include "lookup/readings/sensors_file.h"
@@ -36,7 +37,7 @@ struct Options {
 
 NoiseModel noise_of(const Options& options) {
   NoiseModel noise;
-  noise.silence = parse_noise_level(options.silence);
+  noise.silence = parse_chance(options.silence);
   if (!options.sigma.empty()) {
     noise.shape = NoiseShape::gaussian;
     noise.relative = 0.0;
@@ -45,7 +46,7 @@ NoiseModel noise_of(const Options& options) {
   }
   noise.shape = parse_noise_shape(options.noise_model);
   noise.relative = parse_noise_level(options.noise_level);
-  noise.floor = 1e-3 * options.floor_mm;
+  noise.floor = kMetresPerMillimetre * options.floor_mm;
   if (noise.shape == NoiseShape::automatic)
     throw InputError(
         "--noise-model auto cannot be simulated, expected uniform, gaussian, laplace or student");
@@ -77,7 +78,7 @@ std::string errors_in_words(const Options& options) {
   std::string text = options.sigma.empty() ? fmt::format("{} of the value and {} mm, {}", options.noise_level,
                                                          options.floor_mm, options.noise_model)
                                            : fmt::format("gaussian, standard deviation {} mm",
-                                                         1e3 * parse_sigma(options.sigma));
+                                                         kMillimetres * parse_sigma(options.sigma));
   if (options.datum_mm > 0.0) text += fmt::format(", datum {} mm", options.datum_mm);
   if (options.tilt_mm_per_m > 0.0) text += fmt::format(", tilt {} mm per m", options.tilt_mm_per_m);
   return text;
@@ -91,6 +92,7 @@ std::string heading(const Options& options, const Comparison& comparison, const 
 }
 
 std::string make_measurements(const Options& options) {
+  if (!options.output.empty()) check_output("--output", options.output, {});
   const NoiseModel noise = noise_of(options);
   const auto database = Database::open(find_database(options.database));
   SensorList list = control_point_sensors(database.control_points());
@@ -103,7 +105,8 @@ std::string make_measurements(const Options& options) {
   if (!options.history.empty()) settings.history = options.history;
   const Comparison comparison = compare(blank, list, database, settings);
   Random random(options.seed);
-  const Nuisance levelling{.datum = 1e-3 * options.datum_mm, .tilt = 1e-3 * options.tilt_mm_per_m};
+  const Nuisance levelling{.datum = kMetresPerMillimetre * options.datum_mm,
+                           .tilt = kMetresPerMillimetre * options.tilt_mm_per_m};
   const ReadingsFile file =
       simulate_file(blank, comparison, find_row(database, options.scene), noise, levelling, random);
   const std::string text = heading(options, comparison, database) + to_csv(file, list);
@@ -117,7 +120,8 @@ void add_reading_options(CLI::App& app, Options& options) {
       app, "--kind", options.kind,
       {{"absolute", Kind::absolute}, {"change", Kind::change}, {"epochs", Kind::epochs}},
       "absolute (default): displacements since the bridge carried nothing, with --load what the load "
-      "adds; change: between two times; epochs: the same as values before and after");
+      "adds; change: between two times; epochs: the same as values before, which have no error, and after, "
+      "which have all of it");
   add_choice<std::string>(app, "--history", options.history,
                           {{kBuiltState, kBuiltState}, {kLostState, kLostState}},
                           "whether the blocks were never there or went later; default: as locate-damage");
@@ -151,7 +155,7 @@ void add_error_options(CLI::App& app, Options& options) {
                  "standard deviation of a rotation of all heights of one levelling [mm per m], default 0")
       ->check(number_in_range(0.0, 1e6, "MM/M"));
   app.add_option("--silent-sensors", options.silence, "chance that a sensor gives no reading, default 0%")
-      ->check(checked_by(parse_noise_level, "LEVEL"));
+      ->check(checked_by(parse_chance, "CHANCE"));
 }
 
 }  // namespace

@@ -105,6 +105,17 @@ Point centroid(const Polygon& polygon) {
   return origin + moment / twice;
 }
 
+bool contains(const Polygon& polygon, const Point& point) {
+  bool inside = false;  // an odd number of edges crosses the way from the point to the right
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Point& a = polygon[i];
+    const Point& b = polygon[(i + 1) % polygon.size()];
+    if ((a.y() > point.y()) == (b.y() > point.y())) continue;
+    if (point.x() < a.x() + (point.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x())) inside = !inside;
+  }
+  return inside;
+}
+
 Point nearest_on_segment(const Point& a, const Point& b, const Point& point) {
   const double t = std::clamp((point - a).dot(b - a) / (b - a).squaredNorm(), 0.0, 1.0);
   return a + t * (b - a);

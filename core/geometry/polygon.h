@@ -23,6 +23,9 @@ double area(const Polygon& polygon);
 /// Centre of gravity [m]. Precondition: the area is not zero.
 Point centroid(const Polygon& polygon);
 
+/// Whether a point is inside; of one on the boundary either may be said.
+bool contains(const Polygon& polygon, const Point& point);
+
 /// The place between a and b nearest to a point, and the distance [m] from there.
 Point nearest_on_segment(const Point& a, const Point& b, const Point& point);
 double distance_to_segment(const Point& a, const Point& b, const Point& point);

@@ -1,6 +1,7 @@
 #include "core/motion/block_dynamics.h"
 
 #include <Eigen/Cholesky>
+#include <cmath>
 
 #include "core/law/triangle.h"
 

@@ -1,5 +1,7 @@
 #include "core/motion/decision_rules.h"
 
+#include <algorithm>
+
 #include "core/structure/collapse.h"
 
 namespace voussoir {
@@ -27,6 +29,10 @@ DecisionRules when_gone(DecisionRules rules) {
 DecisionRules near_by(DecisionRules rules) {
   rules.moving_sags = 6.0;  // by two, as in the whole bridge, 21 of 99 would fall that rest (docs/speed.md)
   return rules;
+}
+
+double moved_away(const DecisionRules& rules, double sag, double block) {
+  return std::min(rules.moving_sags * sag, kGoneShare * block);
 }
 
 }  // namespace voussoir

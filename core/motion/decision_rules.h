@@ -32,4 +32,8 @@ DecisionRules when_gone(DecisionRules rules);
 /// Rules for a patch of a bridge (core/structure/patch.h): more has to move before it counts as a fall.
 DecisionRules near_by(DecisionRules rules);
 
+/// How far blocks move that have moved away [m]. `sag` of the bonded bridge, `block` the size of a mean block
+/// [m].
+double moved_away(const DecisionRules& rules, double sag, double block);
+
 }  // namespace voussoir

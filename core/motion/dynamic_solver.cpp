@@ -94,5 +94,8 @@ double DynamicSolver::damping() const {
 double DynamicSolver::sag() const {
   return followed_->natural.sag;
 }
+double DynamicSolver::moved_away(const DecisionRules& rules) const {
+  return followed_->moved_away(rules);
+}
 
 }  // namespace voussoir

@@ -65,7 +65,7 @@ enum class MotionStart {
 /// model must outlive the solver.
 class DynamicSolver {
  public:
-  /// Throws InputError for a step above the critical one and for settings that make no sense.
+  /// Throws InputError for a step above the critical one.
   explicit DynamicSolver(const Model& model, DynamicSettings settings = {});
 
   /// The same with equations of the model's structure that are there already.
@@ -94,11 +94,12 @@ class DynamicSolver {
 
   bool softens_joints() const;  ///< does it follow softer joints than the bridge has (softening.h)?
   const Pace& pace() const;
-  double step() const;           ///< of most blocks [s]
-  double critical_step() const;  ///< of all blocks [s]
-  double frequency() const;      ///< the lowest of the bonded bridge [rad/s]
-  double damping() const;        ///< [1/s]
-  double sag() const;            ///< of the bonded bridge [m]
+  double step() const;                                  ///< of most blocks [s]
+  double critical_step() const;                         ///< of all blocks [s]
+  double frequency() const;                             ///< the lowest of the bonded bridge [rad/s]
+  double damping() const;                               ///< [1/s]
+  double sag() const;                                   ///< of the bonded bridge [m]
+  double moved_away(const DecisionRules& rules) const;  ///< how far blocks move that have [m]
 
  private:
   std::unique_ptr<FollowedBridge> followed_;

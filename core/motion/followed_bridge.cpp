@@ -117,11 +117,12 @@ long FollowedBridge::early_steps() const {
   const bool adds_up = settings.skips.early_motions && model.bonds.empty() &&
                        settings.integrator == Integrator::implicit_blocks &&
                        memory_of_early_motions(model) <= kMostEarlyMemory;
-  return adds_up ? static_cast<long>(kEarlyShare * settings.ramp / model.step()) : 0;
+  const double end = kEarlyShare * settings.ramp;
+  return adds_up && end <= settings.moment ? static_cast<long>(end / model.step()) : 0;
 }
 
 double FollowedBridge::moved_away(const DecisionRules& rules) const {
-  return std::min(rules.moving_sags * natural.sag, kGoneShare * block_size);
+  return voussoir::moved_away(rules, natural.sag, block_size);
 }
 
 }  // namespace voussoir

@@ -55,7 +55,7 @@ struct LoadedBridge::Workspace {
         model(bridge, make_block_bodies(bridge, settings.motion.inertia), solver.pace(), solver.damping(),
               settings.motion.contact_damping),
         margin(search_margin(bridge)),
-        far(settings.motion.decision.moving_sags * solver.sag()),
+        far(solver.moved_away(settings.motion.decision)),
         motion(at_rest<double>(model)) {}
 
   /// Steps until the bridge rests, not before `earliest` [s]. `prepare` sets the loads of a step that ends at

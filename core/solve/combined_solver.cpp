@@ -59,7 +59,10 @@ std::vector<std::size_t> open_places(std::span<const StageTask> tasks, const std
 CombinedSolver::CombinedSolver(const Model& model, const SolverSettings& settings)
     : settings_(settings),
       newton_(model, settings.newton),
-      motion_(model, newton_.system(), settings.motion) {}
+      motion_(model, newton_.system(), settings.motion) {
+  settings_.patient.latest_decision =
+      std::max(settings_.patient.latest_decision, settings_.motion.decision.latest_decision);
+}
 
 std::vector<Solution> CombinedSolver::solve(std::span<const StageTask> tasks) {
   std::vector<Solution> solutions = search(tasks);
@@ -114,9 +117,9 @@ void CombinedSolver::insist(std::span<const StageTask> tasks, Whom whom, std::ve
 /// once and all other scenes start from it, and where already the start would count as moved away.
 bool CombinedSolver::falls_late(const StageTask& task, const DecisionRules& rules) const {
   if (task.stage.scene.removed.empty()) return true;
-  const double moved_away = rules.moving_sags * motion_.sag();
   return task.start != nullptr &&
-         !blocks_moved_beyond(moved_away, newton_.system().structure->mesh, *task.start).empty();
+         !blocks_moved_beyond(motion_.moved_away(rules), newton_.system().structure->mesh, *task.start)
+              .empty();
 }
 
 std::vector<DynamicSolution> CombinedSolver::move(std::span<const StageTask> tasks,

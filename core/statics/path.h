@@ -3,7 +3,6 @@
 /// its strongest resistance is, and what comes after it.
 
 #include <Eigen/SparseCore>
-#include <functional>
 #include <vector>
 
 #include "core/statics/equilibrium.h"

@@ -18,7 +18,6 @@
 namespace voussoir {
 namespace {
 
-constexpr std::size_t kLongestLabel = 31;    ///< bytes that a database keeps
 constexpr double kSmallestArea = 1e-6;       ///< [m2] of a block
 constexpr double kLongestAssembly = 1000.0;  ///< [m] no masonry bridge is longer
 constexpr double kLongestMedian = 20.0;      ///< [m] half of the blocks are shorter, if they are of stone

@@ -1,7 +1,6 @@
 #include "core/structure/control_point.h"
 
 #include <algorithm>
-#include <cmath>
 #include <iterator>
 
 #include "core/error.h"

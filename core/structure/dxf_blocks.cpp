@@ -4,8 +4,10 @@
 #include <map>
 #include <numbers>
 #include <optional>
+#include <utility>
 
 #include "core/error.h"
+#include "core/geometry/polygon.h"
 #include "core/structure/block_file.h"
 #include "core/structure/block_limits.h"
 #include "core/text.h"
@@ -16,7 +18,8 @@ namespace {
 constexpr std::size_t kMostOutlines = 20000;
 constexpr double kChordAngle = std::numbers::pi / 18.0;  ///< [rad] of the chords of an arc, at most
 constexpr int kFirstUnit = 4, kLastUnit = 6;             ///< of $INSUNITS: mm, cm, m
-constexpr double kUnits[] = {1e-3, 1e-2, 1.0};           ///< [m]
+constexpr std::string_view kNoSection = "none";
+constexpr double kUnits[] = {1e-3, 1e-2, 1.0};  ///< [m]
 
 /// DXF is a list of pairs of lines: a code and a value.
 struct Group {
@@ -41,6 +44,8 @@ class Groups {
     if (!value) refuse(line_, "the file ends after a group code: expected its value");
     return Group{code, trimmed(*value), line_};
   }
+
+  long line() const { return line_; }  ///< the last that was read
 
   [[noreturn]] void refuse(long line, const std::string& message) const {
     throw InputError(at_line(name_, line, message));
@@ -81,6 +86,7 @@ struct Vertex {
 struct Outline {
   std::string layer;
   std::vector<Vertex> vertices;
+  std::optional<int> stated{};  ///< how many vertices the file says that there are
   bool closed = false;
   long line = 0;
 };
@@ -116,6 +122,13 @@ class DrawingReader {
       else if (entity_ == "SECTION" && group->code == 2)
         section_ = group->value;
     }
+    if (!section_.empty() && section_ != kNoSection)
+      groups_.refuse(groups_.line(),
+                     fmt::format("the file ends within the section {}: expected ENDSEC", section_));
+    for (const Outline& outline : drawing_.outlines)
+      if (const auto stated = outline.stated; stated && std::cmp_not_equal(*stated, outline.vertices.size()))
+        groups_.refuse(outline.line, fmt::format("the outline has {} vertices: expected the {} that it says",
+                                                 outline.vertices.size(), *stated));
     return std::move(drawing_);
   }
 
@@ -127,14 +140,15 @@ class DrawingReader {
     if (entity_ == "LWPOLYLINE" || entity_ == "POLYLINE") {
       if (drawing_.outlines.size() >= kMostOutlines)
         groups_.refuse(group.line, fmt::format("expected at most {} outlines", kMostOutlines));
-      drawing_.outlines.push_back({.layer = "0", .vertices = {}, .closed = false, .line = group.line});
+      drawing_.outlines.push_back(
+          {.layer = "0", .vertices = {}, .stated = {}, .closed = false, .line = group.line});
     }
     if (entity_ == "VERTEX") {
       if (drawing_.outlines.empty()) groups_.refuse(group.line, "VERTEX: expected it after a POLYLINE");
       add_vertex(group);
     }
     if (entity_ == "TEXT" || entity_ == "MTEXT") drawing_.letterings.emplace_back();
-    if (group.value == "ENDSEC") section_ = "none";
+    if (group.value == "ENDSEC") section_ = kNoSection;
   }
 
   void add_vertex(const Group& group) {
@@ -150,6 +164,7 @@ class DrawingReader {
     if (group.code == 8 && entity_ != "VERTEX") outline.layer = std::string(group.value);
     if (group.code == 70 && entity_ != "VERTEX") outline.closed = (groups_.flags(group) & 1) != 0;
     if (vertices_follow) return;
+    if (group.code == 90 && entity_ == "LWPOLYLINE") outline.stated = groups_.flags(group);
     if (group.code == 10 && entity_ == "LWPOLYLINE") add_vertex(group);
     if (group.code != 10 && group.code != 20 && group.code != 42) return;
     if (outline.vertices.empty()) groups_.refuse(group.line, "expected group 10 (x) before it");
@@ -222,22 +237,11 @@ std::optional<RoleAndRing> role_of_layer(const std::string& layer) {
   return RoleAndRing{*role, *role == BlockRole::ring ? ring : kNoRing};
 }
 
-bool is_inside(const Polygon& polygon, const Point& point) {
-  bool inside = false;
-  for (std::size_t i = 0, j = polygon.size() - 1; i < polygon.size(); j = i++) {
-    const Point &a = polygon[i], &b = polygon[j];
-    if ((a.y() > point.y()) != (b.y() > point.y()) &&
-        point.x() < a.x() + (b.x() - a.x()) * (point.y() - a.y()) / (b.y() - a.y()))
-      inside = !inside;
-  }
-  return inside;
-}
-
 /// Each text names the block in which it stands; blocks without one have their number.
 void name_blocks(const Drawing& drawing, std::vector<Block>& blocks) {
   for (const Lettering& lettering : drawing.letterings)
     for (Block& block : blocks)
-      if (block.label.empty() && is_inside(block.polygon, drawing.unit * lettering.place)) {
+      if (block.label.empty() && contains(block.polygon, drawing.unit * lettering.place)) {
         block.label = lettering.text;
         break;
       }

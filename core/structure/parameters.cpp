@@ -1,8 +1,24 @@
 #include "core/structure/parameters.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace voussoir {
+namespace {
+
+/// Of values that are there; 1 without any.
+double median_ratio(const std::vector<JointMaterial>& drawn, const std::vector<JointMaterial>& nominal,
+                    double (*value)(const JointMaterial&)) {
+  std::vector<double> ratios;
+  for (std::size_t j = 0; j < drawn.size(); ++j)
+    if (value(nominal[j]) > 0.0) ratios.push_back(value(drawn[j]) / value(nominal[j]));
+  if (ratios.empty()) return 1.0;
+  const auto middle = ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2);
+  std::ranges::nth_element(ratios, middle);
+  return *middle;
+}
+
+}  // namespace
 
 Parameters uniform_parameters(const Structure& structure, const Material& material,
                               const JointMaterial& joints, double gravity) {
@@ -20,6 +36,19 @@ JointMaterial softened(JointMaterial joint, double share) {
   joint.normal_stiffness *= share;
   joint.tangential_stiffness *= share;
   return joint;
+}
+
+JointMaterial drawn_contact(const std::vector<JointMaterial>& drawn, const Parameters& nominal) {
+  const auto ratio = [&](double (*value)(const JointMaterial&)) {
+    return median_ratio(drawn, nominal.joints, value);
+  };
+  JointMaterial contact = nominal.contact;
+  contact.normal_stiffness *= ratio([](const JointMaterial& joint) { return joint.normal_stiffness; });
+  contact.tangential_stiffness *=
+      ratio([](const JointMaterial& joint) { return joint.tangential_stiffness; });
+  const double of_friction = ratio([](const JointMaterial& joint) { return joint.friction_coefficient(); });
+  if (of_friction != 1.0) contact.friction_angle = std::atan(contact.friction_coefficient() * of_friction);
+  return contact;
 }
 
 bool has_mortar(const Parameters& parameters) {

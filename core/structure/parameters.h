@@ -25,6 +25,10 @@ Parameters uniform_parameters(const Structure& structure, const Material& materi
 /// The joint with this share of both its stiffnesses and all of its friction.
 JointMaterial softened(JointMaterial joint, double share);
 
+/// Where blocks meet that did not touch at rest, if joints are `drawn` instead: changed as the median joint
+/// is, each of its values by itself. Precondition: as many joints as `nominal` has.
+JointMaterial drawn_contact(const std::vector<JointMaterial>& drawn, const Parameters& nominal);
+
 /// Has any joint mortar?
 bool has_mortar(const Parameters& parameters);
 

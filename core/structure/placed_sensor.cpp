@@ -14,14 +14,7 @@ namespace {
 
 /// Whether a place is in a block or at most kPlaceTolerance away from it.
 bool touches(const Polygon& polygon, const Point& place) {
-  bool inside = false;  // an odd number of edges crosses the way from the place to the right
-  for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const Point& a = polygon[i];
-    const Point& b = polygon[(i + 1) % polygon.size()];
-    if ((a.y() > place.y()) == (b.y() > place.y())) continue;
-    if (place.x() < a.x() + (place.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x())) inside = !inside;
-  }
-  return inside || distance_to_boundary(polygon, place) <= kPlaceTolerance;
+  return contains(polygon, place) || distance_to_boundary(polygon, place) <= kPlaceTolerance;
 }
 
 std::optional<BlockId> named_block(const std::string& text, const BlockLayout& layout) {

@@ -1,5 +1,6 @@
 #include "core/structure/structure.h"
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 #include <utility>
@@ -20,6 +21,46 @@ void check_blocks(const std::vector<Block>& blocks) {
       throw InputError(
           fmt::format("block '{}': expected at least three corners, counter-clockwise", block.label));
   }
+}
+
+/// Every block has a node that a support holds, or meets others that do.
+void check_carried(const Structure& structure) {
+  const std::size_t blocks = structure.layout.size();
+  std::vector<std::vector<std::size_t>> met(blocks);
+  for (const Joint& joint : structure.joints) {
+    const auto first = static_cast<std::size_t>(value(joint.first)),
+               second = static_cast<std::size_t>(value(joint.second));
+    met[first].push_back(second);
+    met[second].push_back(first);
+  }
+  std::vector<bool> held(static_cast<std::size_t>(structure.mesh.node_count()), false);
+  for (const Support& support : structure.supports)
+    for (const NodeId node : support.nodes) held[static_cast<std::size_t>(value(node))] = true;
+  std::vector<bool> carried(blocks, false);
+  std::vector<std::size_t> to_follow;
+  const auto carry = [&](std::size_t block) {
+    if (!carried[block]) to_follow.push_back(block);
+    carried[block] = true;
+  };
+  for (std::size_t b = 0; b < blocks; ++b) {
+    const IndexRange& nodes = structure.mesh.block_nodes[b];
+    if (std::find(held.begin() + nodes.begin, held.begin() + nodes.end, true) != held.begin() + nodes.end)
+      carry(b);
+  }
+  while (!to_follow.empty()) {
+    const std::size_t block = to_follow.back();
+    to_follow.pop_back();
+    for (const std::size_t other : met[block]) carry(other);
+  }
+  for (std::size_t b = 0; b < blocks; ++b)
+    if (!carried[b]) {
+      const Block& block = structure.layout.blocks[b];
+      const Point place = centroid(block.polygon);
+      throw InputError(fmt::format(
+          "block '{}' at ({:.4g}, {:.4g}) is loose: expected blocks that touch others, down to the "
+          "supports",
+          block.label, place.x(), place.y()));
+    }
 }
 
 }  // namespace
@@ -49,6 +90,7 @@ Structure make_structure(const BridgeDescription& description) {
                                   .mirror_axis = bounds.corner.x() + 0.5 * bounds.length});
   structure.layout.small_pieces = laid.small_pieces;
   structure.supports = supports_of(description, structure.layout, structure.mesh);
+  if (!structure.supports.empty()) check_carried(structure);
   structure.control_points = find_control_points(structure.layout, structure.mesh, description);
   if (structure.control_points.empty())
     throw InputError("the bridge has no control points: switch on top or arch");

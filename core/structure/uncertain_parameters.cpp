@@ -167,6 +167,7 @@ Parameters parameters_at(const Model& bridge, const UncertainParameters& uncerta
   Parameters parameters = bridge.parameters;
   for (std::size_t i = 0; i < uncertain.of_bridge.size(); ++i)
     apply(uncertain.of_bridge[i], theta[static_cast<Eigen::Index>(i)], parameters);
+  parameters.contact = drawn_contact(parameters.joints, bridge.parameters);
   return parameters;
 }
 

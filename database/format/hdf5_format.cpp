@@ -1,7 +1,6 @@
 #include "database/format/hdf5_format.h"
 
 #include <algorithm>
-#include <array>
 #include <string_view>
 
 #include "core/error.h"

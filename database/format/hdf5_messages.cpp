@@ -1,8 +1,6 @@
 #include "database/format/hdf5_messages.h"
 
 #include <algorithm>
-#include <array>
-#include <utility>
 
 #include "core/error.h"
 

@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <array>
 
 #include "database/format/hdf5_format.h"

@@ -139,8 +139,8 @@ std::vector<Column> columns_of_state() {
              "what moves away: 0 nothing, 1 wall blocks only, 2 blocks of the arch"),
       column(dataset::kMoving, {states, records, blocks}, kOfState<&State::moving>, Form::marks, kInChecksum,
              "1",
-             "1 for each block that had moved away when the collapse was decided (further than two sags "
-             "of the bridge with bonded joints), 0 for all others"),
+             "1 for each block that had moved so far when the collapse was decided that it counts as fallen, "
+             "0 for all others"),
       column(dataset::kVertical, {states, records, points}, kOfState<&State::vertical>, Form::plain,
              kInChecksum, "m",
              "vertical displacement of the control points, up is positive; NaN where the block is gone"),

@@ -5,6 +5,7 @@
 #include <sys/stat.h>
 
 #include <cerrno>
+#include <cstring>
 
 #include "core/error.h"
 #include "database/format/field_codec.h"
@@ -119,13 +120,14 @@ void Journal::load(const Provenance& provenance, const std::string& key, OtherRe
     places_[record->key] = {end_ + kFrameHead, static_cast<std::uint32_t>(content->size())};
     end_ = mapped.bytes().size() - reader.left();
   }
-  if (::ftruncate(file_.get(), static_cast<off_t>(end_)) != 0) fail("cannot be shortened");
+  if (::ftruncate(file_.get(), static_cast<off_t>(end_)) != 0)
+    fail("cannot be shortened", std::strerror(errno));
 }
 
 void Journal::begin(const Provenance& provenance, const std::string& key) {
-  if (::ftruncate(file_.get(), 0) != 0) fail("cannot be emptied");
+  if (::ftruncate(file_.get(), 0) != 0) fail("cannot be emptied", std::strerror(errno));
   if (::pwrite(file_.get(), kMagic.data(), kMagic.size(), 0) != static_cast<ssize_t>(kMagic.size()))
-    fail("cannot be written");
+    fail("cannot be written", std::strerror(errno));
   end_ = kMagic.size();
   write_frame(header_content(provenance, key));
 }
@@ -140,7 +142,7 @@ void Journal::write_frame(ByteView content) {
   while (!rest.empty()) {
     const ssize_t written = ::pwrite(file_.get(), rest.data(), rest.size(), static_cast<off_t>(at));
     if (written < 0 && errno == EINTR) continue;
-    if (written <= 0) fail("cannot be written");
+    if (written <= 0) fail("cannot be written", std::strerror(errno));
     at += static_cast<std::uint64_t>(written);
     rest = rest.subspan(static_cast<std::size_t>(written));
   }
@@ -155,24 +157,42 @@ void Journal::append(const Record& record) {
   places_[record.key] = place;
 }
 
+std::size_t Journal::size() const {
+  const std::scoped_lock lock(mutex_);
+  return places_.size();
+}
+
+bool Journal::contains(const RecordKey& key) const {
+  const std::scoped_lock lock(mutex_);
+  return places_.contains(key);
+}
+
 Record Journal::read(const RecordKey& key) const {
+  const std::scoped_lock lock(mutex_);
   const Place place = places_.at(key);
   Bytes content(place.size);
-  const ssize_t size = ::pread(file_.get(), content.data(), content.size(), static_cast<off_t>(place.offset));
-  auto record = size == static_cast<ssize_t>(content.size()) ? parse_record(content) : std::nullopt;
-  if (!record || record->key != key) fail("cannot be read back");
+  for (std::size_t done = 0; done < content.size();) {
+    const ssize_t size = ::pread(file_.get(), content.data() + done, content.size() - done,
+                                 static_cast<off_t>(place.offset + done));
+    if (size < 0 && errno == EINTR) continue;
+    if (size < 0) fail("cannot be read back", std::strerror(errno));
+    if (size == 0) fail("cannot be read back", "it has become shorter");
+    done += static_cast<std::size_t>(size);
+  }
+  auto record = parse_record(content);
+  if (!record || record->key != key) fail("cannot be read back", "it has been changed");
   return std::move(*record);
 }
 
 void Journal::remove() {
-  if (::unlink(path_.c_str()) != 0) fail("cannot be deleted");
+  if (::unlink(path_.c_str()) != 0) fail("cannot be deleted", std::strerror(errno));
 }
 
-void Journal::fail(const std::string& what) const {
+void Journal::fail(const std::string& what, const std::string& why) const {
   throw Failure(
       fmt::format("{}: {}: {}; the {} scenes done so far are kept in it: put things right and run the same "
                   "command again to go on",
-                  path_.string(), what, std::strerror(errno), places_.size()));
+                  path_.string(), what, why, places_.size()));
 }
 
 Bytes serialise(const Record& record) {

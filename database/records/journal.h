@@ -21,6 +21,7 @@ namespace voussoir {
 /// What becomes of the records that an interrupted build of another key has left.
 enum class OtherRecords { drop, refuse };
 
+/// Thread-safe, once it is open, but for its end.
 class Journal : public RecordSource {
  public:
   /// Opens the journal for building `target`, or begins one, and locks it against other builders. Records of
@@ -40,11 +41,11 @@ class Journal : public RecordSource {
   /// Provenance of the records of another build that were in the way.
   const std::optional<Provenance>& discarded() const { return discarded_; }
 
-  /// Thread-safe. Throws Failure (disk full); what was appended before stays whole.
+  /// Throws Failure (disk full); what was appended before stays whole.
   void append(const Record& record);
 
-  std::size_t size() const { return places_.size(); }
-  bool contains(const RecordKey& key) const override { return places_.contains(key); }
+  std::size_t size() const;
+  bool contains(const RecordKey& key) const override;
 
   /// Throws Failure if the file cannot be read back.
   Record read(const RecordKey& key) const override;
@@ -62,14 +63,15 @@ class Journal : public RecordSource {
   void load(const Provenance& provenance, const std::string& key, OtherRecords others);
   void begin(const Provenance& provenance, const std::string& key);
   void write_frame(ByteView content);
-  [[noreturn]] void fail(const std::string& what) const;
+  /// `why` in the system's words, if it is the system that cannot.
+  [[noreturn]] void fail(const std::string& what, const std::string& why) const;
 
   std::filesystem::path path_;
   FileDescriptor file_;
   std::uint64_t end_ = 0;  ///< of the last whole frame
   std::map<RecordKey, Place> places_;
   std::optional<Provenance> discarded_;
-  std::mutex mutex_;
+  mutable std::mutex mutex_;  // of the places
 };
 
 /// The content of a record's frame and back; nothing if the bytes are no record.

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/structure/block_limits.h"
 #include "core/structure/model.h"
 #include "core/structure/sensor_description.h"
 #include "database/format/dataset_value.h"
@@ -19,7 +20,7 @@ inline constexpr char kFormatName[] = "voussoir database";
 /// What the first dataset says of itself: a damaged file is known by it.
 inline constexpr char kBridgeTextMeaning[] = "the bridge file (TOML) as it was given";
 inline constexpr int kSchemaVersion = 6;
-inline constexpr std::size_t kBlockLabelWidth = 32;                 ///< bytes, padded with zeros
+inline constexpr std::size_t kBlockLabelWidth = kLongestLabel + 1;  ///< bytes, padded with zeros
 inline constexpr std::size_t kPointNameWidth = kLongestSensorName;  ///< bytes, padded with zeros
 inline constexpr std::size_t kStateNameWidth = 32;                  ///< bytes, padded with zeros
 inline constexpr std::size_t kParameterNameWidth = 80;              ///< bytes, padded with zeros

@@ -22,7 +22,7 @@ constexpr double kPanel =
     3.0;  // widest panel of Gauss's rule, in the same deviations, and narrowest, in 1 / count
 constexpr double kWidening = 1.4;  // of the steps below the peaks, where likelihoods level out
 
-using Logs = std::array<double, kMostShapes>;
+using LevelLogs = std::array<double, kMostShapes>;
 
 /// Steps over a peak of deviation 1 / sqrt(power count).
 struct GridRule {
@@ -87,9 +87,9 @@ class LevelIntegrals {
   }
 
   /// For each shape log of the mean over all levels.
-  Logs of(std::span<const double> prediction) {
+  LevelLogs of(std::span<const double> prediction) {
     likelihood_.take(prediction);
-    Logs logs = whole_range_.weight.empty() ? about_the_peak() : over_the_whole_range();
+    LevelLogs logs = whole_range_.weight.empty() ? about_the_peak() : over_the_whole_range();
     for (double& log : logs) log -= std::log(log_range());
     return logs;
   }
@@ -98,22 +98,22 @@ class LevelIntegrals {
   /// The likelihoods at a log level.
   struct Place {
     double log_level;
-    Logs logs;
+    LevelLogs logs;
   };
 
   Place at(double log_level) { return {log_level, likelihood_.at(std::exp(log_level))}; }
 
-  bool is_negligible(const Logs& logs, const Logs& beside) const {
+  bool is_negligible(const LevelLogs& logs, const LevelLogs& beside) const {
     for (std::size_t shape = 0; shape < shapes_; ++shape)
       if (logs[shape] > beside[shape] - rule_.negligible) return false;
     return true;
   }
 
   /// From the end towards small levels until nothing more is added.
-  Logs over_the_whole_range() {
-    Logs sums{kImpossible, kImpossible};
+  LevelLogs over_the_whole_range() {
+    LevelLogs sums{kImpossible, kImpossible};
     for (std::size_t i = whole_range_.weight.size(); i-- > 0;) {
-      Logs terms = at(whole_range_.log_level[i]).logs;
+      LevelLogs terms = at(whole_range_.log_level[i]).logs;
       for (double& term : terms) term += std::log(whole_range_.weight[i]);
       if (is_negligible(terms, sums) && whole_range_.log_level[i] <= peak_) break;
       for (std::size_t shape = 0; shape < shapes_; ++shape) sums[shape] = log_sum(sums[shape], terms[shape]);
@@ -122,10 +122,10 @@ class LevelIntegrals {
   }
 
   /// By the trapezoidal rule in both directions from where the best rows peak, as far as anything is added.
-  Logs about_the_peak() {
+  LevelLogs about_the_peak() {
     const double step = rule_.step * deviation_;
     std::vector<Place> places = {at(peak_)};
-    Logs top = places.front().logs;
+    LevelLogs top = places.front().logs;
     const auto add = [&](double log_level) {
       places.push_back(at(log_level));
       for (std::size_t shape = 0; shape < shapes_; ++shape)
@@ -150,15 +150,15 @@ class LevelIntegrals {
   }
 
   /// `places` in descending order.
-  Logs trapezoidal(const std::vector<Place>& places, const Logs& top) const {
-    Logs sums{};
+  LevelLogs trapezoidal(const std::vector<Place>& places, const LevelLogs& top) const {
+    LevelLogs sums{};
     for (std::size_t i = 0; i < places.size(); ++i) {
       const double from = places[std::min(i + 1, places.size() - 1)].log_level,
                    to = places[i > 0 ? i - 1 : 0].log_level;
       for (std::size_t shape = 0; shape < shapes_; ++shape)
         sums[shape] += 0.5 * (to - from) * std::exp(places[i].logs[shape] - top[shape]);
     }
-    Logs logs{kImpossible, kImpossible};
+    LevelLogs logs{kImpossible, kImpossible};
     for (std::size_t shape = 0; shape < shapes_; ++shape)
       if (top[shape] > kImpossible) logs[shape] = top[shape] + std::log(sums[shape]);
     return logs;
@@ -228,7 +228,7 @@ std::vector<std::vector<double>> evidence_over_levels(const Observation& observa
     }
     LevelIntegrals integrals(observation, shapes, level, is_fine ? kFine : kCoarse);
     for (std::size_t i = 0; i < block.size(); ++i) {
-      const Logs logs = integrals.of(table.row(block[i]));
+      const LevelLogs logs = integrals.of(table.row(block[i]));
       for (std::size_t shape = 0; shape < shapes.size(); ++shape) results[shape][first + i] = logs[shape];
     }
   });

@@ -73,14 +73,19 @@ std::vector<double> weights_of(const Prior& prior) {
   return usual;
 }
 
+double intact_probability(const Posterior& posterior) {
+  return posterior.missing_probability.empty() ? 0.0 : posterior.missing_probability.front();
+}
+
 std::vector<double> log_prior_by_missing(const SceneTable& table, const Eligible& eligible,
                                          const Prior& prior) {
   const std::vector<double> weight = weights_of(prior);
+  const double total = std::accumulate(weight.begin(), weight.end(), 0.0);
   std::vector<double> result(table.most_missing + 1, kImpossible);
   for (std::size_t i = 0; i < prior.missing.size(); ++i) {
     const auto missing = static_cast<std::size_t>(prior.missing[i]);
     if (missing < result.size() && eligible.scenes[missing] > 0)
-      result[missing] = std::log(weight[i] / static_cast<double>(eligible.scenes[missing]));
+      result[missing] = std::log(weight[i] / total / static_cast<double>(eligible.scenes[missing]));
   }
   if (std::all_of(result.begin(), result.end(), [](double log) { return !std::isfinite(log); }))
     throw InputError(fmt::format(
@@ -113,9 +118,7 @@ Posterior posterior(const SceneTable& table, const Eligible& eligible, const Row
   }
   for (double& value : weight) value -= best;
   make_exponentials(weight);
-  const std::vector<double> beforehand = weights_of(prior);
-  result.log_evidence = best + std::log(normalise(weight)) -
-                        std::log(std::accumulate(beforehand.begin(), beforehand.end(), 0.0));
+  result.log_evidence = best + std::log(normalise(weight));
   for (std::size_t i = 0; i < possible.size(); ++i) {
     result.missing_probability[missing[i]] += weight[i];
     for (const std::int32_t id : table.removed.subspan(possible[i] * table.most_missing, table.most_missing))

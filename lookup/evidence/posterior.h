@@ -52,12 +52,18 @@ struct Posterior {
             ///< likely beforehand as that some are: what the readings themselves say of it
 };
 
+/// Probability that no block is missing.
+double intact_probability(const Posterior& posterior);
+
+/// A probability from which on something is said for certain.
+inline constexpr double kCertain = 0.9;
+
 /// Share of the probability in Posterior::credible.
 inline constexpr double kCredibleShare = 0.95;
 
-/// log prior of one scene with 0, 1, 2... missing blocks, of a stated prior: its number's weight over how
-/// many eligible scenes have it. Throws as weights_of, and InputError if the weights leave no eligible scene
-/// possible.
+/// log prior of one scene with 0, 1, 2... missing blocks, of a stated prior: its number's share of all
+/// weights over how many eligible scenes have it. Throws as weights_of, and InputError if the weights leave
+/// no eligible scene possible.
 std::vector<double> log_prior_by_missing(const SceneTable& table, const Eligible& eligible,
                                          const Prior& prior);
 

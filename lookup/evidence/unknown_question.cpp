@@ -83,12 +83,14 @@ RowValues UnknownBridgeQuestion::log_evidence(const Eligible& eligible, const Pr
 }
 
 double UnknownBridgeQuestion::log_evidence_of(std::span<const std::size_t> rows, const Eligible& eligible,
-                                              const Prior& prior, double times) {
+                                              const Prior& prior, const Supposition& supposed) {
   const SceneTable& table = comparison_.library.table;
   Observation wider = observation_;
-  for (double& share : wider.share) share *= times;
-  for (double& floor : wider.floor) floor *= times;
-  const std::vector<CaseTerms> terms = case_terms(bridge_, wider, cases_);
+  for (double& share : wider.share) share *= supposed.errors;
+  for (double& floor : wider.floor) floor *= supposed.errors;
+  std::vector<CaseTerms> terms = case_terms(bridge_, wider, cases_);
+  if (supposed.shown_exactly)
+    for (CaseTerms& one : terms) one.spread = 0.0;
   const auto logs = SceneLikelihoods(bridge_, wider, table)(terms, rows, {}, hardware_threads());
   const std::vector<double> beforehand = log_prior_by_missing(table, eligible, prior);
   const std::vector<double> silence = log_chance_of_silence(observation_, table, {rows.begin(), rows.end()});

@@ -10,6 +10,12 @@
 
 namespace voussoir {
 
+/// What may be supposed of readings beside what is stated.
+struct Supposition {
+  double errors = 1.0;         ///< all instruments are off by so many times what is stated
+  bool shown_exactly = false;  ///< scenes without factors show just what the database has of them
+};
+
 class UnknownBridgeQuestion {
  public:
   /// All of them outlive the question. The comparison has factors; the
@@ -25,9 +31,9 @@ class UnknownBridgeQuestion {
   RowValues log_evidence(const Eligible& eligible, const Prior& prior, std::size_t count);
 
   /// log of the readings' density on average over all scenes (Posterior::log_evidence), of which these rows
-  /// alone count, if all instruments were off by so many times what is stated. Changes the bridge's case.
+  /// alone count, if all this were so. Changes the bridge's case.
   double log_evidence_of(std::span<const std::size_t> rows, const Eligible& eligible, const Prior& prior,
-                         double times);
+                         const Supposition& supposed);
 
   /// Of these scenes, over all cases.
   BridgePosterior posterior(const std::vector<WeightedScene>& scenes);

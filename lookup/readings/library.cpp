@@ -1,7 +1,6 @@
 #include "lookup/readings/library.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "core/error.h"
 #include "core/not_a_number.h"

@@ -5,7 +5,7 @@
 ///     sigma_i = relative * |movement_i| + floor,
 /// or the sensor's own sigma where the measurements state one; the movement is the displacement, or the
 /// change where changes are read (noise_scale.h). The paper's noise d_i (1 + p U(-1, 1)) is `uniform` with
-/// relative = p. The model's own error comes on top (Observation, reading_density.h).
+/// relative = p. The model's own error comes on top (Observation).
 ///
 /// A sensor on a missing block cannot read anything; one on a standing block may fail by itself. So a sensor
 /// that is there and silent speaks for the loss of its block, the more so the more reliable sensors are.

@@ -5,6 +5,7 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <span>
 
 #include "core/error.h"
 #include "core/not_a_number.h"
@@ -85,11 +86,12 @@ class ReadingsReader {
     const auto found = std::find_if(sensors_.begin(), sensors_.end(),
                                     [&](const Sensor& sensor) { return sensor.name == name; });
     if (found == sensors_.end())
-      table_.fail(line.number, fmt::format("unknown point {}, expected {} to {}{}", in_quotes(name),
-                                           sensors_.front().name, sensors_[control_points_ - 1].name,
-                                           sensors_.size() > control_points_
-                                               ? ", or a sensor of the list"
-                                               : ", or a sensor of a file that --sensors names"));
+      table_.fail(
+          line.number,
+          fmt::format("unknown point {}, expected {}{}", in_quotes(name),
+                      names_in_words(names_of(std::span(sensors_).first(control_points_))),
+                      sensors_.size() > control_points_ ? ", or a sensor of the list"
+                                                        : ", or a sensor of a file that --sensors names"));
     if (found->quantity != Quantity::uy && columns_.vertical_only)
       table_.fail(
           line.number,

@@ -1,6 +1,5 @@
 #include "lookup/readings/simulate.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "core/error.h"

@@ -52,9 +52,9 @@ std::size_t find_point(const Database& database, std::string_view name) {
   const auto found = std::find_if(points.begin(), points.end(),
                                   [&](const StoredPoint& point) { return point.name == name; });
   if (found == points.end())
-    throw InputError(fmt::format(
-        "--at: unknown point {}, expected control, coordinates X,Y in metres, or names from {} to {}",
-        in_quotes(name), points.front().name, points.back().name));
+    throw InputError(
+        fmt::format("--at: unknown point {}, expected control, coordinates X,Y in metres, or names: {}",
+                    in_quotes(name), names_in_words(names_of(points))));
   if (!moves(*found))
     throw InputError(fmt::format("--at: sensor {} reads a {}, expected a point that moves", in_quotes(name),
                                  to_string(found->quantity)));

@@ -33,6 +33,22 @@ std::string located_in_words(const Posterior& posterior, const Library& library)
                      blocks.size() == 1 ? "is" : "are");
 }
 
+/// What a prior that leaves no choice supposes.
+enum class Supposed { nothing, damage, no_damage };
+
+Supposed supposed_by(const Prior& prior) {
+  const std::vector<double> weight = weights_of(prior);
+  bool none = false, some = false;
+  for (std::size_t i = 0; i < weight.size(); ++i)
+    if (weight[i] > 0.0) (prior.missing[i] == 0 ? none : some) = true;
+  return none == some ? Supposed::nothing : some ? Supposed::damage : Supposed::no_damage;
+}
+
+std::string supposed_in_words(Supposed supposed) {
+  return supposed == Supposed::damage ? "that blocks are missing was supposed, not found"
+                                      : "that no block is missing was supposed, not found";
+}
+
 std::string in_words(const Scene& scene, const Library& library) {
   return fmt::format("{} ({})", to_string(scene, library.layout), place_in_words(scene, library.layout));
 }
@@ -42,7 +58,9 @@ std::string in_words(const Scene& scene, const Library& library) {
 Verdict verdict_of(const Answer& answer) {
   const Verdict alone =
       verdict_of(*answer.posterior, answer.fit && answer.fit->explained, answer.known_bridge);
-  return answer.contested && alone != Verdict::unexplained ? Verdict::cannot_tell : alone;
+  if (alone == Verdict::unexplained) return alone;
+  const bool as_supposed = supposed_by(answer.prior) != Supposed::nothing && alone != Verdict::located;
+  return answer.contested || as_supposed ? Verdict::cannot_tell : alone;
 }
 
 std::string_view standing(const Answer& answer) {
@@ -63,9 +81,11 @@ std::string headline(const Answer& answer, const Library& library) {
   if (!answer.posterior) return "";
   const Posterior& posterior = *answer.posterior;
   const double intact = intact_probability(posterior);
+  const Supposed supposed = supposed_by(answer.prior);
   switch (verdict_of(answer)) {
     case Verdict::located:
-      return located_in_words(posterior, library);
+      return located_in_words(posterior, library) +
+             (supposed == Supposed::nothing ? "" : fmt::format(" But {}.", supposed_in_words(supposed)));
     case Verdict::damaged_unlocated:
       return fmt::format("Blocks are missing ({}), but the readings do not say which.",
                          percent(1.0 - intact));
@@ -73,6 +93,8 @@ std::string headline(const Answer& answer, const Library& library) {
       return fmt::format("No block is missing ({}).", percent(intact));
     case Verdict::cannot_tell:
       if (answer.contested) return "The databases that may be right come to different answers.";
+      if (supposed != Supposed::nothing)
+        return fmt::format("The readings name no block, and {}.", supposed_in_words(supposed));
       return fmt::format("The readings do not tell whether blocks are missing (none is: {}).",
                          percent(intact));
     default:
@@ -104,7 +126,8 @@ std::vector<std::string> verdict(const Answer& answer, const Library& library) {
 
 std::string verdict_in_words(const Answer& answer) {
   const Verdict verdict = verdict_of(answer);
-  const auto meaning = [&]() -> std::string_view {
+  const Supposed supposed = supposed_by(answer.prior);
+  const auto meaning = [&]() -> std::string {
     switch (verdict) {
       case Verdict::located:
         return "a block is missing and named";
@@ -113,8 +136,9 @@ std::string verdict_in_words(const Answer& answer) {
       case Verdict::intact:
         return "no block is missing";
       case Verdict::cannot_tell:
-        return answer.contested ? "the databases that may be right come to different answers"
-                                : "the readings do not tell whether blocks are missing";
+        if (answer.contested) return "the databases that may be right come to different answers";
+        return supposed == Supposed::nothing ? "the readings do not tell whether blocks are missing"
+                                             : supposed_in_words(supposed);
       default:
         return "the readings fit no scene; the list below names the closest";
     }

@@ -9,6 +9,7 @@
 #include "lookup/report/drawing/table.h"
 #include "lookup/report/report_words.h"
 #include "lookup/report/verdict.h"
+#include "lookup/report/words.h"
 
 namespace voussoir {
 namespace {
@@ -32,8 +33,8 @@ std::string line_of(const SurveyRow& row) {
   if (!row.error.empty()) return fmt::format("{}: no answer: {}\n", row.file, row.error);
   if (row.scene.empty()) return fmt::format("{}: {}; no scene is possible\n", row.file, row.verdict);
   if (std::isnan(row.posterior)) return fmt::format("{}: smallest misfit {}\n", row.file, row.scene);
-  return fmt::format("{}: {}; first {} ({:.1f} %), intact {:.1f} %{}\n", row.file, row.verdict, row.scene,
-                     100.0 * row.posterior, 100.0 * row.intact_probability,
+  return fmt::format("{}: {}; first {} ({}), intact {}{}\n", row.file, row.verdict, row.scene,
+                     percent(row.posterior), percent(row.intact_probability),
                      row.database.empty() ? "" : fmt::format("; {}", row.database));
 }
 

@@ -4,10 +4,6 @@
 
 namespace voussoir {
 
-double intact_probability(const Posterior& posterior) {
-  return posterior.missing_probability.empty() ? 0.0 : posterior.missing_probability.front();
-}
-
 Verdict verdict_of(const Posterior& posterior, bool explained, bool known_bridge) {
   if (!explained || posterior.credible.empty()) return Verdict::unexplained;
   const double intact = intact_probability(posterior);

@@ -16,13 +16,8 @@ enum class Verdict {
   unexplained   ///< no scene explains the readings: what is likeliest among them means nothing
 };
 
-inline constexpr double kCertain = 0.9;
-
 /// `explained`: the likeliest scene passes the predictive check (Fit); `known_bridge`: the answer's.
 Verdict verdict_of(const Posterior& posterior, bool explained, bool known_bridge = true);
-
-/// Probability that no block is missing.
-double intact_probability(const Posterior& posterior);
 
 /// "located", "damaged-unlocated", "intact", "cannot-tell", "unexplained"
 std::string_view to_string(Verdict verdict);

@@ -77,6 +77,35 @@ TEST_CASE("build-database run again says that the file is up to date and ends wi
   CHECK(again.at("computed") == 0);
 }
 
+TEST_CASE("Scenes and states that are still valid are not dropped unasked") {
+  const test::TemporaryFolder folder;
+  const std::string file = (folder / "small.h5").string();
+  const auto build = [&](const std::string& scenes, const std::string& histories,
+                         const std::string& more = "") {
+    std::vector<std::string> arguments = {test::example_bridge("small").string(),
+                                          "-o",
+                                          file,
+                                          "--scenes",
+                                          scenes,
+                                          "--history",
+                                          histories,
+                                          "--known-bridge",
+                                          "--quiet"};
+    if (!more.empty()) arguments.push_back(more);
+    return test::run("build-database", arguments);
+  };
+  REQUIRE(build("intact;2,4;3,6", "built,lost").exit_code == 0);
+  const ProgramResult fewer = build("intact;2,4", "built,lost");
+  CHECK(fewer.exit_code == 1);
+  CHECK_THAT(fewer.err, Catch::Matchers::Contains("small.h5: 1 of its 3 scenes would be lost") &&
+                            Catch::Matchers::Contains("--drop"));
+  const ProgramResult without = build("intact;2,4;3,6", "built");
+  CHECK(without.exit_code == 1);
+  CHECK_THAT(without.err, Catch::Matchers::Contains("3 of its 3 scenes as lost would be lost"));
+  CHECK(build("intact;2,4;3,6;4,2", "built,lost").exit_code == 0);
+  CHECK(build("intact", "built", "--drop").exit_code == 0);
+}
+
 TEST_CASE("The digest of real scenes is the same for 1, 2 and 5 threads", "[whole-build]") {
   for (const char* threads : {"1", "2", "5"})
     CHECK(test::json_of(Site().build_with({"--threads", threads})).at("digest") == undisturbed_digest());
@@ -241,7 +270,7 @@ TEST_CASE("Progress is told in plain lines when stderr is no terminal and not at
   const ProgramResult told = site.build_with({"--scenes", "intact;5,1"});
   CHECK_THAT(told.err, Catch::Contains("2 of 2 scenes"));
   CHECK(told.err.find('\r') == std::string::npos);
-  CHECK(site.build_with({"--scenes", "intact;5,2", "--quiet"}).err.empty());
+  CHECK(site.build_with({"--scenes", "intact;5,2", "--drop", "--quiet"}).err.empty());
 }
 
 }  // namespace voussoir

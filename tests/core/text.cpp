@@ -30,6 +30,13 @@ TEST_CASE("Numbers fill the text and are finite") {
     CHECK_FALSE(parse_number(text));
 }
 
+TEST_CASE("Names that are numbered on are named by the first and the last (written out)") {
+  CHECK(names_in_words({"T9", "T10", "T11", "A1", "A2", "N1", "crack"}) == "T9 to T11, A1, A2, N1, crack");
+  CHECK(names_in_words({"T1"}) == "T1");
+  CHECK(names_in_words({"a", "b", "c", "d", "e", "f", "g", "h"}) == "a, b, c, d, e, f, g, h");
+  CHECK(names_in_words({"a", "b", "c", "d", "e", "f", "g", "h", "i"}) == "a, b, c, d, e, f, g, h, ...");
+}
+
 TEST_CASE("Quoted texts show Latin letters and name other signs by their numbers (Unicode's tables)") {
   CHECK(in_quotes("H\u00F6he \u0159") == "'H\u00F6he \u0159'");
   CHECK(in_quotes("\u22120,5") == "'<U+2212>0,5'");

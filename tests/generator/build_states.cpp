@@ -212,6 +212,8 @@ TEST_CASE("States that are no longer wanted are left out without solving anythin
   site.build();
   site.request.histories = "lost";
   site.request.loads = "crown";
+  CHECK_THROWS_WITH(site.build(test::failing_solver(1)), Catch::Contains("scenes as built, built:lorry@1"));
+  site.request.drop = true;
   const BuildSummary summary = site.build(test::failing_solver(1));
   CHECK(summary.reused == summary.outcomes.scenes);
   CHECK(summary.digest == StatesSite("lost", "crown").build().digest);

@@ -4,6 +4,7 @@
 #include "core/error.h"
 #include "core/structure/mirror_symmetry.h"
 #include "core/structure/mortar_limits.h"
+#include "core/structure/uncertain_parameters.h"
 #include "generator/variants.h"
 #include "tests/support/bridges.h"
 
@@ -63,6 +64,20 @@ TEST_CASE("A variant has the parameters that it is given") {
   CHECK(variant.parameters.contact.normal_stiffness == 1.2 * bridge.parameters.contact.normal_stiffness);
   CHECK(variant.parameters.blocks[5].density == 1.05 * bridge.parameters.blocks[5].density);
   CHECK(variant.mesh.nodes == bridge.mesh.nodes);
+}
+
+TEST_CASE("A drawn bridge comes back from its file's parameters, soil and new contacts with it") {
+  BridgeDescription description = test::small_description();
+  description.fill = {.unit_weight = 18e3, .surface = {Point(0.0, 3.0), Point(6.0, 3.0)}};
+  const Model bridge = make_model(description);
+  const Parameters drawn =
+      sampled_parameters(bridge, uncertain_parameters(bridge, description.uncertainty), 7);
+  const Parameters back = variant_of(bridge, variant_parameters(drawn)).parameters;
+  REQUIRE(bridge.parameters.laid_mass.sum() > 0.0);
+  CHECK(drawn.laid_mass.sum() != Approx(bridge.parameters.laid_mass.sum()));
+  CHECK(back.laid_mass.isApprox(drawn.laid_mass, 1e-14));
+  CHECK(drawn.contact.normal_stiffness != Approx(bridge.parameters.contact.normal_stiffness));
+  CHECK(back.contact == drawn.contact);
 }
 
 TEST_CASE("A variant's mortar goes along with its joints (the limits of bridge files)", "[mortar]") {

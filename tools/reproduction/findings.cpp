@@ -12,7 +12,7 @@
 namespace voussoir {
 namespace {
 
-constexpr double kCertain = 2.0;  // standard errors between two shares that count as different
+constexpr double kDifferent = 2.0;  // standard errors between two shares that count as different
 
 /// How many standard errors the second share lies above the first (pooled, two binomial samples).
 double standard_errors_above(int low, int low_trials, int high, int high_trials) {
@@ -55,7 +55,7 @@ Finding arch_blocks_mask(const PairSuccess& with_arch, const PairSuccess& withou
   const Success& with = with_arch.misfit;
   const Success& without = without_arch.misfit;
   const double distance = standard_errors_above(with.first, with.trials, without.first, without.trials);
-  return {"A missing arch block hides a second missing block", distance > kCertain,
+  return {"A missing arch block hides a second missing block", distance > kDifferent,
           fmt::format("At {:.0f} % noise Eq. 1 puts the true pair first in {:.0f} % of {} random pairs with "
                       "an arch block "
                       "and in {:.0f} % of {} without ({:+.1f} standard errors); the arch block itself is in "
@@ -77,7 +77,7 @@ Finding high_blocks_are_easier(const std::vector<CourseSuccess>& courses) {
   }
   const double distance = standard_errors_above(half[0].first, half[0].trials, half[1].first, half[1].trials);
   return {
-      "Blocks in high courses are easier to find", distance > kCertain,
+      "Blocks in high courses are easier to find", distance > kDifferent,
       fmt::format("At {:.0f} % noise Eq. 1 puts the true block first in {:.0f} % of {} trials in the upper "
                   "half of the "
                   "courses and in {:.0f} % of {} in the lower ({:+.1f} standard errors).",
@@ -120,7 +120,7 @@ Finding noise_raises_generations(const std::vector<GenerationsAtNoise>& runs) {
       correlation * std::sqrt(static_cast<double>(std::max<std::size_t>(1, noise.size()) - 1));
   const GenerationsAtNoise& first = runs.front();
   const GenerationsAtNoise& last = runs.back();
-  return {"Noise raises the number of generations", distance > kCertain,
+  return {"Noise raises the number of generations", distance > kDifferent,
           fmt::format("Over the {} runs that find the truth the rank correlation of noise and generations is "
                       "{:+.2f} ({:+.1f} "
                       "standard errors). What noise lowers is the share of runs that find it: {:.0f} % at "

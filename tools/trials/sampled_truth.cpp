@@ -277,6 +277,10 @@ std::string wall_singles(const BlockLayout& layout) {
 
 std::string random_pairs(const BlockLayout& layout, int count, std::uint64_t seed) {
   const std::vector<BlockId> wall = wall_blocks(layout);
+  const std::size_t pairs = wall.size() * (wall.size() - std::min<std::size_t>(wall.size(), 1)) / 2;
+  if (count < 0 || static_cast<std::size_t>(count) > pairs)
+    throw InputError(
+        fmt::format("{} random pairs of wall blocks, expected at most the {} that there are", count, pairs));
   const auto draw = [&](Random& random) {
     return wall[random.below(static_cast<std::uint32_t>(wall.size()))];
   };

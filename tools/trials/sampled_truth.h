@@ -55,7 +55,8 @@ std::vector<BlockId> wall_blocks(const BlockLayout& layout);
 /// The intact bridge and all singles of the wall, as parse_scene_list reads them.
 std::string wall_singles(const BlockLayout& layout);
 
-/// The same with so many random pairs of wall blocks in the place of singles.
+/// The same with so many random pairs of wall blocks in the place of singles. Throws InputError if there are
+/// fewer.
 std::string random_pairs(const BlockLayout& layout, int count, std::uint64_t seed);
 
 }  // namespace voussoir

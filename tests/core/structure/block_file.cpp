@@ -86,6 +86,16 @@ std::vector<std::string> good_files() {
   return {to_json(layout), to_dxf(layout), drawing(lwpolyline("ring", kSquare), "9\n$INSUNITS\n70\n4\n")};
 }
 
+/// What a drawing is refused with.
+std::string dxf(const std::string& text) {
+  try {
+    parse_dxf_blocks(text, "a.dxf");
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
 }  // namespace
 
 TEST_CASE("DXF: layer, ring, label, unit and arcs (written out)", "[block-file]") {
@@ -112,14 +122,6 @@ TEST_CASE("DXF: layer, ring, label, unit and arcs (written out)", "[block-file]"
 }
 
 TEST_CASE("Bad files of blocks are refused with file, place and what was expected", "[block-file]") {
-  const auto dxf = [](const std::string& text) {
-    try {
-      parse_dxf_blocks(text, "a.dxf");
-    } catch (const InputError& error) {
-      return std::string(error.what());
-    }
-    return std::string("accepted");
-  };
   const auto json = [](const std::string& text) {
     try {
       parse_json_blocks(text, "a.json");
@@ -147,6 +149,14 @@ TEST_CASE("Bad files of blocks are refused with file, place and what was expecte
   CHECK_THAT(json("{\"blocks\": [{\"role\": \"ring\", \"ring\": -1}]}"),
              Contains("ring: expected a whole number"));
   CHECK_THAT(json(std::string(1'000'000, '[')), Contains("is no JSON"));
+}
+
+TEST_CASE("A drawing that was cut off is refused with its line", "[block-file]") {
+  const std::string whole = drawing(lwpolyline("wall", kSquare));
+  CHECK_THAT(dxf(whole.substr(0, whole.find("0\nENDSEC", whole.find("ENTITIES")))),
+             Contains("ends within the section ENTITIES") && Contains("expected ENDSEC"));
+  CHECK_THAT(dxf(drawing("0\nLWPOLYLINE\n8\nwall\n90\n4\n70\n1\n10\n0\n20\n0\n10\n1\n20\n0\n10\n1\n20\n1\n")),
+             Contains("a.dxf:12:") && Contains("has 3 vertices: expected the 4"));
 }
 
 TEST_CASE("A bridge written as JSON or DXF and read again is the same bridge", "[block-file]") {

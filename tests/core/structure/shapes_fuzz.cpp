@@ -72,8 +72,22 @@ std::string random_file(const std::string& shape, test::Chance& chance) {
 const std::vector<std::string> kShapes = {"semicircular",  "segmental", "pointed",
                                           "three-centred", "elliptic",  "points"};
 
+/// Nothing of a ring without walls that springs above the ground, which is refused.
+std::optional<Model> model_if_carried(const std::string& text) {
+  const BridgeDescription description = parse_bridge_file(text, "random.toml").description;
+  if (description.wall.courses > 0) return make_model(description);
+  try {
+    return make_model(description);
+  } catch (const InputError& error) {
+    CHECK_THAT(error.what(), Catch::Contains("is loose"));
+    return std::nullopt;
+  }
+}
+
 void mesh_and_solve(const std::string& text) {
-  const Model bridge = make_model(parse_bridge_file(text, "random.toml").description);
+  const std::optional<Model> carried = model_if_carried(text);
+  if (!carried) return;
+  const Model& bridge = *carried;
   for (std::size_t block = 0; block < bridge.layout.size(); ++block) {
     double filled = 0.0;
     for (int t = bridge.mesh.block_triangles[block].begin; t < bridge.mesh.block_triangles[block].end; ++t) {

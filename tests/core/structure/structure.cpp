@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 
 #include "core/error.h"
+#include "core/structure/bridge_file.h"
 #include "tests/support/bridges.h"
 
 using namespace voussoir;
@@ -57,6 +58,21 @@ TEST_CASE(
     held_count += base || side;
   }
   CHECK(held_count > 40);
+}
+
+TEST_CASE("A ring that stands on nothing is refused: its springing lies above the wall", "[structure]") {
+  const auto described = [](double springing) {
+    return parse_bridge_file(
+               fmt::format("[wall]\nlength_m = 12.0\ncourses = 8\n[[spans]]\nshape = \"segmental\"\n"
+                           "centre_x_m = 6.0\nspringing_m = {}\nspan_m = 6.0\nrise_m = 1.5\n"
+                           "ring_thickness_m = 0.4\nvoussoirs = 15\n",
+                           springing),
+               "b.toml")
+        .description;
+  };
+  CHECK_NOTHROW(make_structure(described(1.2)));
+  CHECK_THROWS_WITH(make_structure(described(12.0)),
+                    Catch::Contains("block '0,1'") && Catch::Contains("is loose"));
 }
 
 TEST_CASE("Ring blocks know their ring, wall blocks have none", "[structure]") {

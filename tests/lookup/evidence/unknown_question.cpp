@@ -261,6 +261,36 @@ TEST_CASE("Scenes that make the same collapse of metres share its probability") 
     }
 }
 
+/// Of the posterior, and of all its scenes with errors that are so many times as large as `trial` says.
+struct TwoEvidences {
+  double of_posterior, of_wider;
+};
+
+TwoEvidences evidences(const Trial& trial, double times, const Prior& stated) {
+  const SceneTable& table = trial.library.table;
+  const Asked asked{.prior = stated_prior(stated, table, false)};
+  const Eligible eligible = eligible_rows(table, asked.prior.missing);
+  const Observation observation = observe(trial.comparison, asked.noise, asked.nuisance);
+  UnknownBridgeQuestion question(trial.comparison, observation, asked.settings);
+  const RowValues logs{kImpossible, all_rows(table), brute_force(trial, observation, asked, eligible)};
+  return {posterior(table, eligible, logs, asked.prior, trial.library.blocks).log_evidence,
+          question.log_evidence_of(eligible.rows, eligible, asked.prior, {.errors = times})};
+}
+
+TEST_CASE("Larger errors count as if they had been stated, whatever the scale of the weights beforehand") {
+  Trial trial(3, 5, 8, 3e-5);
+  Random random(9);
+  for (const std::vector<double>& weight : {std::vector<double>{}, {8.0, 1.0, 1.0}, {800.0, 100.0, 100.0}}) {
+    trial.measure(ReadingKind::change, 3, 2e-5, random);
+    const Prior prior = weight.empty() ? Prior{} : Prior{{0, 1, 2}, weight};
+    const TwoEvidences as_stated = evidences(trial, 1.0, prior);
+    CHECK(as_stated.of_wider == Approx(as_stated.of_posterior).margin(1e-6));
+    const double wider = evidences(trial, 3.0, prior).of_wider;
+    for (double& sigma : trial.comparison.measured.sigma) sigma *= 3.0;
+    CHECK(wider == Approx(evidences(trial, 1.0, prior).of_posterior).margin(1e-6));
+  }
+}
+
 TEST_CASE("Whatever a bridge is asked that is not known, the screen hardly changes a probability",
           "[many-solutions]") {
   check_random_questions(2, 150);

@@ -148,9 +148,9 @@ TEST_CASE("A sensor's own sigma is read in millimetres") {
 TEST_CASE("Long and unprintable texts are shortened and cleaned in messages") {
   const std::string message = error_of_file("point,uy_mm\n" + std::string(10000, 'x') + "\x01,1\n");
   CHECK(message == "m.csv:2: unknown point '" + std::string(40, 'x') +
-                       "...', expected T1 to A1, or a sensor of a file that --sensors names");
+                       "...', expected T1 to T4, A1, or a sensor of a file that --sensors names");
   CHECK(error_of_file("point,uy_mm\n\x1b[2J,1\n") ==
-        "m.csv:2: unknown point '?[2J', expected T1 to A1, or a sensor of a file that --sensors names");
+        "m.csv:2: unknown point '?[2J', expected T1 to T4, A1, or a sensor of a file that --sensors names");
 }
 
 TEST_CASE("A number too large for a double is refused in every spelling, and one too small is zero") {

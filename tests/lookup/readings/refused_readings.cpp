@@ -62,7 +62,7 @@ const std::string kNoSigma = " is no sigma, expected millimetres from 5e-05 to 1
 
 const std::vector<Wrong> kRows = {
     {"# x\npoint,uy_mm\nT1,1\nT99,1\n",
-     "m.csv:4: unknown point 'T99', expected T1 to A1, or a sensor of the list"},
+     "m.csv:4: unknown point 'T99', expected T1, T2, A1, or a sensor of the list"},
     {"point,uy_mm\nT1,1\nT2,1\nT1,2\n",
      "m.csv:4: point T1 is given again, expected each point once (first in line 2)"},
     {"point,uy_mm\nT1,soft\n", "m.csv:2: 'soft'" + kNumber},

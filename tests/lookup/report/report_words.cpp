@@ -44,3 +44,27 @@ TEST_CASE("An answer that another database contests is none, unless nothing expl
   answer.fit->explained = false;
   CHECK(verdict_of(answer) == Verdict::unexplained);
 }
+
+TEST_CASE("What a prior supposes is no verdict (written out)") {
+  Answer answer;
+  answer.posterior = {.probability = {0.0, {}, {}},
+                      .block_probability = {0.4},
+                      .missing_probability = {0.0, 1.0},
+                      .credible = {0}};
+  answer.fit = {.explained = true, .chance = 0.5, .reason = {}};
+  answer.prior = {{0, 1}, {8.0, 1.0}};
+  CHECK(verdict_of(answer) == Verdict::damaged_unlocated);
+  for (const Prior& prior : {Prior{{1}, {1.0}}, Prior{{0, 1}, {0.0, 1.0}}}) {
+    answer.prior = prior;
+    CHECK(verdict_of(answer) == Verdict::cannot_tell);
+    CHECK(verdict_in_words(answer) == "cannot-tell (that blocks are missing was supposed, not found)");
+  }
+  answer.posterior->missing_probability = {1.0};
+  answer.prior = {{0}, {1.0}};
+  CHECK(verdict_of(answer) == Verdict::cannot_tell);
+  CHECK(verdict_in_words(answer) == "cannot-tell (that no block is missing was supposed, not found)");
+  answer.posterior->block_probability = {0.95};
+  answer.posterior->missing_probability = {0.0, 1.0};
+  answer.prior = {{1}, {1.0}};
+  CHECK(verdict_of(answer) == Verdict::located);
+}

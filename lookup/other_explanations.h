@@ -1,0 +1,23 @@
+#pragma once
+/// @file What would explain readings of a bridge that is not exactly known, and has no part in its posterior:
+/// then the answer means nothing.
+
+#include "lookup/evidence/unknown_question.h"
+#include "lookup/lookup.h"
+
+namespace voussoir {
+
+/// A question about a bridge that is not exactly known, and what it is asked of.
+struct UnknownQuestion {
+  UnknownBridgeQuestion& question;
+  const Observation& observation;
+  const Preparation& preparation;
+  const Library& library;
+};
+
+/// A fit that explains nothing, with the reason, if there is one: falls that show just what the database has
+/// of them, which would be likely, too; and, where blocks are said to be missing, errors that are larger than
+/// stated, which would be far likelier. Precondition: some scene is likely.
+std::optional<Fit> find_other(const UnknownQuestion& asked, const Answer& answer);
+
+}  // namespace voussoir
