@@ -120,19 +120,31 @@ std::string loads(const Model& bridge, const BridgeDescription& description, con
       elements += fmt::format(
           "<path class=\"load\" d=\"M{0:.1f} {1:.1f}v{2:.1f}m-3 -6l3 6l3 -6\"><title>{3}: {4:.4g} "
           "kN</title></path>\n",
-          p.x(), p.y() - 0.8 * kMargin * share, 0.8 * kMargin * share, escaped(stages.front().name),
-          -1e-3 * force(1, node));
+          p.x(), p.y() - 0.8 * kMargin * share, 0.8 * kMargin * share,
+          escaped(stages.front().name) + ", on the bridge's whole thickness", -1e-3 * force(1, node));
     }
   }
   return elements;
 }
 
-/// Every metre, or every ten, along x and y.
+/// Every metre, or every ten, so that numbers along an axis do not touch [m].
+double step_between_numbers(const Frame& frame, Eigen::Index axis) {
+  constexpr double kSign = 7.0, kBetween = 10.0;  // [px], of each and between numbers
+  const double least = 16.0 / frame.scale;
+  double step = std::pow(10.0, std::ceil(std::log10(least)));
+  const auto width = [&](double at) {
+    return kSign * static_cast<double>(fmt::format("{:g}", std::ceil(at / step) * step).size()) + kBetween;
+  };
+  while (axis == 0 && std::max(width(frame.low.x()), width(frame.high.x())) > step * frame.scale)
+    step *= 10.0;
+  return step;
+}
+
+/// Numbers along x and y.
 std::string scales(const Frame& frame) {
   std::string elements;
   for (const Eigen::Index axis : {0, 1}) {
-    const double least = 16.0 / frame.scale;  // [m] so that numbers do not touch
-    const double step = std::pow(10.0, std::ceil(std::log10(least)));
+    const double step = step_between_numbers(frame, axis);
     for (double at = std::ceil(frame.low[axis] / step) * step; at <= frame.high[axis] + 1e-9; at += step) {
       Point place = frame.low;
       place[axis] = at;

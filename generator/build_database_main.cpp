@@ -16,16 +16,16 @@ using namespace voussoir;
 
 namespace {
 
-void say(const BridgeFile& file, const std::vector<std::string>& notes) {
-  for (const std::string& note : notes) std::cerr << "build-database: " << file.name << ": " << note << '\n';
+void note(const BridgeFile& file, const std::vector<std::string>& notes) {
+  for (const std::string& one : notes) std::cerr << "build-database: " << file.name << ": " << one << '\n';
 }
 
 int run(BuildOptions& options) {
   options.request.bridge = options.bridge ? read_bridge_file(*options.bridge) : reference_bridge_file();
-  if (!options.quiet) say(options.request.bridge, options.request.bridge.notes);
+  if (!options.quiet) note(options.request.bridge, options.request.bridge.notes);
   const BridgeDescription& description = options.request.bridge.description;
   const Model bridge = model_of(options.request.bridge);
-  if (!options.quiet) say(options.request.bridge, without_effect(description, bridge));
+  if (!options.quiet) note(options.request.bridge, without_effect(description, bridge));
   if (options.drawing) {
     check_output("--draw", *options.drawing, {".svg"});
     write_file(*options.drawing, bridge_drawing(bridge, description));
@@ -36,8 +36,8 @@ int run(BuildOptions& options) {
     options.request.other_variants =
         sampled_variants(bridge, description.uncertainty, options.variants, options.variant_seed);
   if (options.version) {
-    std::cout << version_text("build-database") << '\n' << describe(provenance_of(options.request, solver));
-    return std::cout.flush() ? 0 : 1;
+    say(version_text("build-database") + "\n" + describe(provenance_of(options.request, solver)));
+    return 0;
   }
   Progress progress(options.quiet ? Progress::Mode::quiet : Progress::Mode::automatic);
   if (!options.collapse_fields && description.collapse_fields && !options.request.rules.collapse_fields)
@@ -45,8 +45,8 @@ int run(BuildOptions& options) {
         "of scenes that fall only that and what falls is kept: motion follows softer joints than these, of "
         "which fields would be (--collapses field keeps them)");
   const BuildSummary summary = build_database(options.request, solver, progress);
-  std::cout << (options.json ? to_json(summary) : to_text(summary)) << std::flush;
-  return std::cout ? 0 : 1;
+  say(options.json ? to_json(summary) : to_text(summary));
+  return 0;
 }
 
 }  // namespace

@@ -45,6 +45,11 @@ void add_format_option(CLI::App& app, bool& json, const std::string& of_what) {
       ->default_str("text");
 }
 
+void say(const std::string& answer) {
+  if (!(std::cout << answer << std::flush))
+    throw Failure("the answer cannot be written to the standard output");
+}
+
 int run_writer(const std::string& name, bool json, const std::function<int()>& program) {
   std::signal(SIGXFSZ, SIG_IGN);
   try {

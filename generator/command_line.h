@@ -18,6 +18,9 @@ void add_threads_option(CLI::App& app, int& threads);
 /// --format text or json, "of the ...".
 void add_format_option(CLI::App& app, bool& json, const std::string& of_what);
 
+/// Writes an answer to the standard output. Throws Failure if it cannot be written.
+void say(const std::string& answer);
+
 /// Runs a program that writes a database. What it throws becomes a message for people on the standard error
 /// and, with `json`, a line for schedulers on the standard output. Exit codes: the program's own, 1 could not
 /// be done, 2 bad input. That the file may not grow further shows as an error of writing, as

@@ -16,8 +16,8 @@ int run(const MergeOptions& options) {
   const BuildSummary summary = merge_databases(
       options.request, [](const std::string& settings) { return solver_with(parse_settings(settings)); },
       progress);
-  std::cout << (options.json ? to_json(summary) : to_text(summary)) << std::flush;
-  return std::cout ? 0 : 1;
+  say(options.json ? to_json(summary) : to_text(summary));
+  return 0;
 }
 
 }  // namespace

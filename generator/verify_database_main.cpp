@@ -3,6 +3,7 @@
 #include <iostream>
 
 #include "core/failure_json.h"
+#include "generator/command_line.h"
 #include "generator/verify_options.h"
 
 using namespace voussoir;
@@ -11,8 +12,8 @@ namespace {
 
 int run(const VerifyOptions& options) {
   const VerifyReport report = verify_database(options.request);
-  std::cout << (options.json ? to_json(report) : to_text(report, options.request.database)) << std::flush;
-  return report.ok() && std::cout ? 0 : 1;
+  say(options.json ? to_json(report) : to_text(report, options.request.database));
+  return report.ok() ? 0 : 1;
 }
 
 }  // namespace

@@ -105,9 +105,13 @@ std::vector<double> log_chance_of_silence(const Observation& observation, const 
                                           std::span<const std::size_t> rows) {
   std::vector<double> result(rows.size(), 0.0);
   for (std::size_t point = 0; point < table.points; ++point) {
-    if (!observation.silent[point]) continue;
+    // Of a point that is held a reading says no more than that its block is there.
+    const bool is_held =
+        !std::isnan(observation.displacement[point]) && std::isnan(observation.reading[point]);
+    if (!observation.silent[point] && !is_held) continue;
     for (std::size_t i = 0; i < rows.size(); ++i)
-      if (!std::isnan(table.row(rows[i])[point])) result[i] += std::log(observation.noise.silence);
+      if (std::isnan(table.row(rows[i])[point]) == is_held)
+        result[i] += is_held ? kImpossible : std::log(observation.noise.silence);
   }
   return result;
 }

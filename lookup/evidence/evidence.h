@@ -36,7 +36,8 @@ double stated_level(const Observation& observation);
 bool has_closed_form(const Observation& observation);
 
 /// log of the chance, in each of the given rows, that the silent sensors are silent: certain on missing
-/// blocks, the noise model's `silence` on the others.
+/// blocks, the noise model's `silence` on the others; and that those are read that are held and tell no more:
+/// impossible on missing blocks.
 std::vector<double> log_chance_of_silence(const Observation& observation, const SceneTable& table,
                                           std::span<const std::size_t> rows);
 

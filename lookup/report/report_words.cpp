@@ -98,7 +98,7 @@ std::string headline(const Answer& answer, const Library& library) {
       return fmt::format("The readings do not tell whether blocks are missing (none is: {}).",
                          percent(intact));
     default:
-      return "The readings fit no scene of this database: neither damage nor its absence is shown.";
+      return "The readings are unexplained: neither damage nor its absence is shown.";
   }
 }
 
@@ -109,7 +109,7 @@ std::vector<std::string> verdict(const Answer& answer, const Library& library) {
   if (standing(answer) == kOneOfMany)
     sentences.push_back("No scene is named: what follows is only the likeliest of many.");
   if (!missed && answer.fit && !answer.fit->explained)
-    sentences.push_back(fmt::format("No scene in this database explains these measurements: {}{}",
+    sentences.push_back(fmt::format("No scene in this database is an answer to these measurements: {}{}",
                                     answer.fit->reason, answer.fit->reason.ends_with('?') ? "" : "."));
   std::string opening(standing(answer));
   opening.front() = static_cast<char>(std::toupper(opening.front()));
@@ -140,7 +140,7 @@ std::string verdict_in_words(const Answer& answer) {
         return supposed == Supposed::nothing ? "the readings do not tell whether blocks are missing"
                                              : supposed_in_words(supposed);
       default:
-        return "the readings fit no scene; the list below names the closest";
+        return "no scene is an answer; the list below names the closest";
     }
   };
   const bool certain = verdict != Verdict::cannot_tell && verdict != Verdict::unexplained;

@@ -115,6 +115,38 @@ TEST_CASE("A datum of the second epoch is no damage when it is said to be unknow
   CHECK(workshop().locate(path, {"--unknown-datum", "0.5"}).at("candidates").at(0).at("scene") == "intact");
 }
 
+TEST_CASE("Changes without any error are refused, as where nothing has changed no share of it is one") {
+  const std::string one = "point,change_mm\nT1,-0.02\n";
+  CHECK_THAT(workshop().error(one), Contains("changes without an error") && Contains("sigma_mm"));
+  const std::string path = workshop().file("one.csv", one);
+  CHECK(workshop().locate(path, {"--floor", "0.02"}).at("verdict") != "damaged-unlocated");
+  CHECK(workshop().locate(path, {"--sigma", "0.02mm"}).at("verdict") != "damaged-unlocated");
+}
+
+TEST_CASE("What --missing leaves no choice of is no verdict") {
+  const std::string path = workshop().make("intact", {"--kind", "change", "--sigma", "0.02mm"});
+  CHECK(workshop().locate(path, {"--missing", "1"}).at("verdict") == "cannot-tell");
+  CHECK(workshop().locate(path, {"--missing", "0"}).at("verdict") == "cannot-tell");
+  CHECK(workshop().locate(path).at("verdict") == "intact");
+}
+
+TEST_CASE("Outputs do not take the place of inputs or databases, and say what they are") {
+  const auto refusal = [](const std::string& program, const std::vector<std::string>& arguments) {
+    const ProgramResult result = test::run(program, arguments);
+    CHECK(result.exit_code == 2);
+    return result.err;
+  };
+  const Workshop& shop = workshop();
+  const std::string path = shop.make("intact", {"--kind", "change", "--sigma", "0.02mm"});
+  CHECK_THAT(refusal("make-measurements", {"intact", "-d", shop.database, "-o", shop.database}),
+             Contains("is a database"));
+  CHECK_THAT(refusal("locate-damage", {path, "-d", shop.database, "--report", shop.database}),
+             Contains("expected a file that ends in .html or .htm or .svg"));
+  const std::string page = shop.file("page.html", "point,change_mm,sigma_mm\nT1,0,0.02\n");
+  CHECK_THAT(refusal("locate-damage", {page, "-d", shop.database, "--report", page}),
+             Contains("is read by this very command"));
+}
+
 TEST_CASE("Wrong questions about readings give one line with what was expected") {
   const std::string change = "point,change_mm\nT1,1\n";
   CHECK_THAT(workshop().error("point,before_mm\nT1,1\n"), Contains(":1:") && Contains("without 'after_mm'"));

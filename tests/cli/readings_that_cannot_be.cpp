@@ -77,3 +77,30 @@ TEST_CASE("Turned signs, metres and errors that are too small fit no scene") {
       site.answer("intact", [](double change, double sigma) { return std::pair(change, 0.1 * sigma); });
   CHECK(too_sure.at("verdict") == "unexplained");
 }
+
+TEST_CASE(
+    "Where what falls would show the readings, too, nothing that stands is named (the scene they are made "
+    "of)") {
+  const test::TemporaryFolder folder;
+  std::ifstream example(test::example_bridge("two-ring"));
+  std::stringstream text;
+  text << example.rdbuf() << "\n[control_points]\nface = true\narch = false\n";
+  const std::string bridge = (folder / "face.toml").string(), database = (folder / "face.h5").string();
+  std::ofstream(bridge) << text.str();
+  REQUIRE(test::run("build-database", {bridge, "-o", database, "--scenes", "intact;0,3;0,5", "--history",
+                                       "built,lost", "--collapses", "field", "--quiet"})
+              .exit_code == 0);
+  const auto answer = [&](const std::string& scene) {
+    const std::string path = (folder / "readings.csv").string();
+    REQUIRE(test::run("make-measurements",
+                      {scene, "-d", database, "--kind", "change", "--sigma", "0.02mm", "-o", path})
+                .exit_code == 0);
+    const ProgramResult result = test::run("locate-damage", {path, "-d", database, "--format", "json"});
+    REQUIRE(result.exit_code == 0);
+    return nlohmann::json::parse(result.out);
+  };
+  const nlohmann::json fall = answer("0,5");
+  CHECK(fall.at("verdict") == "unexplained");
+  CHECK_THAT(fall.at("fit").at("reason").get<std::string>(), Contains("what falls without 0,"));
+  CHECK(answer("intact").at("verdict") == "intact");
+}

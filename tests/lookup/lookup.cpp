@@ -184,7 +184,7 @@ TEST_CASE(
   CHECK_FALSE(unknown_level.fit->explained);
   CHECK(text_report(unknown_level,
                     absolute_readings(library.library(), no_measurements(library.points.size())), kSource)
-            .find("No scene in this database explains these measurements") != std::string::npos);
+            .find("No scene in this database is an answer to these measurements") != std::string::npos);
 }
 
 TEST_CASE("Readings with the stated noise are called explained, for every shape") {

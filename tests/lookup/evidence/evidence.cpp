@@ -188,3 +188,23 @@ TEST_CASE("The estimated level of a scene is that of the noise that made its rea
   CHECK_FALSE(
       estimate_noise(library.observe(gaussian, {NoiseShape::gaussian, 0.1}), library.table.row(5)).estimated);
 }
+
+TEST_CASE("A reading at a point that is held says that its block is there, and no more") {
+  SyntheticLibrary library(3, 6);
+  for (std::size_t row = 0; row < library.table.rows; ++row)
+    if (double& held = library.vertical[row * library.points.size()]; !std::isnan(held)) held = 0.0;
+  Measurements measured = as_measurements(library.intact());
+  const NoiseModel noise{NoiseShape::gaussian, 0.05};
+  const auto rows = all_rows(library.table);
+  const auto read = log_chance_of_silence(library.observe(measured, noise), library.table, rows);
+  measured.displacement[0] = std::nan("");
+  const auto unread = log_chance_of_silence(library.observe(measured, noise), library.table, rows);
+  std::size_t excluded = 0;
+  for (std::size_t row = 0; row < rows.size(); ++row) {
+    CHECK(unread[row] == 0.0);
+    const bool is_there = !std::isnan(library.table.row(row)[0]);
+    CHECK(read[row] == (is_there ? 0.0 : kImpossible));
+    excluded += is_there ? 0 : 1;
+  }
+  CHECK(excluded > 10);
+}
