@@ -96,17 +96,21 @@ std::vector<ModelError> errors_of_mesh(const ErrorProbes& probes, Progress& prog
 
 }  // namespace
 
+ModelError with_sudden_release(ModelError error) {
+  error.share = std::hypot(error.share, kShareOfSuddenRelease);
+  error.common = std::hypot(error.common, kCommonOfSuddenRelease);
+  return error;
+}
+
 std::vector<ModelError> estimate_model_errors(const ErrorProbes& probes, Progress& progress) {
   const std::vector<std::size_t> kept = kept_states(probes.states);
   std::vector<ModelError> errors(kept.size());
   if (!probes.solver.make_equilibrium_solver) return errors;
   if (4.0 * static_cast<double>(probes.bridge.mesh.triangles.size()) <= kFinestPieces)
     errors = errors_of_mesh(probes, progress);
-  for (std::size_t i = 0; i < kept.size(); ++i) {
-    if (history_of(probes.states[kept[i]].name) != kLostState) continue;
-    errors[i].share = std::hypot(errors[i].share, kShareOfSuddenRelease);
-    errors[i].common = std::hypot(errors[i].common, kCommonOfSuddenRelease);
-  }
+  for (std::size_t i = 0; i < kept.size(); ++i)
+    if (history_of(probes.states[kept[i]].name) == kLostState)
+      errors[i] = with_sudden_release(std::move(errors[i]));
   return errors;
 }
 

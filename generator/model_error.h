@@ -21,6 +21,9 @@ inline constexpr double kErrorPerLevel = 3.0;
 inline constexpr double kShareOfSuddenRelease = 0.071;
 inline constexpr double kCommonOfSuddenRelease = 0.117;
 
+/// What a sudden release adds to it, in squares.
+ModelError with_sudden_release(ModelError error);
+
 struct ErrorProbes {
   const BridgeDescription& description;
   const Model& bridge;      ///< of that description

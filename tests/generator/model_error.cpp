@@ -6,8 +6,14 @@
 
 namespace voussoir {
 
-TEST_CASE(
-    "States after a loss have the mesh's error and that of a sudden release, in squares (written out)") {
+TEST_CASE("What a sudden release adds to the mesh's error adds in squares (3, 4 and 5)") {
+  const ModelError both =
+      with_sudden_release({0.75 * kShareOfSuddenRelease, 4.0 / 3.0 * kCommonOfSuddenRelease, {}});
+  CHECK(both.share == Approx(1.25 * kShareOfSuddenRelease));
+  CHECK(both.common == Approx(5.0 / 3.0 * kCommonOfSuddenRelease));
+}
+
+TEST_CASE("States after a loss have the mesh's error and that of a sudden release, others the mesh's alone") {
   BridgeDescription description = test::small_description();
   description.loads = {{"crown", {{3.0, 1e3}}, {}, {}, {}, std::nullopt, false}};
   const Model bridge = make_model(description);
