@@ -49,10 +49,11 @@ void check_output(const std::string& option, const fs::path& file, const std::ve
   if (file.extension() == ".toml") refuse("is a bridge file");
 }
 
-/// Beside it first. Where that cannot be, or it is no file (a terminal, a pipe), at once.
+/// Beside a file that is there first. What is begun and not finished goes, but for a terminal or a pipe.
 void write_file(const fs::path& file, const std::string& text) {
   std::error_code none;
-  const fs::path target = fs::exists(file, none) ? fs::canonical(file) : file;
+  const bool is_there = fs::exists(file, none);
+  const fs::path target = is_there ? fs::canonical(file) : file;
   const bool replaces = fs::is_regular_file(target, none);
   const fs::path written = replaces ? fs::path(target.string() + ".new") : target;
   errno = 0;
@@ -62,7 +63,7 @@ void write_file(const fs::path& file, const std::string& text) {
   stream.close();
   if (done && replaces) fs::rename(written, target);
   if (done) return;
-  if (replaces) fs::remove(written, none);
+  if (replaces || !is_there) fs::remove(written, none);
   throw Failure(fmt::format("{}: cannot be written{}", file.string(), reason));
 }
 

@@ -213,9 +213,9 @@ void require_stated_errors(const Comparison& comparison, const Observation& obse
   };
   if (std::ranges::all_of(std::views::iota(std::size_t{0}, observation.reading.size()), has_error)) return;
   throw InputError(
-      "changes without an error, expected a column sigma_mm, --sigma 0.02mm, or --floor 0.02 (mm): where "
-      "nothing "
-      "has changed no share of the change is one");
+      "changes without an error, expected a column sigma_mm, --sigma 0.02mm, or --floor 0.02 (mm): a share "
+      "of "
+      "what has not changed is none");
 }
 
 /// The first of two epochs teaches what a bridge is like that is not exactly known.
