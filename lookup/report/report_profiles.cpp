@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/not_a_number.h"
+#include "core/text.h"
 #include "core/units.h"
 #include "lookup/report/report_words.h"
 
@@ -123,10 +124,16 @@ void add_set(const ReportPictures& report, const std::string& title, const std::
   std::vector<std::size_t> points;
   for (std::size_t point = 0; point < report.library.points.size(); ++point)
     if (quantity_of(report.comparison, point) == quantity && belongs(point)) points.push_back(point);
-  if (points.empty()) return;
-  const std::string& first = report.library.points[points.front()].name;
-  const std::string& last = report.library.points[points.back()].name;
-  sets.push_back({title + ", " + (points.size() == 1 ? first : first + " to " + last), id, quantity, points});
+  const auto is_read = [&](std::size_t point) { return std::isfinite(report.shown.reading[point]); };
+  if (std::ranges::none_of(points, is_read)) return;
+  const std::string load = report.comparison.load.empty() ? "" : report.comparison.load[points.front()];
+  const std::string under = load.empty() ? "" : " under " + load;  // as in the points' names
+  std::vector<std::string> names;
+  for (const std::size_t point : points) {
+    const std::string& name = report.library.points[point].name;
+    names.push_back(name.substr(0, name.size() - under.size()));
+  }
+  sets.push_back({title + ", " + names_in_words(names) + under, id, quantity, points});
 }
 
 std::vector<PointSet> point_sets(const ReportPictures& report) {
@@ -186,10 +193,14 @@ std::vector<Figure> profile_figures(const ReportPictures& report) {
 std::vector<Figure> residual_figures(const ReportPictures& report) {
   if (report.answer.residuals.empty()) return {};
   std::vector<Figure> figures;
-  for (const PointSet& set : point_sets(report))
+  for (const PointSet& set : point_sets(report)) {
+    if (std::ranges::none_of(set.points,
+                             [&](std::size_t point) { return residual_of(report, point) != nullptr; }))
+      continue;
     figures.push_back({"residual-" + set.id, "Residuals: " + set.title, residuals_in_words(report),
                        chart_html(residual_chart(report, set.points, set.title)), residual_table(report, set),
                        false, TableView::printed});
+  }
   return figures;
 }
 

@@ -42,6 +42,14 @@ Axes axes_of(const Chart& chart) {
           axis_of(chart.y, y, kTicksUp, chart.height - kBottom, kTop)};
 }
 
+/// An attribute for a text that would be longer than it may [px].
+std::string squeezed(const std::string& text, double most) {
+  constexpr double kSign = 6.6;  // [px], on average
+  return kSign * static_cast<double>(text.size()) > most
+             ? fmt::format(" textLength=\"{:.0f}\" lengthAdjust=\"spacingAndGlyphs\"", most - 6.0)
+             : "";
+}
+
 std::string grid(const Chart& chart, const Axes& axes) {
   std::string text;
   for (const Tick& tick : ticks_of(axes.x, kTicksAcross)) {
@@ -60,9 +68,10 @@ std::string grid(const Chart& chart, const Axes& axes) {
   text += text_element({0.5 * (axes.x.begin + axes.x.end), chart.height - 8.0}, "middle", "", chart.x.label);
   return text +
          fmt::format(
-             "<text x=\"14\" y=\"{0:.1f}\" text-anchor=\"middle\" transform=\"rotate(-90 14 {0:.1f})\">{1}"
+             "<text x=\"14\" y=\"{0:.1f}\" text-anchor=\"middle\"{2} transform=\"rotate(-90 14 {0:.1f})\">{1}"
              "</text>\n",
-             middle, escaped(chart.y.label));
+             middle, escaped(chart.y.label),
+             squeezed(chart.y.label, 2.0 * std::min(middle, chart.height - middle)));
 }
 
 bool drawable(const Series& series, std::size_t i, const Axes& axes) {
