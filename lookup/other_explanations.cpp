@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 
 #include "lookup/evidence/scene_evidence.h"
 
@@ -12,6 +13,10 @@ namespace {
 constexpr std::size_t kMostFalls = 10;  // scenes near the readings, of which those that fall are looked at
 constexpr std::size_t kMostNear = 3;    // scenes near the readings, asked with larger errors:
 constexpr std::array kTimesErrors = {3.0, 10.0, 100.0};  // so many times what is stated
+
+double log_sum_of(const std::vector<double>& logs) {
+  return std::accumulate(logs.begin(), logs.end(), kImpossible, log_sum);
+}
 
 /// Do larger errors than those that are stated explain the readings far better, with no block missing or by
 /// scenes that are near them? A scene that scatters much, if errors of 0.02 mm are said to be 0.002, seems
@@ -25,7 +30,8 @@ std::optional<Fit> check_stated_errors(const UnknownQuestion& asked, const Answe
   std::ranges::sort(rows);
   rows.erase(std::ranges::unique(rows).begin(), rows.end());
   for (const double times : kTimesErrors) {
-    const double log = asked.question.log_evidence_of(rows, eligible, answer.prior, {.errors = times});
+    const double log =
+        log_sum_of(asked.question.log_parts_of(rows, eligible, answer.prior, {.errors = times}));
     if (log > answer.posterior->log_evidence - std::log(kSmallestChance))
       return Fit{false, answer.fit->chance,
                  fmt::format("errors {:g} times as large as stated explain them far better", times)};
@@ -39,16 +45,15 @@ std::optional<Fit> check_falls(const UnknownQuestion& asked, const Answer& answe
   const UnknownBridge& bridge = asked.question.bridge();
   const SceneTable& table = asked.library.table;
   const auto falls = [&](std::size_t row) { return !known_losses(bridge, table, row).all; };
-  double sum = kImpossible, largest = kImpossible;
-  std::size_t best = 0;
-  for (const ScoredRow& found : asked.preparation.smallest_misfits(asked.observation, kMostFalls)) {
-    if (!falls(found.row)) continue;
-    const double log = asked.question.log_evidence_of({&found.row, 1}, asked.preparation.eligible(),
-                                                      answer.prior, {.shown_exactly = true});
-    sum = log_sum(sum, log);
-    if (log > largest) largest = log, best = found.row;
-  }
-  const bool are_likely = sum > answer.posterior->log_evidence + std::log((1.0 - kCertain) / kCertain);
+  std::vector<std::size_t> rows;
+  for (const ScoredRow& near : asked.preparation.smallest_misfits(asked.observation, kMostFalls))
+    if (falls(near.row)) rows.push_back(near.row);
+  if (rows.empty()) return std::nullopt;
+  const std::vector<double> logs =
+      asked.question.log_parts_of(rows, asked.preparation.eligible(), answer.prior, {.shown_exactly = true});
+  const std::size_t best = rows[static_cast<std::size_t>(std::ranges::max_element(logs) - logs.begin())];
+  const bool are_likely =
+      log_sum_of(logs) > answer.posterior->log_evidence + std::log((1.0 - kCertain) / kCertain);
   const auto& likely = answer.posterior->credible;
   if (!are_likely || std::ranges::find(likely, best) != likely.end()) return std::nullopt;
   return Fit{false, answer.fit->chance,

@@ -151,25 +151,15 @@ double ground_below(const std::vector<Block>& blocks) {
 }
 
 /// Every block must have a corner that is held, or touch others that do.
-void check_carried(const std::vector<Block>& blocks,
-                   const std::vector<std::pair<std::size_t, std::size_t>>& touching,
+void check_carried(const std::vector<Block>& blocks, const BlockPairs& touching,
                    const std::function<bool(const Point&)>& is_held) {
-  std::vector<std::size_t> group(blocks.size());  // the first block of each group stands for it
-  std::iota(group.begin(), group.end(), std::size_t{0});
-  const auto leader = [&](std::size_t i) {
-    while (group[i] != i) i = group[i] = group[group[i]];
-    return i;
-  };
-  for (const auto& [a, b] : touching) group[std::max(leader(a), leader(b))] = std::min(leader(a), leader(b));
-  std::set<std::size_t> carried;
-  for (std::size_t i = 0; i < blocks.size(); ++i)
-    if (std::ranges::any_of(blocks[i].polygon, is_held)) carried.insert(leader(i));
-  for (std::size_t i = 0; i < blocks.size(); ++i)
-    if (!carried.contains(leader(i)))
-      throw InputError(
-          fmt::format("block '{}' {} is loose: expected blocks that touch others, down to the ground at "
-                      "y = {:g}",
-                      blocks[i].label, at(centroid(blocks[i].polygon)), ground_below(blocks)));
+  std::vector<bool> held;
+  for (const Block& block : blocks) held.push_back(std::ranges::any_of(block.polygon, is_held));
+  if (const auto loose = first_loose(held, touching))
+    throw InputError(
+        fmt::format("block '{}' {} is loose: expected blocks that touch others, down to the ground at "
+                    "y = {:g}",
+                    blocks[*loose].label, at(centroid(blocks[*loose].polygon)), ground_below(blocks)));
 }
 
 /// Corners that lie this near to the ground or to the left or right end lie there.
@@ -204,7 +194,7 @@ std::vector<std::string> heal(std::vector<Block>& blocks, double tolerance) {
 /// No overlaps, no gaps, and everything is held.
 void check_meeting(const std::vector<Block>& blocks, const Gaps& gaps,
                    const std::function<bool(const Point&)>& is_held) {
-  std::vector<std::pair<std::size_t, std::size_t>> touching;
+  BlockPairs touching;
   for (const auto& [a, b] : near_pairs(blocks, 2.0 * gaps.range)) {
     check_overlap(blocks[a], blocks[b], gaps.joint);
     if (touch(blocks[a], blocks[b], gaps)) touching.emplace_back(a, b);
@@ -213,6 +203,22 @@ void check_meeting(const std::vector<Block>& blocks, const Gaps& gaps,
 }
 
 }  // namespace
+
+std::optional<std::size_t> first_loose(const std::vector<bool>& held, const BlockPairs& touching) {
+  std::vector<std::size_t> group(held.size());  // the first block of each group stands for it
+  std::iota(group.begin(), group.end(), std::size_t{0});
+  const auto leader = [&](std::size_t i) {
+    while (group[i] != i) i = group[i] = group[group[i]];
+    return i;
+  };
+  for (const auto& [a, b] : touching) group[std::max(leader(a), leader(b))] = std::min(leader(a), leader(b));
+  std::set<std::size_t> carried;
+  for (std::size_t i = 0; i < held.size(); ++i)
+    if (held[i]) carried.insert(leader(i));
+  for (std::size_t i = 0; i < held.size(); ++i)
+    if (!carried.contains(leader(i))) return i;
+  return std::nullopt;
+}
 
 void check_laid(const std::vector<Block>& blocks, const LaidTolerance& tolerance,
                 const std::function<bool(const Point&)>& is_held) {

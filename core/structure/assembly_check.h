@@ -2,12 +2,20 @@
 /// @file Blocks that were not laid by a rule: do they make an assembly?
 
 #include <functional>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/structure/block.h"
 
 namespace voussoir {
+
+/// Pairs of blocks, by their numbers.
+using BlockPairs = std::vector<std::pair<std::size_t, std::size_t>>;
+
+/// The first block that is not held and from which no chain of pairs that touch leads to one that is.
+std::optional<std::size_t> first_loose(const std::vector<bool>& held, const BlockPairs& touching);
 
 /// How near blocks have to be [m].
 struct AssemblyTolerance {

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/error.h"
+#include "core/structure/assembly_check.h"
 #include "core/structure/halved_blocks.h"
 
 namespace voussoir {
@@ -25,42 +26,25 @@ void check_blocks(const std::vector<Block>& blocks) {
 
 /// Every block has a node that a support holds, or meets others that do.
 void check_carried(const Structure& structure) {
-  const std::size_t blocks = structure.layout.size();
-  std::vector<std::vector<std::size_t>> met(blocks);
-  for (const Joint& joint : structure.joints) {
-    const auto first = static_cast<std::size_t>(value(joint.first)),
-               second = static_cast<std::size_t>(value(joint.second));
-    met[first].push_back(second);
-    met[second].push_back(first);
-  }
-  std::vector<bool> held(static_cast<std::size_t>(structure.mesh.node_count()), false);
+  std::vector<bool> held_nodes(static_cast<std::size_t>(structure.mesh.node_count()), false);
   for (const Support& support : structure.supports)
-    for (const NodeId node : support.nodes) held[static_cast<std::size_t>(value(node))] = true;
-  std::vector<bool> carried(blocks, false);
-  std::vector<std::size_t> to_follow;
-  const auto carry = [&](std::size_t block) {
-    if (!carried[block]) to_follow.push_back(block);
-    carried[block] = true;
-  };
-  for (std::size_t b = 0; b < blocks; ++b) {
-    const IndexRange& nodes = structure.mesh.block_nodes[b];
-    if (std::find(held.begin() + nodes.begin, held.begin() + nodes.end, true) != held.begin() + nodes.end)
-      carry(b);
-  }
-  while (!to_follow.empty()) {
-    const std::size_t block = to_follow.back();
-    to_follow.pop_back();
-    for (const std::size_t other : met[block]) carry(other);
-  }
-  for (std::size_t b = 0; b < blocks; ++b)
-    if (!carried[b]) {
-      const Block& block = structure.layout.blocks[b];
-      const Point place = centroid(block.polygon);
-      throw InputError(fmt::format(
-          "block '{}' at ({:.4g}, {:.4g}) is loose: expected blocks that touch others, down to the "
-          "supports",
-          block.label, place.x(), place.y()));
-    }
+    for (const NodeId node : support.nodes) held_nodes[static_cast<std::size_t>(value(node))] = true;
+  std::vector<bool> held;
+  for (const IndexRange& nodes : structure.mesh.block_nodes)
+    held.push_back(std::any_of(held_nodes.begin() + nodes.begin, held_nodes.begin() + nodes.end,
+                               [](bool is_held) { return is_held; }));
+  BlockPairs touching;
+  for (const Joint& joint : structure.joints)
+    touching.emplace_back(static_cast<std::size_t>(value(joint.first)),
+                          static_cast<std::size_t>(value(joint.second)));
+  const auto loose = first_loose(held, touching);
+  if (!loose) return;
+  const Block& block = structure.layout.blocks[*loose];
+  const Point place = centroid(block.polygon);
+  throw InputError(
+      fmt::format("block '{}' at ({:.4g}, {:.4g}) is loose: expected blocks that touch others, down to the "
+                  "supports",
+                  block.label, place.x(), place.y()));
 }
 
 }  // namespace

@@ -82,8 +82,9 @@ RowValues UnknownBridgeQuestion::log_evidence(const Eligible& eligible, const Pr
   return result;
 }
 
-double UnknownBridgeQuestion::log_evidence_of(std::span<const std::size_t> rows, const Eligible& eligible,
-                                              const Prior& prior, const Supposition& supposed) {
+std::vector<double> UnknownBridgeQuestion::log_parts_of(std::span<const std::size_t> rows,
+                                                        const Eligible& eligible, const Prior& prior,
+                                                        const Supposition& supposed) {
   const SceneTable& table = comparison_.library.table;
   Observation wider = observation_;
   for (double& share : wider.share) share *= supposed.errors;
@@ -94,13 +95,14 @@ double UnknownBridgeQuestion::log_evidence_of(std::span<const std::size_t> rows,
   const auto logs = SceneLikelihoods(bridge_, wider, table)(terms, rows, {}, hardware_threads());
   const std::vector<double> beforehand = log_prior_by_missing(table, eligible, prior);
   const std::vector<double> silence = log_chance_of_silence(observation_, table, {rows.begin(), rows.end()});
-  double sum = kImpossible;
+  const double log_cases = std::log(static_cast<double>(terms.size()));
+  std::vector<double> parts(rows.size(), kImpossible);
   for (std::size_t i = 0; i < logs.size(); ++i) {
     const std::size_t at = i / terms.size();
     const auto missing = static_cast<std::size_t>(missing_blocks(table, rows[at]));
-    sum = log_sum(sum, over_scatter(logs[i]) + beforehand[missing] + silence[at]);
+    parts[at] = log_sum(parts[at], over_scatter(logs[i]) + beforehand[missing] + silence[at] - log_cases);
   }
-  return sum - std::log(static_cast<double>(terms.size()));
+  return parts;
 }
 
 BridgePosterior UnknownBridgeQuestion::posterior(const std::vector<WeightedScene>& scenes) {

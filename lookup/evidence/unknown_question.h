@@ -13,7 +13,7 @@ namespace voussoir {
 /// What may be supposed of readings beside what is stated.
 struct Supposition {
   double errors = 1.0;         ///< all instruments are off by so many times what is stated
-  bool shown_exactly = false;  ///< scenes without factors show just what the database has of them
+  bool shown_exactly = false;  ///< what scenes show beyond losses with factors is just what the database has
 };
 
 class UnknownBridgeQuestion {
@@ -30,10 +30,10 @@ class UnknownBridgeQuestion {
   /// estimated (ScreenedCases).
   RowValues log_evidence(const Eligible& eligible, const Prior& prior, std::size_t count);
 
-  /// log of the readings' density on average over all scenes (Posterior::log_evidence), of which these rows
-  /// alone count, if all this were so. Changes the bridge's case.
-  double log_evidence_of(std::span<const std::size_t> rows, const Eligible& eligible, const Prior& prior,
-                         const Supposition& supposed);
+  /// What each of these rows would have in the sum that Posterior::log_evidence is the logarithm of, if all
+  /// this were so: its logarithm. Changes the bridge's case.
+  std::vector<double> log_parts_of(std::span<const std::size_t> rows, const Eligible& eligible,
+                                   const Prior& prior, const Supposition& supposed);
 
   /// Of these scenes, over all cases.
   BridgePosterior posterior(const std::vector<WeightedScene>& scenes);

@@ -89,6 +89,10 @@ Library library_of(const Database& database, std::size_t state) {
       state == 0 || is_history(database.states().at(state)) ? database.search_index(state) : SearchIndex{}};
 }
 
+std::string under_load(const std::string& load) {
+  return load.empty() ? "" : " under " + load;
+}
+
 Library library_of_channels(const Database& database, std::size_t base,
                             const std::vector<Channel>& channels) {
   const Predictions predictions(database, base, channels);
@@ -98,9 +102,8 @@ Library library_of_channels(const Database& database, std::size_t base,
   library.table.vertical = storage->predictions;
   library.table.outcome = storage->outcome;
   for (const Channel& channel : channels)
-    library.points.push_back(
-        {channel.load.empty() ? channel.sensor->name : channel.sensor->name + " under " + channel.load,
-         channel.sensor->position, channel.sensor->blocks.front()});
+    library.points.push_back({channel.sensor->name + under_load(channel.load), channel.sensor->position,
+                              channel.sensor->blocks.front()});
   return library;
 }
 

@@ -39,6 +39,9 @@ struct Channel {
       loaded{};  ///< the state under the load; nothing: the reading is of the state `base`
 };
 
+/// What stands behind a sensor's name in that of a channel: " under truck@2", nothing without a load.
+std::string under_load(const std::string& load);
+
 /// One column for each channel. `base` is the state without loads. Where a channel is what a load adds and
 /// the scene does not stand in one of the two states, it shows NaN: nobody reads such a difference. A scene
 /// is unresolved if one of its states is. Throws Failure if a sensor needs fields that the database does not

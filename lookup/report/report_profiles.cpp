@@ -126,8 +126,8 @@ void add_set(const ReportPictures& report, const std::string& title, const std::
     if (quantity_of(report.comparison, point) == quantity && belongs(point)) points.push_back(point);
   const auto is_read = [&](std::size_t point) { return std::isfinite(report.shown.reading[point]); };
   if (std::ranges::none_of(points, is_read)) return;
-  const std::string load = report.comparison.load.empty() ? "" : report.comparison.load[points.front()];
-  const std::string under = load.empty() ? "" : " under " + load;  // as in the points' names
+  const std::vector<std::string>& loads = report.comparison.load;
+  const std::string under = loads.empty() ? "" : under_load(loads[points.front()]);
   std::vector<std::string> names;
   for (const std::size_t point : points) {
     const std::string& name = report.library.points[point].name;

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <numeric>
 
 #include "core/random.h"
 #include "lookup/evidence/evidence.h"
@@ -273,8 +274,10 @@ TwoEvidences evidences(const Trial& trial, double times, const Prior& stated) {
   const Observation observation = observe(trial.comparison, asked.noise, asked.nuisance);
   UnknownBridgeQuestion question(trial.comparison, observation, asked.settings);
   const RowValues logs{kImpossible, all_rows(table), brute_force(trial, observation, asked, eligible)};
+  const std::vector<double> parts =
+      question.log_parts_of(eligible.rows, eligible, asked.prior, {.errors = times});
   return {posterior(table, eligible, logs, asked.prior, trial.library.blocks).log_evidence,
-          question.log_evidence_of(eligible.rows, eligible, asked.prior, {.errors = times})};
+          std::accumulate(parts.begin(), parts.end(), kImpossible, log_sum)};
 }
 
 TEST_CASE("Larger errors count as if they had been stated, whatever the scale of the weights beforehand") {

@@ -13,6 +13,18 @@ Candidate candidate(double misfit, std::optional<double> posterior) {
   return result;
 }
 
+/// An answer whose likely scene explains the readings; probabilities of numbers of missing blocks, and of one
+/// block.
+Answer explained(const std::vector<double>& missing, double block) {
+  Answer answer;
+  answer.posterior = {.probability = {0.0, {}, {}},
+                      .block_probability = {block},
+                      .missing_probability = missing,
+                      .credible = {0}};
+  answer.fit = {.explained = true, .chance = 0.5, .reason = {}};
+  return answer;
+}
+
 }  // namespace
 
 TEST_CASE("Without probabilities a candidate is behind by the difference of misfits (written out)") {
@@ -30,12 +42,7 @@ TEST_CASE("With probabilities a candidate is behind by their ratio, whatever the
 }
 
 TEST_CASE("An answer that another database contests is none, unless nothing explains the readings") {
-  Answer answer;
-  answer.posterior = {.probability = {1.0, {}, {}},
-                      .block_probability = {0.01},
-                      .missing_probability = {0.99, 0.01},
-                      .credible = {0}};
-  answer.fit = {.explained = true, .chance = 0.5, .reason = {}};
+  Answer answer = explained({0.99, 0.01}, 0.01);
   CHECK(verdict_of(answer) == Verdict::intact);
   answer.contested = true;
   CHECK(verdict_of(answer) == Verdict::cannot_tell);
@@ -46,12 +53,7 @@ TEST_CASE("An answer that another database contests is none, unless nothing expl
 }
 
 TEST_CASE("What a prior supposes is no verdict (written out)") {
-  Answer answer;
-  answer.posterior = {.probability = {0.0, {}, {}},
-                      .block_probability = {0.4},
-                      .missing_probability = {0.0, 1.0},
-                      .credible = {0}};
-  answer.fit = {.explained = true, .chance = 0.5, .reason = {}};
+  Answer answer = explained({0.0, 1.0}, 0.4);
   answer.prior = {{0, 1}, {8.0, 1.0}};
   CHECK(verdict_of(answer) == Verdict::damaged_unlocated);
   for (const Prior& prior : {Prior{{1}, {1.0}}, Prior{{0, 1}, {0.0, 1.0}}}) {
