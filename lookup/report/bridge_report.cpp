@@ -43,6 +43,35 @@ KnownParameter in_own_unit(const UncertainParameter& parameter, double before, d
           parameter.sigma * deviation};
 }
 
+/// The logarithm of a factor on what the file states.
+bool is_factor(const KnownParameter& parameter) {
+  return parameter.unit == "1";
+}
+
+/// In per cent, what a factor with this logarithm changes.
+double change_by(double logarithm) {
+  return 100.0 * std::expm1(logarithm);
+}
+
+std::string range_of_factor(double mean, double deviation) {
+  return fmt::format("{:+.0f} to {:+.0f} %", change_by(mean - deviation), change_by(mean + deviation));
+}
+
+struct ShownUnit {
+  std::string name;
+  double scale;  ///< from the parameter's own
+};
+ShownUnit shown_unit(const std::string& unit) {
+  if (unit == "m") return {"mm", 1e3};
+  if (unit == "rad") return {"mrad", 1e3};
+  return {unit, 1.0};
+}
+
+/// As many as a standard deviation of two digits has.
+int decimals_of(double deviation) {
+  return deviation > 0.0 ? std::clamp(1 - static_cast<int>(std::floor(std::log10(deviation))), 0, 9) : 2;
+}
+
 }  // namespace
 
 std::vector<Cause> causes_of(const BridgeAnswer& bridge, const ReadingFactors& factors) {
@@ -117,16 +146,25 @@ std::vector<KnownParameter> known_of_epochs(const BridgeAnswer& bridge, const Re
   return result;
 }
 
+std::string before_in_words(const KnownParameter& parameter) {
+  if (is_factor(parameter)) return range_of_factor(0.0, parameter.deviation_before);
+  const auto [unit, scale] = shown_unit(parameter.unit);
+  return fmt::format("+- {:.2g} {}", scale * parameter.deviation_before, unit);
+}
+
+std::string after_in_words(const KnownParameter& parameter) {
+  if (is_factor(parameter))
+    return fmt::format("{:+.0f} % ({})", change_by(parameter.mean),
+                       range_of_factor(parameter.mean, parameter.deviation));
+  const auto [unit, scale] = shown_unit(parameter.unit);
+  const double deviation = scale * parameter.deviation;
+  return fmt::format("{:+.{}f} +- {:.2g} {}", scale * parameter.mean, decimals_of(deviation), deviation,
+                     unit);
+}
+
 std::string in_words(const KnownParameter& parameter) {
-  const bool relative = parameter.unit == "1";
-  const double factor = relative ? 100.0 : parameter.unit == "m" ? 1e3 : parameter.unit == "rad" ? 1e3 : 1.0;
-  const std::string unit = relative                  ? "%"
-                           : parameter.unit == "m"   ? "mm"
-                           : parameter.unit == "rad" ? "mrad"
-                                                     : parameter.unit;
-  return fmt::format("{}: {:+.2g} +- {:.2g} {} (before: +- {:.2g} {})", parameter.name,
-                     factor * parameter.mean, factor * parameter.deviation, unit,
-                     factor * parameter.deviation_before, unit);
+  return fmt::format("{}: {}, before {}", parameter.name, after_in_words(parameter),
+                     before_in_words(parameter));
 }
 
 std::string causes_in_words(const std::vector<Cause>& causes) {

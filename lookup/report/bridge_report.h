@@ -21,10 +21,10 @@ struct Cause {
 /// Of changes and of what loads add the readings are those; the first epoch's own do not count.
 std::vector<Cause> causes_of(const BridgeAnswer& bridge, const ReadingFactors& factors);
 
-/// A parameter in its own unit, or a relative change where the parameter is a logarithm.
+/// A parameter in its own unit, or the logarithm of a factor on what the bridge file states.
 struct KnownParameter {
   std::string name;
-  std::string unit;               ///< "1" of relative changes
+  std::string unit;               ///< "1" of logarithms
   double deviation_before = 0.0;  ///< of what lookups believe beforehand (mean 0): as the file
                                   ///< states, widened by kappa and the sizes of conditions
   double mean = 0.0;
@@ -41,7 +41,13 @@ std::vector<KnownParameter> known_of_bridge(const BridgeAnswer& bridge, const Re
 /// All parameters of epochs: of two epochs how they changed.
 std::vector<KnownParameter> known_of_epochs(const BridgeAnswer& bridge, const ReadingFactors& factors);
 
-/// "young modulus: -4 +- 3 % (before: +- 15 %)"
+/// What is believed beforehand and afterwards, one standard deviation to each side: "-14 to +16 %", "+- 20
+/// K";
+/// "-4 % (-7 to -1 %)", "+0.3 +- 1.2 K".
+std::string before_in_words(const KnownParameter& parameter);
+std::string after_in_words(const KnownParameter& parameter);
+
+/// "young modulus: -4 % (-7 to -1 %), before -14 to +16 %"
 std::string in_words(const KnownParameter& parameter);
 
 /// "missing blocks 97 %, the bridge itself 1 %, .."

@@ -84,21 +84,21 @@ Figure parameters_figure(const Answer& answer, const ReadingFactors& factors) {
   std::vector<KnownParameter> parameters = known_of_bridge(*answer.bridge, factors, kMostJointsShown);
   for (const KnownParameter& parameter : known_of_epochs(*answer.bridge, factors))
     parameters.push_back(parameter);
-  Table table{{"parameter", "unit", "before", "after: mean", "after: spread"}, {}};
+  Table table{{"parameter", "before", "after"}, {}};
   for (const KnownParameter& one : parameters)
-    table.rows.push_back(
-        {one.name, one.unit == "1" ? "relative" : one.unit, one.deviation_before, one.mean, one.deviation});
-  return {
-      "parameters",
-      "What the readings say of the bridge",
-      "Standard deviations before and after, and the mean after; before it is zero. What the whole bridge "
-      "shares, the joints that the readings move farthest, then those of the time of the readings: "
-      "temperature, supports and joints.",
-      "",
-      table,
-      false,
-      TableView::open,
-      3};
+    table.rows.push_back({one.name, before_in_words(one), after_in_words(one)});
+  return {"parameters",
+          "What the readings say of the bridge",
+          "By how much it differs from what the bridge file states, one standard deviation to each side. "
+          "What the "
+          "whole bridge shares, the joints that the readings move farthest, then those of the time of the "
+          "readings: "
+          "temperature, supports and joints.",
+          "",
+          table,
+          false,
+          TableView::open,
+          3};
 }
 
 std::string bridge_html(const Answer& answer, const Comparison& comparison) {

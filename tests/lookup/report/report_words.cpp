@@ -1,6 +1,9 @@
 #include "lookup/report/report_words.h"
 
 #include <catch2/catch.hpp>
+#include <cmath>
+
+#include "lookup/report/bridge_report.h"
 
 using namespace voussoir;
 
@@ -69,4 +72,16 @@ TEST_CASE("What a prior supposes is no verdict (written out)") {
   answer.posterior->missing_probability = {0.0, 1.0};
   answer.prior = {{1}, {1.0}};
   CHECK(verdict_of(answer) == Verdict::located);
+}
+
+TEST_CASE(
+    "Factors are told as per cent, other parameters with as many digits as they are known (written out)") {
+  const double softer = std::log(0.5), twice = std::log(2.0);
+  CHECK(in_words({"stiffness", "1", twice, softer, twice}) ==
+        "stiffness: -50 % (-75 to +0 %), before -50 to +100 %");
+  CHECK(in_words({"foot 1 dy", "m", 0.002, -0.00123, 0.00004}) ==
+        "foot 1 dy: -1.230 +- 0.04 mm, before +- 2 mm");
+  CHECK(in_words({"temperature", "K", 20.0, 12.34, 3.0}) == "temperature: +12.3 +- 3 K, before +- 20 K");
+  CHECK(in_words({"foot 1 rotation", "rad", 0.0001, 0.0, 0.0}) ==
+        "foot 1 rotation: +0.00 +- 0 mrad, before +- 0.1 mrad");
 }
