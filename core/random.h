@@ -6,6 +6,9 @@
 
 namespace voussoir {
 
+/// Of seeds that users state: what is larger, or wraps around, is no number that anyone meant.
+inline constexpr std::uint64_t kLargestSeed = 1'000'000'000'000'000'000;
+
 /// PCG32 (O'Neill, "PCG: A family of simple fast space-efficient statistically good algorithms for random
 /// number generation", 2014): 64 bits of state, 32 bits a number.
 class Random {

@@ -229,9 +229,8 @@ void finish(const Build& build, KnownRecords& known, BuildSummary& summary) {
 void run(const Build& build, std::optional<Database> old, BuildSummary& summary) {
   KnownRecords known = open_records(build, OtherRecords::drop);
   summary.resumed = known.journal().size();
-  if (summary.resumed > 0)
-    build.progress.say(
-        fmt::format("going on with an interrupted build: {} scenes are done", summary.resumed));
+  if (const std::size_t done = summary.resumed; done > 0)
+    build.progress.say(fmt::format("going on with an interrupted build: {} scenes are done", done));
   if (old) summary.reused = reuse(build, std::move(*old), known);
   BuildPlan plan = plan_of(build, known);
   summary.computed = plan.records();
@@ -245,14 +244,17 @@ void run(const Build& build, std::optional<Database> old, BuildSummary& summary)
   finish(build, known, summary);
 }
 
-/// Takes all records from the parts and writes the file.
+/// Takes all records from the parts, all of which are there, and writes the file.
 void gather(const Build& build, std::vector<Database> parts, BuildSummary& summary) {
   KnownRecords known = open_records(build, OtherRecords::refuse);
+  const int count = static_cast<int>(parts.size());
   for (Database& part : parts) known.add(records_in(build, std::move(part), known));
   for (const RecordKey& key : build.wanted)
     if (!known.has_record(key)) {
       if (known.journal().size() == 0) known.journal().remove();  // else of an interrupted build of the whole
-      throw Failure(fmt::format("no part has scene {}, or its record is damaged there: build the part anew",
+      const PlanBasis basis{build.bridges, build.request.rules, build.states};
+      throw Failure(fmt::format("part {} lacks scene {}, or has it damaged: build this part anew",
+                                to_string(shard_with(key, build.wanted, basis, count)),
                                 to_string(key, build.bridge().layout)));
     }
   summary.merged = build.wanted.size();

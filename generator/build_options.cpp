@@ -3,6 +3,7 @@
 #include <map>
 
 #include "core/error.h"
+#include "core/random.h"
 #include "core/solve/state_name.h"
 #include "core/text.h"
 #include "generator/build_switches.h"
@@ -89,6 +90,7 @@ void add_uncertainty_options(CLI::App& app, BuildOptions& options) {
       ->check(CLI::Range(0, kMostVariants))
       ->capture_default_str();
   app.add_option("--variant-seed", options.variant_seed, "other seeds draw other bridges")
+      ->check(CLI::Range(std::uint64_t{0}, kLargestSeed))
       ->capture_default_str();
   app.add_flag("--known-bridge", options.request.known_bridge,
                "leave out how displacements change with what is uncertain of the bridge: for readings of "

@@ -115,4 +115,12 @@ std::vector<RecordKey> keys_of_shard(const std::vector<RecordKey>& wanted, const
   return {keys.begin(), keys.end()};
 }
 
+Shard shard_with(const RecordKey& key, const std::vector<RecordKey>& wanted, const PlanBasis& basis,
+                 int count) {
+  Shard shard{1, count};
+  while (shard.number < count && !std::ranges::binary_search(keys_of_shard(wanted, basis, shard), key))
+    ++shard.number;
+  return shard;
+}
+
 }  // namespace voussoir

@@ -80,4 +80,8 @@ int most_missing_of_starts(const std::vector<RecordKey>& wanted);
 std::vector<RecordKey> keys_of_shard(const std::vector<RecordKey>& wanted, const PlanBasis& basis,
                                      const Shard& shard);
 
+/// Which of so many shards has a record of the whole.
+Shard shard_with(const RecordKey& key, const std::vector<RecordKey>& wanted, const PlanBasis& basis,
+                 int count);
+
 }  // namespace voussoir

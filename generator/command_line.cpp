@@ -26,7 +26,8 @@ std::optional<int> parse_command_line(CLI::App& app, int argc, char** argv) {
     app.parse(argc, argv);
     return std::nullopt;
   } catch (const CLI::ParseError& error) {
-    if (app.exit(error) == 0) return 0;  // --help, --version
+    if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
+    std::cerr << app.get_name() << ": " << error.what() << " (see " << app.get_name() << " --help)\n";
     if (asks_for_json(argc, argv)) std::cout << failure_to_json(error.what());
     return kBadUsage;
   }

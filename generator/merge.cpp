@@ -99,6 +99,10 @@ BuildRequest request_of(const MergeRequest& request, const Database& part) {
 
 BuildSummary merge_databases(const MergeRequest& request, const SolverOfSettings& solver,
                              Progress& progress) {
+  for (const std::filesystem::path& part : request.parts)
+    if (std::error_code unknown; std::filesystem::equivalent(part, request.output, unknown))
+      throw InputError(
+          fmt::format("--output {} is one of the parts, expected another file", request.output.string()));
   std::vector<Database> parts = open_parts(request.parts);
   for (const Database& part : parts) check_alike(part, parts.front());
   check_numbers(parts);

@@ -281,6 +281,7 @@ std::optional<Model> check_bridge(const Database& database, VerifyReport& report
 void check_content(const VerifyRequest& request, VerifyReport& report) {
   const Database database = Database::open(request.database);
   report.digest = database.digest();
+  if (const auto& part = database.shard()) report.part = part->shard;
   report.outcomes = count_outcomes(database);
   const std::optional<Model> nominal = check_bridge(database, report);
   if (!nominal) return;

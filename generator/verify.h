@@ -3,9 +3,11 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "database/records/shard.h"
 #include "generator/outcome_counts.h"
 #include "generator/solvers.h"
 
@@ -19,7 +21,8 @@ struct VerifyRequest {
 };
 
 struct VerifyReport {
-  std::string digest;  ///< as the file states it
+  std::string digest;           ///< as the file states it
+  std::optional<Shard> part{};  ///< nothing: it is whole
   OutcomeCounts outcomes;
   std::size_t fields = 0;          ///< stored fields that were checked
   bool collapse_fields = true;     ///< does it keep fields of what falls? (PlanRules)

@@ -22,8 +22,9 @@ std::string problem_text(const std::vector<std::string>& problems) {
 }  // namespace
 
 std::string to_text(const VerifyReport& report, const std::filesystem::path& database) {
-  std::string text =
-      fmt::format("{}: {}\n", database.string(), report.ok() ? "whole and consistent" : "NOT in order");
+  const std::string extent = report.part ? "part " + to_string(*report.part) + " of a database" : "whole";
+  std::string text = fmt::format("{}: {}\n", database.string(),
+                                 report.ok() ? extent + ", consistent" : extent + ", NOT in order");
   text += fmt::format("  digest      {}\n", report.digest);
   text += fmt::format("  scenes      {}\n", report.outcomes.scenes) + to_text(report.outcomes);
   text += fmt::format(
@@ -44,6 +45,7 @@ std::string to_text(const VerifyReport& report, const std::filesystem::path& dat
 
 std::string to_json(const VerifyReport& report) {
   nlohmann::ordered_json json = {{"ok", report.ok()}, {"digest", report.digest}};
+  json["part"] = report.part ? nlohmann::ordered_json(to_string(*report.part)) : nlohmann::ordered_json();
   json.update(to_json(report.outcomes));
   json.update({{"collapses", report.collapse_fields ? "field" : "outcome"},
                {"fields", report.fields},

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/error.h"
+#include "core/random.h"
 #include "core/units.h"
 #include "lookup/command_line.h"
 #include "lookup/readings/stated_sigmas.h"
@@ -147,7 +148,9 @@ void add_nuisance_options(CLI::App& app, LocateDamageOptions& options) {
 }
 
 void add_genetic_options(CLI::App& app, GeneticSettings& genetic) {
-  app.add_option("--seed", genetic.seed, "of the genetic search, default 1")->option_text("N");
+  app.add_option("--seed", genetic.seed, "of the genetic search, default 1")
+      ->check(CLI::Range(std::uint64_t{0}, kLargestSeed))
+      ->option_text("N");
   app.add_option("--generations", genetic.most_generations, "of the genetic search")
       ->check(CLI::Range(1, 1000000))
       ->option_text("N");

@@ -7,6 +7,7 @@
 #include "core/error.h"
 #include "lookup/evidence/largest_places.h"
 #include "lookup/other_explanations.h"
+#include "lookup/plausible_readings.h"
 #include "lookup/same_readings.h"
 #include "lookup/search/exhaustive_search.h"
 #include "lookup/search/misfit.h"
@@ -305,8 +306,7 @@ Answer locate_damage(const Comparison& comparison, const LookupSettings& setting
     judge_unknown_bridge({*question, observation, preparation, library}, answer);
   else
     judge_known_bridge(library, observation, found.front().row, answer);
-  if (is_change(comparison.kind))
-    if (const auto doubt = check_size_of_changes(observation)) answer.fit = doubt;
+  if (const auto doubt = check_readings(comparison, observation)) answer.fit = doubt;
   add_same_readings(library, observation, found, answer);
   return answer;
 }

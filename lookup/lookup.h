@@ -8,14 +8,14 @@
 
 #include "lookup/evidence/evidence.h"
 #include "lookup/evidence/evidence_screen.h"
-#include "lookup/evidence/fit.h"
 #include "lookup/evidence/posterior.h"
-#include "lookup/evidence/unknown_question.h"
+#include "lookup/fit.h"
 #include "lookup/readings/comparison.h"
 #include "lookup/readings/noise_model.h"
 #include "lookup/readings/nuisance.h"
 #include "lookup/search/genetic_search.h"
 #include "lookup/search/indexed_search.h"
+#include "lookup/unknown/unknown_question.h"
 
 namespace voussoir {
 

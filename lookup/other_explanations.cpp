@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <numeric>
+#include <span>
 
+#include "core/units.h"
 #include "lookup/evidence/scene_evidence.h"
 
 namespace voussoir {
@@ -13,15 +16,22 @@ namespace {
 constexpr std::size_t kMostFalls = 10;  // scenes near the readings, of which those that fall are looked at
 constexpr std::size_t kMostNear = 3;    // scenes near the readings, asked with larger errors:
 constexpr std::array kTimesErrors = {3.0, 10.0, 100.0};  // so many times what is stated
+// Beforehand that a reading is off by a size that is given to a factor of e. One in a thousand grossly wrong,
+// by anything from its own error to ten thousand times that, comes to about as much.
+constexpr double kGrossChance = 2e-4;
+constexpr std::size_t kMostSuspects = 2;  // readings, of each scene that is looked at for them
 
 double log_sum_of(const std::vector<double>& logs) {
   return std::accumulate(logs.begin(), logs.end(), kImpossible, log_sum);
 }
 
-/// Do larger errors than those that are stated explain the readings far better, with no block missing or by
-/// scenes that are near them? A scene that scatters much, if errors of 0.02 mm are said to be 0.002, seems
-/// to.
-std::optional<Fit> check_stated_errors(const UnknownQuestion& asked, const Answer& answer) {
+/// More than a tenth beside what the answer is about.
+bool is_likely_beside(const Answer& answer, double log) {
+  return log > answer.posterior->log_evidence + std::log((1.0 - kCertain) / kCertain);
+}
+
+/// The intact bridge and what is near the readings, that any of these may be the truth.
+std::vector<std::size_t> rows_beside(const UnknownQuestion& asked, const Answer& answer) {
   std::vector<std::size_t> rows = {answer.posterior->credible.front()};
   for (const ScoredRow& near : asked.preparation.smallest_misfits(asked.observation, kMostNear))
     rows.push_back(near.row);
@@ -29,9 +39,17 @@ std::optional<Fit> check_stated_errors(const UnknownQuestion& asked, const Answe
   if (eligible.missing.front() == 0) rows.push_back(eligible.rows.front());
   std::ranges::sort(rows);
   rows.erase(std::ranges::unique(rows).begin(), rows.end());
+  return rows;
+}
+
+/// Do larger errors than those that are stated explain the readings far better, with no block missing or by
+/// scenes that are near them? A scene that scatters much, if errors of 0.02 mm are said to be 0.002, seems
+/// to.
+std::optional<Fit> check_stated_errors(const UnknownQuestion& asked, const Answer& answer,
+                                       const std::vector<std::size_t>& rows) {
   for (const double times : kTimesErrors) {
-    const double log =
-        log_sum_of(asked.question.log_parts_of(rows, eligible, answer.prior, {.errors = times}));
+    const double log = log_sum_of(
+        asked.question.log_parts_of(rows, asked.preparation.eligible(), answer.prior, {.errors = times}));
     if (log > answer.posterior->log_evidence - std::log(kSmallestChance))
       return Fit{false, answer.fit->chance,
                  fmt::format("errors {:g} times as large as stated explain them far better", times)};
@@ -52,13 +70,60 @@ std::optional<Fit> check_falls(const UnknownQuestion& asked, const Answer& answe
   const std::vector<double> logs =
       asked.question.log_parts_of(rows, asked.preparation.eligible(), answer.prior, {.shown_exactly = true});
   const std::size_t best = rows[static_cast<std::size_t>(std::ranges::max_element(logs) - logs.begin())];
-  const bool are_likely =
-      log_sum_of(logs) > answer.posterior->log_evidence + std::log((1.0 - kCertain) / kCertain);
   const auto& likely = answer.posterior->credible;
-  if (!are_likely || std::ranges::find(likely, best) != likely.end()) return std::nullopt;
+  if (!is_likely_beside(answer, log_sum_of(logs)) || std::ranges::find(likely, best) != likely.end())
+    return std::nullopt;
   return Fit{false, answer.fit->chance,
              fmt::format("what falls without {} would show them, too",
                          to_string(table.scene(best), asked.library.layout))};
+}
+
+/// The readings that are farthest from what all others let expect of a scene, in standard deviations, and how
+/// far they are.
+std::vector<GrossError> suspects_of(const UnknownQuestion& asked, std::size_t row) {
+  const BridgePosterior believed = asked.question.posterior({{row, 1.0}});
+  const std::vector<ReadingRow>& readings = asked.question.bridge().rows;
+  std::vector<std::size_t> order(readings.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  const auto at = [](const Eigen::VectorXd& values, std::size_t k) {
+    return std::abs(values[static_cast<Eigen::Index>(k)]);
+  };
+  const std::size_t count = std::min(kMostSuspects, order.size());
+  std::ranges::partial_sort(order, order.begin() + static_cast<std::ptrdiff_t>(count), std::ranges::greater{},
+                            [&](std::size_t k) { return at(believed.others, k); });
+  std::vector<GrossError> suspects;
+  for (const std::size_t k : std::span(order).first(count))
+    suspects.push_back({readings[k].channel, at(believed.beside, k)});
+  return suspects;
+}
+
+/// Is it one reading alone that says what the answer calls missing? If it were grossly wrong, would others
+/// explain the rest?
+std::optional<Fit> check_single_readings(const UnknownQuestion& asked, const Answer& answer,
+                                         const std::vector<std::size_t>& rows) {
+  const SceneTable& table = asked.library.table;
+  const std::vector<BlockId> named = likely_blocks(*answer.posterior, kCertain);
+  std::vector<std::size_t> others;
+  for (const std::size_t row : rows) {
+    const Scene scene = table.scene(row);
+    const bool has_all = std::ranges::all_of(named, [&](BlockId block) { return scene.lacks(block); });
+    const bool is_possible = scene_loss(asked.question.bridge(), asked.observation, table, row).has_value();
+    if (is_possible && (scene.removed.empty() || !has_all)) others.push_back(row);
+  }
+  for (const std::size_t row : others)
+    for (const GrossError& gross : suspects_of(asked, row)) {
+      const std::vector<double> logs =
+          asked.question.log_parts_of(others, asked.preparation.eligible(), answer.prior, {.gross = gross});
+      if (!is_likely_beside(answer, std::log(kGrossChance) + log_sum_of(logs))) continue;
+      const auto best = static_cast<std::size_t>(std::ranges::max_element(logs) - logs.begin());
+      const Scene scene = table.scene(others[best]);
+      return Fit{
+          false, answer.fit->chance,
+          fmt::format("the reading at {} alone says so; were it wrong by {:.2g} mm, {} would be likely, too",
+                      asked.library.points[gross.channel].name, kMillimetres * gross.size,
+                      scene.removed.empty() ? "an intact bridge" : to_string(scene, asked.library.layout))};
+    }
+  return std::nullopt;
 }
 
 }  // namespace
@@ -66,7 +131,11 @@ std::optional<Fit> check_falls(const UnknownQuestion& asked, const Answer& answe
 std::optional<Fit> find_other(const UnknownQuestion& asked, const Answer& answer) {
   if (const auto falls = check_falls(asked, answer)) return falls;
   const bool is_alarm = 1.0 - intact_probability(*answer.posterior) >= kCertain;
-  return is_alarm && !asked.observation.unknown_level ? check_stated_errors(asked, answer) : std::nullopt;
+  if (!is_alarm) return std::nullopt;
+  const std::vector<std::size_t> rows = rows_beside(asked, answer);
+  if (!asked.observation.unknown_level)
+    if (const auto larger = check_stated_errors(asked, answer, rows)) return larger;
+  return check_single_readings(asked, answer, rows);
 }
 
 }  // namespace voussoir

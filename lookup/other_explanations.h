@@ -2,8 +2,8 @@
 /// @file What would explain readings of a bridge that is not exactly known, and has no part in its posterior:
 /// then the answer means nothing.
 
-#include "lookup/evidence/unknown_question.h"
 #include "lookup/lookup.h"
+#include "lookup/unknown/unknown_question.h"
 
 namespace voussoir {
 
@@ -17,7 +17,8 @@ struct UnknownQuestion {
 
 /// A fit that explains nothing, with the reason, if there is one: falls that show just what the database has
 /// of them, which would be likely, too; and, where blocks are said to be missing, errors that are larger than
-/// stated, which would be far likelier. Precondition: some scene is likely.
+/// stated, which would be far likelier, or a single reading that is grossly wrong, which would be likely,
+/// too. Precondition: some scene is likely.
 std::optional<Fit> find_other(const UnknownQuestion& asked, const Answer& answer);
 
 }  // namespace voussoir

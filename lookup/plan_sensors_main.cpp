@@ -21,7 +21,8 @@ std::string plan(const Options& options) {
   const auto database = voussoir::Database::open(voussoir::find_database(options.database));
   if (options.picture) voussoir::check_output("--report", *options.picture, {".svg"});
   const voussoir::SensorPlan plan = voussoir::plan_sensors(database, options.settings);
-  if (options.picture) voussoir::write_file(*options.picture, voussoir::plan_picture(plan, database));
+  if (options.picture)
+    voussoir::write_file(*options.picture, voussoir::plan_picture(plan, {database, options.settings}));
   return voussoir::plan_report(plan, {database, options.settings}, options.format);
 }
 

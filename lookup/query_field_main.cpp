@@ -51,7 +51,7 @@ void add_options(CLI::App& app, Options& options) {
       ->option_text("FILE");
   app.add_option("--at", options.at,
                  "control points, or sensors of the bridge file that move, such as T12,A3, coordinates X,Y "
-                 "in metres, or control for all")
+                 "in metres (where blocks meet of each of them), or control for all")
       ->option_text("PLACES");
   app.add_option(
          "--history", options.history,

@@ -1,6 +1,7 @@
 /// @file make-measurements: a measurements file with the errors of one's choice, from a scene of a database.
 
 #include "core/error.h"
+#include "core/random.h"
 #include "core/text_file.h"
 #include "core/units.h"
 #include "lookup/command_line.h"
@@ -24,7 +25,7 @@ struct Options {
   std::vector<std::string> loads;
   std::optional<std::string> sensors;
   std::string noise_level = "5%";
-  std::string noise_model = "uniform";
+  NoiseShape noise_model = NoiseShape::uniform;
   double floor_mm = 0.0;
   std::string sigma;
   double datum_mm = 0.0;
@@ -44,12 +45,9 @@ NoiseModel noise_of(const Options& options) {
     noise.floor = parse_sigma(options.sigma);
     return noise;
   }
-  noise.shape = parse_noise_shape(options.noise_model);
+  noise.shape = options.noise_model;
   noise.relative = parse_noise_level(options.noise_level);
   noise.floor = kMetresPerMillimetre * options.floor_mm;
-  if (noise.shape == NoiseShape::automatic)
-    throw InputError(
-        "--noise-model auto cannot be simulated, expected uniform, gaussian, laplace or student");
   return noise;
 }
 
@@ -59,6 +57,16 @@ ReadingKind reading_kind(const Options& options) {
   if (options.kind == Kind::change)
     throw InputError("--load with --kind change, expected --kind absolute (what the load adds) or epochs");
   return options.kind == Kind::absolute ? ReadingKind::load : ReadingKind::load_change;
+}
+
+/// Each once, as a file of readings has each point once under a load.
+void require_loads(const std::vector<std::string>& loads) {
+  for (std::size_t i = 0; i < loads.size(); ++i) {
+    if (loads[i].empty()) throw InputError("--load: names no load, expected such as crown or truck@2");
+    if (std::find(loads.begin(), loads.begin() + static_cast<std::ptrdiff_t>(i), loads[i]) !=
+        loads.begin() + static_cast<std::ptrdiff_t>(i))
+      throw InputError(fmt::format("--load: {} comes twice", loads[i]));
+  }
 }
 
 std::string_view what_is_read(ReadingKind kind) {
@@ -76,7 +84,7 @@ std::string_view what_is_read(ReadingKind kind) {
 
 std::string errors_in_words(const Options& options) {
   std::string text = options.sigma.empty() ? fmt::format("{} of the value and {} mm, {}", options.noise_level,
-                                                         options.floor_mm, options.noise_model)
+                                                         options.floor_mm, to_string(options.noise_model))
                                            : fmt::format("gaussian, standard deviation {} mm",
                                                          kMillimetres * parse_sigma(options.sigma));
   if (options.datum_mm > 0.0) text += fmt::format(", datum {} mm", options.datum_mm);
@@ -84,10 +92,13 @@ std::string errors_in_words(const Options& options) {
   return text;
 }
 
-std::string heading(const Options& options, const Comparison& comparison, const Database& database) {
+std::string heading(const Options& options, const Comparison& comparison, const Database& database,
+                    Outcome outcome) {
   std::string text = fmt::format("# Simulated readings of the bridge '{}': {} (history {}).\n",
                                  database.bridge_name(), what_is_read(comparison.kind), comparison.history);
   if (!options.hide) text += fmt::format("# scene: {}\n", options.scene);
+  if (outcome != Outcome::standing)
+    text += "# The scene falls: displacements are those shortly after gravity acts, no equilibrium.\n";
   return text + fmt::format("# errors: {}\n# seed: {}\n", errors_in_words(options), options.seed);
 }
 
@@ -104,12 +115,17 @@ std::string make_measurements(const Options& options) {
   settings.known_bridge = true;  // what is uncertain is no part of what is measured
   if (!options.history.empty()) settings.history = options.history;
   const Comparison comparison = compare(blank, list, database, settings);
+  require_loads(options.loads);
   Random random(options.seed);
   const Nuisance levelling{.datum = kMetresPerMillimetre * options.datum_mm,
                            .tilt = kMetresPerMillimetre * options.tilt_mm_per_m};
-  const ReadingsFile file =
-      simulate_file(blank, comparison, find_row(database, options.scene), noise, levelling, random);
-  const std::string text = heading(options, comparison, database) + to_csv(file, list);
+  const std::size_t row = find_row(database, options.scene);
+  const auto outcome = static_cast<Outcome>(comparison.library.table.outcome[row]);
+  if (outcome == Outcome::unresolved)
+    throw Failure(fmt::format("scene {} has no answer in {}, so nobody knows what would be read",
+                              options.scene, database.path().string()));
+  const ReadingsFile file = simulate_file(blank, comparison, row, noise, levelling, random);
+  const std::string text = heading(options, comparison, database, outcome) + to_csv(file, list, &noise);
   if (options.output.empty()) return text;
   write_file(options.output, text);
   return {};
@@ -136,9 +152,12 @@ void add_reading_options(CLI::App& app, Options& options) {
 void add_error_options(CLI::App& app, Options& options) {
   CLI::Option* const level = app.add_option("--noise", options.noise_level, "share of the value, default 5%")
                                  ->check(checked_by(parse_noise_level, "LEVEL"));
-  CLI::Option* const model =
-      app.add_option("--noise-model", options.noise_model, "uniform (default), gaussian, laplace or student")
-          ->check(checked_by(parse_noise_shape, "NAME"));
+  CLI::Option* const model = add_choice<NoiseShape>(app, "--noise-model", options.noise_model,
+                                                    {{"uniform", NoiseShape::uniform},
+                                                     {"gaussian", NoiseShape::gaussian},
+                                                     {"laplace", NoiseShape::laplace},
+                                                     {"student", NoiseShape::student}},
+                                                    "default uniform");
   CLI::Option* const floor = app.add_option("--floor", options.floor_mm, "absolute part [mm], default 0")
                                  ->check(number_in_range(0.0, 1e6, "MM"));
   app.add_option("--sigma", options.sigma,
@@ -172,7 +191,8 @@ int main(int argc, char** argv) {
   app.add_option("-d,--database", options.database, "default: $VOUSSOIR_DATABASE, else ./bridge.h5");
   add_reading_options(app, options);
   add_error_options(app, options);
-  app.add_option("--seed", options.seed, "of the random numbers, default 1");
+  app.add_option("--seed", options.seed, "of the random numbers, default 1")
+      ->check(CLI::Range(std::uint64_t{0}, kLargestSeed));
   app.add_flag("--hide", options.hide, "do not name the scene in the file");
   app.add_option("-o,--output", options.output, "default: the standard output");
   return run_program(app, argc, argv, [&] { return make_measurements(options); });

@@ -1,6 +1,6 @@
 #pragma once
 /// @file What solvers leave out because a scene does not need it. Each can be switched on its own, so that
-/// its gain and what it changes can be measured (tools/benchmark_accuracy.h).
+/// its gain and what it changes can be measured (tools/benchmarks/accuracy.h).
 
 namespace voussoir {
 

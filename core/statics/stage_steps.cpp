@@ -108,8 +108,10 @@ bool StageSteps::give_up(const Solution& found) {
   return end();
 }
 
+/// A load may bend a bridge further than its weight does, by as much as the tangent says.
 bool StageSteps::begin_jump(const Solution& found) {
   reached_.iterations = found.iterations;
+  if (task_.stage.load.size() > 0) loaded_sag_ = std::max(loaded_sag_, left_ * search_->first_step());
   reach_ = kFirstReach * sag_;
   start_ = reached_.displacement;
   begin_step(false);
@@ -157,7 +159,8 @@ bool StageSteps::is_near(const Field& found) const {
 /// Has something moved away? Then the task is done.
 bool StageSteps::falls() {
   const Structure& structure = *system_.structure;
-  const double far = std::min(kGoneSags * sag_, kGoneShare * mean_block_size(structure));
+  const double far =
+      std::min(kGoneSags * std::max(sag_, loaded_sag_), kGoneShare * mean_block_size(structure));
   reached_.moving =
       blocks_moved_beyond(far, structure.mesh, reached_.displacement - task_.before->displacement);
   if (reached_.moving.empty()) return false;

@@ -57,6 +57,7 @@ class StageSteps {
   Solution reached_;                        ///< at the end of the last step
   std::vector<JointMemory> memory_before_;  ///< what the last step began with
   double sag_ = 0.0;                        ///< largest displacement where the stage before ended [m]
+  double loaded_sag_ = 0.0;                 ///< how far the tangent says that the load moves something [m]
   int left_;                                ///< steps, with the one under way
   Field start_;                             ///< of its search; empty: from rest
   Field held_;                              ///< forces that are still held back at its end [N]

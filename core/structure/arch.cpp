@@ -3,11 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <span>
 
 #include "core/error.h"
 #include "core/geometry/arc_chain.h"
+#include "core/geometry/box.h"
 #include "core/geometry/circular_arc.h"
 #include "core/geometry/ellipse.h"
+#include "core/geometry/overlap.h"
 #include "core/geometry/spline.h"
 
 namespace voussoir {
@@ -103,6 +106,21 @@ void check_voussoir(const Block& block, std::size_t number) {
         fmt::format("voussoir {} of ring {} would be turned inside out: expected thinner "
                     "rings, another number of voussoirs or an intrados that bends less",
                     number, block.ring + 1));
+}
+
+/// Where points do not come in their order, a ring goes back and forth.
+void check_ring(std::span<const Block> ring) {
+  constexpr double kTouching = 1e-6;  // of the smaller voussoir
+  for (std::size_t i = 0; i < ring.size(); ++i)
+    for (std::size_t j = i + 2; j < ring.size(); ++j) {
+      if (!box_of(ring[i].polygon).intersects(box_of(ring[j].polygon))) continue;
+      const double smaller = std::min(area(ring[i].polygon), area(ring[j].polygon));
+      if (overlap_of(ring[i].polygon, ring[j].polygon).area > kTouching * smaller)
+        throw InputError(
+            fmt::format("voussoirs {} and {} of ring {} overlap: do the intrados's points come in their "
+                        "order from the left springing to the right one?",
+                        i + 1, j + 1, ring[i].ring + 1));
+    }
 }
 
 /// What stands below an end of the ring: from `inner`, the springing, and `outer`, the far end of its last
@@ -211,6 +229,8 @@ Arch make_arch(const SpanDescription& span, bool wall_has_courses) {
                                              rings[r].joints[j + 1], inner_bends, outer_bends));
       check_voussoir(arch.blocks.back(), j + 1);
     }
+    const std::size_t laid = rings[r].joints.size() - 1;
+    if (span.shape == IntradosShape::points) check_ring(std::span(arch.blocks).last(laid));
   }
   add_stone(right, false, arch.blocks);
   std::vector<Point> extrados;

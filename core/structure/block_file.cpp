@@ -88,6 +88,11 @@ BlockFile parse_json_blocks(std::string_view text, const std::string& name) {
   const Json root = Json::parse(text, nullptr, false);
   if (root.is_discarded())
     throw InputError(fmt::format("{}: is no JSON: expected {{\"blocks\": [..]}}", name));
+  if (root.is_object())
+    for (const auto& [key, unused] : root.items())
+      if (key != "blocks")
+        throw InputError(
+            fmt::format("{}: unknown key {}: expected \"blocks\" alone, in metres", name, in_quotes(key)));
   const auto entries = root.is_object() ? root.find("blocks") : root.end();
   if (entries == root.end() || !entries->is_array() || entries->empty())
     throw InputError(fmt::format("{}: expected {{\"blocks\": [{{\"vertices\": [[x, y], ..]}}, ..]}}", name));

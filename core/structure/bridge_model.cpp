@@ -22,6 +22,10 @@ std::vector<std::string> without_effect(const BridgeDescription& description, co
                                [&](const Block& block) { return is_called(block, name); }))
         notes.push_back(
             fmt::format("[[regions]] of '{}' changes nothing: no block of the bridge has this role", name));
+  if (!description.movements.empty())
+    notes.push_back(
+        "[[movements]] changes nothing: tools/reproduce-paper alone follows them, those of the Eindhoven "
+        "wall");
   const FillWeight& fill = description.fill;
   if (fill.unit_weight > 0.0 && description.gravity > 0.0 && model.parameters.laid_mass.sum() <= 0.0)
     notes.push_back(fmt::format(

@@ -252,6 +252,8 @@ void name_blocks(const Drawing& drawing, std::vector<Block>& blocks) {
 }  // namespace
 
 BlockFile parse_dxf_blocks(std::string_view text, const std::string& name) {
+  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+  if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
   const Drawing drawing = DrawingReader(text, name).read();
   BlockFile file;
   std::map<std::string, int> left_out;

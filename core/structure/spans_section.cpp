@@ -79,6 +79,10 @@ void read_points(TomlSection& section, SpanDescription& span) {
                                              i + 1, i + 2, kSmallestLength));
   if (span.points.front().x() >= span.points.back().x())
     section.refuse("points_m", "expected points from the left springing to the right one");
+  if (self_crossing(span.points) || area(span.points) >= 0.0)
+    section.refuse("points_m",
+                   "the points' line crosses itself, or sags below its springings: expected points in their "
+                   "order along the intrados, from the left springing over the crown to the right one");
   for (const Point& point : span.points)
     if (point.y() < 0.0) section.refuse("points_m", fmt::format("y is {:g}: expected 0 or more", point.y()));
   const auto& first = span.points.front();

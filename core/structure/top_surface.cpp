@@ -97,9 +97,12 @@ void TopSurface::add_line(double left, double right, double force_per_length, Fi
   }
 }
 
-void TopSurface::add_soil(const std::vector<Point>& line, double mass_per_area,
-                          Eigen::VectorXd& masses) const {
-  const double kPlace = 0.5 / std::sqrt(3.0);
+double TopSurface::Cover::top(double x) const {
+  return height_on(from, to, x);
+}
+
+std::vector<TopSurface::Cover> TopSurface::covers(const std::vector<Point>& line) const {
+  std::vector<Cover> covers;
   for (std::size_t i = 0; i < highest_.size(); ++i) {
     if (highest_[i] == kNone) continue;
     const Edge& edge = edges_[static_cast<std::size_t>(highest_[i])];
@@ -107,15 +110,35 @@ void TopSurface::add_soil(const std::vector<Point>& line, double mass_per_area,
       const auto above = [&](double x) { return height_on(line[s], line[s + 1], x) - edge.height(x); };
       const auto [begin, end] =
           where_positive(above, std::max(ends_[i], line[s].x()), std::min(ends_[i + 1], line[s + 1].x()));
-      if (end <= begin) continue;
-      for (const double place : {0.5 - kPlace, 0.5 + kPlace}) {
-        const double x = begin + place * (end - begin);
-        const double mass = 0.5 * (end - begin) * mass_per_area * std::max(0.0, above(x));
-        masses[value(edge.left_node)] += (1.0 - edge.share_of_right(x)) * mass;
-        masses[value(edge.right_node)] += edge.share_of_right(x) * mass;
-      }
+      if (end > begin) covers.push_back({&edge, line[s], line[s + 1], begin, end});
     }
   }
+  return covers;
+}
+
+void TopSurface::add_soil(const std::vector<Point>& line, double mass_per_area,
+                          Eigen::VectorXd& masses) const {
+  const double kPlace = 0.5 / std::sqrt(3.0);
+  for (const Cover& cover : covers(line)) {
+    const Edge& edge = *cover.edge;
+    for (const double place : {0.5 - kPlace, 0.5 + kPlace}) {
+      const double x = cover.begin + place * (cover.end - cover.begin);
+      const double height = std::max(0.0, cover.top(x) - edge.height(x));
+      const double mass = 0.5 * (cover.end - cover.begin) * mass_per_area * height;
+      masses[value(edge.left_node)] += (1.0 - edge.share_of_right(x)) * mass;
+      masses[value(edge.right_node)] += edge.share_of_right(x) * mass;
+    }
+  }
+}
+
+std::vector<std::array<Point, 4>> TopSurface::soil(const std::vector<Point>& line) const {
+  std::vector<std::array<Point, 4>> pieces;
+  for (const Cover& cover : covers(line)) {
+    const auto [begin, end] = std::pair{cover.begin, cover.end};
+    pieces.push_back({Point(begin, cover.edge->height(begin)), Point(end, cover.edge->height(end)),
+                      Point(end, cover.top(end)), Point(begin, cover.top(begin))});
+  }
+  return pieces;
 }
 
 }  // namespace voussoir

@@ -1,6 +1,9 @@
 #pragma once
 /// @file The top of a bridge, and what forces on it are to the nodes.
 
+#include <array>
+#include <vector>
+
 #include "core/structure/mesh.h"
 
 namespace voussoir {
@@ -26,6 +29,9 @@ class TopSurface {
   /// on each stretch on which the line is above, which is exact.
   void add_soil(const std::vector<Point>& line, double mass_per_area, Eigen::VectorXd& masses) const;
 
+  /// The same soil as quadrilaterals side by side [m], each over one edge.
+  std::vector<std::array<Point, 4>> soil(const std::vector<Point>& line) const;
+
  private:
   /// An edge from its left to its right node.
   struct Edge {
@@ -36,7 +42,16 @@ class TopSurface {
   };
   static constexpr int kNone = -1;
 
+  /// Where a straight stretch of a line above the top is over one edge.
+  struct Cover {
+    const Edge* edge;
+    Point from, to;     ///< the line's stretch
+    double begin, end;  ///< of x [m]
+    double top(double x) const;
+  };
+
   std::vector<int> edges_at(double x) const;
+  std::vector<Cover> covers(const std::vector<Point>& line) const;
   void share(const Edge& edge, double x, double force, Field& load) const;
 
   std::vector<Edge> edges_;  ///< that face up

@@ -16,7 +16,7 @@ struct UsualRange {
   std::string_view guess;  ///< what a number outside may have been meant in
 };
 
-constexpr std::array<UsualRange, 12> kUsual = {
+constexpr std::array<UsualRange, 15> kUsual = {
     {{"density_kg_m3", 500.0, 10000.0, "t/m3 or kN/m3?"},
      {"unit_weight_N_m3", 5000.0, 100000.0, "kN/m3 or kg/m3?"},
      {"friction_angle_deg", 5.0, 80.0, "radians, or a coefficient of friction?"},
@@ -28,7 +28,10 @@ constexpr std::array<UsualRange, 12> kUsual = {
      {"thickness_m", 0.01, 50.0, "mm?"},
      {"ring_thickness_m", 0.01, 10.0, "mm?"},
      {"course_height_m", 0.01, 10.0, "mm?"},
-     {"block_length_m", 0.01, 20.0, "mm?"}}};
+     {"block_length_m", 0.01, 20.0, "mm?"},
+     {"foot_movement_m", 1e-6, 0.1, "mm?"},
+     {"side_movement_m", 1e-6, 0.1, "mm?"},
+     {"foot_rotation_rad", 1e-8, 0.02, "degrees, or mm per m?"}}};
 
 void add_note(const toml::key& key, const toml::node& node, std::vector<std::string>& notes) {
   const auto usual = std::ranges::find(kUsual, key.str(), &UsualRange::key);

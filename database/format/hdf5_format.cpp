@@ -22,15 +22,20 @@ ByteView part(ByteView file, std::uint64_t offset, std::uint64_t size) {
 }
 
 /// A structure that begins with this signature and ends with a checksum over all before it, without both.
+/// The first structure's signature cannot be printed.
+std::string_view name_of(std::string_view signature) {
+  return signature.starts_with('\x89') ? "superblock" : signature;
+}
+
 ByteView checked(ByteView file, std::uint64_t offset, std::uint64_t size, std::string_view signature) {
   if (size < signature.size() + kChecksumSize) refuse("a structure is too small");
   const ByteView whole = part(file, offset, size);
   if (std::memcmp(whole.data(), signature.data(), signature.size()) != 0)
-    refuse(fmt::format("no {} structure where one was expected", signature));
+    refuse(fmt::format("no {} structure where one was expected", name_of(signature)));
   const ByteView content = whole.first(size - kChecksumSize);
   std::uint32_t stored = 0;
   std::memcpy(&stored, whole.last(kChecksumSize).data(), kChecksumSize);
-  if (lookup3(content) != stored) refuse(fmt::format("checksum of a {} structure", signature));
+  if (lookup3(content) != stored) refuse(fmt::format("checksum of a {} structure", name_of(signature)));
   return content.subspan(signature.size());
 }
 

@@ -93,10 +93,11 @@ void append_factors(const Sensitivities& from, std::vector<DatasetValue>& datase
                   datasets);
   append_in_place(dataset::kEpochFactors, from.epoch, shape_of(from.epoch),
                   "and with each parameter of an epoch, by one standard deviation", datasets);
-  append_in_place(dataset::kSignalLeft, from.left, shape_of(from.left),
-                  "what the latter leave of what an epoch changes of each loss's signal in some sampled "
-                  "bridges, over the root of their number; zero where it does not stand",
-                  datasets);
+  append_in_place(
+      dataset::kSignalLeft, from.left, shape_of(from.left),
+      "error of the first order in what an epoch changes of each loss's signal, a column for each of some "
+      "sampled bridges, over the root of their number; zero where it does not stand",
+      datasets);
 }
 
 void append_residual(const Sensitivities& from, std::vector<DatasetValue>& datasets) {

@@ -73,6 +73,18 @@ std::vector<double> weights_of(const Prior& prior) {
   return usual;
 }
 
+std::vector<BlockId> likely_blocks(const Posterior& posterior, double least) {
+  const auto probability = [&](BlockId id) {
+    return posterior.block_probability[static_cast<std::size_t>(value(id))];
+  };
+  std::vector<BlockId> blocks;
+  for (std::size_t i = 0; i < posterior.block_probability.size(); ++i)
+    if (posterior.block_probability[i] >= least) blocks.push_back(BlockId{static_cast<std::int32_t>(i)});
+  std::stable_sort(blocks.begin(), blocks.end(),
+                   [&](BlockId a, BlockId b) { return probability(a) > probability(b); });
+  return blocks;
+}
+
 double intact_probability(const Posterior& posterior) {
   return posterior.missing_probability.empty() ? 0.0 : posterior.missing_probability.front();
 }

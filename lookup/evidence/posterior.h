@@ -58,6 +58,9 @@ double intact_probability(const Posterior& posterior);
 /// A probability from which on something is said for certain.
 inline constexpr double kCertain = 0.9;
 
+/// Blocks that are missing with at least this probability, likeliest first.
+std::vector<BlockId> likely_blocks(const Posterior& posterior, double least);
+
 /// Share of the probability in Posterior::credible.
 inline constexpr double kCredibleShare = 0.95;
 

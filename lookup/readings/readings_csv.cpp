@@ -7,14 +7,26 @@
 
 #include "core/units.h"
 #include "lookup/readings/csv_text.h"
+#include "lookup/readings/noise_scale.h"
 
 namespace voussoir {
 namespace {
 
-/// To a tenth of a micrometre, and changes, which are smaller, to a nanometre.
-std::string in_millimetres(double metres, ReadingKind kind) {
-  if (std::isnan(metres)) return "";
-  return fmt::format("{:.{}f}", kMillimetres * metres, kind == ReadingKind::absolute ? 4 : 6);
+/// To a tenth of a micrometre, and changes, which are smaller, to a nanometre; more finely where the errors
+/// that were drawn are small: rounding shall be no error beside them, nor take bounded ones over their bound.
+int decimals_of(double metres, ReadingKind kind, const NoiseModel* drawn) {
+  constexpr double kDigitsOfError = 4.0;
+  constexpr int kMost = 12;
+  const int usual = kind == ReadingKind::absolute ? 4 : 6;
+  if (drawn == nullptr || std::isnan(metres)) return usual;
+  const double error =
+      kMillimetres * noise_scale(drawn->relative.value_or(0.0), drawn->floor, std::abs(metres));
+  const double needed = std::ceil(kDigitsOfError - std::log10(error));  // infinite without errors
+  return static_cast<int>(std::clamp<double>(needed, usual, kMost));
+}
+
+std::string in_millimetres(double metres, int decimals) {
+  return std::isnan(metres) ? "" : fmt::format("{:.{}f}", kMillimetres * metres, decimals);
 }
 
 std::string value_columns(const ReadingsFile& file, const SensorList& list) {
@@ -28,7 +40,7 @@ std::string value_columns(const ReadingsFile& file, const SensorList& list) {
 
 }  // namespace
 
-std::string to_csv(const ReadingsFile& file, const SensorList& list) {
+std::string to_csv(const ReadingsFile& file, const SensorList& list, const NoiseModel* drawn) {
   const auto has_sigma = [](const Reading& reading) { return !std::isnan(reading.sigma); };
   const bool sigmas = std::any_of(file.readings.begin(), file.readings.end(), has_sigma);
   const bool loads = is_loaded(file.kind);
@@ -37,10 +49,11 @@ std::string to_csv(const ReadingsFile& file, const SensorList& list) {
   for (const Reading& reading : file.readings) {
     text += csv_field(list.sensors[reading.sensor].name) + ",";
     if (loads) text += csv_field(reading.load) + ",";
+    const int decimals = decimals_of(reading.value, file.kind, drawn);
     if (file.two_epochs)
-      text += in_millimetres(reading.before, file.kind) + "," + in_millimetres(reading.after, file.kind);
+      text += in_millimetres(reading.before, decimals) + "," + in_millimetres(reading.after, decimals);
     else
-      text += in_millimetres(reading.value, file.kind);
+      text += in_millimetres(reading.value, decimals);
     if (sigmas) text += "," + (has_sigma(reading) ? fmt::format("{:g}", kMillimetres * reading.sigma) : "");
     text += "\n";
   }

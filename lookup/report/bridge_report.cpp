@@ -170,7 +170,8 @@ std::string in_words(const KnownParameter& parameter) {
 std::string causes_in_words(const std::vector<Cause>& causes) {
   std::string text;
   for (const Cause& cause : causes)
-    text += fmt::format("{}{} {:.0f} %", text.empty() ? "" : ", ", cause.name, 100.0 * cause.share + 0.0);
+    text += fmt::format("{}{} {:.0f} %", text.empty() ? "" : ", ", cause.name,
+                        std::round(100.0 * cause.share) + 0.0);
   return text;
 }
 

@@ -61,25 +61,42 @@ std::size_t find_point(const Database& database, std::string_view name) {
   return static_cast<std::size_t>(found - points.begin());
 }
 
-Point displacement_at(const Database& database, std::size_t row, std::size_t state, const Point& place) {
+/// Of each block that is there: more than one where blocks meet.
+std::vector<std::pair<BlockId, Point>> displacements_of_place(const Database& database, std::size_t row,
+                                                              std::size_t state, const Point& place) {
   const Mesh& mesh = database.mesh();
+  std::vector<std::pair<BlockId, Point>> found;
   const Scene scene = database.table().scene(row);
   const Field field = database.field(row, state);
-  for (std::size_t block = 0; block < mesh.block_triangles.size(); ++block) {
-    if (scene.lacks(BlockId{static_cast<std::int32_t>(block)})) continue;
-    for (int t = mesh.block_triangles[block].begin; t < mesh.block_triangles[block].end; ++t) {
+  for (std::size_t b = 0; b < mesh.block_triangles.size(); ++b) {
+    const BlockId block{static_cast<std::int32_t>(b)};
+    if (scene.lacks(block)) continue;
+    for (int t = mesh.block_triangles[b].begin; t < mesh.block_triangles[b].end; ++t) {
       const Triangle& triangle = mesh.triangles[static_cast<std::size_t>(t)];
       const Eigen::Vector3d weights = barycentric_coordinates(mesh, triangle, place);
       if (weights.minCoeff() < -kInside) continue;
       Point result = Point::Zero();
       for (int corner = 0; corner < 3; ++corner)
         result += weights[corner] * field.col(value(triangle.nodes.at(static_cast<std::size_t>(corner))));
-      return result;
+      found.emplace_back(block, result);
+      break;
     }
   }
+  if (!found.empty()) return found;
   throw InputError(
       fmt::format("--at: there is no block at x = {} m, y = {} m in scene {}, expected a place within one",
                   place.x(), place.y(), to_string(scene, database.layout())));
+}
+
+std::vector<PlaceDisplacement> at_place(const Database& database, std::size_t row, std::size_t state,
+                                        const Point& place) {
+  const auto blocks = displacements_of_place(database, row, state, place);
+  std::vector<PlaceDisplacement> result;
+  for (const auto& [block, displacement] : blocks)
+    result.push_back({fmt::format("{},{}{}", place.x(), place.y(),
+                                  blocks.size() > 1 ? " of block " + database.layout()[block].label : ""),
+                      displacement});
+  return result;
 }
 
 std::optional<Point> parse_place(const std::vector<std::string_view>& parts) {
@@ -107,8 +124,9 @@ std::size_t find_row(const Database& database, std::string_view text) {
   const Scene scene = parse_scene(text, database.layout());
   const std::optional<std::size_t> row = database.find(scene);
   if (!row)
-    throw Failure(
-        fmt::format("{}: has no scene {}", database.path().string(), to_string(scene, database.layout())));
+    throw Failure(fmt::format(
+        "{}: has no scene {}{}", database.path().string(), to_string(scene, database.layout()),
+        database.shard() ? fmt::format(", as it is part {}", to_string(database.shard()->shard)) : ""));
   return *row;
 }
 
@@ -116,18 +134,17 @@ void expect_displacements(const Database& database, std::size_t row, std::size_t
   const SceneTable table = database.table(kNominalVariant, state);
   const bool stands = static_cast<Outcome>(table.outcome[row]) == Outcome::standing;
   if (stands || table.has_displacements(row)) return;  // one that stands may have lost all points
-  throw Failure(
-      fmt::format("{}: scene {} falls as {}, and the database keeps only that: expected one built with "
-                  "--collapses field, and of three missing blocks --without inherited",
-                  database.path().string(), to_string(database.key(row).scene, database.layout()),
-                  database.states()[state]));
+  throw Failure(fmt::format(
+      "{}: scene {} falls as {}, and the database keeps only that: expected one built with "
+      "--collapses field{}",
+      database.path().string(), to_string(database.key(row).scene, database.layout()),
+      database.states()[state], database.key(row).scene.missing() > 2 ? ", and --without inherited" : ""));
 }
 
 std::vector<PlaceDisplacement> displacements_at(const Database& database, std::size_t row, std::size_t state,
                                                 std::string_view at) {
   const std::vector<std::string_view> parts = split(at, ',');
-  if (const std::optional<Point> place = parse_place(parts))
-    return {{fmt::format("{},{}", place->x(), place->y()), displacement_at(database, row, state, *place)}};
+  if (const std::optional<Point> place = parse_place(parts)) return at_place(database, row, state, *place);
   std::vector<std::size_t> points;
   if (at == "control")
     for (std::size_t i = 0; i < database.control_points().size(); ++i) {

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/not_a_number.h"
+#include "core/text.h"
 #include "core/units.h"
 #include "lookup/report/drawing/bridge_drawing.h"
 #include "lookup/report/drawing/colour_map.h"
@@ -21,6 +22,8 @@ constexpr double kHardly = 0.1;  // a loss that is seen less often shows hardly
 constexpr double kPlanWidth = 1040.0;
 constexpr double kRoomAbove = 0.3;  // [m]
 constexpr double kPlanDisc = 4.0;
+constexpr double kPlanTitle = 24.0;          // height
+constexpr std::size_t kMostNamesDrawn = 40;  // of sensors: more would hide each other
 constexpr std::size_t kLeastSeenListed = 15;
 
 std::string label(BlockId block, const Database& database) {
@@ -75,6 +78,7 @@ std::string plan_json(const SensorPlan& plan, const PlannedBridge& bridge) {
                                    {"digest", bridge.database.digest()},
                                    {"history", plan.history},
                                    {"sigma_m", bridge.settings.sigma},
+                                   {"datum_m", bridge.settings.datum},
                                    {"conditions", to_string(bridge.settings.conditions)},
                                    {"points", plan.points},
                                    {"seen", seen(plan).size()},
@@ -100,15 +104,28 @@ bool reads_tilts(const SensorPlan& plan, const Database& database) {
   });
 }
 
+/// "changes between two times at 12 points, each off by 0.02 mm"
+std::string planned_in_words(const SensorPlan& plan, const PlannedBridge& bridge) {
+  std::string text = fmt::format("changes between two times at {} points, each off by {:g} mm{}",
+                                 plan.points.size(), kMillimetres * bridge.settings.sigma,
+                                 reads_tilts(plan, bridge.database) ? " (tilts: mm per m)" : "");
+  if (bridge.settings.datum > 0.0)
+    text +=
+        fmt::format(", all heights of a levelling by {:g} mm alike", kMillimetres * bridge.settings.datum);
+  return text;
+}
+
+std::string conditions_in_words(const PlannedBridge& bridge) {
+  return fmt::format("uncertain as its file states, temperature and supports {}",
+                     bridge.settings.conditions == Conditions::known ? "known" : "too");
+}
+
 void write_heading(Text to, const SensorPlan& plan, const PlannedBridge& bridge) {
-  fmt::format_to(to, "Plan:         changes between two times at {} points, each off by {:g} mm{}\n",
-                 plan.points.size(), kMillimetres * bridge.settings.sigma,
-                 reads_tilts(plan, bridge.database) ? " (tilts: mm per m)" : "");
+  fmt::format_to(to, "Plan:         {}\n", planned_in_words(plan, bridge));
   fmt::format_to(to, "Database:     {} (bridge '{}', digest {})\n", bridge.database.path().string(),
                  bridge.database.bridge_name(), bridge.database.digest().substr(0, kDigestShown));
   fmt::format_to(to, "History:      {}\n", history_in_words(plan.history));
-  fmt::format_to(to, "Bridge:       uncertain as its file states, temperature and supports {}\n\n",
-                 bridge.settings.conditions == Conditions::known ? "known" : "too");
+  fmt::format_to(to, "Bridge:       {}\n\n", conditions_in_words(bridge));
 }
 
 void write_counts(Text to, const SensorPlan& plan, const PlannedBridge& bridge) {
@@ -117,8 +134,11 @@ void write_counts(Text to, const SensorPlan& plan, const PlannedBridge& bridge) 
                  count, seen(plan).size(), percent(kSure), percent(mean_of(plan, &Sight::seen)));
   fmt::format_to(to, "Named:        {}; on average {}\n", named(plan).size(),
                  percent(mean_of(plan, &Sight::named)));
-  fmt::format_to(to,
-                 "In trials:    half to three quarters of that, with a dozen points less (docs/plan.md)\n");
+  if (bridge.settings.conditions != Conditions::known)
+    fmt::format_to(
+        to,
+        "In trials:    of the reference bridge half to three quarters as many were seen, with twelve "
+        "sensors fewer still (docs/plan.md)\n");
   const std::vector<BlockId> hardly = hardly_seen(plan);
   fmt::format_to(to, "Hardly seen:  {}, each less often than {}{}\n", hardly.size(), percent(kHardly),
                  hardly.empty() ? "" : ": " + labels(hardly, bridge.database));
@@ -163,6 +183,16 @@ BlockLook look_of(const SensorPlan& plan, const Database& database, BlockId bloc
                                 percent(sight->named))};
 }
 
+std::string sensor_element(const StoredPoint& point, const Point& at, bool is_named) {
+  std::string element = fmt::format("<circle class=\"f1\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{}\">{}</circle>\n",
+                                    at.x(), at.y(), kPlanDisc, tip_element(point.name));
+  if (is_named)
+    element +=
+        fmt::format("<text class=\"label\" text-anchor=\"middle\" x=\"{:.1f}\" y=\"{:.1f}\">{}</text>\n",
+                    at.x(), at.y() - 1.5 * kPlanDisc, escaped(point.name));
+  return element;
+}
+
 }  // namespace
 
 std::string plan_report(const SensorPlan& plan, const PlannedBridge& bridge, ReportFormat format) {
@@ -177,23 +207,28 @@ std::string plan_report(const SensorPlan& plan, const PlannedBridge& bridge, Rep
   return text;
 }
 
-std::string plan_picture(const SensorPlan& plan, const Database& database) {
+std::string plan_picture(const SensorPlan& plan, const PlannedBridge& bridge) {
+  const Database& database = bridge.database;
   const BlockLayout& layout = database.layout();
   const BridgeFrame frame = frame_of(layout, kPlanWidth, kRoomAbove, 0.15);
-  Drawing drawing{frame.width, frame.height + kColourBarHeight,
+  Drawing drawing{frame.width, kPlanTitle + frame.height + kColourBarHeight,
                   "The bridge; each block coloured by the chance that its loss is seen, and the sensors", ""};
-  drawing.elements = ground_element(layout, frame) + block_elements(layout, frame, [&](BlockId block) {
-                       return look_of(plan, database, block);
-                     });
-  for (const StoredPoint& point : database.control_points()) {
-    if (!is_read(plan, point)) continue;
-    const Point at = frame(point.position);
-    drawing.elements += fmt::format("<circle class=\"f1\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{}\">{}</circle>\n",
-                                    at.x(), at.y(), kPlanDisc, tip_element(point.name));
-  }
+  drawing.elements =
+      fmt::format("<text x=\"8\" y=\"17\">{}</text>\n<g transform=\"translate(0 {})\">\n",
+                  escaped(fmt::format("{}: {}; {}", database.bridge_name(), planned_in_words(plan, bridge),
+                                      conditions_in_words(bridge))),
+                  kPlanTitle) +
+      ground_element(layout, frame) +
+      block_elements(layout, frame, [&](BlockId block) { return look_of(plan, database, block); });
+  for (const StoredPoint& point : database.control_points())
+    if (is_read(plan, point))
+      drawing.elements += sensor_element(point, frame(point.position), plan.points.size() <= kMostNamesDrawn);
   drawing.elements +=
-      colour_bar({"chance that the block's loss is seen", {"0", "25 %", "50 %", "75 %", "100 %"}},
-                 drawing.width, drawing.height);
+      "</g>\n" + colour_bar({plan.falls.empty() && plan.unknown.empty()
+                                 ? "chance that the block's loss is seen"
+                                 : "chance that the block's loss is seen (stone: falls, or not known)",
+                             {"0", "25 %", "50 %", "75 %", "100 %"}},
+                            drawing.width, drawing.height);
   return svg_file(drawing);
 }
 

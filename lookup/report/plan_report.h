@@ -3,8 +3,8 @@
 
 #include <string>
 
+#include "lookup/plan/sensor_plan.h"
 #include "lookup/report/report.h"
-#include "lookup/sensor_plan.h"
 
 namespace voussoir {
 
@@ -19,7 +19,8 @@ struct PlannedBridge {
 /// looks most alike. JSON also has points and counts.
 std::string plan_report(const SensorPlan& plan, const PlannedBridge& bridge, ReportFormat format);
 
-/// The bridge, each block coloured by the chance that its loss is seen, and the sensors (SVG file).
-std::string plan_picture(const SensorPlan& plan, const Database& database);
+/// The bridge, each block coloured by the chance that its loss is seen, and the sensors, with their names
+/// where few are read (SVG file).
+std::string plan_picture(const SensorPlan& plan, const PlannedBridge& bridge);
 
 }  // namespace voussoir

@@ -197,7 +197,7 @@ std::string page_report(const Answer& answer, const LookupSettings& settings, co
   const Library& library = comparison.library;
   const std::string assumed =
       section_html("assumed", "What was assumed", assumptions_html(answer, settings, comparison, source));
-  const std::string title = fmt::format("Missing blocks of bridge '{}'", source.bridge);
+  const std::string title = fmt::format("Search for missing blocks of bridge '{}'", source.bridge);
   if (answer.candidates.empty())
     return html_page(title,
                      paragraph("No scene in this database explains these measurements: every scene lacks a "

@@ -132,7 +132,7 @@ Figure bridge_figure(const ReportPictures& report) {
   const double longest = kMillimetres * largest_reading(report);
   return {
       "bridge",
-      "The bridge and what is missing",
+      "The bridge, and how likely each block is missing",
       fmt::format(
           "{} Outlined: the first candidate. Blue lines hang from the control points by their {}s (the "
           "longest is {:.3g} mm; the top's hang from above the bridge); a hollow point has no reading, an "

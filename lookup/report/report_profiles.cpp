@@ -23,8 +23,12 @@ double band_of(const ReportPictures& report, const SensorResidual& residual) {
 std::string band_in_words(const ReportPictures& report) {
   if (!report.answer.noise) return "";
   return fmt::format(
-      " The band is the noise, {}{}.", noise_in_words(*report.answer.noise, report.comparison.kind),
-      report.answer.noise->shape == NoiseShape::uniform ? "" : ", two standard deviations each way");
+      " The line is the bridge as its file states it, the band the noise, {}{}.{}",
+      noise_in_words(*report.answer.noise, report.comparison.kind),
+      report.answer.noise->shape == NoiseShape::uniform ? "" : ", two standard deviations each way",
+      report.answer.known_bridge
+          ? ""
+          : " What joints, stone, temperature and supports may add is not in the band; residuals have it.");
 }
 
 /// Sensors of one quantity under one load, with the name of their set and of the figures' ids.

@@ -144,7 +144,10 @@ void write_sensors(Text& text, const Answer& answer, const Comparison& compariso
 void write_bridge(Text& text, const Answer& answer, const Comparison& comparison) {
   if (!answer.bridge) return;
   const ReadingFactors& factors = *comparison.factors;
-  text.line("Explained by: {}", causes_in_words(causes_of(*answer.bridge, factors)));
+  const std::vector<Cause> causes = causes_of(*answer.bridge, factors);
+  const bool some_against = std::ranges::any_of(causes, [](const Cause& one) { return one.share < -0.005; });
+  text.line("Explained by: {}{}", causes_in_words(causes),
+            some_against ? " (below zero: works against the rest)" : "");
   for (const KnownParameter& parameter : known_of_epochs(*answer.bridge, factors))
     if (parameter.news() > kWorthSaying) text.line("      {}", in_words(parameter));
   std::vector<KnownParameter> bridge = known_of_bridge(*answer.bridge, factors, kMostJointsListed);

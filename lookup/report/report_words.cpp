@@ -49,6 +49,20 @@ std::string supposed_in_words(Supposed supposed) {
                                       : "that no block is missing was supposed, not found";
 }
 
+/// Does belief make the intact bridge certain where the readings alone do not?
+bool is_intact_by_belief(const Answer& answer) {
+  const bool is_asked = !answer.contested && supposed_by(answer.prior) == Supposed::nothing;
+  return is_asked && verdict_of(answer) == Verdict::cannot_tell &&
+         intact_probability(*answer.posterior) >= kCertain;
+}
+
+/// What goes with the probability of the intact bridge.
+std::string belief_in_words(const Answer& answer) {
+  if (!is_intact_by_belief(answer)) return "";
+  return fmt::format(", as intact bridges are believed to be far likelier; {} if they were not",
+                     percent(answer.posterior->intact_if_even));
+}
+
 std::string in_words(const Scene& scene, const Library& library) {
   return fmt::format("{} ({})", to_string(scene, library.layout), place_in_words(scene, library.layout));
 }
@@ -88,15 +102,15 @@ std::string headline(const Answer& answer, const Library& library) {
              (supposed == Supposed::nothing ? "" : fmt::format(" But {}.", supposed_in_words(supposed)));
     case Verdict::damaged_unlocated:
       return fmt::format("Blocks are missing ({}), but the readings do not say which.",
-                         percent(1.0 - intact));
+                         percent_of_others(intact));
     case Verdict::intact:
       return fmt::format("No block is missing ({}).", percent(intact));
     case Verdict::cannot_tell:
       if (answer.contested) return "The databases that may be right come to different answers.";
       if (supposed != Supposed::nothing)
         return fmt::format("The readings name no block, and {}.", supposed_in_words(supposed));
-      return fmt::format("The readings do not tell whether blocks are missing (none is: {}).",
-                         percent(intact));
+      return fmt::format("The readings do not tell whether blocks are missing (none is: {}{}).",
+                         percent(intact), belief_in_words(answer));
     default:
       return "The readings are unexplained: neither damage nor its absence is shown.";
   }
@@ -107,7 +121,9 @@ std::vector<std::string> verdict(const Answer& answer, const Library& library) {
   const std::optional<std::size_t> missed = missed_row(answer);
   std::vector<std::string> sentences;
   if (standing(answer) == kOneOfMany)
-    sentences.push_back("No scene is named: what follows is only the likeliest of many.");
+    sentences.push_back(is_intact_by_belief(answer)
+                            ? "No scene is named: what follows is likeliest by belief, not by the readings."
+                            : "No scene is named: what follows is only the likeliest of many.");
   if (!missed && answer.fit && !answer.fit->explained)
     sentences.push_back(fmt::format("No scene in this database is an answer to these measurements: {}{}",
                                     answer.fit->reason, answer.fit->reason.ends_with('?') ? "" : "."));
@@ -191,18 +207,6 @@ std::string missing_in_words(const Posterior& posterior) {
     numbers += fmt::format("{}{}: {}", missing == 0 ? "" : ", ", missing,
                            percent(posterior.missing_probability[missing]));
   return numbers;
-}
-
-std::vector<BlockId> likely_blocks(const Posterior& posterior, double least) {
-  const auto probability = [&](BlockId id) {
-    return posterior.block_probability[static_cast<std::size_t>(value(id))];
-  };
-  std::vector<BlockId> blocks;
-  for (std::size_t i = 0; i < posterior.block_probability.size(); ++i)
-    if (posterior.block_probability[i] >= least) blocks.push_back(BlockId{static_cast<std::int32_t>(i)});
-  std::stable_sort(blocks.begin(), blocks.end(),
-                   [&](BlockId a, BlockId b) { return probability(a) > probability(b); });
-  return blocks;
 }
 
 }  // namespace voussoir

@@ -47,7 +47,4 @@ std::string behind(const Candidate& candidate, const Candidate& best);
 /// "0: < 0.1 %, 1: 91.5 %, 2: 8.5 %"
 std::string missing_in_words(const Posterior& posterior);
 
-/// Blocks that are missing with at least this probability, likeliest first.
-std::vector<BlockId> likely_blocks(const Posterior& posterior, double least);
-
 }  // namespace voussoir

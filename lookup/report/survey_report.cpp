@@ -15,15 +15,17 @@ namespace voussoir {
 namespace {
 
 Table table_of(const std::vector<SurveyRow>& rows) {
-  Table table{{"file", "verdict", "scene", "posterior", "intact_probability", "misfit", "readings", "error"},
+  Table table{{"file", "verdict", "named", "certainty", "scene", "posterior", "intact_probability", "misfit",
+               "readings", "error"},
               {}};
   const bool several = std::ranges::any_of(rows, [](const SurveyRow& row) { return !row.database.empty(); });
   if (several) table.columns.push_back("database");
   for (const SurveyRow& row : rows) {
     const bool answered = row.error.empty();
-    table.rows.push_back({row.file, row.verdict, row.scene, answered ? row.posterior : kNan,
-                          answered ? row.intact_probability : kNan, answered ? row.misfit : kNan,
-                          answered ? static_cast<double>(row.readings) : kNan, row.error});
+    table.rows.push_back({row.file, row.verdict, row.named, answered ? row.certainty : kNan, row.scene,
+                          answered ? row.posterior : kNan, answered ? row.intact_probability : kNan,
+                          answered ? row.misfit : kNan, answered ? static_cast<double>(row.readings) : kNan,
+                          row.error});
     if (several) table.rows.back().push_back(row.database);
   }
   return table;
@@ -33,21 +35,36 @@ std::string line_of(const SurveyRow& row) {
   if (!row.error.empty()) return fmt::format("{}: no answer: {}\n", row.file, row.error);
   if (row.scene.empty()) return fmt::format("{}: {}; no scene is possible\n", row.file, row.verdict);
   if (std::isnan(row.posterior)) return fmt::format("{}: smallest misfit {}\n", row.file, row.scene);
-  return fmt::format("{}: {}; first {} ({}), intact {}{}\n", row.file, row.verdict, row.scene,
+  const std::string named =
+      row.named.empty() ? "" : fmt::format(" {} ({})", row.named, percent(row.certainty));
+  return fmt::format("{}: {}{}; first {} ({}), intact {}{}\n", row.file, row.verdict, named, row.scene,
                      percent(row.posterior), percent(row.intact_probability),
                      row.database.empty() ? "" : fmt::format("; {}", row.database));
+}
+
+void name_blocks(const Posterior& posterior, const BlockLayout& layout, SurveyRow& row) {
+  const std::vector<BlockId> blocks = likely_blocks(posterior, kCertain);
+  for (const BlockId block : blocks) row.named += (row.named.empty() ? "" : "+") + layout[block].label;
+  row.certainty = posterior.block_probability[static_cast<std::size_t>(value(blocks.back()))];
 }
 
 }  // namespace
 
 SurveyRow survey_row(const std::string& file, const Answer& answer, const Comparison& comparison,
                      const std::string& database) {
-  SurveyRow row{.file = file, .error = {}, .posterior = kNan, .intact_probability = kNan, .misfit = kNan};
+  SurveyRow row{.file = file,
+                .error = {},
+                .certainty = kNan,
+                .posterior = kNan,
+                .intact_probability = kNan,
+                .misfit = kNan};
   row.database = database;
   row.readings = answer.readings;
   if (answer.posterior) {
     row.verdict = to_string(verdict_of(answer));
     row.intact_probability = intact_probability(*answer.posterior);
+    if (verdict_of(answer) == Verdict::located)
+      name_blocks(*answer.posterior, comparison.library.layout, row);
   }
   if (answer.candidates.empty()) return row;
   const Candidate& first = answer.candidates.front();

@@ -13,6 +13,8 @@ struct SurveyRow {
   std::string file;
   std::string error;       ///< why there is no answer; empty if there is one, and then the rest counts
   std::string verdict{};   ///< with a posterior
+  std::string named{};     ///< blocks that are missing for certain, as a scene; empty unless `located`
+  double certainty = 0.0;  ///< of the least likely of them; NaN if none is named
   std::string scene{};     ///< the first candidate
   double posterior = 0.0;  ///< of it; NaN without a posterior
   double intact_probability = 0.0;  ///< NaN without a posterior
@@ -25,8 +27,8 @@ struct SurveyRow {
 SurveyRow survey_row(const std::string& file, const Answer& answer, const Comparison& comparison,
                      const std::string& database = {});
 
-/// file,verdict,scene,posterior,intact_probability,misfit,readings,error and, if several databases were
-/// asked, database as CSV, the same as a list of objects in JSON, or a line a file for people.
+/// file,verdict,named,certainty,scene,posterior,intact_probability,misfit,readings,error and, if several
+/// databases were asked, database as CSV, the same as a list of objects in JSON, or a line a file for people.
 std::string survey_report(const std::vector<SurveyRow>& rows, ReportFormat format);
 
 }  // namespace voussoir

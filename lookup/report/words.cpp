@@ -23,6 +23,10 @@ std::string percent(double share) {
   return fmt::format("{:.1f} %", 100.0 * share);
 }
 
+std::string percent_of_others(double share) {
+  return share > 0.0 && share < 0.001 ? percent(0.9999) : percent(1.0 - share);
+}
+
 std::string place_in_words(BlockId id, const BlockLayout& layout) {
   const Block& block = layout[id];
   const Box around = box_of(block.polygon);

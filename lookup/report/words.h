@@ -22,5 +22,7 @@ inline constexpr std::size_t kDigestShown = 12;
 
 /// "97.3 %", "< 0.1 %", "100 %" only for what is exactly one.
 std::string percent(double share);
+/// Of 1 - share, which may differ from 1 by less than numbers near 1 can.
+std::string percent_of_others(double share);
 
 }  // namespace voussoir

@@ -176,4 +176,16 @@ TEST_CASE("make-measurements refuses what cannot be simulated") {
   CHECK(code({"--sigma", "0.02", "--noise", "5%"}) == 2);
   CHECK(code({"--kind", "change", "--load", "axle"}) == 2);
   CHECK(code({"--load", "axle"}) == 2);
+  CHECK(code({"--load", ""}) == 2);
+  CHECK(code({"--load", "axle,axle"}) == 2);
+  CHECK(code({"--seed", "-1"}) == 2);
+}
+
+TEST_CASE("Readings are written as finely as their errors ask for, so that bounded ones keep their bound") {
+  for (const char* const seed : {"11", "12", "13"}) {
+    const std::string path = workshop().make("4,2", {"--noise", "0.1%", "--seed", seed});
+    const auto json =
+        workshop().locate(path, {"--noise", "0.1%", "--noise-model", "uniform", "--model-error", "0"});
+    CHECK(json.at("verdict") == "located");
+  }
 }

@@ -10,6 +10,7 @@
 
 #include "database/format/hdf5_handle.h"
 #include "database/records/database.h"
+#include "database/records/stored_bridge.h"
 #include "tests/support/answer.h"
 #include "tests/support/bridges.h"
 #include "tests/support/program.h"
@@ -216,6 +217,22 @@ TEST_CASE("query-field gives points by name, place and set, and refuses what is 
     CHECK(result.exit_code == 2);
     CHECK(test::is_one_line(result.err));
   }
+}
+
+TEST_CASE("Where blocks meet query-field gives the displacement of each, by the block's name (their nodes)") {
+  const Database database = Database::open(desk().database);
+  const Model bridge = bridge_of(database);
+  const Joint& joint = bridge.joints.front();
+  const auto ends = ends_of(joint, database.mesh());
+  const Point middle = 0.5 * (ends[0] + ends[1]);
+  const ProgramResult result =
+      test::run("query-field", {"intact", "-d", desk().database, "--at",
+                                fmt::format("{},{}", middle.x(), middle.y()), "--format", "json"});
+  INFO(result.err);
+  const auto json = nlohmann::json::parse(result.out);
+  REQUIRE(json.size() == 2);
+  CHECK_THAT(json.at(0).at("point").get<std::string>(), Contains(" of block "));
+  CHECK(json.at(0).at("point") != json.at(1).at("point"));
 }
 
 TEST_CASE("query-field gives at a triangle's centroid the mean of its corners (linear shape functions)") {

@@ -127,6 +127,8 @@ TEST_CASE("plan-sensors refuses what it cannot plan, and says why") {
   contains(refusal({"-d", database, "--sigma", "0.01mm", "--points", "T1,X7"}), 2, "unknown point X7");
   contains(refusal({"-d", database, "--sigma", "0.01mm", "--points", "T1,T1"}), 2, "T1 comes twice");
   contains(refusal({"-d", database, "--sigma", "0.01mm", "--choose", "0"}), 2, "--choose");
+  contains(refusal({"-d", database, "--sigma", "0.01mm", "--choose", "3", "--points", "T1,T2"}), 2,
+           "at most the 2");
   contains(refusal({"-d", database, "--sigma", "5m"}), 2, "--sigma");
   contains(refusal({"-d", planned().known, "--sigma", "0.01mm"}), 1, "built without --known-bridge");
 }

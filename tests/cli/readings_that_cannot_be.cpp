@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <catch2/catch.hpp>
 
+#include <cmath>
 #include <fstream>
 #include <functional>
 #include <nlohmann/json.hpp>
@@ -30,9 +31,12 @@ struct Site {
     if (built.exit_code != 0) throw std::runtime_error(built.err);
   }
 
-  /// Changes of a scene, each row "point,change,sigma" [mm] told otherwise than it was read.
-  nlohmann::json answer(const std::string& scene,
-                        const std::function<std::pair<double, double>(double, double)>& told) const {
+  /// What is told of a point's change and its error [mm].
+  using Told =
+      std::function<std::pair<double, double>(const std::string& point, double change, double sigma)>;
+
+  /// Changes of a scene, each told otherwise than it was read.
+  nlohmann::json answer(const std::string& scene, const Told& told) const {
     const ProgramResult made = test::run(
         "make-measurements", {scene, "-d", database, "--kind", "change", "--sigma", "0.01mm", "--seed", "3"});
     REQUIRE(made.exit_code == 0);
@@ -42,7 +46,7 @@ struct Site {
       std::istringstream fields(line);
       std::getline(fields, point, ',') && std::getline(fields, change, ',') && std::getline(fields, sigma);
       if (line.front() == '#' || point == "point") continue;
-      const auto [shown, stated] = told(change.empty() ? 0.0 : std::stod(change), std::stod(sigma));
+      const auto [shown, stated] = told(point, change.empty() ? 0.0 : std::stod(change), std::stod(sigma));
       text += change.empty() ? fmt::format("{},,{}\n", point, stated)
                              : fmt::format("{},{},{}\n", point, shown, stated);
     }
@@ -59,23 +63,60 @@ struct Site {
 
 TEST_CASE("Turned signs, metres and errors that are too small fit no scene") {
   const Site site;
-  const auto as_read = [](double change, double sigma) { return std::pair(change, sigma); };
+  const auto as_read = [](const std::string&, double change, double sigma) {
+    return std::pair(change, sigma);
+  };
   CHECK(site.answer("2,4", as_read).at("verdict") == "located");
   CHECK(site.answer("intact", as_read).at("verdict") == "intact");
 
-  const auto turned =
-      site.answer("2,4", [](double change, double sigma) { return std::pair(-change, sigma); });
+  const auto turned = site.answer(
+      "2,4", [](const std::string&, double change, double sigma) { return std::pair(-change, sigma); });
   CHECK(turned.at("verdict") == "unexplained");
   CHECK_THAT(turned.at("fit").at("reason").get<std::string>(), Contains("signs"));
 
-  const auto metres =
-      site.answer("2,4", [](double change, double sigma) { return std::pair(1e-3 * change, sigma); });
+  const auto metres = site.answer(
+      "2,4", [](const std::string&, double change, double sigma) { return std::pair(1e-3 * change, sigma); });
   CHECK(metres.at("verdict") == "unexplained");
   CHECK_THAT(metres.at("fit").at("reason").get<std::string>(), Contains("millimetres"));
 
-  const auto too_sure =
-      site.answer("intact", [](double change, double sigma) { return std::pair(change, 0.1 * sigma); });
+  const auto too_sure = site.answer("intact", [](const std::string&, double change, double sigma) {
+    return std::pair(change, 0.1 * sigma);
+  });
   CHECK(too_sure.at("verdict") == "unexplained");
+}
+
+TEST_CASE(
+    "One reading that is grossly wrong names no block (the other readings are those of an intact bridge)") {
+  const Site site;
+  for (const std::string wrong : {"T2", "T6", "A3"})
+    for (const double off : {-1.0, -0.1, 0.1, 1.0}) {
+      INFO(wrong << " off by " << off << " mm");
+      const auto answer = site.answer("intact", [&](const std::string& point, double change, double sigma) {
+        return std::pair(point == wrong ? change + off : change, sigma);
+      });
+      CHECK(answer.at("verdict") != "located");
+      CHECK(answer.at("verdict") != "damaged-unlocated");
+    }
+}
+
+TEST_CASE("Readings that are coarser than their errors, or of another unit, show no intact bridge") {
+  const Site site;
+  const auto reason = [&](const std::string& scene, const Site::Told& told) {
+    const nlohmann::json answer = site.answer(scene, told);
+    CHECK(answer.at("verdict") == "unexplained");
+    return answer.at("fit").at("reason").get<std::string>();
+  };
+  const auto rounded = [](double step) {
+    return [=](const std::string&, double change, double sigma) {
+      return std::pair(step * std::round(change / step), sigma);
+    };
+  };
+  CHECK_THAT(reason("2,4", rounded(0.05)), Contains("multiples of 0.05 mm"));
+  CHECK_THAT(reason("2,4", rounded(10.0)), Contains("all changes are zero"));
+  CHECK_THAT(reason("intact", [](const std::string&, double change,
+                                 double sigma) { return std::pair(0.1 * change, sigma); }),
+             Contains("millimetres"));
+  CHECK(site.answer("2,4", rounded(0.01)).at("verdict") == "located");
 }
 
 TEST_CASE(

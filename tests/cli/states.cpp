@@ -249,3 +249,23 @@ TEST_CASE(
 }
 
 }  // namespace voussoir
+
+TEST_CASE("A ring carries a load as far as limit analysis lets it, nearly (Heyman's mechanism: 71.6 kN)") {
+  const test::TemporaryFolder folder;
+  const auto outcome = [&](double force) {
+    const std::string bridge = (folder / "ring.toml").string();
+    std::ofstream(bridge)
+        << "wall.courses = 0\nwall.length_m = 10\n[[spans]]\nshape = \"segmental\"\ncentre_x_m = 5\n"
+           "springing_m = 1\nspan_m = 4.71223751492422\nrise_m = 1.2871535435692085\n"
+           "ring_thickness_m = 0.4\nvoussoirs = 24\nskewback_m = 1\n"
+           "[material]\nyoung_modulus_Pa = 2.5e12\n[joints]\nnormal_stiffness_Pa_per_m = 1e12\n"
+           "tangential_stiffness_Pa_per_m = 1e12\nfriction_angle_deg = 75\n[supports]\nsides = \"free\"\n"
+           "[[loads]]\nname = \"p\"\npoints = [{x_m = 3.8, force_N = "
+        << force << "}]\n";
+    return test::run("build-database", {bridge, "-o", (folder / "ring.h5").string(), "--scenes", "intact",
+                                        "--loads", "all", "--known-bridge", "--quiet", "--force"})
+        .out;
+  };
+  CHECK_THAT(outcome(60e3), Catch::Contains("built:p: 1 standing"));
+  CHECK_THAT(outcome(75e3), Catch::Contains("built:p: 0 standing"));
+}

@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <tuple>
 
 #include "tests/support/bridges.h"
 #include "tests/support/program.h"
@@ -48,6 +49,12 @@ TEST_CASE("A survey says of every file what a call of its own says") {
     CHECK(rows[i]["file"] == survey.files[i]);
     CHECK(rows[i]["verdict"] == alone["verdict"]);
     CHECK(rows[i]["scene"] == first["scene"]);
+    nlohmann::json named = "", certainty;  // no scene of the survey lacks more than one block
+    for (const auto& block : alone["posterior"]["blocks"])
+      if (alone["verdict"] == "located" && block["probability"] >= 0.9)
+        std::tie(named, certainty) = std::pair(block["block"], block["probability"]);
+    CHECK(rows[i]["named"] == named);
+    CHECK(rows[i]["certainty"] == certainty);
     CHECK(rows[i]["posterior"] == first["posterior"]);
     CHECK(rows[i]["misfit"] == first["misfit"]);
     CHECK(rows[i]["intact_probability"] == alone["intact_probability"]);
@@ -64,7 +71,8 @@ TEST_CASE("A file that is none has a row of a survey that says why, and the othe
   CHECK(csv.exit_code == 1);
   CHECK_THAT(csv.err, Catch::Contains("2 of 5 files"));
   CHECK_THAT(csv.out,
-             Catch::StartsWith("file,verdict,scene,posterior,intact_probability,misfit,readings,error\n"));
+             Catch::StartsWith(
+                 "file,verdict,named,certainty,scene,posterior,intact_probability,misfit,readings,error\n"));
   CHECK(std::ranges::count(csv.out, '\n') == 6);
   CHECK_THAT(csv.out, Catch::Contains("bad.csv:2") && Catch::Contains("absent.csv"));
   const test::ProgramResult text = survey.locate(survey.files, "text");

@@ -45,3 +45,21 @@ TEST_CASE("What a name holds cannot end the picture's markup", "[drawing]") {
   CHECK(count(picture, "<script") == 0);
   CHECK(count(picture, "&lt;/text&gt;&lt;script&gt;&quot;&amp;") == 2);
 }
+
+TEST_CASE("A drawing shows soil that only weighs, as high as its surface (written out)", "[drawing]") {
+  BridgeDescription description = test::small_description();
+  const auto height = [](const std::string& picture) {
+    const std::size_t at = picture.find("height=\"") + 8;
+    return std::stod(picture.substr(at));
+  };
+  const std::string bare = bridge_drawing(make_model(description), description);
+  CHECK(count(bare, "class=\"soil\"") == 0);
+  const Model model = make_model(description);
+  const double left = model.mesh.nodes.row(0).minCoeff(), right = model.mesh.nodes.row(0).maxCoeff();
+  const double top = model.mesh.nodes.row(1).maxCoeff(), scale = 1100.0 / (right - left);
+  description.fill = {20e3, {{left, top + 0.5}, {right, top + 0.5}}};
+  const std::string covered = bridge_drawing(make_model(description), description);
+  CHECK(count(covered, "class=\"soil\"") == 1);
+  CHECK(count(covered, "20 kN/m3") == 1);
+  CHECK(height(covered) == Approx(height(bare) + 0.5 * scale).margin(1.0));
+}

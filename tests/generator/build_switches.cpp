@@ -4,7 +4,7 @@
 
 #include "generator/build_switches.h"
 #include "tests/support/bridges.h"
-#include "tools/benchmark_skips.h"
+#include "tools/benchmarks/skips.h"
 
 namespace voussoir {
 

@@ -8,7 +8,7 @@
 #include "core/error.h"
 #include "core/structure/scene.h"
 #include "tests/support/temporary_folder.h"
-#include "tools/paper_cases.h"
+#include "tools/trials/paper_cases.h"
 
 using namespace voussoir;
 using Catch::Matchers::Contains;

@@ -1,6 +1,6 @@
 /// @file Random bridges' files say what was drawn.
 
-#include "tools/random_bridge.h"
+#include "tools/benchmarks/random_bridge.h"
 
 #include <catch2/catch.hpp>
 

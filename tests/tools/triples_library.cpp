@@ -1,7 +1,7 @@
 /// @file Made-up triples. Oracle: the sum of what pairs and singles show, found by their scenes; the scan of
 /// all rows.
 
-#include "tools/triples_library.h"
+#include "tools/benchmarks/triples_library.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>

@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "tools/benchmark_localisation.h"
 #include "tools/reproduction/subject.h"
+#include "tools/trials/localisation.h"
 
 namespace voussoir {
 

@@ -4,7 +4,7 @@
 
 #include "core/units.h"
 #include "database/search/index_building.h"
-#include "tools/benchmark_localisation.h"
+#include "tools/trials/localisation.h"
 
 namespace voussoir {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "lookup/lookup.h"
 #include "lookup/report/drawing/page.h"
-#include "tools/paper_cases.h"
+#include "tools/trials/paper_cases.h"
 
 namespace voussoir {
 

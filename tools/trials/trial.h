@@ -6,7 +6,7 @@
 
 #include "lookup/lookup.h"
 #include "lookup/report/verdict.h"
-#include "tools/benchmark_localisation.h"
+#include "tools/trials/localisation.h"
 
 namespace voussoir {
 

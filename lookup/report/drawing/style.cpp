@@ -60,7 +60,9 @@ figcaption{font-size:.9rem;margin:.3em 0}
 .pictures{display:grid;gap:.8rem}
 .legend{display:flex;flex-wrap:wrap;gap:.1rem 1.1rem;margin:.2em 0 .4em;padding:0;list-style:none;font-size:.85rem}
 .legend svg{display:inline-block;width:34px;height:12px;margin-right:.4em;vertical-align:-1px}
-.scroll{overflow-x:auto}
+.scroll{overflow-x:auto;background:linear-gradient(to right,var(--page) 40%,transparent) left/2.5rem 100% local,
+linear-gradient(to left,var(--page) 40%,transparent) right/2.5rem 100% local,
+linear-gradient(to right,var(--edge),transparent) left/.7rem 100%,linear-gradient(to left,var(--edge),transparent) right/.7rem 100%;background-repeat:no-repeat}
 details .scroll{overflow-y:auto;max-height:30rem}
 table{border-collapse:collapse;font-size:.88rem;font-variant-numeric:tabular-nums;margin:.4em 0}
 th{text-align:left;vertical-align:bottom;font-weight:600;border-bottom:1px solid var(--edge);padding:.25em .8em .25em 0}
@@ -81,7 +83,7 @@ svg text{font-size:16px}svg text.small{font-size:15px}.panorama text{font-size:2
 .pictures svg{overflow:visible}}
 @media print{table{font-size:8.2pt}td,th{padding-right:.55em}@page{size:A4;margin:15mm}html{font-size:10.5pt}body{max-width:none;padding:0}
 .figures{grid-template-columns:1fr 1fr;gap:1rem}figure,table tr{break-inside:avoid}h2,h3{break-after:avoid}
-.scroll,details .scroll{overflow:visible;max-height:none}summary{display:none}details.printed::details-content{content-visibility:visible;display:block}
+.scroll,details .scroll{overflow:visible;max-height:none;background:none}summary{display:none}details.printed::details-content{content-visibility:visible;display:block}
 #tip{display:none}}
 )";
 

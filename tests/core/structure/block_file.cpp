@@ -98,6 +98,19 @@ std::string dxf(const std::string& text) {
 
 }  // namespace
 
+TEST_CASE("Of a JSON survey every key is known: a unit beside the blocks is none", "[block-file]") {
+  const std::string blocks = "\"blocks\": [{\"vertices\": [[0, 0], [1, 0], [1, 1]]}]";
+  CHECK(parse_json_blocks("{" + blocks + "}", "s.json").blocks.size() == 1);
+  CHECK_THROWS_WITH(parse_json_blocks("{" + blocks + ", \"unit\": \"mm\"}", "s.json"),
+                    Catch::Contains("s.json: unknown key 'unit'") && Catch::Contains("in metres"));
+}
+
+TEST_CASE("DXF: a byte order mark before the drawing does not matter", "[block-file]") {
+  const std::string text = drawing(lwpolyline("wall", kSquare));
+  CHECK(parse_dxf_blocks("\xEF\xBB\xBF" + text, "a.dxf").blocks.size() ==
+        parse_dxf_blocks(text, "a.dxf").blocks.size());
+}
+
 TEST_CASE("DXF: layer, ring, label, unit and arcs (written out)", "[block-file]") {
   const BlockFile file =
       parse_dxf_blocks(drawing(lwpolyline("RING 2", kSquare) + "0\nTEXT\n8\nx\n10\n1\n20\n1\n1\nkeystone\n" +

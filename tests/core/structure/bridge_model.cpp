@@ -38,6 +38,27 @@ TEST_CASE("Soil below every face and regions of roles that no block has are note
   CHECK_THAT(region[0], Contains("[[regions]] of 'fill' changes nothing"));
 }
 
+TEST_CASE("Movements, which no scene of a database is solved under, are noted", "[bridge-model]") {
+  const auto idle = idle_of("[[movements]]\nsupport = \"foot 1\"\ny_m = -0.01\n");
+  REQUIRE(idle.size() == 1);
+  CHECK_THAT(idle[0], Contains("[[movements]] changes nothing"));
+}
+
+TEST_CASE("Points of an intrados that do not come in their order are refused (drawn by hand)",
+          "[bridge-model]") {
+  const auto with_points = [](const std::string& points) {
+    return refusal_of(
+        "[wall]\nlength_m = 9\ncourses = 10\ncourse_height_m = 0.5\n[[spans]]\nshape = \"points\"\n"
+        "points_m = [" +
+        points + "]\nring_thickness_m = 0.3\nvoussoirs = 15\n");
+  };
+  CHECK(with_points("[2, 1], [3, 2.6], [4.5, 3.2], [6, 2.6], [7, 1]") == "accepted");
+  CHECK_THAT(with_points("[2, 1], [5, 3], [5, 1], [3, 3], [6.5, 1]"), Contains("crosses itself"));
+  CHECK_THAT(with_points("[2, 3], [3, 1.6], [4.5, 1], [6, 1.6], [7, 3]"),
+             Contains("sags below its springings"));
+  CHECK(with_points("[2, 1], [5, 3], [4, 3.3], [6, 3.4], [7, 1]") != "accepted");  // to the left and back
+}
+
 TEST_CASE("What cannot be built is refused with the name of the bridge file", "[bridge-model]") {
   CHECK_THAT(refusal_of("[[regions]]\nof = [\"rng\"]\n"),
              Contains("b.toml: of in [[regions]]: 'rng' is no block"));

@@ -1,0 +1,54 @@
+#pragma once
+/// @file Can the best scene be the truth? The fit as a whole, and sensor by sensor.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "database/records/database.h"
+#include "lookup/evidence/evidence.h"
+#include "lookup/unknown/bridge_posterior.h"
+
+namespace voussoir {
+
+/// A scene explains readings whose fit is at least this likely.
+inline constexpr double kSmallestChance = 1e-4;
+
+struct Fit {
+  bool explained = true;
+  double chance = 1.0;  ///< of a fit as bad as this or worse if the scene is the truth: even between 0 and 1
+                        ///< over many questions if the model and the stated noise are right
+  std::string reason;   ///< in words, when the scene does not explain the readings
+};
+
+struct SensorResidual {
+  std::size_t point = 0;
+  double reading = 0.0;    ///< [m]
+  double predicted = 0.0;  ///< [m]
+  double scale = 0.0;      ///< [m] of the instrument (the bound of uniform noise) and the model together; NaN
+                           ///< at points that cannot move
+  double error = 0.0;      ///< in units of sigma; NaN at points that cannot move
+  bool disagrees = false;  ///< far outside what the other sensors show
+};
+
+/// A value for each reading; `scales` are those of the noise's level. An unknown datum, tilt or scale is part
+/// of what is predicted, as far as the readings show it.
+std::vector<SensorResidual> sensor_residuals(const Observation& observation, const ErrorScales& scales,
+                                             std::span<const double> prediction);
+
+/// The predictive check of one scene. With a stated level: how likely is a scatter as large as this
+/// (Gaussian, and with nuisances: chi square; Laplace: sum of absolute errors; Student and uniform: Fisher's
+/// sum of the logarithms of every error's chance)? With an unknown level: is it below the largest level, and
+/// free of a pattern along the bridge (von Neumann's ratio of successive differences)?
+Fit check_fit(const Observation& observation, const NoiseEstimate& noise, std::span<const double> prediction);
+
+/// The same of a bridge that is not exactly known. `predicted` is what all other readings let expect, `error`
+/// how far the reading is from it, in standard deviations of that; `scale` is the instrument's alone.
+std::vector<SensorResidual> sensor_residuals(const Observation& observation, const UnknownBridge& bridge,
+                                             const BridgePosterior& posterior);
+/// And whether what is believed of the bridge makes the model move by no less than a fifth and no more than
+/// five times: the first order would otherwise take readings with the wrong sign or unit for a bridge that
+/// rises under its weight.
+Fit check_fit(const BridgePosterior& posterior);
+
+}  // namespace voussoir

@@ -1,0 +1,95 @@
+#include "lookup/plausible_readings.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "core/units.h"
+
+namespace voussoir {
+namespace {
+
+constexpr std::size_t kFewest = 10;     // readings that say something of their scatter
+constexpr double kLeastOfErrors = 0.15;  // whoever states errors seven times too large is asked about it, too
+// Rounding to a step is off by 0.29 of it (a standard deviation).
+constexpr double kMostOfErrors = 4.0;
+constexpr std::array kSteps = {100.0, 50.0, 20.0, 10.0, 5.0,  2.0,  1.0,  0.5,
+                               0.2,   0.1,  0.05, 0.02, 0.01, 0.005, 0.002, 0.001};  // [mm]
+
+/// Of readings that say how far something moved, and have errors of their own [mm].
+struct Stated {
+  std::vector<double> movement, error;
+};
+
+Stated stated_readings(const Observation& observation) {
+  const ErrorScales scales = scales_at(observation, observation.noise.relative.value_or(0.0));
+  Stated stated;
+  for (std::size_t i = 0; i < observation.reading.size(); ++i) {
+    if (std::isnan(observation.reading[i]) || observation.share[i] != 0.0) continue;
+    stated.movement.push_back(kMillimetres * (observation.reading[i] - observation.origin[i]));
+    stated.error.push_back(kMillimetres * scales.offset[i]);
+  }
+  return stated;
+}
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::ranges::nth_element(values, middle);
+  return *middle;
+}
+
+bool are_multiples(const std::vector<double>& values, double step) {
+  constexpr double kRoundOff = 1e-9;  // [mm]
+  return std::ranges::all_of(values, [&](double value) {
+    return std::abs(value - step * std::round(value / step)) < kRoundOff;
+  });
+}
+
+/// Root mean square of the movements in units of their errors.
+double size_of(const Stated& stated) {
+  double square = 0.0;
+  for (std::size_t i = 0; i < stated.movement.size(); ++i)
+    square += std::pow(stated.movement[i] / stated.error[i], 2);
+  return std::sqrt(square / static_cast<double>(stated.movement.size()));
+}
+
+Fit unexplained(std::string reason) {
+  return {false, 0.0, std::move(reason)};
+}
+
+std::optional<Fit> check_size_of_changes(const Stated& stated) {
+  const double size = size_of(stated);
+  if (size > kLeastOfErrors) return std::nullopt;
+  if (size == 0.0)
+    return unexplained("all changes are zero, where their stated errors let some scatter be expected; were they read, "
+                       "and finely enough?");
+  return unexplained(fmt::format(
+      "the changes are {:.2g} of their stated errors, expected about as much or more; are the readings in "
+      "millimetres, and are the errors so large?",
+      size));
+}
+
+std::optional<Fit> check_steps(const Stated& stated) {
+  const double most = kMostOfErrors * median(stated.error);
+  for (const double step : kSteps)
+    if (step > most && are_multiples(stated.movement, step))
+      return unexplained(fmt::format(
+          "all readings are multiples of {:g} mm, which rounding alone makes wrong by more than their stated errors; "
+          "are those as large as 0.3 of that?",
+          step));
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<Fit> check_readings(const Comparison& comparison, const Observation& observation) {
+  const Stated stated = stated_readings(observation);
+  if (stated.movement.size() < kFewest) return std::nullopt;
+  if (is_change(comparison.kind))
+    if (auto doubt = check_size_of_changes(stated)) return doubt;
+  return check_steps(stated);
+}
+
+}  // namespace voussoir
