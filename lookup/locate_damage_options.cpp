@@ -105,12 +105,14 @@ void add_noise_options(CLI::App& app, LocateDamageOptions& options) {
          "deviation); default: estimated from the measurements")
       ->check(checked_by(parse_noise_level, "LEVEL"))
       ->option_text("LEVEL");
-  app.add_option(
-         "--noise-model", options.noise_model,
-         "auto (default: the measurements decide among the next three), uniform, gaussian, laplace, student")
+  app.add_option("--noise-model", options.noise_model,
+                 "auto (default: the measurements decide among the next three), uniform, gaussian, laplace, "
+                 "student; of a "
+                 "bridge that is not exactly known all count as Gaussian of the same variance")
       ->check(checked_by(parse_noise_shape, "NAME"))
       ->option_text("NAME");
-  app.add_option("--floor", options.floor_mm, "absolute part of the errors [mm], default 0")
+  app.add_option("--floor", options.floor_mm,
+                 "absolute part of the errors [mm] of rows without sigma_mm, default 0")
       ->check(number_in_range(0.0, kLargestError, "MM"))
       ->option_text("MM");
   app.add_option(

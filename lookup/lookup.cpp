@@ -151,6 +151,8 @@ void judge_unknown_bridge(const UnknownQuestion& asked, Answer& answer) {
   answer.fit = check_fit(answer.bridge->posterior);
   answer.residuals = sensor_residuals(observation, answer.bridge->model, answer.bridge->posterior);
   if (answer.fit->explained)
+    if (const auto doubt = check_scatter(answer.bridge->model, answer.bridge->posterior)) answer.fit = doubt;
+  if (answer.fit->explained)
     if (const auto doubt = find_other(asked, answer)) answer.fit = doubt;
 }
 

@@ -11,11 +11,11 @@
 namespace voussoir {
 namespace {
 
-constexpr std::size_t kFewest = 10;     // readings that say something of their scatter
+constexpr std::size_t kFewest = 10;      // readings that say something of their scatter
 constexpr double kLeastOfErrors = 0.15;  // whoever states errors seven times too large is asked about it, too
 // Rounding to a step is off by 0.29 of it (a standard deviation).
 constexpr double kMostOfErrors = 4.0;
-constexpr std::array kSteps = {100.0, 50.0, 20.0, 10.0, 5.0,  2.0,  1.0,  0.5,
+constexpr std::array kSteps = {100.0, 50.0, 20.0, 10.0, 5.0,  2.0,   1.0,   0.5,
                                0.2,   0.1,  0.05, 0.02, 0.01, 0.005, 0.002, 0.001};  // [mm]
 
 /// Of readings that say how far something moved, and have errors of their own [mm].
@@ -42,9 +42,8 @@ double median(std::vector<double> values) {
 
 bool are_multiples(const std::vector<double>& values, double step) {
   constexpr double kRoundOff = 1e-9;  // [mm]
-  return std::ranges::all_of(values, [&](double value) {
-    return std::abs(value - step * std::round(value / step)) < kRoundOff;
-  });
+  return std::ranges::all_of(
+      values, [&](double value) { return std::abs(value - step * std::round(value / step)) < kRoundOff; });
 }
 
 /// Root mean square of the movements in units of their errors.
@@ -59,27 +58,38 @@ Fit unexplained(std::string reason) {
   return {false, 0.0, std::move(reason)};
 }
 
-std::optional<Fit> check_size_of_changes(const Stated& stated) {
-  const double size = size_of(stated);
-  if (size > kLeastOfErrors) return std::nullopt;
-  if (size == 0.0)
-    return unexplained("all changes are zero, where their stated errors let some scatter be expected; were they read, "
-                       "and finely enough?");
-  return unexplained(fmt::format(
-      "the changes are {:.2g} of their stated errors, expected about as much or more; are the readings in "
-      "millimetres, and are the errors so large?",
-      size));
+Fit too_calm(double times) {
+  return unexplained(
+      fmt::format("they scatter by {:.2g} of what their errors let expect; are they in millimetres, and "
+                  "the errors so large?",
+                  times));
 }
 
-std::optional<Fit> check_steps(const Stated& stated) {
-  const double most = kMostOfErrors * median(stated.error);
-  for (const double step : kSteps)
-    if (step > most && are_multiples(stated.movement, step))
-      return unexplained(fmt::format(
-          "all readings are multiples of {:g} mm, which rounding alone makes wrong by more than their stated errors; "
-          "are those as large as 0.3 of that?",
-          step));
-  return std::nullopt;
+/// The coarsest step of which all are multiples [mm]; 0: none.
+double step_of(const std::vector<double>& values) {
+  const auto step = std::ranges::find_if(kSteps, [&](double one) { return are_multiples(values, one); });
+  return step == kSteps.end() ? 0.0 : *step;
+}
+
+std::optional<Fit> check_step(double step, const Stated& stated) {
+  if (step <= kMostOfErrors * median(stated.error)) return std::nullopt;
+  return unexplained(
+      fmt::format("all readings are multiples of {:g} mm, which rounding alone makes wrong by more than "
+                  "their stated errors; "
+                  "are those as large as 0.3 of that?",
+                  step));
+}
+
+/// Of changes that are all zero what was read at the first time says how finely it was read.
+std::optional<Fit> check_zeros(const Comparison& comparison, const Stated& stated) {
+  std::vector<double> before;
+  for (const double reading : comparison.before)
+    if (!std::isnan(reading)) before.push_back(kMillimetres * reading);
+  if (before.empty())
+    return unexplained(
+        "all changes are zero, which does not show how finely they were read; expected before_mm and "
+        "after_mm");
+  return check_step(step_of(before), stated);
 }
 
 }  // namespace
@@ -87,9 +97,21 @@ std::optional<Fit> check_steps(const Stated& stated) {
 std::optional<Fit> check_readings(const Comparison& comparison, const Observation& observation) {
   const Stated stated = stated_readings(observation);
   if (stated.movement.size() < kFewest) return std::nullopt;
-  if (is_change(comparison.kind))
-    if (auto doubt = check_size_of_changes(stated)) return doubt;
-  return check_steps(stated);
+  if (is_change(comparison.kind)) {
+    const double size = size_of(stated);
+    if (size == 0.0) return check_zeros(comparison, stated);
+    if (size < kLeastOfErrors) return too_calm(size);
+  }
+  return check_step(step_of(stated.movement), stated);
+}
+
+std::optional<Fit> check_scatter(const UnknownBridge& bridge, const BridgePosterior& posterior) {
+  // What the intact bridge shows hardly scatters where a bridge is just as its file says.
+  if (!bridge.movement.isZero(0.0) || bridge.has_first_epoch() || bridge.rows.size() < kFewest)
+    return std::nullopt;
+  const double scatter = std::sqrt(posterior.square);
+  // Without any it is check_readings that knows why.
+  return scatter > 0.0 && scatter < kLeastOfErrors ? std::optional(too_calm(scatter)) : std::nullopt;
 }
 
 }  // namespace voussoir

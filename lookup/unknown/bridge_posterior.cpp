@@ -124,6 +124,7 @@ void add_part(const UnknownBridge& bridge, const SceneGaussian& scene, double ka
   const VectorXd precision = inverse.colwise().squaredNorm();
   result.beside += weight * pulled.cwiseQuotient(precision);
   result.others += weight * (pulled.array() / precision.array().sqrt()).matrix();
+  result.square += weight * whitened.squaredNorm() / static_cast<double>(n);
   result.chance += weight * chance_of(bridge, scene, covariance, whitened.squaredNorm());
   result.parts.push_back(std::move(part));
 }
@@ -155,7 +156,7 @@ void explain(const UnknownBridge& bridge, const Observation& observation, const 
 BridgePosterior empty_posterior(const UnknownBridge& bridge) {
   const Index epochs = bridge.epochs * bridge.factors->of_epoch();
   BridgePosterior result;
-  result.chance = 0.0;
+  result.chance = result.square = 0.0;
   result.beside = result.others = VectorXd::Zero(bridge.reading.size());
   result.from_unevenness = result.from_loss = result.from_model = VectorXd::Zero(bridge.reading.size());
   result.bridge_mean = VectorXd::Zero(bridge.factors->of_bridge());
