@@ -49,7 +49,8 @@ void Progress::start(std::size_t total, std::size_t done, std::string what) {
   what_ = std::move(what);
   total_ = total;
   done_ = done_before_ = done;
-  started_ = shown_ = Clock::now();
+  started_ = Clock::now();
+  if (mode_ != Mode::quiet && done_ < total_) show(started_);  // the first one may take long
 }
 
 void Progress::advance(std::size_t more) {

@@ -18,7 +18,8 @@ class Progress {
   /// A message on a line of its own; nothing in quiet mode.
   void say(const std::string& message);
 
-  /// `done` of `total` are there already; the rate counts what comes from now on. `what` they are: "scenes".
+  /// `done` of `total` are there already, which is shown at once; the rate counts what comes from now on.
+  /// `what` they are: "scenes".
   void start(std::size_t total, std::size_t done, std::string what);
   void advance(std::size_t more);
   /// Ends the bar's line.
