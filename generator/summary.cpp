@@ -28,12 +28,19 @@ std::string blocks_text(const BuildSummary& summary) {
   return text;
 }
 
+/// What may be done about scenes that have no answer as built.
+std::string patience_text(const OutcomeCounts& counts) {
+  if (counts.states.empty() || counts.states.front().unresolved.empty()) return "";
+  return "              --patience 20 follows their motions for up to 20 s, and builds the file anew\n";
+}
+
 }  // namespace
 
 std::string to_text(const BuildSummary& summary) {
   return fmt::format("{}: {} scenes ({})\n", summary.output.string(), summary.outcomes.scenes,
                      origin_text(summary)) +
-         blocks_text(summary) + to_text(summary.outcomes) + collapses_text(summary.collapse_fields) +
+         blocks_text(summary) + to_text(summary.outcomes) + patience_text(summary.outcomes) +
+         collapses_text(summary.collapse_fields) +
          fmt::format("  time        {:.1f} s\n  size        {:.1f} MB\n  digest      {}\n", summary.seconds,
                      static_cast<double>(summary.bytes) * 1e-6, summary.digest);
 }
