@@ -187,23 +187,26 @@ std::string loads(const Model& bridge, const BridgeDescription& description, con
     for (const LineLoad& line : load.lines)
       fmt::format_to(std::back_inserter(data), "M{:.1f} {:.1f}H{:.1f}", across(line.from_x), base - kArrow,
                      across(line.to_x));
-    const std::vector<double> places = pushed_at(load);
-    const double middle =
-        across(std::reduce(places.begin(), places.end()) / static_cast<double>(places.size()));
+    std::vector<double> places = pushed_at(load);
+    std::erase_if(places, [&](double x) { return x < frame.low.x() || x > frame.high.x(); });
     for (const double x : places)
-      if (x >= frame.low.x() && x <= frame.high.x())
-        fmt::format_to(std::back_inserter(data), "M{:.1f} {:.1f}v{:.1f}m-3 -6l3 6l3 -6", across(x),
-                       base - kArrow, kArrow);
+      fmt::format_to(std::back_inserter(data), "M{:.1f} {:.1f}v{:.1f}m-3 -6l3 6l3 -6", across(x),
+                     base - kArrow, kArrow);
+    const double sum = std::reduce(places.begin(), places.end());
+    const double middle =
+        places.empty() ? 0.5 * frame.width : across(sum / static_cast<double>(places.size()));
     const std::string name = fmt::format("{}, {:.4g} kN", stage.name, -1e-3 * stage.force.row(1).sum() + 0.0);
     elements +=
         fmt::format("<path class=\"load\" d=\"{}\"><title>{} on the bridge's thickness</title></path>\n",
                     data, escaped(name)) +
-        text_at({middle, base - kArrow - 3.0}, "", name);
+        text_at({std::clamp(middle, 0.3 * kLabelHeight * static_cast<double>(name.size()), frame.width),
+                 base - kArrow - 3.0},
+                "", name);
   }
   return elements;
 }
 
-/// What the signs mean that this bridge has.
+/// What the signs mean; of loads if there are any.
 std::string legend(const BridgeDescription& description) {
   std::string text =
       "<tspan fill=\"#c00\">\u25cf</tspan> sensors  "

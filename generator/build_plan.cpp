@@ -45,6 +45,24 @@ std::set<RecordKey> missing_records(const std::vector<RecordKey>& wanted, const 
   return missing;
 }
 
+/// Calls visit(number of the shard, key) for each record that is solved, as shards share them out.
+template <class Visit>
+void deal(const std::vector<RecordKey>& wanted, const PlanBasis& basis, int count, const Visit& visit) {
+  const std::set<RecordKey> whole(wanted.begin(), wanted.end());
+  const auto nothing = [](const RecordKey&) { return false; };
+  int dealt = 0;
+  for (const auto& stage : plan_build(wanted, basis, {nothing, nothing}).stages)
+    for (const SolvingTask& task : stage) {
+      std::vector<RecordKey> own;
+      if (task.records_solved) own.push_back({task.variant, task.solved});
+      if (task.image) own.push_back({task.variant, *task.image});
+      std::erase_if(own, [&](const RecordKey& key) { return !whole.contains(key); });
+      if (own.empty()) continue;
+      for (const RecordKey& key : own) visit(dealt % count + 1, key);
+      ++dealt;
+    }
+}
+
 }  // namespace
 
 Scene representative(const Scene& scene, const Model& bridge, const PlanRules& rules) {
@@ -100,26 +118,19 @@ int most_missing_of_starts(const std::vector<RecordKey>& wanted) {
 
 std::vector<RecordKey> keys_of_shard(const std::vector<RecordKey>& wanted, const PlanBasis& basis,
                                      const Shard& shard) {
-  const std::set<RecordKey> whole(wanted.begin(), wanted.end());
-  const auto nothing = [](const RecordKey&) { return false; };
   std::set<RecordKey> keys = {{kNominalVariant, Scene{}}};
-  int dealt = 0;
-  for (const auto& stage : plan_build(wanted, basis, {nothing, nothing}).stages)
-    for (const SolvingTask& task : stage) {
-      std::vector<RecordKey> own;
-      if (task.records_solved) own.push_back({task.variant, task.solved});
-      if (task.image) own.push_back({task.variant, *task.image});
-      std::erase_if(own, [&](const RecordKey& key) { return !whole.contains(key); });
-      if (!own.empty() && dealt++ % shard.count == shard.number - 1) keys.insert(own.begin(), own.end());
-    }
+  deal(wanted, basis, shard.count, [&](int number, const RecordKey& key) {
+    if (number == shard.number) keys.insert(key);
+  });
   return {keys.begin(), keys.end()};
 }
 
 Shard shard_with(const RecordKey& key, const std::vector<RecordKey>& wanted, const PlanBasis& basis,
                  int count) {
-  Shard shard{1, count};
-  while (shard.number < count && !std::ranges::binary_search(keys_of_shard(wanted, basis, shard), key))
-    ++shard.number;
+  Shard shard{1, count};  // every one has the intact bridge
+  deal(wanted, basis, count, [&](int number, const RecordKey& dealt) {
+    if (dealt == key) shard.number = number;
+  });
   return shard;
 }
 

@@ -80,7 +80,7 @@ int most_missing_of_starts(const std::vector<RecordKey>& wanted);
 std::vector<RecordKey> keys_of_shard(const std::vector<RecordKey>& wanted, const PlanBasis& basis,
                                      const Shard& shard);
 
-/// Which of so many shards has a record of the whole.
+/// Which of so many shards has a record of the whole; the first of them if none is to solve it.
 Shard shard_with(const RecordKey& key, const std::vector<RecordKey>& wanted, const PlanBasis& basis,
                  int count);
 

@@ -78,7 +78,7 @@ void Progress::show(Clock::time_point now) {
 
 void Progress::finish() {
   const std::scoped_lock lock(mutex_);
-  if (mode_ == Mode::quiet || done_ == done_before_) return;
+  if (mode_ == Mode::quiet || done_before_ == total_) return;
   show(Clock::now());
   if (terminal_) fmt::print(stderr, "\n");
 }

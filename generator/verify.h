@@ -22,7 +22,7 @@ struct VerifyRequest {
 
 struct VerifyReport {
   std::string digest;           ///< as the file states it
-  std::optional<Shard> part{};  ///< nothing: it is whole
+  std::optional<Shard> part{};  ///< nothing: it is whole, or cannot be read
   OutcomeCounts outcomes;
   std::size_t fields = 0;          ///< stored fields that were checked
   bool collapse_fields = true;     ///< does it keep fields of what falls? (PlanRules)

@@ -22,9 +22,10 @@ std::string problem_text(const std::vector<std::string>& problems) {
 }  // namespace
 
 std::string to_text(const VerifyReport& report, const std::filesystem::path& database) {
-  const std::string extent = report.part ? "part " + to_string(*report.part) + " of a database" : "whole";
-  std::string text = fmt::format("{}: {}\n", database.string(),
-                                 report.ok() ? extent + ", consistent" : extent + ", NOT in order");
+  const std::string extent =
+      report.part ? fmt::format("part {} of a database", to_string(*report.part)) : "whole";
+  std::string text =
+      fmt::format("{}: {}\n", database.string(), report.ok() ? extent + " and consistent" : "NOT in order");
   text += fmt::format("  digest      {}\n", report.digest);
   text += fmt::format("  scenes      {}\n", report.outcomes.scenes) + to_text(report.outcomes);
   text += fmt::format(

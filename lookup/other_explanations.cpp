@@ -5,10 +5,10 @@
 #include <cmath>
 #include <functional>
 #include <numeric>
-#include <span>
 
 #include "core/units.h"
 #include "lookup/evidence/scene_evidence.h"
+#include "lookup/readings/sensor.h"
 
 namespace voussoir {
 namespace {
@@ -88,12 +88,14 @@ std::vector<GrossError> suspects_of(const UnknownQuestion& asked, std::size_t ro
   const auto at = [](const Eigen::VectorXd& values, std::size_t k) {
     return std::abs(values[static_cast<Eigen::Index>(k)]);
   };
-  const std::size_t count = std::min(kMostSuspects, order.size());
-  std::ranges::partial_sort(order, order.begin() + static_cast<std::ptrdiff_t>(count), std::ranges::greater{},
-                            [&](std::size_t k) { return at(believed.others, k); });
+  std::ranges::stable_sort(order, std::ranges::greater{},
+                           [&](std::size_t k) { return at(believed.others, k); });
   std::vector<GrossError> suspects;
-  for (const std::size_t k : std::span(order).first(count))
-    suspects.push_back({readings[k].channel, at(believed.beside, k)});
+  for (const std::size_t k : order) {  // a channel that counts in two epochs has two of them
+    if (suspects.size() == kMostSuspects) break;
+    if (std::ranges::find(suspects, readings[k].channel, &GrossError::channel) == suspects.end())
+      suspects.push_back({readings[k].channel, at(believed.beside, k)});
+  }
   return suspects;
 }
 
@@ -117,10 +119,13 @@ std::optional<Fit> check_single_readings(const UnknownQuestion& asked, const Ans
       if (!is_likely_beside(answer, std::log(kGrossChance) + log_sum_of(logs))) continue;
       const auto best = static_cast<std::size_t>(std::ranges::max_element(logs) - logs.begin());
       const Scene scene = table.scene(others[best]);
+      const StoredPoint& point = asked.library.points[gross.channel];
       return Fit{
           false, answer.fit->chance,
-          fmt::format("the reading at {} alone says so; were it wrong by {:.2g} mm, {} would be likely, too",
-                      asked.library.points[gross.channel].name, kMillimetres * gross.size,
+          fmt::format("only the reading at {} says that {} missing; were it wrong by {:.2g} {}, {} would be "
+                      "likely, too",
+                      point.name, named.empty() ? "blocks are" : "these blocks are",
+                      kMillimetres * gross.size, unit_of(point.quantity),
                       scene.removed.empty() ? "an intact bridge" : to_string(scene, asked.library.layout))};
     }
   return std::nullopt;

@@ -13,8 +13,8 @@ namespace {
 
 constexpr std::size_t kFewest = 10;      // readings that say something of their scatter
 constexpr double kLeastOfErrors = 0.15;  // whoever states errors seven times too large is asked about it, too
-// Rounding to a step is off by 0.29 of it (a standard deviation).
-constexpr double kMostOfErrors = 4.0;
+constexpr double kRounding = 0.29;     // of a step: the standard deviation of what rounding to it takes away
+constexpr double kMostOfErrors = 4.0;  // a step; somewhat more than rounding explains
 constexpr std::array kSteps = {100.0, 50.0, 20.0, 10.0, 5.0,  2.0,   1.0,   0.5,
                                0.2,   0.1,  0.05, 0.02, 0.01, 0.005, 0.002, 0.001};  // [mm]
 
@@ -74,17 +74,17 @@ double step_of(const std::vector<double>& values) {
 std::optional<Fit> check_step(double step, const Stated& stated) {
   if (step <= kMostOfErrors * median(stated.error)) return std::nullopt;
   return unexplained(
-      fmt::format("all readings are multiples of {:g} mm, which rounding alone makes wrong by more than "
-                  "their stated errors; "
-                  "are those as large as 0.3 of that?",
-                  step));
+      fmt::format("all readings are multiples of {:g} mm; rounding to it alone is an error of {:.2g} mm, are "
+                  "the stated ones that large?",
+                  step, kRounding * step));
 }
 
-/// Of changes that are all zero what was read at the first time says how finely it was read.
+/// Of changes that are all zero what was read at the first time says how finely it was read, unless gauges
+/// were set to zero then.
 std::optional<Fit> check_zeros(const Comparison& comparison, const Stated& stated) {
   std::vector<double> before;
   for (const double reading : comparison.before)
-    if (!std::isnan(reading)) before.push_back(kMillimetres * reading);
+    if (!std::isnan(reading) && reading != 0.0) before.push_back(kMillimetres * reading);
   if (before.empty())
     return unexplained(
         "all changes are zero, which does not show how finely they were read; expected before_mm and "

@@ -1,5 +1,7 @@
 /// @file make-measurements: a measurements file with the errors of one's choice, from a scene of a database.
 
+#include <algorithm>
+
 #include "core/error.h"
 #include "core/random.h"
 #include "core/text_file.h"

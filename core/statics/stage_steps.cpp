@@ -78,6 +78,8 @@ void StageSteps::begin_step(bool has_matrix) {
 
 bool StageSteps::advance(bool regular, const Eigen::VectorXd& step) {
   search_->advance(regular, step);
+  // A load may bend a bridge further than its weight does, by as much as the first tangent says.
+  if (loaded_sag_ == 0.0 && task_.stage.load.size() > 0) loaded_sag_ = left_ * search_->first_step();
   if (!search_->finished()) return false;
   Solution found = search_->solution();
   found.iterations += std::exchange(reached_.iterations, 0);
@@ -108,10 +110,8 @@ bool StageSteps::give_up(const Solution& found) {
   return end();
 }
 
-/// A load may bend a bridge further than its weight does, by as much as the tangent says.
 bool StageSteps::begin_jump(const Solution& found) {
   reached_.iterations = found.iterations;
-  if (task_.stage.load.size() > 0) loaded_sag_ = std::max(loaded_sag_, left_ * search_->first_step());
   reach_ = kFirstReach * sag_;
   start_ = reached_.displacement;
   begin_step(false);

@@ -57,13 +57,13 @@ class StageSteps {
   Solution reached_;                        ///< at the end of the last step
   std::vector<JointMemory> memory_before_;  ///< what the last step began with
   double sag_ = 0.0;                        ///< largest displacement where the stage before ended [m]
-  double loaded_sag_ = 0.0;                 ///< how far the tangent says that the load moves something [m]
-  int left_;                                ///< steps, with the one under way
-  Field start_;                             ///< of its search; empty: from rest
-  Field held_;                              ///< forces that are still held back at its end [N]
-  double reach_ = 0.0;                      ///< of the drag [m]; 0: there is none
-  int drags_ = 0;                           ///< steps against drag so far; some: it has jumped
-  double largest_load_ = 0.0;               ///< as in StageEquations
+  double loaded_sag_ = 0.0;    ///< how far the first tangent says that the load moves something [m]
+  int left_;                   ///< steps, with the one under way
+  Field start_;                ///< of its search; empty: from rest
+  Field held_;                 ///< forces that are still held back at its end [N]
+  double reach_ = 0.0;         ///< of the drag [m]; 0: there is none
+  int drags_ = 0;              ///< steps against drag so far; some: it has jumped
+  double largest_load_ = 0.0;  ///< as in StageEquations
   std::optional<NewtonSearch> search_;
 };
 

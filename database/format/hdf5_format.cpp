@@ -21,12 +21,12 @@ ByteView part(ByteView file, std::uint64_t offset, std::uint64_t size) {
   return file.subspan(offset, size);
 }
 
-/// A structure that begins with this signature and ends with a checksum over all before it, without both.
 /// The first structure's signature cannot be printed.
 std::string_view name_of(std::string_view signature) {
   return signature.starts_with('\x89') ? "superblock" : signature;
 }
 
+/// A structure that begins with this signature and ends with a checksum over all before it, without both.
 ByteView checked(ByteView file, std::uint64_t offset, std::uint64_t size, std::string_view signature) {
   if (size < signature.size() + kChecksumSize) refuse("a structure is too small");
   const ByteView whole = part(file, offset, size);

@@ -2,6 +2,10 @@
 
 namespace voussoir {
 
+std::string_view unit_of(Quantity quantity) {
+  return quantity == Quantity::tilt ? "mm per m" : "mm";
+}
+
 SensorList control_point_sensors(const std::vector<StoredPoint>& points) {
   SensorList list{{}, points.size()};
   for (const StoredPoint& point : points) {

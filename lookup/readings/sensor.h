@@ -2,6 +2,7 @@
 /// @file Sensors that readings may name: those of the database, and others that its fields show.
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/structure/reading_weights.h"
@@ -16,6 +17,9 @@ struct Sensor {
   std::vector<BlockId> blocks;        ///< without one of them the sensor shows nothing
   std::vector<NodeWeight> weights{};  ///< none for those of the database: it has what they show
 };
+
+/// As files and answers have readings: "mm", or "mm per m" of tilts.
+std::string_view unit_of(Quantity quantity);
 
 /// Sensors that readings may name.
 struct SensorList {

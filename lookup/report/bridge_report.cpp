@@ -53,8 +53,16 @@ double change_by(double logarithm) {
   return 100.0 * std::expm1(logarithm);
 }
 
+/// With a decimal where it is known to less than a per cent.
+std::string share_in_words(double logarithm, double deviation) {
+  const int decimals = deviation < 0.01 ? 1 : 0;
+  const double step = std::pow(10.0, decimals);
+  return fmt::format("{:+.{}f}", std::round(step * change_by(logarithm)) / step + 0.0, decimals);  // no -0
+}
+
 std::string range_of_factor(double mean, double deviation) {
-  return fmt::format("{:+.0f} to {:+.0f} %", change_by(mean - deviation), change_by(mean + deviation));
+  return fmt::format("{} to {} %", share_in_words(mean - deviation, deviation),
+                     share_in_words(mean + deviation, deviation));
 }
 
 struct ShownUnit {
@@ -154,7 +162,7 @@ std::string before_in_words(const KnownParameter& parameter) {
 
 std::string after_in_words(const KnownParameter& parameter) {
   if (is_factor(parameter))
-    return fmt::format("{:+.0f} % ({})", change_by(parameter.mean),
+    return fmt::format("{} % ({})", share_in_words(parameter.mean, parameter.deviation),
                        range_of_factor(parameter.mean, parameter.deviation));
   const auto [unit, scale] = shown_unit(parameter.unit);
   const double deviation = scale * parameter.deviation;

@@ -41,10 +41,9 @@ std::vector<KnownParameter> known_of_bridge(const BridgeAnswer& bridge, const Re
 /// All parameters of epochs: of two epochs how they changed.
 std::vector<KnownParameter> known_of_epochs(const BridgeAnswer& bridge, const ReadingFactors& factors);
 
-/// What is believed beforehand and afterwards, one standard deviation to each side: "-14 to +16 %", "+- 20
-/// K";
-/// "-4 % (-7 to -1 %)", "+0.3 +- 1.2 K".
+/// What is believed beforehand, one standard deviation to each side: "-14 to +16 %", "+- 20 K".
 std::string before_in_words(const KnownParameter& parameter);
+/// And afterwards: "-4 % (-7 to -1 %)", "+0.3 +- 1.2 K".
 std::string after_in_words(const KnownParameter& parameter);
 
 /// "young modulus: -4 % (-7 to -1 %), before -14 to +16 %"

@@ -22,7 +22,7 @@ constexpr double kHardly = 0.1;  // a loss that is seen less often shows hardly
 constexpr double kPlanWidth = 1040.0;
 constexpr double kRoomAbove = 0.3;  // [m]
 constexpr double kPlanDisc = 4.0;
-constexpr double kPlanTitle = 24.0;          // height
+constexpr double kPlanTitle = 42.0;          // height
 constexpr std::size_t kMostNamesDrawn = 40;  // of sensors: more would hide each other
 constexpr std::size_t kLeastSeenListed = 15;
 
@@ -183,14 +183,31 @@ BlockLook look_of(const SensorPlan& plan, const Database& database, BlockId bloc
                                 percent(sight->named))};
 }
 
-std::string sensor_element(const StoredPoint& point, const Point& at, bool is_named) {
+std::string sensor_element(const Point& at, const std::string& name, bool is_named) {
   std::string element = fmt::format("<circle class=\"f1\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{}\">{}</circle>\n",
-                                    at.x(), at.y(), kPlanDisc, tip_element(point.name));
+                                    at.x(), at.y(), kPlanDisc, tip_element(name));
   if (is_named)
     element +=
         fmt::format("<text class=\"label\" text-anchor=\"middle\" x=\"{:.1f}\" y=\"{:.1f}\">{}</text>\n",
-                    at.x(), at.y() - 1.5 * kPlanDisc, escaped(point.name));
+                    at.x(), at.y() - 1.5 * kPlanDisc, escaped(name));
   return element;
+}
+
+/// Points at one place, of two blocks that meet there, have one disc and both names.
+std::string sensors(const SensorPlan& plan, const Database& database, const BridgeFrame& frame) {
+  std::vector<std::pair<Point, std::string>> places;
+  for (const StoredPoint& point : database.control_points()) {
+    if (!is_read(plan, point)) continue;
+    const auto same = std::ranges::find(places, point.position, &std::pair<Point, std::string>::first);
+    if (same == places.end())
+      places.emplace_back(point.position, point.name);
+    else
+      same->second += ", " + point.name;
+  }
+  std::string elements;
+  for (const auto& [place, names] : places)
+    elements += sensor_element(frame(place), names, plan.points.size() <= kMostNamesDrawn);
+  return elements;
 }
 
 }  // namespace
@@ -214,15 +231,14 @@ std::string plan_picture(const SensorPlan& plan, const PlannedBridge& bridge) {
   Drawing drawing{frame.width, kPlanTitle + frame.height + kColourBarHeight,
                   "The bridge; each block coloured by the chance that its loss is seen, and the sensors", ""};
   drawing.elements =
-      fmt::format("<text x=\"8\" y=\"17\">{}</text>\n<g transform=\"translate(0 {})\">\n",
-                  escaped(fmt::format("{}: {}; {}", database.bridge_name(), planned_in_words(plan, bridge),
-                                      conditions_in_words(bridge))),
-                  kPlanTitle) +
+      fmt::format(
+          "<text x=\"8\" y=\"17\">{}: {}</text>\n<text class=\"small\" x=\"8\" y=\"34\">{}</text>\n"
+          "<g transform=\"translate(0 {})\">\n",
+          escaped(database.bridge_name()), escaped(planned_in_words(plan, bridge)),
+          escaped(conditions_in_words(bridge)), kPlanTitle) +
       ground_element(layout, frame) +
       block_elements(layout, frame, [&](BlockId block) { return look_of(plan, database, block); });
-  for (const StoredPoint& point : database.control_points())
-    if (is_read(plan, point))
-      drawing.elements += sensor_element(point, frame(point.position), plan.points.size() <= kMostNamesDrawn);
+  drawing.elements += sensors(plan, database, frame);
   drawing.elements +=
       "</g>\n" + colour_bar({plan.falls.empty() && plan.unknown.empty()
                                  ? "chance that the block's loss is seen"

@@ -46,10 +46,6 @@ std::string_view value_in_words(ReadingKind kind) {
   }
 }
 
-std::string_view unit_of(Quantity quantity) {
-  return quantity == Quantity::tilt ? "mm per m" : "mm";
-}
-
 std::string axis_in_words(ReadingKind kind, Quantity quantity) {
   const std::string_view what = kind == ReadingKind::change        ? "change of "
                                 : kind == ReadingKind::load        ? "added by the load: "

@@ -14,9 +14,6 @@ std::string_view value_in_words(ReadingKind kind);
 /// "absolute", "change", "load", "load-change": for programs.
 std::string_view to_string(ReadingKind kind);
 
-/// "mm" or "mm per m"
-std::string_view unit_of(Quantity quantity);
-
 /// "vertical displacement [mm]", "change of tilt [mm per m]"...: the axis of a quantity.
 std::string axis_in_words(ReadingKind kind, Quantity quantity);
 

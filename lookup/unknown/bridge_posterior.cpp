@@ -114,17 +114,19 @@ void add_part(const UnknownBridge& bridge, const SceneGaussian& scene, double ka
   result.bridge_mean += weight * part.mean;
   result.epoch_mean += weight * epoch;
   result.from_unevenness += weight * (bridge.unevenness * pulled);
-  result.from_model += weight * (bridge.fixed_noise * pulled);
+  // The common factor of all movements, which counts in the signal's noise, too.
+  const double factor = bridge.scale * bridge.scale * (bridge.movement + scene.loss.signal).dot(pulled);
+  result.from_model += weight * (bridge.fixed_noise * pulled + factor * bridge.movement);
   const MatrixXd epoch_of_loss = scene.epoch - epoch_columns(bridge, {});
   const MatrixXd noise_of_loss = noise - bridge.noise - size * size * scene.epoch * scene.epoch.transpose();
-  result.from_loss += weight * (epoch_of_loss * epoch + noise_of_loss * pulled);
+  result.from_loss += weight * (epoch_of_loss * epoch + noise_of_loss * pulled - factor * bridge.movement);
   result.epoch_covariance.diagonal().array() += weight * size * size;
   result.epoch_covariance += weight * (epoch * epoch.transpose() - fall.transpose() * fall);
   const MatrixXd inverse = lower.solve(MatrixXd::Identity(n, n));
   const VectorXd precision = inverse.colwise().squaredNorm();
+  result.square += weight * whitened.squaredNorm() / bridge.instruments.dot(precision);
   result.beside += weight * pulled.cwiseQuotient(precision);
   result.others += weight * (pulled.array() / precision.array().sqrt()).matrix();
-  result.square += weight * whitened.squaredNorm() / static_cast<double>(n);
   result.chance += weight * chance_of(bridge, scene, covariance, whitened.squaredNorm());
   result.parts.push_back(std::move(part));
 }

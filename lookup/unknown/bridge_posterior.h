@@ -48,7 +48,8 @@ struct BridgePosterior {
   Eigen::VectorXd beside;       ///< y less what all other readings let expect [m],
   Eigen::VectorXd others;       ///< and in standard deviations of that
   double square =
-      1.0;  ///< mean square of the readings' whitened distances from what the scenes let expect: about 1
+      1.0;  ///< square of the readings' whitened distance from what the scenes let expect, in units of what
+            ///< the instruments' errors alone make of it on average: about 1 or more
   double chance = 1.0;  ///< of readings as far from what the scenes let expect as these, or farther: even
                         ///< between 0 and 1 over many questions if the model is right (chi square). What
                         ///< scenes without factors may be off by at each point does not count: it would

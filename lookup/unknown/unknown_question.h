@@ -2,6 +2,7 @@
 /// @file A question about a bridge that is not exactly known: the evidence of every scene, then what the
 /// readings say of the bridge.
 
+#include <optional>
 #include <span>
 #include <vector>
 

@@ -219,20 +219,32 @@ TEST_CASE("query-field gives points by name, place and set, and refuses what is 
   }
 }
 
-TEST_CASE("Where blocks meet query-field gives the displacement of each, by the block's name (their nodes)") {
+TEST_CASE("Where blocks meet query-field gives the displacement of each (a micrometre to either side)") {
   const Database database = Database::open(desk().database);
   const Model bridge = bridge_of(database);
   const Joint& joint = bridge.joints.front();
   const auto ends = ends_of(joint, database.mesh());
-  const Point middle = 0.5 * (ends[0] + ends[1]);
-  const ProgramResult result =
-      test::run("query-field", {"intact", "-d", desk().database, "--at",
-                                fmt::format("{},{}", middle.x(), middle.y()), "--format", "json"});
-  INFO(result.err);
-  const auto json = nlohmann::json::parse(result.out);
-  REQUIRE(json.size() == 2);
-  CHECK_THAT(json.at(0).at("point").get<std::string>(), Contains(" of block "));
-  CHECK(json.at(0).at("point") != json.at(1).at("point"));
+  const Point middle = 0.5 * (ends[0] + ends[1]), along = ends[1] - ends[0];
+  const auto shown = [&](const Point& at) {
+    const ProgramResult result = test::run(
+        "query-field",
+        {"intact", "-d", desk().database, "--at", fmt::format("{},{}", at.x(), at.y()), "--format", "json"});
+    INFO(result.err);
+    return nlohmann::json::parse(result.out);
+  };
+  const Point aside = 1e-6 * Point(-along.y(), along.x()).normalized();
+  std::vector<double> of_each;
+  for (const Point& at : {Point(middle + aside), Point(middle - aside)}) {
+    REQUIRE(shown(at).size() == 1);
+    of_each.push_back(shown(at).at(0).at("uy_m"));
+  }
+  const nlohmann::json both = shown(middle);
+  REQUIRE(both.size() == 2);
+  for (const auto& one : both) CHECK_THAT(one.at("point").get<std::string>(), Contains(" of block "));
+  const double first = both.at(0).at("uy_m"), second = both.at(1).at("uy_m");
+  const double crosswise = std::abs(first - of_each[1]) + std::abs(second - of_each[0]);
+  CHECK(std::min(std::abs(first - of_each[0]) + std::abs(second - of_each[1]), crosswise) < 2e-9);
+  CHECK(std::abs(first - second) > 1e-8);  // the joint closes by more
 }
 
 TEST_CASE("query-field gives at a triangle's centroid the mean of its corners (linear shape functions)") {

@@ -119,6 +119,24 @@ TEST_CASE("Readings that are coarser than their errors, or of another unit, show
   CHECK(site.answer("2,4", rounded(0.01)).at("verdict") == "located");
 }
 
+TEST_CASE("Changes of zero are believed where what was read before shows how finely (written out)") {
+  const Site site;
+  const auto answer = [&](double step, double sigma) {
+    std::string text = "point,before_mm,after_mm,sigma_mm\n";
+    for (int point = 1; point <= 12; ++point) {
+      const double read = -step * (20 + point * point % 7);
+      text += fmt::format("T{},{},{},{}\n", point, read, read, sigma);
+    }
+    const std::string path = (site.folder / "zeros.csv").string();
+    std::ofstream(path) << text;
+    return nlohmann::json::parse(
+        test::run("locate-damage", {path, "-d", site.database, "--format", "json"}).out);
+  };
+  CHECK(answer(0.01, 0.01).at("verdict") != "unexplained");
+  CHECK_THAT(answer(0.1, 0.01).at("fit").at("reason").get<std::string>(), Contains("multiples of 0.1 mm"));
+  CHECK_THAT(answer(0.0, 0.01).at("fit").at("reason").get<std::string>(), Contains("all changes are zero"));
+}
+
 TEST_CASE(
     "Where what falls would show the readings, too, nothing that stands is named (the scene they are made "
     "of)") {

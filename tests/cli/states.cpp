@@ -248,8 +248,6 @@ TEST_CASE(
   CHECK(verified["recomputed"] == 12);
 }
 
-}  // namespace voussoir
-
 TEST_CASE("A ring carries a load as far as limit analysis lets it, nearly (Heyman's mechanism: 71.6 kN)") {
   const test::TemporaryFolder folder;
   const auto outcome = [&](double force) {
@@ -269,3 +267,5 @@ TEST_CASE("A ring carries a load as far as limit analysis lets it, nearly (Heyma
   CHECK_THAT(outcome(60e3), Catch::Contains("built:p: 1 standing"));
   CHECK_THAT(outcome(75e3), Catch::Contains("built:p: 0 standing"));
 }
+
+}  // namespace voussoir

@@ -35,7 +35,9 @@ TEST_CASE("A drawing shows every block, control point, support, joint and load o
   REQUIRE(joints != std::string::npos);
   const std::string line = picture.substr(joints, picture.find('\n', joints) - joints);
   CHECK(count(line, "M") == static_cast<int>(bridge.joints.size()));
-  CHECK(count(picture, "class=\"load\"") > 0);
+  CHECK(count(picture, "class=\"load\"") == static_cast<int>(description.loads.size()));
+  CHECK(count(picture, "sensors") == 1);
+  CHECK(count(picture, "loads on the bridge's thickness") == 1);
 }
 
 TEST_CASE("What a name holds cannot end the picture's markup", "[drawing]") {

@@ -191,7 +191,7 @@ TEST_CASE("Merging leaves the scenes of an interrupted build of the same file al
     std::string bytes = test::text_of(site.merging.parts[0]);
     bytes[bytes.size() / 2] ^= 4;  // amid the fields
     std::ofstream(site.merging.parts[0], std::ios::binary) << bytes;
-    CHECK_THROWS_WITH(site.merge(), Contains("lacks scene"));
+    CHECK_THROWS_WITH(site.merge(), Contains("part 1/2 lacks scene"));
     CHECK(std::filesystem::file_size(Journal::path_for(site.merging.output)) == journal);
   }
 }
