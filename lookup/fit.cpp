@@ -181,20 +181,22 @@ Fit check_fit(const Observation& observation, const NoiseEstimate& noise,
 }
 
 Fit check_fit(const BridgePosterior& posterior) {
-  const double chance = posterior.chance;
-  if (chance < kSmallestChance)
-    return {false, chance, "the scatter exceeds what instruments and an uncertain bridge explain"};
+  if (posterior.chance >= kSmallestChance) return {true, posterior.chance, ""};
+  return {false, posterior.chance, "the scatter exceeds what instruments and an uncertain bridge explain"};
+}
+
+std::optional<Fit> check_sizes(const BridgePosterior& posterior) {
   const auto is_wrong = [](double times) { return times < kLeastTimes || times > kMostTimes; };
   constexpr const char* kRemedy = "are the readings' signs, units and order of epochs right?";
   if (is_wrong(posterior.times_movement))
-    return {false, chance,
-            fmt::format("the bridge would move {:.2g} times as much as the model does; {}",
-                        posterior.times_movement, kRemedy)};
+    return Fit{false, posterior.chance,
+               fmt::format("the bridge would move {:.2g} times as much as the model does; {}",
+                           posterior.times_movement, kRemedy)};
   if (is_wrong(posterior.times_signal))
-    return {false, chance,
-            fmt::format("the missing blocks would change {:.2g} times what they change in the model; {}",
-                        posterior.times_signal, kRemedy)};
-  return {true, chance, ""};
+    return Fit{false, posterior.chance,
+               fmt::format("the missing blocks would change {:.2g} times what they change in the model; {}",
+                           posterior.times_signal, kRemedy)};
+  return std::nullopt;
 }
 
 }  // namespace voussoir

@@ -46,9 +46,11 @@ Fit check_fit(const Observation& observation, const NoiseEstimate& noise, std::s
 /// how far the reading is from it, in standard deviations of that; `scale` is the instrument's alone.
 std::vector<SensorResidual> sensor_residuals(const Observation& observation, const UnknownBridge& bridge,
                                              const BridgePosterior& posterior);
-/// And whether what is believed of the bridge makes the model move by no less than a fifth and no more than
-/// five times: the first order would otherwise take readings with the wrong sign or unit for a bridge that
-/// rises under its weight.
 Fit check_fit(const BridgePosterior& posterior);
+
+/// Does what is believed of the bridge make the model move by less than a fifth or more than five times? To
+/// first order readings with the wrong sign or unit are those of a bridge that rises under its weight. Null
+/// if it does not.
+std::optional<Fit> check_sizes(const BridgePosterior& posterior);
 
 }  // namespace voussoir

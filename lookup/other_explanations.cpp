@@ -6,6 +6,7 @@
 #include <functional>
 #include <numeric>
 
+#include "core/not_a_number.h"
 #include "core/units.h"
 #include "lookup/evidence/scene_evidence.h"
 #include "lookup/readings/sensor.h"
@@ -99,26 +100,55 @@ std::vector<GrossError> suspects_of(const UnknownQuestion& asked, std::size_t ro
   return suspects;
 }
 
+/// What is near the readings but one.
+std::vector<std::size_t> rows_without(const UnknownQuestion& asked, std::size_t channel) {
+  Observation others = asked.observation;
+  others.displacement[channel] = others.reading[channel] = kNan;
+  std::vector<std::size_t> rows;
+  for (const ScoredRow& near : asked.preparation.smallest_misfits(others, kMostNear))
+    rows.push_back(near.row);
+  return rows;
+}
+
+/// Of these rows those that readings leave possible and that lack not all of the named blocks; of none named
+/// those that lack none.
+std::vector<std::size_t> rows_otherwise(const UnknownQuestion& asked, std::vector<std::size_t> rows,
+                                        const std::vector<BlockId>& named) {
+  const SceneTable& table = asked.library.table;
+  std::ranges::sort(rows);
+  rows.erase(std::ranges::unique(rows).begin(), rows.end());
+  std::erase_if(rows, [&](std::size_t row) {
+    const Scene scene = table.scene(row);
+    const bool has_all = std::ranges::all_of(named, [&](BlockId block) { return scene.lacks(block); });
+    return (has_all && !scene.removed.empty()) ||
+           !scene_loss(asked.question.bridge(), asked.observation, table, row);
+  });
+  return rows;
+}
+
+/// A scene that would explain all but one reading if that is grossly wrong; null unless it would be likely.
+std::optional<Scene> explained_by(const UnknownQuestion& asked, const Answer& answer, const GrossError& gross,
+                                  std::vector<std::size_t> rows, const std::vector<BlockId>& named) {
+  const std::vector<std::size_t> near = rows_without(asked, gross.channel);
+  rows.insert(rows.end(), near.begin(), near.end());
+  const std::vector<std::size_t> others = rows_otherwise(asked, std::move(rows), named);
+  if (others.empty()) return std::nullopt;
+  const std::vector<double> logs =
+      asked.question.log_parts_of(others, asked.preparation.eligible(), answer.prior, {.gross = gross});
+  if (!is_likely_beside(answer, std::log(kGrossChance) + log_sum_of(logs))) return std::nullopt;
+  return asked.library.table.scene(
+      others[static_cast<std::size_t>(std::ranges::max_element(logs) - logs.begin())]);
+}
+
 /// Is it one reading alone that says what the answer calls missing? If it were grossly wrong, would others
 /// explain the rest?
 std::optional<Fit> check_single_readings(const UnknownQuestion& asked, const Answer& answer,
                                          const std::vector<std::size_t>& rows) {
-  const SceneTable& table = asked.library.table;
   const std::vector<BlockId> named = likely_blocks(*answer.posterior, kCertain);
-  std::vector<std::size_t> others;
-  for (const std::size_t row : rows) {
-    const Scene scene = table.scene(row);
-    const bool has_all = std::ranges::all_of(named, [&](BlockId block) { return scene.lacks(block); });
-    const bool is_possible = scene_loss(asked.question.bridge(), asked.observation, table, row).has_value();
-    if (is_possible && (scene.removed.empty() || !has_all)) others.push_back(row);
-  }
-  for (const std::size_t row : others)
+  for (const std::size_t row : rows_otherwise(asked, rows, named))
     for (const GrossError& gross : suspects_of(asked, row)) {
-      const std::vector<double> logs =
-          asked.question.log_parts_of(others, asked.preparation.eligible(), answer.prior, {.gross = gross});
-      if (!is_likely_beside(answer, std::log(kGrossChance) + log_sum_of(logs))) continue;
-      const auto best = static_cast<std::size_t>(std::ranges::max_element(logs) - logs.begin());
-      const Scene scene = table.scene(others[best]);
+      const auto scene = explained_by(asked, answer, gross, rows, named);
+      if (!scene) continue;
       const StoredPoint& point = asked.library.points[gross.channel];
       return Fit{
           false, answer.fit->chance,
@@ -126,7 +156,7 @@ std::optional<Fit> check_single_readings(const UnknownQuestion& asked, const Ans
                       "likely, too",
                       point.name, named.empty() ? "blocks are" : "these blocks are",
                       kMillimetres * gross.size, unit_of(point.quantity),
-                      scene.removed.empty() ? "an intact bridge" : to_string(scene, asked.library.layout))};
+                      scene->removed.empty() ? "an intact bridge" : to_string(*scene, asked.library.layout))};
     }
   return std::nullopt;
 }
@@ -134,13 +164,14 @@ std::optional<Fit> check_single_readings(const UnknownQuestion& asked, const Ans
 }  // namespace
 
 std::optional<Fit> find_other(const UnknownQuestion& asked, const Answer& answer) {
-  if (const auto falls = check_falls(asked, answer)) return falls;
   const bool is_alarm = 1.0 - intact_probability(*answer.posterior) >= kCertain;
-  if (!is_alarm) return std::nullopt;
-  const std::vector<std::size_t> rows = rows_beside(asked, answer);
-  if (!asked.observation.unknown_level)
-    if (const auto larger = check_stated_errors(asked, answer, rows)) return larger;
-  return check_single_readings(asked, answer, rows);
+  const std::vector<std::size_t> rows = is_alarm ? rows_beside(asked, answer) : std::vector<std::size_t>();
+  if (is_alarm)
+    if (const auto single = check_single_readings(asked, answer, rows)) return single;
+  if (const auto sizes = check_sizes(answer.bridge->posterior)) return sizes;
+  if (const auto falls = check_falls(asked, answer)) return falls;
+  return is_alarm && !asked.observation.unknown_level ? check_stated_errors(asked, answer, rows)
+                                                      : std::nullopt;
 }
 
 }  // namespace voussoir

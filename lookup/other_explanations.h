@@ -15,10 +15,11 @@ struct UnknownQuestion {
   const Library& library;
 };
 
-/// A fit that explains nothing, with the reason, if there is one: falls that show just what the database has
-/// of them, which would be likely, too; and, where blocks are said to be missing, errors that are larger than
-/// stated, which would be far likelier, or a single reading that is grossly wrong, which would be likely,
-/// too. Precondition: some scene is likely.
+/// A fit that explains nothing, with the reason, if there is one: where blocks are said to be missing a
+/// single reading that is grossly wrong, which would be likely, too; sizes that cannot be (check_sizes);
+/// falls that show just what the database has of them, which would be likely, too; and, where blocks are said
+/// to be missing, errors that are larger than stated, which would be far likelier. Preconditions: some scene
+/// is likely, and the answer has what the readings say of the bridge.
 std::optional<Fit> find_other(const UnknownQuestion& asked, const Answer& answer);
 
 }  // namespace voussoir

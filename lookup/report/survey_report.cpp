@@ -16,7 +16,7 @@ namespace {
 
 Table table_of(const std::vector<SurveyRow>& rows) {
   Table table{{"file", "verdict", "named", "certainty", "scene", "posterior", "intact_probability", "misfit",
-               "readings", "error"},
+               "readings", "reason", "error"},
               {}};
   const bool several = std::ranges::any_of(rows, [](const SurveyRow& row) { return !row.database.empty(); });
   if (several) table.columns.push_back("database");
@@ -25,7 +25,7 @@ Table table_of(const std::vector<SurveyRow>& rows) {
     table.rows.push_back({row.file, row.verdict, row.named, answered ? row.certainty : kNan, row.scene,
                           answered ? row.posterior : kNan, answered ? row.intact_probability : kNan,
                           answered ? row.misfit : kNan, answered ? static_cast<double>(row.readings) : kNan,
-                          row.error});
+                          row.reason, row.error});
     if (several) table.rows.back().push_back(row.database);
   }
   return table;
@@ -37,8 +37,9 @@ std::string line_of(const SurveyRow& row) {
   if (std::isnan(row.posterior)) return fmt::format("{}: smallest misfit {}\n", row.file, row.scene);
   const std::string named =
       row.named.empty() ? "" : fmt::format(" {} ({})", row.named, percent(row.certainty));
-  return fmt::format("{}: {}{}; first {} ({}), intact {}{}\n", row.file, row.verdict, named, row.scene,
-                     percent(row.posterior), percent(row.intact_probability),
+  const std::string reason = row.reason.empty() ? "" : fmt::format(" ({})", row.reason);
+  return fmt::format("{}: {}{}{}; first {} ({}), intact {}{}\n", row.file, row.verdict, named, reason,
+                     row.scene, percent(row.posterior), percent(row.intact_probability),
                      row.database.empty() ? "" : fmt::format("; {}", row.database));
 }
 
@@ -63,6 +64,7 @@ SurveyRow survey_row(const std::string& file, const Answer& answer, const Compar
   if (answer.posterior) {
     row.verdict = to_string(verdict_of(answer));
     row.intact_probability = intact_probability(*answer.posterior);
+    if (answer.fit) row.reason = answer.fit->reason;
     if (verdict_of(answer) == Verdict::located)
       name_blocks(*answer.posterior, comparison.library.layout, row);
   }

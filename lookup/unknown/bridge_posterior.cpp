@@ -102,8 +102,7 @@ void add_part(const UnknownBridge& bridge, const SceneGaussian& scene, double ka
               BridgePosterior& result) {
   const Index n = scene.difference.size();
   const double size = bridge.conditions;
-  const MatrixXd noise = scene_noise(bridge, scene.loss);
-  const MatrixXd covariance = noise + kappa * scene.scatter;
+  const MatrixXd covariance = scene_noise(bridge, scene.loss) + kappa * scene.scatter;
   BridgePart part{weight, kappa, scene.bridge, Eigen::LLT<MatrixXd>(covariance), {}};
   const auto lower = part.covariance.matrixL();
   const VectorXd whitened = lower.solve(scene.difference);
@@ -114,12 +113,8 @@ void add_part(const UnknownBridge& bridge, const SceneGaussian& scene, double ka
   result.bridge_mean += weight * part.mean;
   result.epoch_mean += weight * epoch;
   result.from_unevenness += weight * (bridge.unevenness * pulled);
-  // The common factor of all movements, which counts in the signal's noise, too.
   const double factor = bridge.scale * bridge.scale * (bridge.movement + scene.loss.signal).dot(pulled);
   result.from_model += weight * (bridge.fixed_noise * pulled + factor * bridge.movement);
-  const MatrixXd epoch_of_loss = scene.epoch - epoch_columns(bridge, {});
-  const MatrixXd noise_of_loss = noise - bridge.noise - size * size * scene.epoch * scene.epoch.transpose();
-  result.from_loss += weight * (epoch_of_loss * epoch + noise_of_loss * pulled - factor * bridge.movement);
   result.epoch_covariance.diagonal().array() += weight * size * size;
   result.epoch_covariance += weight * (epoch * epoch.transpose() - fall.transpose() * fall);
   const MatrixXd inverse = lower.solve(MatrixXd::Identity(n, n));
@@ -143,7 +138,7 @@ void explain(const UnknownBridge& bridge, const Observation& observation, const 
   result.signal = scene.loss.signal;
   result.from_bridge = scene.bridge * result.bridge_mean;
   const VectorXd of_intact = bridge_columns(bridge, {}) * result.bridge_mean;
-  result.times_signal = times_of(result.signal, result.from_bridge - of_intact + result.from_loss);
+  result.times_signal = times_of(result.signal, result.from_bridge - of_intact);
   // A levelling may shift all heights by as much as the bridge settles.
   const bool is_level_known = !observation.has_levelling();
   result.times_movement =
@@ -160,7 +155,7 @@ BridgePosterior empty_posterior(const UnknownBridge& bridge) {
   BridgePosterior result;
   result.chance = result.square = 0.0;
   result.beside = result.others = VectorXd::Zero(bridge.reading.size());
-  result.from_unevenness = result.from_loss = result.from_model = VectorXd::Zero(bridge.reading.size());
+  result.from_unevenness = result.from_model = VectorXd::Zero(bridge.reading.size());
   result.bridge_mean = VectorXd::Zero(bridge.factors->of_bridge());
   result.epoch_mean = VectorXd::Zero(epochs);
   result.epoch_covariance = MatrixXd::Zero(epochs, epochs);

@@ -40,7 +40,6 @@ struct BridgePosterior {
   Eigen::VectorXd from_bridge;      ///< expected of the parameters of the bridge
   Eigen::MatrixXd from_epochs;      ///< and of those of the epochs: a column for each parameter
   Eigen::VectorXd from_unevenness;  ///< of what is uneven in the epochs
-  Eigen::VectorXd from_loss;        ///< of what epochs and else make of the missing blocks' signal
   Eigen::VectorXd from_model;       ///< of what the model leaves of the intact bridge, and levellings
   Eigen::VectorXd left;             ///< of y
   double times_signal = 1.0;  ///< how many times as large as in the model is what the missing blocks change,

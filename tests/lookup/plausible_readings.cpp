@@ -35,7 +35,8 @@ TEST_CASE("Changes that scatter by less than a seventh of their errors are asked
   CHECK_FALSE(check_scatter(changes_at(9), scattering(0.1)));
 }
 
-TEST_CASE("Displacements may be just those of the file's bridge, whose own scatter says nothing (written out)") {
+TEST_CASE(
+    "Displacements may be just those of the file's bridge, whose own scatter says nothing (written out)") {
   UnknownBridge bridge = changes_at(12);
   bridge.movement.setConstant(1e-3);
   CHECK_FALSE(check_scatter(bridge, scattering(0.1)));
