@@ -31,16 +31,29 @@ bool is_likely_beside(const Answer& answer, double log) {
   return log > answer.posterior->log_evidence + std::log((1.0 - kCertain) / kCertain);
 }
 
-/// The intact bridge and what is near the readings, that any of these may be the truth.
-std::vector<std::size_t> rows_beside(const UnknownQuestion& asked, const Answer& answer) {
-  std::vector<std::size_t> rows = {answer.posterior->credible.front()};
-  for (const ScoredRow& near : asked.preparation.smallest_misfits(asked.observation, kMostNear))
-    rows.push_back(near.row);
-  const Eligible& eligible = asked.preparation.eligible();
-  if (eligible.missing.front() == 0) rows.push_back(eligible.rows.front());
+/// Each once, in ascending order.
+std::vector<std::size_t> distinct(std::vector<std::size_t> rows) {
   std::ranges::sort(rows);
   rows.erase(std::ranges::unique(rows).begin(), rows.end());
   return rows;
+}
+
+/// Of scenes near the readings.
+std::vector<std::size_t> rows_near(const UnknownQuestion& asked, const Observation& observation,
+                                   std::size_t count) {
+  std::vector<std::size_t> rows;
+  for (const ScoredRow& near : asked.preparation.smallest_misfits(observation, count))
+    rows.push_back(near.row);
+  return rows;
+}
+
+/// The intact bridge and what is near the readings, that any of these may be the truth.
+std::vector<std::size_t> rows_beside(const UnknownQuestion& asked, const Answer& answer) {
+  std::vector<std::size_t> rows = rows_near(asked, asked.observation, kMostNear);
+  rows.push_back(answer.posterior->credible.front());
+  const Eligible& eligible = asked.preparation.eligible();
+  if (eligible.missing.front() == 0) rows.push_back(eligible.rows.front());
+  return distinct(std::move(rows));
 }
 
 /// Do larger errors than those that are stated explain the readings far better, with no block missing or by
@@ -63,10 +76,8 @@ std::optional<Fit> check_stated_errors(const UnknownQuestion& asked, const Answe
 std::optional<Fit> check_falls(const UnknownQuestion& asked, const Answer& answer) {
   const UnknownBridge& bridge = asked.question.bridge();
   const SceneTable& table = asked.library.table;
-  const auto falls = [&](std::size_t row) { return !known_losses(bridge, table, row).all; };
-  std::vector<std::size_t> rows;
-  for (const ScoredRow& near : asked.preparation.smallest_misfits(asked.observation, kMostFalls))
-    if (falls(near.row)) rows.push_back(near.row);
+  std::vector<std::size_t> rows = rows_near(asked, asked.observation, kMostFalls);
+  std::erase_if(rows, [&](std::size_t row) { return known_losses(bridge, table, row).all; });
   if (rows.empty()) return std::nullopt;
   const std::vector<double> logs =
       asked.question.log_parts_of(rows, asked.preparation.eligible(), answer.prior, {.shown_exactly = true});
@@ -104,10 +115,7 @@ std::vector<GrossError> suspects_of(const UnknownQuestion& asked, std::size_t ro
 std::vector<std::size_t> rows_without(const UnknownQuestion& asked, std::size_t channel) {
   Observation others = asked.observation;
   others.displacement[channel] = others.reading[channel] = kNan;
-  std::vector<std::size_t> rows;
-  for (const ScoredRow& near : asked.preparation.smallest_misfits(others, kMostNear))
-    rows.push_back(near.row);
-  return rows;
+  return rows_near(asked, others, kMostNear);
 }
 
 /// Of these rows those that readings leave possible and that lack not all of the named blocks; of none named
@@ -115,8 +123,7 @@ std::vector<std::size_t> rows_without(const UnknownQuestion& asked, std::size_t 
 std::vector<std::size_t> rows_otherwise(const UnknownQuestion& asked, std::vector<std::size_t> rows,
                                         const std::vector<BlockId>& named) {
   const SceneTable& table = asked.library.table;
-  std::ranges::sort(rows);
-  rows.erase(std::ranges::unique(rows).begin(), rows.end());
+  rows = distinct(std::move(rows));
   std::erase_if(rows, [&](std::size_t row) {
     const Scene scene = table.scene(row);
     const bool has_all = std::ranges::all_of(named, [&](BlockId block) { return scene.lacks(block); });

@@ -113,6 +113,7 @@ void add_part(const UnknownBridge& bridge, const SceneGaussian& scene, double ka
   result.bridge_mean += weight * part.mean;
   result.epoch_mean += weight * epoch;
   result.from_unevenness += weight * (bridge.unevenness * pulled);
+  // The expected common factor of all movements (Nuisance::scale), which moves the intact bridge, too.
   const double factor = bridge.scale * bridge.scale * (bridge.movement + scene.loss.signal).dot(pulled);
   result.from_model += weight * (bridge.fixed_noise * pulled + factor * bridge.movement);
   result.epoch_covariance.diagonal().array() += weight * size * size;
