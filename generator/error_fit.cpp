@@ -11,6 +11,11 @@ namespace {
 /// point are the same.
 constexpr double kApart = 1e-12;
 
+/// Signals below this share of the median one (root mean squares) do not count. What a block beside a held
+/// end shows is rounding; the errors of others' sizes that are left there, in shares of that, are anything,
+/// and would be those of all signals. A block whose loss shows as little is not looked for.
+constexpr double kLeastSignal = 0.05;
+
 }  // namespace
 
 void ErrorFit::add(const Eigen::VectorXd& signal, const Eigen::VectorXd& error) {
@@ -22,24 +27,33 @@ void ErrorFit::add(const Eigen::VectorXd& signal, const Eigen::VectorXd& error) 
       ++count;
     }
   const double mean_square = count > 0 ? sum / static_cast<double>(count) : 0.0;
-  if (mean_square == 0.0) return;
-  for (Eigen::Index i = 0; i < signal.size(); ++i) {
-    if (std::isnan(signal[i]) || std::isnan(error[i])) continue;
-    const Eigen::Vector2d terms(signal[i] * signal[i] / mean_square, 1.0);
-    normal_ += terms * terms.transpose();
-    right_ += terms * (error[i] * error[i] / mean_square);
-  }
+  if (mean_square > 0.0) signals_.push_back({signal, error, mean_square});
 }
 
 Eigen::Vector2d ErrorFit::squares() const {
-  if (normal_(1, 1) == 0.0) return Eigen::Vector2d::Zero();
-  const bool are_apart = normal_.determinant() > kApart * normal_(0, 0) * normal_(1, 1);
+  if (signals_.empty()) return Eigen::Vector2d::Zero();
+  std::vector<double> sizes;
+  for (const Signal& signal : signals_) sizes.push_back(signal.mean_square);
+  const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
+  std::ranges::nth_element(sizes, middle);
+  Eigen::Matrix2d normal = Eigen::Matrix2d::Zero();
+  Eigen::Vector2d right = Eigen::Vector2d::Zero();
+  for (const auto& [values, errors, mean_square] : signals_) {
+    if (mean_square < kLeastSignal * kLeastSignal * *middle) continue;
+    for (Eigen::Index i = 0; i < values.size(); ++i) {
+      if (std::isnan(values[i]) || std::isnan(errors[i])) continue;
+      const Eigen::Vector2d terms(values[i] * values[i] / mean_square, 1.0);
+      normal += terms * terms.transpose();
+      right += terms * (errors[i] * errors[i] / mean_square);
+    }
+  }
+  const bool are_apart = normal.determinant() > kApart * normal(0, 0) * normal(1, 1);
   const Eigen::Vector2d both =
-      are_apart ? Eigen::Vector2d(normal_.inverse() * right_) : Eigen::Vector2d(-1.0, 0.0);
+      are_apart ? Eigen::Vector2d(normal.inverse() * right) : Eigen::Vector2d(-1.0, 0.0);
   if (both.minCoeff() >= 0.0) return both;
   const Eigen::Index kept = both[0] < 0.0 ? 1 : 0;
   Eigen::Vector2d one = Eigen::Vector2d::Zero();
-  one[kept] = std::max(0.0, right_[kept] / normal_(kept, kept));
+  one[kept] = std::max(0.0, right[kept] / normal(kept, kept));
   return one;
 }
 

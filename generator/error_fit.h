@@ -2,11 +2,13 @@
 /// @file Errors of signals as a share of them.
 
 #include <Eigen/Core>
+#include <vector>
 
 namespace voussoir {
 
 /// Least squares of e_i^2 = share^2 s_i^2 + common^2 rms(s)^2 over many signals s and their errors e, every
-/// signal counting alike. NaN: the signal has no such point.
+/// signal counting alike, but for those that are next to nothing (kLeastSignal). NaN: the signal has no such
+/// point.
 class ErrorFit {
  public:
   void add(const Eigen::VectorXd& signal, const Eigen::VectorXd& error);
@@ -16,8 +18,11 @@ class ErrorFit {
   Eigen::Vector2d squares() const;
 
  private:
-  Eigen::Matrix2d normal_ = Eigen::Matrix2d::Zero();
-  Eigen::Vector2d right_ = Eigen::Vector2d::Zero();
+  struct Signal {
+    Eigen::VectorXd values, errors;
+    double mean_square;  // not zero
+  };
+  std::vector<Signal> signals_;
 };
 
 }  // namespace voussoir

@@ -14,6 +14,7 @@ namespace voussoir {
 namespace {
 
 constexpr std::size_t kBridgesAtOnce = 8;
+constexpr double kLargeShare = 3.0;  // FirstOrderResidual's, from which on the user is told
 
 /// Columns that have the covariance of these errors, each of variance 1.
 Eigen::MatrixXd factor_of(const std::vector<Eigen::VectorXd>& errors, Eigen::Index points) {
@@ -203,6 +204,16 @@ class StateResidual {
   std::vector<SampledSignal> signals_;
 };
 
+void warn_of(const FirstOrderResidual& residual, const std::string& state, Progress& progress) {
+  const double largest =
+      std::max({residual.share, residual.common, residual.epoch_share, residual.epoch_common});
+  if (largest > kLargeShare)
+    progress.say(fmt::format(
+        "{}: the first order leaves {:.1f} times as much of what parameters make of losses as it says, "
+        "so readings will hardly show them",
+        state, largest));
+}
+
 }  // namespace
 
 std::size_t sampled_bridge_count(std::size_t points) {
@@ -229,6 +240,7 @@ WhatIsLeft what_is_left(const SensitivityStudy& study, const UncertainParameters
                       "signals is not known: it is taken to be as much as the first order itself",
                       study.states[kept[k]].name));
     left.residuals[k] = residual.find();
+    warn_of(left.residuals[k], study.states[kept[k]].name, progress);
     left.signals[k] = residual.left_of_signals();
   }
   return left;

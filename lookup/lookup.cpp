@@ -139,7 +139,7 @@ void judge_known_bridge(const Library& library, const Observation& observation, 
 
 /// The same, and what the readings say of the bridge, averaged over the likeliest scenes.
 void judge_unknown_bridge(const UnknownQuestion& asked, Answer& answer) {
-  const auto& [question, observation, preparation, library] = asked;
+  const auto& [question, settings, comparison, observation, preparation] = asked;
   answer.noise = {NoiseShape::gaussian, question.level(), observation.unknown_level};
   answer.fit = {false, 0.0, "no scene can show them: each lacks a block that has a reading, or fell"};
   std::vector<WeightedScene> scenes;
@@ -290,10 +290,9 @@ Answer locate_damage(const Comparison& comparison, const LookupSettings& setting
   answer.searched = eligible.rows.size();
   answer.unresolved = eligible.unresolved;
   require_answerable(comparison, settings, observation);
+  const UnknownSettings unknown{settings.epochs, settings.conditions, settings.nuisance.scale};
   std::optional<UnknownBridgeQuestion> question;
-  if (!known)
-    question.emplace(comparison, observation,
-                     UnknownSettings{settings.epochs, settings.conditions, settings.nuisance.scale});
+  if (!known) question.emplace(comparison, observation, unknown);
   if (settings.objective == Objective::posterior) {
     const std::size_t count = with_compared(settings).top;
     const RowValues evidence = question ? question->log_evidence(eligible, answer.prior, count)
@@ -305,7 +304,7 @@ Answer locate_damage(const Comparison& comparison, const LookupSettings& setting
     answer.candidates.push_back(candidate_of(library, row, answer.posterior));
   if (!answer.posterior || found.empty()) return answer;
   if (question)
-    judge_unknown_bridge({*question, observation, preparation, library}, answer);
+    judge_unknown_bridge({*question, unknown, comparison, observation, preparation}, answer);
   else
     judge_known_bridge(library, observation, found.front().row, answer);
   if (const auto doubt = check_readings(comparison, observation)) answer.fit = doubt;

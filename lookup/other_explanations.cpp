@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "core/not_a_number.h"
+#include "core/text.h"
 #include "core/units.h"
 #include "lookup/evidence/scene_evidence.h"
 #include "lookup/readings/sensor.h"
@@ -14,12 +15,21 @@
 namespace voussoir {
 namespace {
 
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
 constexpr std::size_t kMostFalls = 10;  // scenes near the readings, of which those that fall are looked at
 constexpr std::size_t kMostNear = 3;    // scenes near the readings, asked with larger errors:
 constexpr std::array kTimesErrors = {3.0, 10.0, 100.0};  // so many times what is stated
 // Beforehand that a reading is off by a size that is given to a factor of e. One in a thousand grossly wrong,
 // by anything from its own error to ten thousand times that, comes to about as much.
 constexpr double kGrossChance = 2e-4;
+constexpr std::size_t kMostHidden = 3;   // losses that only readings on their blocks exclude
+constexpr std::size_t kMostLikely = 10;  // scenes that each of them competes with
+// Beforehand that what was read on a block goes on giving a value when the block is lost: the block is loose
+// and carries nothing, but hangs there; a logger repeats its last value; the target was on the one beside it.
+constexpr double kKeptChance = 1e-2;
 constexpr std::size_t kMostSuspects = 2;  // readings, of each scene that is looked at for them
 
 double log_sum_of(const std::vector<double>& logs) {
@@ -75,7 +85,7 @@ std::optional<Fit> check_stated_errors(const UnknownQuestion& asked, const Answe
 /// likely, too, if they showed just what the database has of them, and the best of them is not?
 std::optional<Fit> check_falls(const UnknownQuestion& asked, const Answer& answer) {
   const UnknownBridge& bridge = asked.question.bridge();
-  const SceneTable& table = asked.library.table;
+  const SceneTable& table = asked.comparison.library.table;
   std::vector<std::size_t> rows = rows_near(asked, asked.observation, kMostFalls);
   std::erase_if(rows, [&](std::size_t row) { return known_losses(bridge, table, row).all; });
   if (rows.empty()) return std::nullopt;
@@ -87,42 +97,68 @@ std::optional<Fit> check_falls(const UnknownQuestion& asked, const Answer& answe
     return std::nullopt;
   return Fit{false, answer.fit->chance,
              fmt::format("what falls without {} would show them, too",
-                         to_string(table.scene(best), asked.library.layout))};
+                         to_string(table.scene(best), asked.comparison.library.layout))};
 }
 
-/// The readings that are farthest from what all others let expect of a scene, in standard deviations, and how
-/// far they are.
-std::vector<GrossError> suspects_of(const UnknownQuestion& asked, std::size_t row) {
+/// The same readings without those of some channels.
+Observation without(Observation observation, std::span<const std::size_t> channels) {
+  for (const std::size_t channel : channels)
+    observation.displacement[channel] = observation.reading[channel] = kNan;
+  return observation;
+}
+
+/// By how much these readings are off what all others let expect of a scene.
+std::vector<GrossError> errors_of(const UnknownBridge& bridge, const BridgePosterior& believed,
+                                  const std::vector<std::size_t>& channels) {
+  std::vector<Index> rows;
+  for (std::size_t k = 0; k < bridge.rows.size(); ++k)
+    if (std::ranges::find(channels, bridge.rows[k].channel) != channels.end())
+      rows.push_back(static_cast<Index>(k));
+  const auto& covariance = believed.parts.front().covariance;
+  const MatrixXd identity = MatrixXd::Identity(covariance.rows(), covariance.rows());
+  const MatrixXd inverse = covariance.solve(MatrixXd(identity(Eigen::all, rows)));
+  const VectorXd pulled = covariance.solve(bridge.reading - believed.signal);
+  const VectorXd beside = inverse(rows, Eigen::all).llt().solve(pulled(rows));
+  std::vector<GrossError> errors;
+  for (const std::size_t channel : channels) errors.push_back({channel, 0.0});
+  for (std::size_t i = 0; i < rows.size(); ++i) {  // a channel that counts in two epochs has two rows
+    const std::size_t channel = bridge.rows[static_cast<std::size_t>(rows[i])].channel;
+    double& size = std::ranges::find(errors, channel, &GrossError::channel)->size;
+    size = std::max(size, std::abs(beside[static_cast<Index>(i)]));
+  }
+  return errors;
+}
+
+/// The readings that are farthest from what all others let expect of a scene, in standard deviations: each
+/// alone, and with all that is read on the same block.
+std::vector<std::vector<GrossError>> suspects_of(const UnknownQuestion& asked, std::size_t row) {
   const BridgePosterior believed = asked.question.posterior({{row, 1.0}});
-  const std::vector<ReadingRow>& readings = asked.question.bridge().rows;
-  std::vector<std::size_t> order(readings.size());
+  const UnknownBridge& bridge = asked.question.bridge();
+  const std::vector<StoredPoint>& points = asked.comparison.library.points;
+  std::vector<std::size_t> order(bridge.rows.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  const auto at = [](const Eigen::VectorXd& values, std::size_t k) {
-    return std::abs(values[static_cast<Eigen::Index>(k)]);
-  };
   std::ranges::stable_sort(order, std::ranges::greater{},
-                           [&](std::size_t k) { return at(believed.others, k); });
-  std::vector<GrossError> suspects;
-  for (const std::size_t k : order) {  // a channel that counts in two epochs has two of them
-    if (suspects.size() == kMostSuspects) break;
-    if (std::ranges::find(suspects, readings[k].channel, &GrossError::channel) == suspects.end())
-      suspects.push_back({readings[k].channel, at(believed.beside, k)});
+                           [&](std::size_t k) { return std::abs(believed.others[static_cast<Index>(k)]); });
+  std::vector<std::size_t> channels;  // a channel that counts in two epochs has two rows
+  for (const std::size_t k : order)
+    if (std::ranges::find(channels, bridge.rows[k].channel) == channels.end())
+      channels.push_back(bridge.rows[k].channel);
+  std::vector<std::vector<GrossError>> suspects;
+  for (const std::size_t channel : std::span(channels).first(std::min(channels.size(), kMostSuspects))) {
+    suspects.push_back(errors_of(bridge, believed, {channel}));
+    std::vector<std::size_t> beside;
+    std::ranges::copy_if(channels, std::back_inserter(beside),
+                         [&](std::size_t other) { return points[other].block == points[channel].block; });
+    if (beside.size() > 1) suspects.push_back(errors_of(bridge, believed, beside));
   }
   return suspects;
-}
-
-/// What is near the readings but one.
-std::vector<std::size_t> rows_without(const UnknownQuestion& asked, std::size_t channel) {
-  Observation others = asked.observation;
-  others.displacement[channel] = others.reading[channel] = kNan;
-  return rows_near(asked, others, kMostNear);
 }
 
 /// Of these rows those that readings leave possible and that lack not all of the named blocks; of none named
 /// those that lack none.
 std::vector<std::size_t> rows_otherwise(const UnknownQuestion& asked, std::vector<std::size_t> rows,
                                         const std::vector<BlockId>& named) {
-  const SceneTable& table = asked.library.table;
+  const SceneTable& table = asked.comparison.library.table;
   rows = distinct(std::move(rows));
   std::erase_if(rows, [&](std::size_t row) {
     const Scene scene = table.scene(row);
@@ -133,38 +169,108 @@ std::vector<std::size_t> rows_otherwise(const UnknownQuestion& asked, std::vecto
   return rows;
 }
 
-/// A scene that would explain all but one reading if that is grossly wrong; null unless it would be likely.
-std::optional<Scene> explained_by(const UnknownQuestion& asked, const Answer& answer, const GrossError& gross,
-                                  std::vector<std::size_t> rows, const std::vector<BlockId>& named) {
-  const std::vector<std::size_t> near = rows_without(asked, gross.channel);
+/// A scene that would explain all other readings if these are grossly wrong; null unless it would be likely.
+std::optional<Scene> explained_by(const UnknownQuestion& asked, const Answer& answer,
+                                  const std::vector<GrossError>& gross, std::vector<std::size_t> rows,
+                                  const std::vector<BlockId>& named) {
+  std::vector<std::size_t> channels;
+  for (const GrossError& one : gross) channels.push_back(one.channel);
+  const std::vector<std::size_t> near = rows_near(asked, without(asked.observation, channels), kMostNear);
   rows.insert(rows.end(), near.begin(), near.end());
   const std::vector<std::size_t> others = rows_otherwise(asked, std::move(rows), named);
   if (others.empty()) return std::nullopt;
   const std::vector<double> logs =
       asked.question.log_parts_of(others, asked.preparation.eligible(), answer.prior, {.gross = gross});
   if (!is_likely_beside(answer, std::log(kGrossChance) + log_sum_of(logs))) return std::nullopt;
-  return asked.library.table.scene(
+  return asked.comparison.library.table.scene(
       others[static_cast<std::size_t>(std::ranges::max_element(logs) - logs.begin())]);
 }
 
-/// Is it one reading alone that says what the answer calls missing? If it were grossly wrong, would others
-/// explain the rest?
+/// "only the reading at T2 says that these blocks are missing; were it wrong by 0.1 mm".
+std::string in_words(const std::vector<GrossError>& gross, bool named, const Library& library) {
+  std::vector<std::string> names;
+  double size = 0.0;
+  for (const GrossError& one : gross) {
+    names.push_back(library.points[one.channel].name);
+    size = std::max(size, one.size);
+  }
+  const bool alone = gross.size() == 1;
+  return fmt::format("only the reading{} at {} say{} that {} missing; were {} wrong by {:.2g} {}",
+                     alone ? "" : "s", names_in_words(names), alone ? "s" : "",
+                     named ? "these blocks are" : "blocks are", alone ? "it" : "they", kMillimetres * size,
+                     unit_of(library.points[gross.front().channel].quantity));
+}
+
+/// Is it one reading alone, or what is read on one block, that says what the answer calls missing? If that
+/// were grossly wrong, would others explain the rest?
 std::optional<Fit> check_single_readings(const UnknownQuestion& asked, const Answer& answer,
                                          const std::vector<std::size_t>& rows) {
+  const Library& library = asked.comparison.library;
   const std::vector<BlockId> named = likely_blocks(*answer.posterior, kCertain);
   for (const std::size_t row : rows_otherwise(asked, rows, named))
-    for (const GrossError& gross : suspects_of(asked, row)) {
-      const auto scene = explained_by(asked, answer, gross, rows, named);
-      if (!scene) continue;
-      const StoredPoint& point = asked.library.points[gross.channel];
-      return Fit{
-          false, answer.fit->chance,
-          fmt::format("only the reading at {} says that {} missing; were it wrong by {:.2g} {}, {} would be "
-                      "likely, too",
-                      point.name, named.empty() ? "blocks are" : "these blocks are",
-                      kMillimetres * gross.size, unit_of(point.quantity),
-                      scene->removed.empty() ? "an intact bridge" : to_string(*scene, asked.library.layout))};
-    }
+    for (const std::vector<GrossError>& gross : suspects_of(asked, row))
+      if (const auto scene = explained_by(asked, answer, gross, rows, named))
+        return Fit{
+            false, answer.fit->chance,
+            fmt::format("{}, {} would be likely, too", in_words(gross, !named.empty(), library),
+                        scene->removed.empty() ? "an intact bridge" : to_string(*scene, library.layout))};
+  return std::nullopt;
+}
+
+/// What a hidden loss competes with, and the scenes with it: alone and beside what the answer calls missing.
+std::vector<std::size_t> rows_with_hidden(const UnknownQuestion& asked, const Answer& answer,
+                                          const Observation& others, BlockId block) {
+  const SceneTable& table = asked.comparison.library.table;
+  const std::vector<std::size_t>& likely = answer.posterior->credible;
+  std::vector<std::size_t> rows = rows_near(asked, others, kMostNear);
+  rows.insert(rows.end(), likely.begin(),
+              likely.begin() + static_cast<std::ptrdiff_t>(std::min(likely.size(), kMostLikely)));
+  rows.push_back(asked.preparation.eligible().rows.front());
+  std::vector<Scene> scenes = {{{block}}, table.scene(likely.front())};
+  for (const BlockId missing : scenes.back().removed) scenes.push_back({{missing}});
+  for (Scene& scene : scenes) {
+    if (!scene.lacks(block)) scene.removed.push_back(block);
+    std::ranges::sort(scene.removed);
+    if (const auto row = table.find(scene)) rows.push_back(*row);
+  }
+  return distinct(std::move(rows));
+}
+
+/// A block that is read is not missing, unless what is read is on it no longer. Would its loss, alone or with
+/// others, explain all other readings better than what the answer calls likely?
+bool would_be_lost(const UnknownQuestion& asked, const Answer& answer, const HiddenLoss& hidden) {
+  const SceneTable& table = asked.comparison.library.table;
+  const BlockId block = table.scene(hidden.row).removed.front();
+  const Observation others = without(asked.observation, hidden.channels);
+  const std::vector<std::size_t> rows = rows_with_hidden(asked, answer, others, block);
+  UnknownBridgeQuestion question(asked.comparison, others, asked.settings);
+  const std::vector<double> logs =
+      question.log_parts_of(rows, asked.preparation.eligible(), answer.prior, {});
+  double lost = kImpossible, there = kImpossible;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    double& sum = table.scene(rows[i]).lacks(block) ? lost : there;
+    sum = log_sum(sum, logs[i]);
+  }
+  return std::log(kKeptChance) + lost > there + std::log((1.0 - kCertain) / kCertain);
+}
+
+std::optional<Fit> check_hidden_losses(const UnknownQuestion& asked, const Answer& answer) {
+  const Library& library = asked.comparison.library;
+  const std::vector<double> prior =
+      log_prior_by_missing(library.table, asked.preparation.eligible(), answer.prior);
+  std::vector<HiddenLoss> hidden = asked.question.hidden_losses(asked.preparation.eligible());
+  hidden.resize(std::min(hidden.size(), kMostHidden));
+  for (const HiddenLoss& one : hidden) {
+    const double odds = one.gain + prior[1] - prior[0] + std::log(kKeptChance);
+    if (odds < std::log((1.0 - kCertain) / kCertain)) break;
+    if (!would_be_lost(asked, answer, one)) continue;
+    std::vector<std::string> names;
+    for (const std::size_t channel : one.channels) names.push_back(library.points[channel].name);
+    return Fit{false, answer.fit->chance,
+               fmt::format("only what is read at {} says that {} is still there; if that is on it no longer, "
+                           "its loss is likely",
+                           names_in_words(names), to_string(library.table.scene(one.row), library.layout))};
+  }
   return std::nullopt;
 }
 
@@ -177,6 +283,7 @@ std::optional<Fit> find_other(const UnknownQuestion& asked, const Answer& answer
     if (const auto single = check_single_readings(asked, answer, rows)) return single;
   if (const auto sizes = check_sizes(answer.bridge->posterior)) return sizes;
   if (const auto falls = check_falls(asked, answer)) return falls;
+  if (const auto hidden = check_hidden_losses(asked, answer)) return hidden;
   return is_alarm && !asked.observation.unknown_level ? check_stated_errors(asked, answer, rows)
                                                       : std::nullopt;
 }

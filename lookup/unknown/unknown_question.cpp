@@ -89,7 +89,7 @@ std::vector<double> UnknownBridgeQuestion::log_parts_of(std::span<const std::siz
   Observation wider = observation_;
   for (double& share : wider.share) share *= supposed.errors;
   for (double& floor : wider.floor) floor *= supposed.errors;
-  if (supposed.gross) wider.floor[supposed.gross->channel] += supposed.gross->size;
+  for (const GrossError& gross : supposed.gross) wider.floor[gross.channel] += gross.size;
   std::vector<CaseTerms> terms = case_terms(bridge_, wider, cases_);
   if (supposed.shown_exactly)
     for (CaseTerms& one : terms) one.spread = 0.0;
@@ -104,6 +104,15 @@ std::vector<double> UnknownBridgeQuestion::log_parts_of(std::span<const std::siz
     parts[at] = log_sum(parts[at], over_scatter(logs[i]) + beforehand[missing] + silence[at] - log_cases);
   }
   return parts;
+}
+
+std::vector<HiddenLoss> UnknownBridgeQuestion::hidden_losses(const Eligible& eligible) {
+  std::vector<UnknownCase> cases = cases_;
+  std::erase_if(cases, [&](const UnknownCase& one) { return one.level != level(); });
+  std::vector<HiddenLoss> result =
+      voussoir::hidden_losses(bridge_, observation_, comparison_.library.table, eligible, cases);
+  set_case(observation_, cases_[likeliest_], bridge_);
+  return result;
 }
 
 BridgePosterior UnknownBridgeQuestion::posterior(const std::vector<WeightedScene>& scenes) {

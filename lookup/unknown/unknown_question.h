@@ -8,6 +8,7 @@
 
 #include "lookup/evidence/posterior.h"
 #include "lookup/unknown/bridge_posterior.h"
+#include "lookup/unknown/hidden_losses.h"
 
 namespace voussoir {
 
@@ -20,7 +21,7 @@ struct GrossError {
 /// What may be supposed of readings beside what is stated.
 struct Supposition {
   double errors = 1.0;  ///< all instruments are off by so many times what is stated
-  std::optional<GrossError> gross{};
+  std::vector<GrossError> gross{};
   bool shown_exactly = false;  ///< what scenes show beyond losses with factors is just what the database has
 };
 
@@ -42,6 +43,9 @@ class UnknownBridgeQuestion {
   /// this were so: its logarithm. Changes the bridge's case.
   std::vector<double> log_parts_of(std::span<const std::size_t> rows, const Eligible& eligible,
                                    const Prior& prior, const Supposition& supposed);
+
+  /// At the likeliest level of the noise.
+  std::vector<HiddenLoss> hidden_losses(const Eligible& eligible);
 
   /// Of these scenes, over all cases.
   BridgePosterior posterior(const std::vector<WeightedScene>& scenes);

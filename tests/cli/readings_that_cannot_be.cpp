@@ -10,10 +10,12 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "core/not_a_number.h"
 #include "tests/support/bridges.h"
 #include "tests/support/program.h"
 
 using Catch::Matchers::Contains;
+using voussoir::kNan;
 using voussoir::test::ProgramResult;
 namespace test = voussoir::test;
 
@@ -31,14 +33,15 @@ struct Site {
     if (built.exit_code != 0) throw std::runtime_error(built.err);
   }
 
-  /// What is told of a point's change and its error [mm].
+  /// What is told of a point's change and its error [mm]; NaN of a silent sensor.
   using Told =
       std::function<std::pair<double, double>(const std::string& point, double change, double sigma)>;
 
   /// Changes of a scene, each told otherwise than it was read.
-  nlohmann::json answer(const std::string& scene, const Told& told) const {
+  nlohmann::json answer(const std::string& scene, const Told& told,
+                        const std::string& error = "0.01mm") const {
     const ProgramResult made = test::run(
-        "make-measurements", {scene, "-d", database, "--kind", "change", "--sigma", "0.01mm", "--seed", "3"});
+        "make-measurements", {scene, "-d", database, "--kind", "change", "--sigma", error, "--seed", "3"});
     REQUIRE(made.exit_code == 0);
     std::istringstream lines(made.out);
     std::string text = "point,change_mm,sigma_mm\n", point, change, sigma;
@@ -46,9 +49,9 @@ struct Site {
       std::istringstream fields(line);
       std::getline(fields, point, ',') && std::getline(fields, change, ',') && std::getline(fields, sigma);
       if (line.front() == '#' || point == "point") continue;
-      const auto [shown, stated] = told(point, change.empty() ? 0.0 : std::stod(change), std::stod(sigma));
-      text += change.empty() ? fmt::format("{},,{}\n", point, stated)
-                             : fmt::format("{},{},{}\n", point, shown, stated);
+      const auto [shown, stated] = told(point, change.empty() ? kNan : std::stod(change), std::stod(sigma));
+      text += std::isnan(shown) ? fmt::format("{},,{}\n", point, stated)
+                                : fmt::format("{},{},{}\n", point, shown, stated);
     }
     const std::string path = (folder / "readings.csv").string();
     std::ofstream(path) << text;
@@ -97,6 +100,24 @@ TEST_CASE(
       CHECK(answer.at("verdict") != "located");
       CHECK(answer.at("verdict") != "damaged-unlocated");
     }
+}
+
+TEST_CASE("A sensor that goes on giving a value does not hide that its block is lost") {
+  const Site site;
+  for (const std::string lost : {"5,3", "5,4", "5,5"}) {
+    INFO(lost);
+    const auto kept = [](double value) {
+      return [=](const std::string&, double change, double sigma) {
+        return std::pair(std::isnan(change) ? value : change, sigma);
+      };
+    };
+    CHECK(site.answer(lost, kept(kNan), "0.003mm").at("verdict") == "located");
+    for (const double value : {0.001, -0.002}) {
+      const auto hidden = site.answer(lost, kept(value), "0.003mm");
+      CHECK(hidden.at("verdict") == "unexplained");
+      CHECK_THAT(hidden.at("fit").at("reason").get<std::string>(), Contains(lost + " is still there"));
+    }
+  }
 }
 
 TEST_CASE("Readings that are coarser than their errors, or of another unit, show no intact bridge") {

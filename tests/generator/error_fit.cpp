@@ -20,3 +20,15 @@ TEST_CASE("Of one point the error is common, as nothing tells its shares apart; 
   CHECK(fit.squares()[0] == 0.0);
   CHECK(fit.squares()[1] == Approx(0.04));
 }
+
+TEST_CASE("Signals that are next to nothing leave the shares as they are (the same without them)") {
+  ErrorFit plain, with;
+  for (int i = 0; i < 9; ++i) {
+    const Vector2d signal(1e-5 * (1 + i), -2e-5), error(3e-6, 1e-6 * i);
+    plain.add(signal, error);
+    with.add(signal, error);
+    if (i % 3 == 0) with.add(Vector2d(1e-20, 0.0), Vector2d(1e-9, 1e-9));
+  }
+  CHECK(plain.squares().maxCoeff() > 0.0);
+  CHECK(with.squares() == plain.squares());
+}

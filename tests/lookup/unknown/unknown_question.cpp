@@ -298,7 +298,7 @@ TEST_CASE("A gross error of one reading counts as if it had been stated for that
   Random random(19);
   for (const std::size_t channel : {std::size_t{0}, std::size_t{4}}) {
     trial.measure(ReadingKind::change, 3, 2e-5, random);
-    const double gross = evidences(trial, {.gross = GrossError{channel, 7e-4}}, {}).of_wider;
+    const double gross = evidences(trial, {.gross = {{channel, 7e-4}}}, {}).of_wider;
     trial.comparison.measured.sigma[channel] += 7e-4;
     CHECK(gross == Approx(evidences(trial, {}, {}).of_posterior).margin(1e-6));
   }

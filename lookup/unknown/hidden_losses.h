@@ -1,0 +1,28 @@
+#pragma once
+/// @file Losses that readings of the lost block itself exclude, and which of them the other readings may
+/// show.
+
+#include <span>
+#include <vector>
+
+#include "lookup/search/eligible_rows.h"
+#include "lookup/unknown/unknown_bridge.h"
+
+namespace voussoir {
+
+/// One block is missing, and something on it or fastened to it was read all the same.
+struct HiddenLoss {
+  std::size_t row = 0;                ///< of the scene table
+  std::vector<std::size_t> channels;  ///< that were read, and have no value without the block
+  double gain = 0.0;  ///< by how much the logarithm of the other readings' density is larger than with no
+                      ///< block missing, under the intact bridge's covariance, the loss of any size
+};
+
+/// Of all eligible scenes with one block missing those that some readings exclude, and others could show; the
+/// largest gain first. Of each case all that scatters does so as the bridge file states. The bridge's case is
+/// changed.
+std::vector<HiddenLoss> hidden_losses(UnknownBridge& bridge, const Observation& observation,
+                                      const SceneTable& table, const Eligible& eligible,
+                                      std::span<const UnknownCase> cases);
+
+}  // namespace voussoir

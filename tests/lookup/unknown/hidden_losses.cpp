@@ -1,0 +1,96 @@
+/// @file Losses that only readings of the lost block exclude. Oracle: the rows of those readings taken out of
+/// the intact bridge's covariance, and the density of what is left at the best of many sizes of the loss.
+
+#include "lookup/unknown/hidden_losses.h"
+
+#include <algorithm>
+#include <array>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <functional>
+
+#include "lookup/evidence/scene_evidence.h"
+#include "tests/lookup/unknown/dense_normal.h"
+#include "tests/lookup/unknown/made_up_factors.h"
+
+using namespace voussoir;
+using namespace voussoir::test;
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+namespace {
+
+constexpr std::array<UnknownCase, 2> kCases = {{{0.0, 1.0}, {0.0, 0.2}}};
+
+/// Readings of what shows without a block, but for the points on another one.
+struct KeptReadings {
+  SyntheticLibrary library{3, 4};
+  Sensitivities sensitivities = made_up_sensitivities_of(library);
+  Comparison comparison = absolute_readings(library.library(), no_measurements(library.points.size()));
+  Eligible eligible = eligible_rows(library.table, {0, 1});
+
+  explicit KeptReadings(ReadingKind kind) {
+    comparison.kind = kind;
+    comparison.factors = factors_of(library, sensitivities);
+    comparison.model_error = {0.02, 0.01, {}};
+    const std::span<const double> lost = library.table.row(library.row_of({{BlockId{6}}}));
+    for (std::size_t i = 0; i < lost.size(); ++i) {
+      comparison.measured.displacement[i] = lost[i] + 4e-5 * std::sin(static_cast<double>(7 * i));
+      comparison.measured.sigma[i] = 2e-5;
+      if (kind == ReadingKind::change) comparison.before.push_back(library.intact()[i] + 1e-5);
+    }
+  }
+};
+
+/// log density of the rows that a scene has values in, at most over sizes from none to ten times its signal.
+double largest_density(const UnknownBridge& bridge, const std::vector<Index>& kept, const VectorXd& signal,
+                       double most) {
+  const VectorXd zero = VectorXd::Zero(signal.size());
+  const MatrixXd scatter = bridge_columns(bridge, Scene{});
+  const MatrixXd covariance = scene_noise(bridge, {{}, zero, zero}) + scatter * scatter.transpose();
+  double best = kImpossible;
+  for (double size = 0.0; size <= most; size += 1e-3)
+    best = std::max(
+        best, log_normal(VectorXd((bridge.reading - size * signal)(kept)), MatrixXd(covariance(kept, kept))));
+  return best;
+}
+
+/// HiddenLoss::gain of a row, from the definition.
+double gain_of(UnknownBridge& bridge, const Observation& observation, std::span<const double> prediction) {
+  std::vector<Index> kept;
+  VectorXd signal = VectorXd::Zero(bridge.reading.size());
+  for (Index k = 0; k < signal.size(); ++k) {
+    const ReadingRow& row = bridge.rows[static_cast<std::size_t>(k)];
+    if (std::isnan(prediction[row.channel])) continue;
+    kept.push_back(k);
+    signal[k] = row.after * (prediction[row.channel] - observation.intact[row.channel]);
+  }
+  double with = kImpossible, without = kImpossible;
+  for (const UnknownCase& one : kCases) {
+    set_case(observation, one, bridge);
+    with = std::max(with, largest_density(bridge, kept, signal, 10.0));
+    without = std::max(without, largest_density(bridge, kept, signal, 0.0));
+  }
+  return with - without;
+}
+
+}  // namespace
+
+TEST_CASE("A hidden loss gains what it makes of the density of all other readings") {
+  const KeptReadings readings(GENERATE(ReadingKind::absolute, ReadingKind::change));
+  const UnknownSettings settings{GENERATE(Epochs::change, Epochs::both)};
+  const SceneTable& table = readings.library.table;
+  const Observation observation = observe(readings.comparison, {NoiseShape::gaussian, 0.0}, {});
+  UnknownBridge bridge = unknown_bridge(readings.comparison, observation, kCases.front(), settings);
+  const auto found = hidden_losses(bridge, observation, table, readings.eligible, kCases);
+
+  REQUIRE(found.size() == 4);  // the blocks of the highest course, each of which has two points
+  CHECK(std::ranges::is_sorted(found, std::ranges::greater{}, &HiddenLoss::gain));
+  CHECK(found.front().gain > found.back().gain + 1.0);
+  for (const HiddenLoss& one : found) {
+    const auto block = static_cast<std::size_t>(value(table.scene(one.row).removed.front()));
+    CHECK(one.channels == std::vector<std::size_t>{2 * (block - 8), 2 * (block - 8) + 1});
+    CHECK(one.gain == Approx(gain_of(bridge, observation, table.row(one.row))).epsilon(1e-5).margin(1e-5));
+  }
+}
