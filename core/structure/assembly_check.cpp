@@ -62,11 +62,13 @@ bool put_right(Block& block) {
   return clockwise;
 }
 
-void check_outline(const Block& block) {
+void check_outline(const Block& block, double healed) {
   if (block.polygon.size() < 3 || area(block.polygon) < kSmallestArea)
-    throw InputError(fmt::format("block '{}' {} has less than {:g} m2: expected a block of masonry",
-                                 block.label, block.polygon.empty() ? "" : at(block.polygon.front()),
-                                 kSmallestArea));
+    throw InputError(fmt::format(
+        "block '{}' {} has less than {:g} m2 once corners within {:g} mm (blocks_tolerance_m) are one: "
+        "expected "
+        "a block of masonry",
+        block.label, block.polygon.empty() ? "" : at(block.polygon.front()), kSmallestArea, 1e3 * healed));
   if (const auto place = self_crossing(block.polygon))
     throw InputError(
         fmt::format("block '{}': its outline crosses or touches itself {}", block.label, at(*place)));
@@ -117,8 +119,15 @@ struct Gaps {
   bool beside_rings;  ///< are they mistakes there, too?
 };
 
-/// Do two blocks touch along an edge? Throws if they run beside each other with a gap.
-bool touch(const Block& a, const Block& b, const Gaps& gaps) {
+/// Is a place between two blocks part of a third, a thin one?
+bool is_filled(const Point& place, const Block& a, const Block& b, const std::vector<Block>& blocks) {
+  return std::ranges::any_of(blocks, [&](const Block& other) {
+    return &other != &a && &other != &b && contains(other.polygon, place);
+  });
+}
+
+/// Do two of the blocks touch along an edge? Throws if they run beside each other with a gap.
+bool touch(const Block& a, const Block& b, const std::vector<Block>& blocks, const Gaps& gaps) {
   const bool meant = !gaps.beside_rings && (a.role == BlockRole::ring || b.role == BlockRole::ring);
   bool joined = false;
   for (std::size_t i = 0; i < a.polygon.size(); ++i)
@@ -135,6 +144,10 @@ bool touch(const Block& a, const Block& b, const Gaps& gaps) {
       const Point place = first.from + stretch->on_first[0] * along;
       const Point other = second.from + stretch->on_second[0] * (second.to - second.from);
       const double gap = -cross(along, other - first.from) / along.norm();
+      const Point outwards = Point(along.y(), -along.x()).normalized();
+      const Point middle =
+          place + 0.5 * (stretch->on_first[1] - stretch->on_first[0]) * along + 0.5 * gap * outwards;
+      if (is_filled(middle, a, b, blocks)) continue;
       throw InputError(fmt::format(
           "blocks '{}' and '{}' lie {:.3g} mm apart {} along {:.3g} m: expected blocks that "
           "touch within {:g} mm or are more than {:g} mm apart",
@@ -197,7 +210,7 @@ void check_meeting(const std::vector<Block>& blocks, const Gaps& gaps,
   BlockPairs touching;
   for (const auto& [a, b] : near_pairs(blocks, 2.0 * gaps.range)) {
     check_overlap(blocks[a], blocks[b], gaps.joint);
-    if (touch(blocks[a], blocks[b], gaps)) touching.emplace_back(a, b);
+    if (touch(blocks[a], blocks[b], blocks, gaps)) touching.emplace_back(a, b);
   }
   check_carried(blocks, touching, is_held);
 }
@@ -251,7 +264,7 @@ std::vector<std::string> heal_and_check(std::vector<Block>& blocks, const Assemb
   check_labels(blocks);
   expect_metres(blocks);
   std::vector<std::string> notes = heal(blocks, tolerance.heal);
-  for (const Block& block : blocks) check_outline(block);
+  for (const Block& block : blocks) check_outline(block, tolerance.heal);
   const double ground = ground_below(blocks);
   check_meeting(blocks, {tolerance.joint, tolerance.heal, kGapRange * tolerance.heal, true},
                 [&](const Point& p) { return p.y() <= ground + tolerance.heal; });

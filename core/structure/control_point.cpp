@@ -5,13 +5,12 @@
 
 #include "core/error.h"
 #include "core/geometry/polygon.h"
+#include "core/structure/exposed_edges.h"
 #include "core/structure/placed_sensor.h"
 #include "core/text.h"
 
 namespace voussoir {
 namespace {
-
-constexpr double kOnTop = 1e-9;  ///< [m]
 
 NodeId node_at(const Mesh& mesh, BlockId block, const Point& place) {
   const IndexRange range = mesh.block_nodes[static_cast<std::size_t>(value(block))];
@@ -19,19 +18,6 @@ NodeId node_at(const Mesh& mesh, BlockId block, const Point& place) {
   for (int node = range.begin; node < range.end; ++node)
     if ((mesh.nodes.col(node) - place).norm() < (mesh.nodes.col(nearest) - place).norm()) nearest = node;
   return NodeId{nearest};
-}
-
-/// The two ends of the block's upper edge, left to right.
-std::pair<Point, Point> upper_corners(const Polygon& polygon) {
-  const double top = std::max_element(polygon.begin(), polygon.end(), [](const Point& a, const Point& b) {
-                       return a.y() < b.y();
-                     })->y();
-  Polygon upper;
-  for (const Point& p : polygon)
-    if (p.y() > top - kOnTop) upper.push_back(p);
-  const auto [left, right] = std::minmax_element(
-      upper.begin(), upper.end(), [](const Point& a, const Point& b) { return a.x() < b.x(); });
-  return {*left, *right};
 }
 
 /// Soil and backing lie behind the wall, and arches have points of their own.
@@ -56,9 +42,8 @@ struct Family {
     point.name = fmt::format("{}{}", letter, points.size() + 1);
     points.push_back(std::move(point));
   }
-  void add_pair(const Mesh& mesh, BlockId block, const std::pair<Point, Point>& corners) {
-    add(point_at("", mesh, block, corners.first));
-    add(point_at("", mesh, block, corners.second));
+  void add_pair(const Mesh& mesh, BlockId block, const std::array<Point, 2>& corners) {
+    for (const Point& corner : corners) add(point_at("", mesh, block, corner));
   }
 };
 
@@ -90,9 +75,8 @@ std::vector<ControlPoint> find_control_points(const BlockLayout& layout, const M
   for (std::size_t b = 0; b < layout.size(); ++b) {
     const Block& block = layout.blocks[b];
     const BlockId id{static_cast<std::int32_t>(b)};
-    if (top && block.top_course) upper.add_pair(mesh, id, upper_corners(block.polygon));
-    if (arch && block.intrados)
-      intrados.add_pair(mesh, id, {block.intrados->front(), block.intrados->back()});
+    if (top && block.top_course) upper.add_pair(mesh, id, upper_face(block));
+    if (arch && block.intrados) intrados.add_pair(mesh, id, *block.intrados);
     if (face && shows_its_face(block.role)) middle.add(middle_of(block, id, mesh));
   }
   std::vector<ControlPoint> points = std::move(upper.points);

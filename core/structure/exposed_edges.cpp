@@ -1,13 +1,15 @@
 #include "core/structure/exposed_edges.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/geometry/facing_edges.h"
 
 namespace voussoir {
 namespace {
 
-constexpr double kLevel = 1e-9;  ///< [m]
+constexpr double kLevel = 1e-9;        ///< [m]
+constexpr double kSteepestTop = 0.27;  ///< [-] 15 degrees
 
 double touched_length(const Edge& edge, const Block& block, const std::vector<Block>& blocks,
                       double tolerance) {
@@ -24,21 +26,31 @@ double touched_length(const Edge& edge, const Block& block, const std::vector<Bl
 
 }  // namespace
 
+std::array<Point, 2> upper_face(const Block& block) {
+  const Polygon& polygon = block.polygon;  // counter-clockwise: what looks up runs to the left
+  const double steepest = block.role == BlockRole::ring ? 0.0 : kSteepestTop;
+  const auto looks_up = [&](const Point& right, const Point& left) {
+    return left.x() < right.x() &&
+           std::abs(left.y() - right.y()) <= kLevel + steepest * (right.x() - left.x());
+  };
+  const std::size_t n = polygon.size();
+  std::size_t left = 0;
+  for (std::size_t i = 1; i < n; ++i)
+    if (polygon[i].y() > polygon[left].y()) left = i;
+  std::size_t right = left;
+  while (looks_up(polygon[left], polygon[(left + 1) % n])) left = (left + 1) % n;
+  while (looks_up(polygon[(right + n - 1) % n], polygon[right])) right = (right + n - 1) % n;
+  return {polygon[left], polygon[right]};
+}
+
 bool is_seen_from_above(const Block& block, const std::vector<Block>& blocks) {
-  double top = block.polygon.front().y();
-  for (const Point& p : block.polygon) top = std::max(top, p.y());
-  double left = 0.0, right = 0.0;
-  bool found = false;
-  for (const Point& p : block.polygon) {
-    if (p.y() < top - kLevel) continue;
-    left = found ? std::min(left, p.x()) : p.x();
-    right = found ? std::max(right, p.x()) : p.x();
-    found = true;
-  }
-  if (right - left <= kLevel) return false;
+  const auto [left, right] = upper_face(block);
+  if (right.x() - left.x() <= kLevel) return false;
+  const double middle = 0.5 * (left.x() + right.x());
+  const double top = highest_at(block.polygon, middle).value();
   return std::none_of(blocks.begin(), blocks.end(), [&](const Block& other) {
     if (&other == &block) return false;
-    const auto height = highest_at(other.polygon, 0.5 * (left + right));
+    const auto height = highest_at(other.polygon, middle);
     return height && *height > top + kLevel;
   });
 }

@@ -9,7 +9,12 @@
 
 namespace voussoir {
 
-/// Has the block a level upper edge, and is no other block above the middle of it?
+/// The ends of the block's upper face, left to right: from its highest corner along edges that rise by no
+/// more than 15 degrees, as those of a graded or a surveyed parapet do; of arch blocks level ones alone, as
+/// their backs are no place to stand on. Both are that corner if there is no such edge.
+std::array<Point, 2> upper_face(const Block& block);
+
+/// Has the block an upper face, and is no other block above the middle of it?
 bool is_seen_from_above(const Block& block, const std::vector<Block>& blocks);
 
 /// The ends of the block's open face towards a point, counter-clockwise about the block, which along a ring

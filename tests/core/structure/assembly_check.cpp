@@ -92,6 +92,21 @@ TEST_CASE("A corner beside a long edge becomes a corner of it, and the joint has
   CHECK(heal_and_check(blocks, {}).empty());
 }
 
+TEST_CASE("A layer of a few millimetres fills the gap between the stones above and below it", "[assembly]") {
+  std::vector<Block> blocks = sound();
+  for (const std::size_t upper : {2, 3}) shift(blocks[upper], 0.0, 0.004);
+  for (const double x : {100.0, 101.0}) {
+    Block& layer = blocks.emplace_back();
+    layer.label = "layer" + std::to_string(blocks.size());
+    layer.polygon = {{x, 7.5}, {x + 1.0, 7.5}, {x + 1.0, 7.504}, {x, 7.504}};
+  }
+  CHECK(message(blocks) == "accepted");
+  blocks.pop_back();
+  CHECK_THAT(message(blocks), Contains("'b2' and 'b4' lie 4 mm apart"));
+  blocks[4].polygon = {{100.0, 7.5}, {100.0005, 7.5}, {100.0005, 7.504}, {100.0, 7.504}};
+  CHECK_THAT(message(blocks), Contains("'layer5'") && Contains("blocks_tolerance_m"));
+}
+
 TEST_CASE("Mistakes that change the bridge are refused with blocks and place", "[assembly]") {
   std::vector<Block> blocks = sound();
   shift(blocks[3], 0.0, -0.1);
