@@ -15,8 +15,7 @@ configure_file(cmake/build_information.h.in generated/build_information.h @ONLY)
 # One hash over the sources that results depend on (see database/records/provenance.h).
 file(GLOB_RECURSE result_sources CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR} core/*.cpp core/*.h)
 file(GLOB generator_result_sources CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR} database/format/field_codec.*
-     generator/build_plan.* generator/plan_run.* generator/scene_solving.* generator/solvers.* generator/start_field.*
-     generator/state_solving.* generator/steps_of_loss.* generator/variants.*)
+     generator/scenes/*.cpp generator/scenes/*.h generator/uncertainty/*.cpp generator/uncertainty/*.h)
 list(APPEND result_sources ${generator_result_sources})
 add_custom_command(
   OUTPUT ${PROJECT_BINARY_DIR}/generated/solver_revision.h

@@ -8,15 +8,15 @@
 #include "core/structure/bridge_model.h"
 #include "database/format/durable_file.h"
 #include "database/records/writer.h"
-#include "database/records/xdmf.h"
-#include "generator/build_settings.h"
-#include "generator/existing_database.h"
-#include "generator/model_error.h"
-#include "generator/results_key.h"
-#include "generator/reused_records.h"
-#include "generator/scene_list.h"
-#include "generator/sensitivities.h"
-#include "generator/variants.h"
+#include "generator/records/build_settings.h"
+#include "generator/records/existing_database.h"
+#include "generator/scenes/results_key.h"
+#include "generator/scenes/reused_records.h"
+#include "generator/scenes/scene_list.h"
+#include "generator/scenes/variants.h"
+#include "generator/shown_scenes.h"
+#include "generator/uncertainty/model_error.h"
+#include "generator/uncertainty/sensitivities.h"
 
 namespace voussoir {
 namespace {
@@ -261,38 +261,6 @@ void gather(const Build& build, std::vector<Database> parts, BuildSummary& summa
   finish(build, known, summary);
 }
 
-/// The scenes that ParaView shall open. Throws InputError for one that the database will not hold: before the
-/// build, which may take hours.
-std::vector<Scene> xdmf_scenes(const Build& build) {
-  if (build.request.xdmf_scenes.empty()) return {};
-  const std::filesystem::path& output = build.request.output;
-  if (index_paths(output).xdmf == output)
-    throw InputError(
-        fmt::format("--xdmf: {} would be both database and index: expected a database with another ending, "
-                    "such as .h5",
-                    output.string()));
-  if (build.fields == KeepField::no)
-    throw InputError("--xdmf shows fields of scenes: expected no --fields none beside it");
-  std::vector<Scene> scenes = parse_scene_list(build.request.xdmf_scenes, build.bridge().layout);
-  for (const Scene& scene : scenes)
-    if (!std::ranges::binary_search(build.wanted, RecordKey{kNominalVariant, scene}))
-      throw InputError(fmt::format("--xdmf: {} would not hold scene {}: expected scenes of --scenes",
-                                   output.string(), to_string(scene, build.bridge().layout)));
-  return scenes;
-}
-
-/// Of the scenes that are shown, if any; an index of the file that was replaced goes.
-void renew_index(const Build& build, const std::vector<Scene>& shown, bool replaced) {
-  const std::filesystem::path& output = build.request.output;
-  if (!shown.empty())
-    write_index(Database::open(output), shown);
-  else if (replaced && remove_index(output))
-    build.progress.say(
-        fmt::format("{} and {} showed scenes of the file that was replaced and are removed: --xdmf writes "
-                    "them anew",
-                    index_paths(output).xdmf.string(), index_paths(output).views.string()));
-}
-
 ExistingDatabase examine(const Build& build) {
   const BuildRequest& request = build.request;
   return examine_existing(
@@ -308,7 +276,10 @@ BuildSummary build(BuildRequest request, const SolverChoice& solver, Progress& p
   const auto started = std::chrono::steady_clock::now();
   request.output = behind_links(request.output);
   const Build build = prepare(request, solver, progress);
-  const std::vector<Scene> shown = xdmf_scenes(build);
+  const std::vector<Scene> shown =
+      request.xdmf_scenes.empty() ? std::vector<Scene>()
+                                  : shown_scenes(request.xdmf_scenes, {request.output, build.wanted,
+                                                                       build.fields, build.bridge().layout});
   BuildSummary summary;
   summary.output = request.output;
   summary.blocks = build.bridge().layout.size();
@@ -318,7 +289,9 @@ BuildSummary build(BuildRequest request, const SolverChoice& solver, Progress& p
   summary.changes = existing.changes;
   if (existing.up_to_date) {
     summary.up_to_date = true;
-    summarise_existing(*existing.database, summary);
+    summary.outcomes = count_outcomes(*existing.database);
+    summary.bytes = std::filesystem::file_size(existing.database->path());
+    summary.digest = existing.database->digest();
   } else {
     for (const std::string& change : existing.changes)
       progress.say(fmt::format("{} is built anew: {}", request.output.string(), change));
@@ -327,7 +300,7 @@ BuildSummary build(BuildRequest request, const SolverChoice& solver, Progress& p
     else
       gather(build, std::move(parts), summary);
   }
-  renew_index(build, shown, !summary.up_to_date);
+  renew_index(request.output, shown, !summary.up_to_date, progress);
   summary.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
   return summary;
 }

@@ -5,8 +5,8 @@
 
 #include "core/structure/bridge_file.h"
 #include "database/records/database.h"
-#include "generator/outcome_counts.h"
-#include "generator/plan_run.h"
+#include "generator/records/outcome_counts.h"
+#include "generator/scenes/plan_run.h"
 
 namespace voussoir {
 

@@ -9,8 +9,8 @@
 #include "generator/bridge_drawing.h"
 #include "generator/build_options.h"
 #include "generator/command_line.h"
+#include "generator/scenes/variants.h"
 #include "generator/summary.h"
-#include "generator/variants.h"
 
 using namespace voussoir;
 

@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "generator/field_difference.h"
-#include "generator/verify.h"
+#include "generator/verify/field_difference.h"
 
 namespace voussoir {
 

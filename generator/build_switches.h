@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "core/statics/skips.h"
-#include "generator/build_plan.h"
+#include "generator/scenes/build_plan.h"
 
 namespace voussoir {
 

@@ -4,7 +4,7 @@
 #include <map>
 
 #include "core/error.h"
-#include "generator/build_settings.h"
+#include "generator/records/build_settings.h"
 
 namespace voussoir {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "generator/verify.h"
+#include "generator/verify/verify.h"
 
 namespace voussoir {
 

@@ -7,7 +7,7 @@
 #include "database/records/journal.h"
 #include "database/records/schema.h"
 #include "generator/build.h"
-#include "generator/start_field.h"
+#include "generator/scenes/start_field.h"
 #include "tests/support/damaged_database.h"
 #include "tests/support/file_text.h"
 #include "tests/support/made_up_solver.h"

@@ -6,7 +6,7 @@
 #include "core/structure/mirror_symmetry.h"
 #include "database/records/database.h"
 #include "generator/build.h"
-#include "generator/verify.h"
+#include "generator/verify/verify.h"
 #include "tests/support/made_up_solver.h"
 #include "tests/support/same_bits.h"
 #include "tests/support/temporary_folder.h"

@@ -8,7 +8,7 @@
 #include "database/records/database.h"
 #include "database/records/variant_parameters.h"
 #include "generator/build.h"
-#include "generator/verify.h"
+#include "generator/verify/verify.h"
 #include "tests/support/bridges.h"
 #include "tests/support/made_up_solver.h"
 #include "tests/support/temporary_folder.h"

@@ -4,7 +4,7 @@
 #include "database/records/database.h"
 #include "generator/build.h"
 #include "generator/summary.h"
-#include "generator/verify.h"
+#include "generator/verify/verify.h"
 #include "tests/support/bridges.h"
 #include "tests/support/temporary_folder.h"
 

@@ -9,7 +9,7 @@
 #include "core/error.h"
 #include "core/structure/mirror_symmetry.h"
 #include "database/records/journal.h"
-#include "generator/variants.h"
+#include "generator/scenes/variants.h"
 #include "tests/support/file_text.h"
 #include "tests/support/made_up_solver.h"
 #include "tests/support/temporary_folder.h"
@@ -23,12 +23,12 @@ SolverChoice made_up(const std::string&) {
   return test::made_up_solver();
 }
 
-struct Site {
+struct MergeSite {
   test::TemporaryFolder folder;
   BuildRequest request;
   MergeRequest merging;
 
-  Site() {
+  MergeSite() {
     request.bridge = test::small_bridge_file();
     request.threads = 2;
     merging.threads = 2;
@@ -62,7 +62,7 @@ struct Site {
 }  // namespace
 
 TEST_CASE("Sixteen parts in any order, two of them lost and redone, give the digest of one build") {
-  Site site;
+  MergeSite site;
   site.request.histories = "built,lost";
   const BuildSummary whole = site.build("whole.h5");
   site.build_parts(16);
@@ -81,7 +81,7 @@ TEST_CASE("Sixteen parts in any order, two of them lost and redone, give the dig
 }
 
 TEST_CASE("Every scene is in one part, the intact bridge in all, and mirror images stay together") {
-  Site site;
+  MergeSite site;
   site.build_parts(4);
   const Database whole = Database::open(site.build("whole.h5").output);
   const Model bridge = make_model(site.request.bridge.description);
@@ -102,7 +102,7 @@ TEST_CASE("Every scene is in one part, the intact bridge in all, and mirror imag
 }
 
 TEST_CASE("Parts of a build with variants, without fields or of few scenes give its digest") {
-  Site site;
+  MergeSite site;
   SECTION("variants") {
     const Model bridge = make_model(site.request.bridge.description);
     site.request.other_variants = sampled_variants(bridge, site.request.bridge.description.uncertainty, 2, 5);
@@ -125,7 +125,7 @@ TEST_CASE("Parts of a build with variants, without fields or of few scenes give 
 }
 
 TEST_CASE("Parts that do not fit together are named and refused") {
-  Site site;
+  MergeSite site;
   site.request.scenes = "singles;4,*+5,1..2";
   SECTION("one is missing") {
     site.build_parts(3);
@@ -160,7 +160,7 @@ TEST_CASE("Parts that do not fit together are named and refused") {
 }
 
 TEST_CASE("Parts that another version of the program made are refused") {
-  Site site;
+  MergeSite site;
   site.request.scenes = "singles";
   site.build_parts(2);
   Progress quiet(Progress::Mode::quiet);
@@ -169,7 +169,7 @@ TEST_CASE("Parts that another version of the program made are refused") {
 }
 
 TEST_CASE("Merging leaves the scenes of an interrupted build of the same file alone") {
-  Site site;
+  MergeSite site;
   site.request.scenes = "singles;4,*+5,1..2";
   site.build_parts(2);
   BuildRequest interrupted = site.request;
@@ -197,7 +197,7 @@ TEST_CASE("Merging leaves the scenes of an interrupted build of the same file al
 }
 
 TEST_CASE("A part whose list of scenes was given with blanks and lines is up to date, and merges") {
-  Site site;
+  MergeSite site;
   site.request.scenes = "  singles ;\n4,*+5,1..2 ";
   site.build_parts(2);
   CHECK(site.build("part1.h5", Shard{1, 2}).up_to_date);

@@ -5,7 +5,7 @@
 
 #include "database/records/database.h"
 #include "generator/build.h"
-#include "generator/verify.h"
+#include "generator/verify/verify.h"
 #include "tests/support/bridges.h"
 #include "tests/support/file_text.h"
 #include "tests/support/temporary_folder.h"

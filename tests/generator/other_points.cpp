@@ -5,8 +5,8 @@
 
 #include "database/records/database.h"
 #include "generator/build.h"
-#include "generator/results_key.h"
-#include "generator/verify.h"
+#include "generator/scenes/results_key.h"
+#include "generator/verify/verify.h"
 #include "tests/support/bridges.h"
 #include "tests/support/made_up_solver.h"
 #include "tests/support/temporary_folder.h"

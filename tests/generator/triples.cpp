@@ -7,10 +7,10 @@
 #include "core/error.h"
 #include "database/records/database.h"
 #include "generator/build.h"
-#include "generator/composition.h"
 #include "generator/merge.h"
-#include "generator/scene_list.h"
-#include "generator/verify.h"
+#include "generator/scenes/composition.h"
+#include "generator/scenes/scene_list.h"
+#include "generator/verify/verify.h"
 #include "tests/support/bridges.h"
 #include "tests/support/temporary_folder.h"
 

@@ -4,7 +4,7 @@
 #include <atomic>
 #include <memory>
 
-#include "generator/solvers.h"
+#include "generator/scenes/solvers.h"
 #include "tests/support/made_up_database.h"
 
 namespace voussoir::test {

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "generator/state_solving.h"
+#include "generator/scenes/state_solving.h"
 
 namespace voussoir {
 

@@ -12,7 +12,7 @@
 #include "core/structure/unevenness.h"
 #include "core/threads.h"
 #include "generator/build.h"
-#include "generator/variants.h"
+#include "generator/scenes/variants.h"
 
 namespace voussoir {
 namespace {

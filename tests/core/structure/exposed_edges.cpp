@@ -23,13 +23,8 @@ bool is_seen(const Block& block) {
 }  // namespace
 
 TEST_CASE("The upper face of a surveyed or a graded stone ends at its upper corners") {
-  const auto [rise, is_top] = GENERATE(table<double, bool>({{0.0, true},
-                                                            {1e-8, true},
-                                                            {-1e-3, true},
-                                                            {0.05, true},
-                                                            {-0.26, true},
-                                                            {0.28, false},
-                                                            {-1.0, false}}));
+  const auto [rise, is_top] = GENERATE(table<double, bool>(
+      {{0.0, true}, {1e-8, true}, {-1e-3, true}, {0.05, true}, {-0.26, true}, {0.28, false}, {-1.0, false}}));
   const Block block = stone(2.0, 1.0, 1.0 + rise);
   CHECK(is_seen(block) == is_top);
   if (!is_top) return;

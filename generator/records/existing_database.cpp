@@ -1,0 +1,111 @@
+#include "generator/records/existing_database.h"
+
+#include <algorithm>
+
+#include "core/error.h"
+
+namespace voussoir {
+namespace {
+
+bool has_keys(const Database& database, const std::vector<RecordKey>& wanted) {
+  if (database.rows() != wanted.size()) return false;
+  for (std::size_t row = 0; row < wanted.size(); ++row)
+    if (database.key(row) != wanted[row]) return false;
+  return true;
+}
+
+bool stands_intact(const Database& database) {
+  const auto row = database.find(Scene{});
+  return !row || database.record(*row).states.front().outcome == Outcome::standing;
+}
+
+/// How many variants there are, or else which of their numbers differ.
+std::string difference_of_variants(const std::vector<VariantParameters>& wanted,
+                                   const std::vector<VariantParameters>& found) {
+  if (wanted.size() != found.size())
+    return fmt::format("other variants of the bridge are wanted ({}, was {})", wanted.size(), found.size());
+  std::vector<std::string_view> names;
+  const auto compare = [&](std::string_view name, std::vector<double> VariantParameters::*numbers) {
+    for (std::size_t i = 0; i < wanted.size(); ++i)
+      if (wanted[i].*numbers != found[i].*numbers) return names.push_back(name);
+  };
+  compare("Young's modulus", &VariantParameters::young_modulus);
+  compare("Poisson's ratio", &VariantParameters::poisson_ratio);
+  compare("density", &VariantParameters::density);
+  compare("normal stiffness", &VariantParameters::normal_stiffness);
+  compare("tangential stiffness", &VariantParameters::tangential_stiffness);
+  compare("friction", &VariantParameters::friction_coefficient);
+  return fmt::format("other values of blocks or joints are wanted ({})", fmt::join(names, ", "));
+}
+
+std::vector<std::string> find_changes(const Database& database, const WantedDatabase& wanted) {
+  std::vector<std::string> changes = differences(wanted.provenance, database.provenance());
+  if (database.states() != wanted.states)
+    changes.push_back(fmt::format("other states are wanted ({}, was {})", fmt::join(wanted.states, ","),
+                                  fmt::join(database.states(), ",")));
+  if (database.variants() != wanted.variants)
+    changes.push_back(difference_of_variants(wanted.variants, database.variants()));
+  if (!has_keys(database, wanted.keys))
+    changes.push_back(
+        fmt::format("other scenes are wanted ({}, was {})", wanted.keys.size(), database.rows()));
+  if (database.has_fields() != (wanted.fields == KeepField::yes))
+    changes.push_back(wanted.fields == KeepField::yes ? "fields are wanted" : "fields are no longer wanted");
+  if (database.shard() != wanted.shard) changes.push_back("another part of a database is wanted");
+  const bool has_sensitivities = database.sensitivities() != nullptr;
+  if (wanted.sensitivities != has_sensitivities && (has_sensitivities || stands_intact(database)))
+    changes.push_back(wanted.sensitivities ? "sensitivities are wanted"
+                                           : "sensitivities are no longer wanted");
+  if (has_sensitivities && wanted.sensitivities) {
+    const Sensitivities& found = *database.sensitivities();
+    if (!found.signals) changes.push_back("factors of the signals are wanted");
+    if (found.left.rows() > 0 && found.left.columns() == 0)
+      changes.push_back("what the first order leaves of signals is wanted");
+  }
+  return changes;
+}
+
+/// What of a file whose records are valid is not wanted is not thrown away unasked.
+void check_nothing_is_lost(const Database& database, const WantedDatabase& wanted) {
+  std::size_t scenes = 0;
+  for (std::size_t row = 0; row < database.rows(); ++row)
+    if (!std::ranges::binary_search(wanted.keys, database.key(row))) ++scenes;
+  std::vector<std::string> states;
+  for (const std::string& state : database.states())
+    if (std::ranges::find(wanted.states, state) == wanted.states.end()) states.push_back(state);
+  if (scenes == 0 && states.empty()) return;
+  throw Failure(fmt::format(
+      "{}: {} of its {} scenes{} would be lost, which are still valid: ask for them, too, give another file "
+      "with -o, or --drop to let them go",
+      database.path().string(), states.empty() ? scenes : database.rows(), database.rows(),
+      states.empty() ? "" : fmt::format(" as {}", fmt::join(states, ", "))));
+}
+
+}  // namespace
+
+ExistingDatabase examine_existing(const std::filesystem::path& output, const WantedDatabase& wanted,
+                                  bool force) {
+  ExistingDatabase existing;
+  if (!std::filesystem::exists(output)) return existing;
+  if (force) {
+    existing.changes = {"--force is given"};
+    return existing;
+  }
+  if (!is_named_database(output))
+    throw Failure(
+        fmt::format("{}: exists and is no database; give another file with -o, or --force to replace it",
+                    output.string()));
+  try {
+    existing.database = Database::open(output);
+    existing.changes = find_changes(*existing.database, wanted);
+    existing.up_to_date = existing.changes.empty();
+    existing.reusable = existing.database->has_fields() &&
+                        existing.database->provenance().results_key == wanted.provenance.results_key;
+    if (existing.reusable && !wanted.shard && !wanted.drop) check_nothing_is_lost(*existing.database, wanted);
+  } catch (const InputError& error) {
+    existing = {};
+    existing.changes = {fmt::format("the old file cannot be used ({})", error.what())};
+  }
+  return existing;
+}
+
+}  // namespace voussoir

@@ -1,0 +1,39 @@
+#include "generator/shown_scenes.h"
+
+#include <algorithm>
+
+#include "core/error.h"
+#include "database/records/xdmf.h"
+#include "generator/scenes/scene_list.h"
+
+namespace voussoir {
+
+std::vector<Scene> shown_scenes(const std::string& list, const DatabaseToShow& database) {
+  const std::filesystem::path& output = database.output;
+  if (index_paths(output).xdmf == output)
+    throw InputError(
+        fmt::format("--xdmf: {} would be both database and index: expected a database with another ending, "
+                    "such as .h5",
+                    output.string()));
+  if (database.fields == KeepField::no)
+    throw InputError("--xdmf shows fields of scenes: expected no --fields none beside it");
+  std::vector<Scene> scenes = parse_scene_list(list, database.layout);
+  for (const Scene& scene : scenes)
+    if (!std::ranges::binary_search(database.keys, RecordKey{kNominalVariant, scene}))
+      throw InputError(fmt::format("--xdmf: {} would not hold scene {}: expected scenes of --scenes",
+                                   output.string(), to_string(scene, database.layout)));
+  return scenes;
+}
+
+void renew_index(const std::filesystem::path& output, const std::vector<Scene>& shown, bool replaced,
+                 Progress& progress) {
+  if (!shown.empty())
+    write_index(Database::open(output), shown);
+  else if (replaced && remove_index(output))
+    progress.say(
+        fmt::format("{} and {} showed scenes of the file that was replaced and are removed: --xdmf writes "
+                    "them anew",
+                    index_paths(output).xdmf.string(), index_paths(output).views.string()));
+}
+
+}  // namespace voussoir

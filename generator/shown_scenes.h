@@ -1,0 +1,29 @@
+#pragma once
+/// @file The XDMF index beside a database, of scenes that ParaView shall open.
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "database/records/database.h"
+#include "generator/running/progress.h"
+
+namespace voussoir {
+
+/// What a database that is to be built will hold.
+struct DatabaseToShow {
+  const std::filesystem::path& output;
+  const std::vector<RecordKey>& keys;  ///< ascending
+  KeepField fields;
+  const BlockLayout& layout;
+};
+
+/// The scenes of a list (parse_scene_list). Throws InputError for one that the database will not hold: before
+/// the build, which may take hours.
+std::vector<Scene> shown_scenes(const std::string& list, const DatabaseToShow& database);
+
+/// The index of the scenes that are shown, if any; that of a file that was `replaced` goes.
+void renew_index(const std::filesystem::path& output, const std::vector<Scene>& shown, bool replaced,
+                 Progress& progress);
+
+}  // namespace voussoir

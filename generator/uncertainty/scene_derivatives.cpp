@@ -1,0 +1,20 @@
+#include "generator/uncertainty/scene_derivatives.h"
+
+namespace voussoir {
+
+SceneDerivatives::SceneDerivatives(const SensitivityStudy& study, const SensitivityEquations& equations)
+    : equations_{equations.system, equations.coefficients, study.states,
+                 [solver = study.solver.make_solver(study.bridge, study.settings)](const StageTask& task) {
+                   return solver({&task, 1}).front();
+                 }},
+      readings_(equations.readings),
+      derivatives_(equations.system, equations.uncertain) {}
+
+Eigen::MatrixXd SceneDerivatives::of(const Scene& scene, std::size_t state, const SceneStates& states,
+                                     const SceneStates& intact) {
+  const auto history = history_of_state(equations_, scene, state, states, intact);
+  if (!history) return {};
+  return derivatives_.solve(*history, readings_).value_or(Eigen::MatrixXd());
+}
+
+}  // namespace voussoir
