@@ -137,6 +137,15 @@ void judge_known_bridge(const Library& library, const Observation& observation, 
   answer.fit = fit_of(library, observation, answer);
 }
 
+/// A fit that explains nothing names the reading that is farthest from all others, if one disagrees.
+void name_farthest(const Library& library, Answer& answer) {
+  const auto farthest = std::ranges::max_element(answer.residuals, {}, [](const SensorResidual& sensor) {
+    return sensor.disagrees ? std::abs(sensor.error) : 0.0;
+  });
+  if (farthest != answer.residuals.end() && farthest->disagrees)
+    answer.fit->reason += fmt::format(", at {} most of all", library.points[farthest->point].name);
+}
+
 /// The same, and what the readings say of the bridge, averaged over the likeliest scenes.
 void judge_unknown_bridge(const UnknownQuestion& asked, Answer& answer) {
   const auto& [question, settings, comparison, observation, preparation] = asked;
@@ -150,6 +159,7 @@ void judge_unknown_bridge(const UnknownQuestion& asked, Answer& answer) {
   answer.bridge = {question.bridge(), std::move(posterior)};
   answer.fit = check_fit(answer.bridge->posterior);
   answer.residuals = sensor_residuals(observation, answer.bridge->model, answer.bridge->posterior);
+  if (!answer.fit->explained) name_farthest(comparison.library, answer);
   if (answer.fit->explained)
     if (const auto doubt = check_scatter(answer.bridge->model, answer.bridge->posterior)) answer.fit = doubt;
   if (answer.fit->explained)

@@ -25,6 +25,7 @@ constexpr std::array kTimesErrors = {3.0, 10.0, 100.0};  // so many times what i
 // Beforehand that a reading is off by a size that is given to a factor of e. One in a thousand grossly wrong,
 // by anything from its own error to ten thousand times that, comes to about as much.
 constexpr double kGrossChance = 2e-4;
+constexpr double kOfOneBlock = 0.1;  // share of these that are of all that is read on a block
 constexpr std::size_t kMostHidden = 3;   // losses that only readings on their blocks exclude
 constexpr std::size_t kMostLikely = 10;  // scenes that each of them competes with
 // Beforehand that what was read on a block goes on giving a value when the block is lost: the block is loose
@@ -181,7 +182,8 @@ std::optional<Scene> explained_by(const UnknownQuestion& asked, const Answer& an
   if (others.empty()) return std::nullopt;
   const std::vector<double> logs =
       asked.question.log_parts_of(others, asked.preparation.eligible(), answer.prior, {.gross = gross});
-  if (!is_likely_beside(answer, std::log(kGrossChance) + log_sum_of(logs))) return std::nullopt;
+  const double chance = gross.size() > 1 ? kOfOneBlock * kGrossChance : kGrossChance;
+  if (!is_likely_beside(answer, std::log(chance) + log_sum_of(logs))) return std::nullopt;
   return asked.comparison.library.table.scene(
       others[static_cast<std::size_t>(std::ranges::max_element(logs) - logs.begin())]);
 }

@@ -136,6 +136,8 @@ Posterior posterior(const SceneTable& table, const Eligible& eligible, const Row
     for (const std::int32_t id : table.removed.subspan(possible[i] * table.most_missing, table.most_missing))
       if (id >= 0) result.block_probability[static_cast<std::size_t>(id)] += weight[i];
   }
+  for (auto* const sums : {&result.missing_probability, &result.block_probability})
+    for (double& sum : *sums) sum = std::min(sum, 1.0);  // but for rounding they are
   result.intact_if_even = intact_if_even(result.missing_probability, eligible, log_prior);
   result.credible = credible_set(result.probability);
   return result;

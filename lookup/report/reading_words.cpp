@@ -59,10 +59,14 @@ std::string readings_in_words(const Comparison& comparison, std::size_t readings
                                 : comparison.quantity.empty()         ? "control points"
                                                                       : "sensors";
   const std::size_t channels = comparison.library.points.size();
-  return fmt::format("{} of {} {} have a {}", readings, channels, what,
-                     comparison.kind == ReadingKind::absolute
-                         ? "reading"
-                         : fmt::format("reading ({})", value_in_words(comparison.kind)));
+  const auto silent = std::ranges::count(comparison.measured.silent, true);
+  return fmt::format(
+      "{} of {} {} have a reading{}{}{}", readings, channels, what,
+      silent > 0 ? fmt::format(", {} are silent", silent) : "",
+      comparison.kind == ReadingKind::absolute ? "" : fmt::format(" ({}", value_in_words(comparison.kind)),
+      comparison.kind == ReadingKind::absolute ? ""
+      : is_change(comparison.kind)             ? ", the bridge taken to be complete at the first)"
+                                               : ")");
 }
 
 std::string history_in_words(const std::string& history) {

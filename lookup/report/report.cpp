@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include "lookup/readings/csv_text.h"
+#include "lookup/report/report_words.h"
+#include "lookup/report/verdict.h"
 #include "lookup/report/words.h"
 
 namespace voussoir {
@@ -20,13 +22,14 @@ std::string report(const Answer& answer, const LookupSettings& settings, const C
 }
 
 std::string csv_report(const Answer& answer, const Library& library) {
-  std::string text = "rank,scene,misfit,posterior,outcome,place\n";
+  std::string text = "rank,scene,misfit,posterior,outcome,place,verdict\n";
+  const std::string_view verdict = answer.posterior ? to_string(verdict_of(answer)) : std::string_view();
   int rank = 0;
   for (const Candidate& candidate : answer.candidates)
-    text +=
-        fmt::format("{},{},{},{},{},{}\n", ++rank, csv_field(to_string(candidate.scene, library.layout)),
-                    candidate.misfit, candidate.posterior ? fmt::format("{}", *candidate.posterior) : "",
-                    to_string(candidate.outcome), csv_field(place_in_words(candidate.scene, library.layout)));
+    text += fmt::format(
+        "{},{},{},{},{},{},{}\n", ++rank, csv_field(to_string(candidate.scene, library.layout)),
+        candidate.misfit, candidate.posterior ? fmt::format("{}", *candidate.posterior) : "",
+        to_string(candidate.outcome), csv_field(place_in_words(candidate.scene, library.layout)), verdict);
   return text;
 }
 

@@ -32,7 +32,8 @@ std::string text_report(const Answer& answer, const Comparison& comparison, cons
 std::string json_report(const Answer& answer, const LookupSettings& settings, const Comparison& comparison,
                         const Source& source);
 
-/// rank,scene,misfit,posterior,outcome,place
+/// rank,scene,misfit,posterior,outcome,place,verdict: a row for each candidate, the verdict being that of the
+/// whole answer.
 std::string csv_report(const Answer& answer, const Library& library);
 
 /// The page of `locate-damage --report`: the bridge with every block's probability, readings against the best

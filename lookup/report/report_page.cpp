@@ -19,21 +19,24 @@ constexpr std::size_t kMostJointsShown = 12;
 
 using Terms = std::vector<std::pair<std::string, std::string>>;
 
-std::string verdict_html(const Answer& answer, const Library& library) {
+std::string verdict_html(const Answer& answer, const Comparison& comparison) {
+  const Library& library = comparison.library;
   std::string html;
-  if (const std::string first = headline(answer, library); !first.empty()) html += paragraph(first, "lead");
+  if (const std::string first = headline(answer, comparison); !first.empty())
+    html += paragraph(first, "lead");
   for (const std::string& sentence : verdict(answer, library))
     html += paragraph(sentence, html.empty() ? "lead" : "");
   if (answer.posterior) html += paragraph("Verdict: " + verdict_in_words(answer));
   if (answer.posterior && !answer.posterior->credible.empty())
     html += paragraph(
-        fmt::format("Number of missing blocks: {}. {:.0f} % of the probability is held by {} scene{}.",
-                    missing_in_words(*answer.posterior), 100.0 * kCredibleShare,
-                    answer.posterior->credible.size(), answer.posterior->credible.size() == 1 ? "" : "s"));
+        fmt::format("Number of missing blocks{}. {:.0f} % of the probability is held by {} scene{}.",
+                    missing_in_words(answer), 100.0 * kCredibleShare, answer.posterior->credible.size(),
+                    answer.posterior->credible.size() == 1 ? "" : "s"));
   std::string same;
   for (const Scene& scene : answer.candidates.front().same_readings)
     same += (same.empty() ? "" : "; ") + to_string(scene, library.layout);
   if (!same.empty()) html += paragraph("These sensors cannot tell it from: " + same);
+  for (const std::string& sensor : odd_sensors(answer, comparison)) html += paragraph(sensor);
   return "<div class=\"verdict\">" + html + "</div>\n";
 }
 
@@ -207,7 +210,7 @@ std::string page_report(const Answer& answer, const LookupSettings& settings, co
   const ReportPictures pictures(answer, comparison);
   return html_page(
       title,
-      verdict_html(answer, library) + figures_html({bridge_figure(pictures)}) +
+      verdict_html(answer, comparison) + figures_html({bridge_figure(pictures)}) +
           section_html("ranked", "Candidates", figures_html({candidates_figure(answer, library)})) +
           section_html("readings", "Readings against the first candidate",
                        figures_html(profile_figures(pictures)) + figures_html(residual_figures(pictures))) +

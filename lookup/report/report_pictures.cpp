@@ -10,6 +10,7 @@
 #include "lookup/report/drawing/bridge_drawing.h"
 #include "lookup/report/drawing/colour_map.h"
 #include "lookup/report/report_words.h"
+#include "lookup/report/verdict.h"
 #include "lookup/report/words.h"
 
 namespace voussoir {
@@ -21,17 +22,21 @@ constexpr double kReadingsHeight = 1.1;   // [m] above the bridge, for the top's
 constexpr double kLongestReading = 0.75;  // [m] on the bridge's scale
 constexpr double kSensorDisc = 3.0;
 
+/// Shares among scenes none of which is an answer are no probabilities.
+bool has_probabilities(const ReportPictures& report) {
+  return report.answer.posterior && verdict_of(report.answer) != Verdict::unexplained;
+}
+
 double probability_of(const ReportPictures& report, BlockId block) {
-  if (!report.answer.posterior) return kNan;
+  if (!has_probabilities(report)) return kNan;
   return report.answer.posterior->block_probability[static_cast<std::size_t>(value(block))];
 }
 
 std::string block_tip(const ReportPictures& report, BlockId id) {
   const double probability = probability_of(report, id);
-  return fmt::format("Block ({})\n{}\n{}", report.library.layout[id].label,
-                     place_in_words(id, report.library.layout),
-                     std::isnan(probability) ? "no probabilities with this objective"
-                                             : "missing with probability " + percent(probability));
+  return fmt::format(
+      "Block ({})\n{}\n{}", report.library.layout[id].label, place_in_words(id, report.library.layout),
+      std::isnan(probability) ? "no probability" : "missing with probability " + percent(probability));
 }
 
 BlockLook block_look(const ReportPictures& report, BlockId id) {
@@ -92,10 +97,10 @@ double largest_reading(const ReportPictures& report) {
 
 Table block_table(const ReportPictures& report) {
   Table table{{"block", "probability", "where"}, {}};
-  if (!report.answer.posterior) {
+  if (!has_probabilities(report)) {
     for (const BlockId id : report.answer.candidates.front().scene.removed)
       table.rows.push_back(
-          {report.library.layout[id].label, "none asked for", place_in_words(id, report.library.layout)});
+          {report.library.layout[id].label, "none", place_in_words(id, report.library.layout)});
     return table;
   }
   for (const BlockId id : likely_blocks(*report.answer.posterior, kWorthColour))
@@ -110,7 +115,7 @@ Drawing draw_bridge(const ReportPictures& report) {
   const double longest = largest_reading(report);
   const BridgeFrame frame =
       frame_of(report.library.layout, kPictureWidth, kReadingsHeight + room_above(report, longest), 0.15);
-  const bool with_bar = report.answer.posterior.has_value();
+  const bool with_bar = has_probabilities(report);
   Drawing drawing{frame.width, frame.height + (with_bar ? kColourBarHeight : 0.0),
                   "The bridge; each block coloured by the probability that it is missing", ""};
   drawing.elements =
@@ -128,7 +133,6 @@ Drawing draw_bridge(const ReportPictures& report) {
 }
 
 Figure bridge_figure(const ReportPictures& report) {
-  const bool probabilities = report.answer.posterior.has_value();
   const double longest = kMillimetres * largest_reading(report);
   return {
       "bridge",
@@ -137,8 +141,9 @@ Figure bridge_figure(const ReportPictures& report) {
           "{} Outlined: the first candidate. Blue lines hang from the control points by their {}s (the "
           "longest is {:.3g} mm; the top's hang from above the bridge); a hollow point has no reading, an "
           "orange one disagrees with the rest.",
-          probabilities ? "Blocks that are missing with less than 0.1 % have the colour of stone."
-                        : "With this objective there are no probabilities.",
+          has_probabilities(report) ? "Blocks that are missing with less than 0.1 % have the colour of stone."
+          : report.answer.posterior ? "No block is coloured, as no scene is an answer."
+                                    : "With this objective there are no probabilities.",
           reading_word(report), longest),
       panorama_html(draw_bridge(report)),
       block_table(report),

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "core/not_a_number.h"
 #include "core/units.h"
 #include "lookup/report/bridge_report.h"
 #include "lookup/report/reading_words.h"
@@ -15,7 +16,7 @@ namespace voussoir {
 namespace {
 
 constexpr std::size_t kMostBlocksListed = 5;
-constexpr std::size_t kMostSensorsListed = 5;
+constexpr std::size_t kMostMovementsListed = 5;
 constexpr double kBlockWorthListing = 0.01;
 constexpr std::size_t kMostJointsListed = 3;
 constexpr double kWorthSaying = 0.5;  // KnownParameter::news
@@ -82,7 +83,7 @@ void write_groups(Text& text, const Answer& answer, const Library& library) {
 
 void write_probabilities(Text& text, const Answer& answer, const Library& library) {
   const Posterior& posterior = *answer.posterior;
-  text.line("Number of missing blocks: {}", missing_in_words(posterior));
+  text.line("Number of missing blocks{}", missing_in_words(answer));
   std::vector<BlockId> blocks = likely_blocks(posterior, kBlockWorthListing);
   blocks.resize(std::min(blocks.size(), kMostBlocksListed));
   std::string names;
@@ -98,46 +99,41 @@ std::string in_millimetres(double metres) {
   return std::isnan(metres) ? "-" : fmt::format("{:.3f}", kMillimetres * metres);
 }
 
-/// The largest readings of what is a difference, beside what the first candidate lets expect.
+/// The largest readings of what is a difference, beside what the answer lets expect there; of a bridge that
+/// is not exactly known with what the first candidate's blocks alone would change.
 void write_movements(Text& text, const Answer& answer, const Comparison& comparison) {
   if (comparison.kind == ReadingKind::absolute) return;
   const ShownReadings shown = shown_readings(comparison, answer.candidates.front().row);
+  const std::vector<double> origin = origin_of(comparison);
   std::vector<std::size_t> channels;
+  std::vector<double> expected(shown.reading.size(), kNan);
   for (std::size_t i = 0; i < shown.reading.size(); ++i)
     if (!std::isnan(shown.reading[i])) channels.push_back(i);
+  for (const SensorResidual& sensor : answer.residuals)
+    expected[sensor.point] = sensor.predicted - origin[sensor.point];
+  if (answer.residuals.empty()) expected = shown.expected;
   std::stable_sort(channels.begin(), channels.end(), [&](std::size_t a, std::size_t b) {
     return std::abs(shown.reading[a]) > std::abs(shown.reading[b]);
   });
-  channels.resize(std::min(channels.size(), kMostSensorsListed));
+  channels.resize(std::min(channels.size(), kMostMovementsListed));
   const bool epochs = !comparison.before.empty();
   text.line("Moved most: {} [mm, tilts mm per m]", value_in_words(comparison.kind));
-  text.line("      {:<20}{}  {:>9}  {:>9}", "point", epochs ? "     before       after" : "", "reading",
-            "expected");
+  text.line("      {:<20}{}  {:>9}  {:>9}{}", "point", epochs ? "     before       after" : "", "reading",
+            "expected", answer.bridge ? "  by losses alone" : "");
   for (const std::size_t i : channels)
-    text.line("      {:<20}{}  {:>9}  {:>9}", comparison.library.points[i].name,
+    text.line("      {:<20}{}  {:>9}  {:>9}{}", comparison.library.points[i].name,
               epochs ? fmt::format("{:>11} {:>11}", in_millimetres(comparison.before[i]),
                                    in_millimetres(comparison.after[i]))
                      : "",
-              in_millimetres(shown.reading[i]), in_millimetres(shown.expected[i]));
+              in_millimetres(shown.reading[i]), in_millimetres(expected[i]),
+              answer.bridge ? fmt::format("  {:>15}", in_millimetres(shown.expected[i])) : "");
   text.line("");
 }
 
 void write_sensors(Text& text, const Answer& answer, const Comparison& comparison) {
-  const std::vector<double> origin = origin_of(comparison);
-  std::vector<SensorResidual> odd;
-  std::copy_if(answer.residuals.begin(), answer.residuals.end(), std::back_inserter(odd),
-               [](const SensorResidual& sensor) { return sensor.disagrees; });
-  std::stable_sort(odd.begin(), odd.end(), [](const SensorResidual& a, const SensorResidual& b) {
-    return std::abs(a.error) > std::abs(b.error);
-  });
+  const std::vector<std::string> odd = odd_sensors(answer, comparison);
   if (odd.empty()) text.line("Sensors: none disagrees with the rest");
-  odd.resize(std::min(odd.size(), kMostSensorsListed));
-  for (const SensorResidual& sensor : odd)
-    text.line("Sensor {} disagrees: it reads {:.4g} {} where {:.4g} would be expected",
-              comparison.library.points[sensor.point].name,
-              kMillimetres * (sensor.reading - origin[sensor.point]),
-              unit_of(quantity_of(comparison, sensor.point)),
-              kMillimetres * (sensor.predicted - origin[sensor.point]));
+  for (const std::string& sentence : odd) text.line("{}", sentence);
 }
 
 /// What else moved the sensors, and what the readings say of the bridge.
@@ -167,7 +163,7 @@ void write_genetic(Text& text, const Answer& answer) {
 std::string text_report(const Answer& answer, const Comparison& comparison, const Source& source) {
   const Library& library = comparison.library;
   Text text;
-  if (const std::string first = headline(answer, library); !first.empty()) text.line("{}\n", first);
+  if (const std::string first = headline(answer, comparison); !first.empty()) text.line("{}\n", first);
   write_heading(text, answer, comparison, source);
   write_genetic(text, answer);
   text.line("");

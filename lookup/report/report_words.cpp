@@ -4,7 +4,12 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
+#include <functional>
+#include <iterator>
 
+#include "core/units.h"
+#include "lookup/report/reading_words.h"
 #include "lookup/report/verdict.h"
 #include "lookup/report/words.h"
 
@@ -12,6 +17,7 @@ namespace voussoir {
 
 namespace {
 
+constexpr std::size_t kMostSensorsListed = 5;
 constexpr std::string_view kOneOfMany = "likeliest of many";
 
 /// The likeliest scene's row if it is none of the candidates, which a search by misfit may miss.
@@ -91,20 +97,23 @@ std::string_view standing(const Answer& answer) {
   }
 }
 
-std::string headline(const Answer& answer, const Library& library) {
+std::string headline(const Answer& answer, const Comparison& comparison) {
   if (!answer.posterior) return "";
   const Posterior& posterior = *answer.posterior;
   const double intact = intact_probability(posterior);
   const Supposed supposed = supposed_by(answer.prior);
   switch (verdict_of(answer)) {
     case Verdict::located:
-      return located_in_words(posterior, library) +
+      return located_in_words(posterior, comparison.library) +
              (supposed == Supposed::nothing ? "" : fmt::format(" But {}.", supposed_in_words(supposed)));
     case Verdict::damaged_unlocated:
       return fmt::format("Blocks are missing ({}), but the readings do not say which.",
                          percent_of_others(intact));
     case Verdict::intact:
-      return fmt::format("No block is missing ({}).", percent(intact));
+      return fmt::format(
+          "{} ({}).",
+          is_change(comparison.kind) ? "No block has gone between the two times" : "No block is missing",
+          percent(intact));
     case Verdict::cannot_tell:
       if (answer.contested) return "The databases that may be right come to different answers.";
       if (supposed != Supposed::nothing)
@@ -130,7 +139,10 @@ std::vector<std::string> verdict(const Answer& answer, const Library& library) {
   std::string opening(standing(answer));
   opening.front() = static_cast<char>(std::toupper(opening.front()));
   sentences.push_back(fmt::format("{}: {}", opening, in_words(best.scene, library)));
-  if (best.posterior) sentences.push_back(fmt::format("Probability:  {}", percent(*best.posterior)));
+  if (best.posterior)
+    sentences.push_back(
+        fmt::format("Probability:  {}{}", percent(*best.posterior),
+                    answer.fit && !answer.fit->explained ? ", if one of the scenes were the truth" : ""));
   if (missed)
     sentences.push_back(fmt::format("More likely, {}, but not found by this search: {}",
                                     percent(answer.posterior->probability[*missed]),
@@ -201,12 +213,32 @@ std::string behind(const Candidate& candidate, const Candidate& best) {
   return odds < 1e6 ? fmt::format("1 : {:.4g}", odds) : "1 : > 10^6";
 }
 
-std::string missing_in_words(const Posterior& posterior) {
-  std::string numbers;
+/// Probabilities are those of scenes; where none of them is an answer they are only shares among them.
+std::string missing_in_words(const Answer& answer) {
+  const Posterior& posterior = *answer.posterior;
+  std::string numbers = verdict_of(answer) == Verdict::unexplained ? ", if a scene were the truth: " : ": ";
+  const std::size_t begin = numbers.size();
   for (std::size_t missing = 0; missing < posterior.missing_probability.size(); ++missing)
-    numbers += fmt::format("{}{}: {}", missing == 0 ? "" : ", ", missing,
+    numbers += fmt::format("{}{}: {}", numbers.size() == begin ? "" : ", ", missing,
                            percent(posterior.missing_probability[missing]));
   return numbers;
+}
+
+std::vector<std::string> odd_sensors(const Answer& answer, const Comparison& comparison) {
+  const std::vector<double> origin = origin_of(comparison);
+  std::vector<SensorResidual> odd;
+  std::ranges::copy_if(answer.residuals, std::back_inserter(odd), &SensorResidual::disagrees);
+  std::ranges::stable_sort(odd, std::ranges::greater{},
+                           [](const SensorResidual& sensor) { return std::abs(sensor.error); });
+  odd.resize(std::min(odd.size(), kMostSensorsListed));
+  std::vector<std::string> sentences;
+  for (const SensorResidual& sensor : odd)
+    sentences.push_back(fmt::format("Sensor {} disagrees: it reads {:.4g} {} where {:.4g} would be expected",
+                                    comparison.library.points[sensor.point].name,
+                                    kMillimetres * (sensor.reading - origin[sensor.point]),
+                                    unit_of(quantity_of(comparison, sensor.point)),
+                                    kMillimetres * (sensor.predicted - origin[sensor.point])));
+  return sentences;
 }
 
 }  // namespace voussoir

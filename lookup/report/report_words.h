@@ -20,7 +20,7 @@ std::string verdict_in_words(const Answer& answer);
 Verdict verdict_of(const Answer& answer);
 
 /// The verdict as a sentence: "Block 10,4 is missing (98.2 %)." Without probabilities nothing.
-std::string headline(const Answer& answer, const Library& library);
+std::string headline(const Answer& answer, const Comparison& comparison);
 
 /// What the first candidate is: "most likely", or only "likeliest of many" where the verdict names no scene
 /// and "closest" if nothing explains the readings, "nearest by misfit" if the search did not find the
@@ -45,6 +45,9 @@ std::string noise_in_words(const NoiseEstimate& noise, ReadingKind kind);
 std::string behind(const Candidate& candidate, const Candidate& best);
 
 /// "0: < 0.1 %, 1: 91.5 %, 2: 8.5 %"
-std::string missing_in_words(const Posterior& posterior);
+std::string missing_in_words(const Answer& answer);
+
+/// A sentence for each sensor that disagrees with the rest, the farthest first, at most five.
+std::vector<std::string> odd_sensors(const Answer& answer, const Comparison& comparison);
 
 }  // namespace voussoir

@@ -304,7 +304,7 @@ TEST_CASE("The CSV report has one quoted scene a line") {
   const Answer answer = locate_damage(
       absolute_readings(library.library(), library.measure(8, 0.0, NoiseShape::uniform, random)), settings);
   const std::string text = csv_report(answer, library.library());
-  CHECK(text.find("rank,scene,misfit,posterior,outcome,place\n1,\"") == 0);
+  CHECK(text.find("rank,scene,misfit,posterior,outcome,place,verdict\n1,\"") == 0);
   CHECK(std::count(text.begin(), text.end(), '\n') == 3);
 }
 
