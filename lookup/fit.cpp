@@ -11,6 +11,7 @@
 #include <limits>
 #include <numbers>
 
+#include "core/median.h"
 #include "core/not_a_number.h"
 #include "lookup/evidence/bounded_errors.h"
 #include "lookup/evidence/nuisance_likelihood.h"
@@ -42,9 +43,7 @@ double limit_of_agreement(const std::vector<SensorResidual>& residuals) {
   std::vector<double> sizes = errors_of(residuals);
   for (double& size : sizes) size = std::abs(size);
   if (sizes.size() < kFewestForDisagreement) return std::numeric_limits<double>::infinity();
-  const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
-  std::nth_element(sizes.begin(), middle, sizes.end());
-  return kDisagreement * *middle;
+  return kDisagreement * median(sizes);
 }
 
 void mark_disagreement(std::vector<SensorResidual>& residuals) {

@@ -25,7 +25,7 @@ constexpr std::array kTimesErrors = {3.0, 10.0, 100.0};  // so many times what i
 // Beforehand that a reading is off by a size that is given to a factor of e. One in a thousand grossly wrong,
 // by anything from its own error to ten thousand times that, comes to about as much.
 constexpr double kGrossChance = 2e-4;
-constexpr double kOfOneBlock = 0.1;  // share of these that are of all that is read on a block
+constexpr double kOfOneBlock = 0.1;      // share of these that are of all that is read on a block
 constexpr std::size_t kMostHidden = 3;   // losses that only readings on their blocks exclude
 constexpr std::size_t kMostLikely = 10;  // scenes that each of them competes with
 // Beforehand that what was read on a block goes on giving a value when the block is lost: the block is loose

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "core/median.h"
 #include "core/units.h"
 
 namespace voussoir {
@@ -32,12 +33,6 @@ Stated stated_readings(const Observation& observation) {
     stated.error.push_back(kMillimetres * scales.offset[i]);
   }
   return stated;
-}
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::ranges::nth_element(values, middle);
-  return *middle;
 }
 
 bool are_multiples(const std::vector<double>& values, double step) {

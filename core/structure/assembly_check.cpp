@@ -12,6 +12,7 @@
 #include "core/geometry/facing_edges.h"
 #include "core/geometry/overlap.h"
 #include "core/geometry/snapping.h"
+#include "core/median.h"
 #include "core/structure/block_limits.h"
 #include "core/text.h"
 
@@ -249,14 +250,13 @@ void expect_metres(const std::vector<Block>& blocks) {
     all.extend(box);
   }
   if (lengths.empty()) return;
-  const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
-  std::nth_element(lengths.begin(), middle, lengths.end());
+  const double middle = median(lengths);
   const double length = all.sizes().maxCoeff();
-  if (length > kLongestAssembly || *middle > kLongestMedian)
+  if (length > kLongestAssembly || middle > kLongestMedian)
     throw InputError(
         fmt::format("the bridge is {:.6g} m long and its middling block {:.4g} m: are these millimetres? "
                     "expected metres, at most {:g} and {:g}",
-                    length, *middle, kLongestAssembly, kLongestMedian));
+                    length, middle, kLongestAssembly, kLongestMedian));
 }
 
 std::vector<std::string> heal_and_check(std::vector<Block>& blocks, const AssemblyTolerance& tolerance) {

@@ -16,7 +16,8 @@ namespace voussoir {
 /// course, each from left to right.
 struct BlockLayout {
   std::vector<Block> blocks;
-  SmallPieces small_pieces{};  ///< what became of them
+  SmallPieces small_pieces{};     ///< what became of them
+  std::vector<GoneBlock> gone{};  ///< known to be missing; control points are numbered as if they were there
 
   std::size_t size() const { return blocks.size(); }
   const Block& operator[](BlockId id) const { return blocks[static_cast<std::size_t>(id)]; }

@@ -98,7 +98,7 @@ std::vector<std::string> read_blocks(TomlSection& top, BridgeDescription& descri
   for (const toml::node& node : *entries)
     description.blocks.push_back(read_block(TomlSection(top.file(), node.as_table(), " in blocks")));
   AssemblyTolerance tolerance{.joint = description.joint_tolerance};
-  top.number("blocks_tolerance_m", tolerance.heal, 0.0, 0.1, false);
+  top.positive("blocks_tolerance_m", tolerance.heal, 0.1);
   description.wall.courses = 0;
   description.spans.clear();
   try {

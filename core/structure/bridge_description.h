@@ -200,8 +200,9 @@ struct BridgeDescription {
   std::string name = "reference";
   WallDescription wall;
   std::vector<SpanDescription> spans = {SpanDescription{}};
-  std::vector<WallPart> parts{};  ///< laid after the wall, in this order
-  std::vector<Block> blocks{};    ///< given one by one; if there are any, nothing else is laid
+  std::vector<WallPart> parts{};              ///< laid after the wall, in this order
+  std::vector<Block> blocks{};                ///< given one by one; if there are any, nothing else is laid
+  std::vector<std::string> missing_blocks{};  ///< labels of those that are known to be gone
   Material material;
   JointMaterial joints;
   std::vector<MortarRegion> mortar;  ///< later ones take the place of earlier ones

@@ -206,6 +206,7 @@ BridgeDescription interpret(const toml::table& root, const std::string& file,
 
   const std::vector<long> span_lines = read_spans_and_walls(top, description);
   if (top.has("blocks")) std::ranges::move(read_blocks(top, description), std::back_inserter(notes));
+  description.missing_blocks = top.texts("missing_blocks");
   check_held_courses(section("supports"), description);
   top.know("blocks_tolerance_m");
   if (const toml::array* mortar = top.tables("mortar", "[[mortar]]"))

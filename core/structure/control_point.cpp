@@ -38,8 +38,10 @@ struct Family {
   char letter;
   std::vector<ControlPoint> points{};
 
+  std::size_t number = 0;  ///< of the last one
+
   void add(ControlPoint point) {
-    point.name = fmt::format("{}{}", letter, points.size() + 1);
+    point.name = fmt::format("{}{}", letter, ++number);
     points.push_back(std::move(point));
   }
   void add_pair(const Mesh& mesh, BlockId block, const std::array<Point, 2>& corners) {
@@ -72,7 +74,13 @@ std::vector<ControlPoint> find_control_points(const BlockLayout& layout, const M
                                               const BridgeDescription& description) {
   const auto& [top, arch, face] = description.control_points;
   Family upper{'T'}, intrados{'A'}, middle{'F'};
+  auto gone = layout.gone.begin();
   for (std::size_t b = 0; b < layout.size(); ++b) {
+    for (; gone != layout.gone.end() && gone->before == b; ++gone) {
+      if (gone->block.top_course) upper.number += 2;
+      if (gone->block.intrados) intrados.number += 2;
+      if (shows_its_face(gone->block.role)) middle.number += 1;
+    }
     const Block& block = layout.blocks[b];
     const BlockId id{static_cast<std::int32_t>(b)};
     if (top && block.top_course) upper.add_pair(mesh, id, upper_face(block));

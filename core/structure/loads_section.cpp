@@ -17,7 +17,7 @@ void read_force(TomlSection& section, const char* key, double& force) {
 
 void read_place(TomlSection& section, const char* key, const Interval& within, double& place) {
   section.require(key);
-  section.number(key, place, within.left, within.right, true);
+  section.number(key, place, within.left, within.right);
 }
 
 /// The tables of an array, each read by `read`.

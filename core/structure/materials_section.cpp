@@ -7,11 +7,11 @@ constexpr std::size_t kMostSurfacePoints = 1000;
 
 void read_material_keys(TomlSection& section, Material& material) {
   section.positive("young_modulus_Pa", material.young_modulus);
-  section.number("poisson_ratio", material.poisson_ratio, 0.0, 0.49, true);
+  section.number("poisson_ratio", material.poisson_ratio, 0.0, 0.49);
   section.positive("density_kg_m3", material.density);
   section.positive("thickness_m", material.thickness);
   section.choice("plane", material.plane, {{"stress", PlaneState::stress}, {"strain", PlaneState::strain}});
-  section.number("thermal_expansion_per_K", material.thermal_expansion, 0.0, 1e-3, true);
+  section.number("thermal_expansion_per_K", material.thermal_expansion, 0.0, 1e-3);
 }
 
 void read_joint_keys(TomlSection& section, JointMaterial& joints) {
@@ -29,7 +29,7 @@ void read_material(TomlSection section, Material& material) {
 
 void read_joints(TomlSection section, JointMaterial& joints, double& tolerance) {
   read_joint_keys(section, joints);
-  section.number("tolerance_m", tolerance, 0.0, 0.1, false);
+  section.positive("tolerance_m", tolerance, 0.1);
   section.refuse_unknown_keys();
 }
 
@@ -48,7 +48,7 @@ Region read_region(TomlSection section, const Material& material, const JointMat
 void read_fill(TomlSection section, FillWeight& fill) {
   section.positive("unit_weight_N_m3", fill.unit_weight);
   double level = 0.0;
-  section.number("level_m", level, 0.0, kLargestLength, true);
+  section.number("level_m", level, 0.0, kLargestLength);
   fill.surface = section.points("surface_m", 2, kMostSurfacePoints);
   const bool has_surface = !fill.surface.empty();
   if (section.has("level_m")) {

@@ -16,8 +16,8 @@ MovementDescription read_movement(TomlSection section) {
       if (section.has(key)) section.refuse(key, "expected either pressure_Pa or a way x_m, y_m");
   } else {
     section.know("pressure_Pa");
-    section.number("x_m", movement.x, -kFurthest, kFurthest, true);
-    section.number("y_m", movement.y, -kFurthest, kFurthest, true);
+    section.number("x_m", movement.x, -kFurthest, kFurthest);
+    section.number("y_m", movement.y, -kFurthest, kFurthest);
     if (movement.x == 0.0 && movement.y == 0.0)
       section.refuse("support", "expected pressure_Pa, x_m or y_m beside it");
   }

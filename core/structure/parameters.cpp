@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/median.h"
+
 namespace voussoir {
 namespace {
 
@@ -12,10 +14,7 @@ double median_ratio(const std::vector<JointMaterial>& drawn, const std::vector<J
   std::vector<double> ratios;
   for (std::size_t j = 0; j < drawn.size(); ++j)
     if (value(nominal[j]) > 0.0) ratios.push_back(value(drawn[j]) / value(nominal[j]));
-  if (ratios.empty()) return 1.0;
-  const auto middle = ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2);
-  std::ranges::nth_element(ratios, middle);
-  return *middle;
+  return ratios.empty() ? 1.0 : median(ratios);
 }
 
 }  // namespace

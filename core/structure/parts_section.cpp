@@ -12,7 +12,7 @@ void read_courses(TomlSection& section, WallDescription& wall) {
   section.length("block_length_m", wall.block_length);
   section.choice("bond", wall.bond, {{"running", Bond::running}, {"stack", Bond::stack}});
   section.positive("smallest_piece_m2", wall.smallest_piece);
-  section.number("smallest_block", wall.smallest_block, 0.0, 0.5, true);
+  section.number("smallest_block", wall.smallest_block, 0.0, 0.5);
 }
 
 void read_role_but(std::optional<BlockRole> excluded, TomlSection& section, const char* key,
@@ -44,8 +44,8 @@ WallPart read_part(TomlSection section, const WallDescription& wall) {
   if (role == name_of(BlockRole::ring))
     section.refuse("role", "rings are laid by [[spans]]: expected another role");
   read_role_but(BlockRole::ring, section, "role", part.role);
-  section.number("from_x_m", part.from_x, 0.0, kLargestLength, true);
-  section.number("base_y_m", part.base_y, 0.0, kLargestLength, true);
+  section.number("from_x_m", part.from_x, 0.0, kLargestLength);
+  section.number("base_y_m", part.base_y, 0.0, kLargestLength);
   section.require("length_m");
   section.require("courses");
   read_courses(section, part.courses);

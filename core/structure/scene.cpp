@@ -9,12 +9,15 @@ namespace voussoir {
 namespace {
 
 [[noreturn]] void refuse_index(BlockIndex index, const BlockLayout& layout) {
-  const int count = layout.count_in_course(index.course);
-  if (count == 0)
+  int last = 0;
+  for (const Block& block : layout.blocks)
+    if (block.index.course == index.course) last = std::max(last, block.index.position);
+  if (last == 0)
     throw InputError(
         fmt::format("there is no block {}: this bridge has no course {}", to_string(index), index.course));
-  throw InputError(fmt::format("there is no block {}: course {} has positions 1 to {}", to_string(index),
-                               index.course, count));
+  const bool gone = index.position >= 1 && index.position <= last;
+  throw InputError(fmt::format("there is no block {}: course {} has positions 1 to {}{}", to_string(index),
+                               index.course, last, gone ? " without it (missing_blocks)" : ""));
 }
 
 /// A block by its label, or by course and position with any spaces.

@@ -23,8 +23,8 @@ std::optional<Point> read_place(TomlSection& section, const char* x_key, const c
   section.require(x_key);
   section.require(y_key);
   Point place = Point::Zero();
-  section.number(x_key, place.x(), -kLargestLength, kLargestLength, true);
-  section.number(y_key, place.y(), -kLargestLength, kLargestLength, true);
+  section.number(x_key, place.x(), -kLargestLength, kLargestLength);
+  section.number(y_key, place.y(), -kLargestLength, kLargestLength);
   return place;
 }
 

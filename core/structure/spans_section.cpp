@@ -62,7 +62,7 @@ void read_arc_radius(TomlSection& section, SpanDescription& span) {
   }
   if (span.shape == IntradosShape::three_centred) {
     span.arc_radius = roundest_haunch_radius(span.span, span.rise);
-    section.number("haunch_radius_m", span.arc_radius, 0.0, kLargestLength, false);
+    section.positive("haunch_radius_m", span.arc_radius, kLargestLength);
     if (span.arc_radius > 0.999 * span.rise)
       section.refuse("haunch_radius_m",
                      fmt::format("is {:g}: expected less than the rise, {:g}", span.arc_radius, span.rise));
@@ -149,9 +149,9 @@ SpanDescription read_span(TomlSection section) {
                   {"elliptic", IntradosShape::elliptic},
                   {"points", IntradosShape::points}});
   refuse_keys_of_other_shapes(section, span.shape);
-  section.number("centre_x_m", span.centre_x, -kLargestLength, kLargestLength, true);
-  section.number("centre_y_m", span.centre_y, 0.0, kLargestLength, true);
-  section.number("springing_m", span.centre_y, 0.0, kLargestLength, true);
+  section.number("centre_x_m", span.centre_x, -kLargestLength, kLargestLength);
+  section.number("centre_y_m", span.centre_y, 0.0, kLargestLength);
+  section.number("springing_m", span.centre_y, 0.0, kLargestLength);
   section.length("intrados_radius_m", span.intrados_radius);
   if (needs_rise(span.shape)) {
     section.require("span_m");
@@ -164,7 +164,7 @@ SpanDescription read_span(TomlSection section) {
   if (span.shape == IntradosShape::points) read_points(section, span);
   read_rings(section, intrados_of(span).length, span);
   double skewback = 0.0;
-  section.number("skewback_m", skewback, 0.0, kLargestLength, true);
+  section.number("skewback_m", skewback, 0.0, kLargestLength);
   if (section.has("skewback_m")) span.skewback = skewback;
   section.refuse_unknown_keys();
   return span;

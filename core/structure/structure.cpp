@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "core/structure/assembly_check.h"
+#include "core/structure/gone_blocks.h"
 #include "core/structure/halved_blocks.h"
 
 namespace voussoir {
@@ -68,11 +69,13 @@ Structure assemble(std::vector<Block> blocks, const AssemblyRules& rules) {
 Structure make_structure(const BridgeDescription& description) {
   const Bounds bounds = bounds_of(description);
   BlockLayout laid = lay_blocks(description);
-  Structure structure = assemble(halved(std::move(laid.blocks), description.wall),
-                                 {.mesh = description.mesh,
-                                  .joint_tolerance = description.joint_tolerance,
-                                  .mirror_axis = bounds.corner.x() + 0.5 * bounds.length});
+  std::vector<Block> blocks = halved(std::move(laid.blocks), description.wall);
+  std::vector<GoneBlock> gone = take_out(description.missing_blocks, blocks);
+  Structure structure = assemble(std::move(blocks), {.mesh = description.mesh,
+                                                     .joint_tolerance = description.joint_tolerance,
+                                                     .mirror_axis = bounds.corner.x() + 0.5 * bounds.length});
   structure.layout.small_pieces = laid.small_pieces;
+  structure.layout.gone = std::move(gone);
   structure.supports = supports_of(description, structure.layout, structure.mesh);
   if (!structure.supports.empty()) check_carried(structure);
   structure.control_points = find_control_points(structure.layout, structure.mesh, description);

@@ -14,22 +14,36 @@ void TomlSection::refuse(const char* key, const std::string& expected) const {
   throw InputError(at_line(file_, line_of(key), fmt::format("{}{}: {}", key, title_, expected)));
 }
 
-void TomlSection::number(const char* key, double& target, double least, double most, bool least_allowed) {
+std::optional<double> TomlSection::number(const char* key) {
   const toml::node* node = take(key);
-  if (node == nullptr) return;
+  if (node == nullptr) return std::nullopt;
   const auto number = node->value<double>();
   if (!number || !node->is_number()) refuse(key, "expected a number");
-  if (!std::isfinite(*number) || *number > most || *number < least || (*number == least && !least_allowed))
-    refuse(key, fmt::format("is {}: expected a number {} {:g} and at most {:g}", *number,
-                            least_allowed ? "of at least" : "greater than", least, most));
-  target = *number;
+  return number;
+}
+
+void TomlSection::number(const char* key, double& target, double least, double most) {
+  const std::optional<double> found = number(key);
+  if (!found) return;
+  if (!(*found >= least && *found <= most))
+    refuse(key,
+           fmt::format("is {}: expected a number of at least {:g} and at most {:g}", *found, least, most));
+  target = *found;
+}
+
+void TomlSection::positive(const char* key, double& target, double most) {
+  const std::optional<double> found = number(key);
+  if (!found) return;
+  if (!(*found > 0.0 && *found <= most))
+    refuse(key, fmt::format("is {}: expected a number greater than 0 and at most {:g}", *found, most));
+  target = *found;
 }
 
 void TomlSection::friction_angle(double& radians, double least) {
   constexpr double kDegree = std::numbers::pi / 180.0;
   constexpr double kMostDegrees = 89.0;
   double degrees = radians / kDegree;
-  number("friction_angle_deg", degrees, least / kDegree, kMostDegrees, true);
+  number("friction_angle_deg", degrees, least / kDegree, kMostDegrees);
   radians = degrees * kDegree;
 }
 

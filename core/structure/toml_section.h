@@ -3,6 +3,7 @@
 
 #include <toml++/toml.h>
 
+#include <optional>
 #include <set>
 #include <string>
 #include <type_traits>
@@ -26,12 +27,12 @@ class TomlSection {
   TomlSection(const std::string& file, const toml::table* table, std::string title)
       : file_(file), table_(table), title_(std::move(title)) {}
 
-  void number(const char* key, double& target, double least, double most, bool least_allowed);
-  void positive(const char* key, double& target) { number(key, target, 0.0, kMostOfAnySetting, false); }
-  void length(const char* key, double& target) { number(key, target, kSmallestLength, kLargestLength, true); }
+  void number(const char* key, double& target, double least, double most);  ///< both ends are allowed
+  void positive(const char* key, double& target, double most = kMostOfAnySetting);
+  void length(const char* key, double& target) { number(key, target, kSmallestLength, kLargestLength); }
   /// "friction_angle_deg", into radians of at least `least`.
   void friction_angle(double& radians, double least);
-  void not_negative(const char* key, double& target) { number(key, target, 0.0, kMostOfAnySetting, true); }
+  void not_negative(const char* key, double& target) { number(key, target, 0.0, kMostOfAnySetting); }
   void count(const char* key, int& target, int least, int most);
   void flag(const char* key, bool& target);
   void text(const char* key, std::string& target);
@@ -74,6 +75,7 @@ class TomlSection {
 
  private:
   const toml::node* take(const char* key);
+  std::optional<double> number(const char* key);
 
   const std::string& file_;
   const toml::table* table_;

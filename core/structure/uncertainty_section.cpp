@@ -6,11 +6,11 @@ namespace {
 constexpr double kMostVariation = 1.0;  ///< beyond it a first order about the stated bridge says nothing
 
 void read_variation(TomlSection& section, const char* key, double& target) {
-  section.number(key, target, 0.0, kMostVariation, true);
+  section.number(key, target, 0.0, kMostVariation);
 }
 
 void read_temperature(TomlSection& section, const char* key, double& target) {
-  section.number(key, target, 0.0, 100.0, true);
+  section.number(key, target, 0.0, 100.0);
 }
 
 constexpr char kUnevenStiffness[] = "epoch_unevenness_cv", kUnevenTemperature[] = "uneven_temperature_K";
@@ -40,9 +40,9 @@ Uncertainty read_uncertainty(TomlSection section) {
   read_variation(section, "young_modulus_cv", uncertainty.young_modulus);
   read_variation(section, "density_cv", uncertainty.density);
   read_temperature(section, "temperature_K", uncertainty.temperature);
-  section.number("foot_movement_m", uncertainty.foot_movement, 0.0, 1.0, true);
-  section.number("foot_rotation_rad", uncertainty.foot_rotation, 0.0, 0.1, true);
-  section.number("side_movement_m", uncertainty.side_movement, 0.0, 1.0, true);
+  section.number("foot_movement_m", uncertainty.foot_movement, 0.0, 1.0);
+  section.number("foot_rotation_rad", uncertainty.foot_rotation, 0.0, 0.1);
+  section.number("side_movement_m", uncertainty.side_movement, 0.0, 1.0);
   read_variation(section, "epoch_stiffness_cv", uncertainty.epoch_stiffness);
   read_unevenness(section, uncertainty);
   section.refuse_unknown_keys();

@@ -106,9 +106,9 @@ std::string sensor_text(const SensorDescription& sensor) {
 }
 
 std::string physics_text(const BridgeDescription& description) {
-  const auto& [name, wall, spans, parts, blocks, material, joints, mortar, regions, fill, supports,
-               control_points, sensors, mesh, gravity, joint_tolerance, loads, movements, uncertainty,
-               collapse_fields] = description;
+  const auto& [name, wall, spans, parts, blocks, missing_blocks, material, joints, mortar, regions, fill,
+               supports, control_points, sensors, mesh, gravity, joint_tolerance, loads, movements,
+               uncertainty, collapse_fields] = description;
   static_cast<void>(movements);        // no scene is solved under them
   static_cast<void>(uncertainty);      // no solution depends on it
   static_cast<void>(collapse_fields);  // stands among the settings
@@ -121,6 +121,7 @@ std::string physics_text(const BridgeDescription& description) {
   for (const MortarRegion& region : mortar) text += region_text(region);
   for (const WallPart& part : parts) text += part_text(part);
   for (const Block& block : blocks) text += block_text(block);
+  for (const std::string& label : missing_blocks) text += fmt::format("missing {}\n", label);
   for (const Region& region : regions) text += region_text(region);
   text += row("fill", fill.unit_weight);
   for (const Point& point : fill.surface) text += row("surface", point.x(), point.y());

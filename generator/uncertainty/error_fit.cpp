@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/median.h"
+
 namespace voussoir {
 namespace {
 
@@ -34,12 +36,11 @@ Eigen::Vector2d ErrorFit::squares() const {
   if (signals_.empty()) return Eigen::Vector2d::Zero();
   std::vector<double> sizes;
   for (const Signal& signal : signals_) sizes.push_back(signal.mean_square);
-  const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
-  std::ranges::nth_element(sizes, middle);
+  const double middle = median(sizes);
   Eigen::Matrix2d normal = Eigen::Matrix2d::Zero();
   Eigen::Vector2d right = Eigen::Vector2d::Zero();
   for (const auto& [values, errors, mean_square] : signals_) {
-    if (mean_square < kLeastSignal * kLeastSignal * *middle) continue;
+    if (mean_square < kLeastSignal * kLeastSignal * middle) continue;
     for (Eigen::Index i = 0; i < values.size(); ++i) {
       if (std::isnan(values[i]) || std::isnan(errors[i])) continue;
       const Eigen::Vector2d terms(values[i] * values[i] / mean_square, 1.0);

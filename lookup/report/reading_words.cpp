@@ -62,7 +62,7 @@ std::string readings_in_words(const Comparison& comparison, std::size_t readings
   const auto silent = std::ranges::count(comparison.measured.silent, true);
   return fmt::format(
       "{} of {} {} have a reading{}{}{}", readings, channels, what,
-      silent > 0 ? fmt::format(", {} are silent", silent) : "",
+      silent > 0 ? fmt::format(", {} {} silent", silent, silent == 1 ? "is" : "are") : "",
       comparison.kind == ReadingKind::absolute ? "" : fmt::format(" ({}", value_in_words(comparison.kind)),
       comparison.kind == ReadingKind::absolute ? ""
       : is_change(comparison.kind)             ? ", the bridge taken to be complete at the first)"

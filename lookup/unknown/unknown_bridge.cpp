@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/median.h"
 #include "core/threads.h"
 
 namespace voussoir {
@@ -187,10 +188,7 @@ double typical_spread(const UnknownBridge& bridge) {
         loss.bridge_variance + bridge.conditions * bridge.conditions * loss.epoch_variance;
     if (size > 0.0) shares.push_back(std::sqrt(variance) / size);
   }
-  if (shares.empty()) return 1.0;
-  const auto middle = shares.begin() + static_cast<std::ptrdiff_t>(shares.size() / 2);
-  std::nth_element(shares.begin(), middle, shares.end());
-  return *middle;
+  return shares.empty() ? 1.0 : median(shares);
 }
 
 }  // namespace
