@@ -33,7 +33,6 @@ std::span<const BuildSwitch> build_switches() {
                   [](PlanRules&, Skips& skips) { skips.shared_analysis = false; }},
       BuildSwitch{"warm-starts",
                   kSameFall,  // what a pair's singles do is not known, and no motion begins early
-
                   [](PlanRules& rules, Skips&) { rules.warm_starts = false; }}};
   return kSwitches;
 }

@@ -147,7 +147,7 @@ void name_farthest(const Library& library, Answer& answer) {
 }
 
 /// The same, and what the readings say of the bridge, averaged over the likeliest scenes.
-void judge_unknown_bridge(const UnknownQuestion& asked, Answer& answer) {
+void judge_unknown_bridge(const QuestionContext& asked, Answer& answer) {
   const auto& [question, settings, comparison, observation, preparation] = asked;
   answer.noise = {NoiseShape::gaussian, question.level(), observation.unknown_level};
   answer.fit = {false, 0.0, "no scene can show them: each lacks a block that has a reading, or fell"};

@@ -50,7 +50,7 @@ std::vector<std::size_t> distinct(std::vector<std::size_t> rows) {
 }
 
 /// Of scenes near the readings.
-std::vector<std::size_t> rows_near(const UnknownQuestion& asked, const Observation& observation,
+std::vector<std::size_t> rows_near(const QuestionContext& asked, const Observation& observation,
                                    std::size_t count) {
   std::vector<std::size_t> rows;
   for (const ScoredRow& near : asked.preparation.smallest_misfits(observation, count))
@@ -59,7 +59,7 @@ std::vector<std::size_t> rows_near(const UnknownQuestion& asked, const Observati
 }
 
 /// The intact bridge and what is near the readings, that any of these may be the truth.
-std::vector<std::size_t> rows_beside(const UnknownQuestion& asked, const Answer& answer) {
+std::vector<std::size_t> rows_beside(const QuestionContext& asked, const Answer& answer) {
   std::vector<std::size_t> rows = rows_near(asked, asked.observation, kMostNear);
   rows.push_back(answer.posterior->credible.front());
   const Eligible& eligible = asked.preparation.eligible();
@@ -70,7 +70,7 @@ std::vector<std::size_t> rows_beside(const UnknownQuestion& asked, const Answer&
 /// Do larger errors than those that are stated explain the readings far better, with no block missing or by
 /// scenes that are near them? A scene that scatters much, if errors of 0.02 mm are said to be 0.002, seems
 /// to.
-std::optional<Fit> check_stated_errors(const UnknownQuestion& asked, const Answer& answer,
+std::optional<Fit> check_stated_errors(const QuestionContext& asked, const Answer& answer,
                                        const std::vector<std::size_t>& rows) {
   for (const double times : kTimesErrors) {
     const double log = log_sum_of(
@@ -84,7 +84,7 @@ std::optional<Fit> check_stated_errors(const UnknownQuestion& asked, const Answe
 
 /// What falls may come to lie anywhere, so little of its probability is near any readings. Would falls be
 /// likely, too, if they showed just what the database has of them, and the best of them is not?
-std::optional<Fit> check_falls(const UnknownQuestion& asked, const Answer& answer) {
+std::optional<Fit> check_falls(const QuestionContext& asked, const Answer& answer) {
   const UnknownBridge& bridge = asked.question.bridge();
   const SceneTable& table = asked.comparison.library.table;
   std::vector<std::size_t> rows = rows_near(asked, asked.observation, kMostFalls);
@@ -132,7 +132,7 @@ std::vector<GrossError> errors_of(const UnknownBridge& bridge, const BridgePoste
 
 /// The readings that are farthest from what all others let expect of a scene, in standard deviations: each
 /// alone, and with all that is read on the same block.
-std::vector<std::vector<GrossError>> suspects_of(const UnknownQuestion& asked, std::size_t row) {
+std::vector<std::vector<GrossError>> suspects_of(const QuestionContext& asked, std::size_t row) {
   const BridgePosterior believed = asked.question.posterior({{row, 1.0}});
   const UnknownBridge& bridge = asked.question.bridge();
   const std::vector<StoredPoint>& points = asked.comparison.library.points;
@@ -157,7 +157,7 @@ std::vector<std::vector<GrossError>> suspects_of(const UnknownQuestion& asked, s
 
 /// Of these rows those that readings leave possible and that lack not all of the named blocks; of none named
 /// those that lack none.
-std::vector<std::size_t> rows_otherwise(const UnknownQuestion& asked, std::vector<std::size_t> rows,
+std::vector<std::size_t> rows_otherwise(const QuestionContext& asked, std::vector<std::size_t> rows,
                                         const std::vector<BlockId>& named) {
   const SceneTable& table = asked.comparison.library.table;
   rows = distinct(std::move(rows));
@@ -171,7 +171,7 @@ std::vector<std::size_t> rows_otherwise(const UnknownQuestion& asked, std::vecto
 }
 
 /// A scene that would explain all other readings if these are grossly wrong; null unless it would be likely.
-std::optional<Scene> explained_by(const UnknownQuestion& asked, const Answer& answer,
+std::optional<Scene> explained_by(const QuestionContext& asked, const Answer& answer,
                                   const std::vector<GrossError>& gross, std::vector<std::size_t> rows,
                                   const std::vector<BlockId>& named) {
   std::vector<std::size_t> channels;
@@ -205,7 +205,7 @@ std::string in_words(const std::vector<GrossError>& gross, bool named, const Lib
 
 /// Is it one reading alone, or what is read on one block, that says what the answer calls missing? If that
 /// were grossly wrong, would others explain the rest?
-std::optional<Fit> check_single_readings(const UnknownQuestion& asked, const Answer& answer,
+std::optional<Fit> check_single_readings(const QuestionContext& asked, const Answer& answer,
                                          const std::vector<std::size_t>& rows) {
   const Library& library = asked.comparison.library;
   const std::vector<BlockId> named = likely_blocks(*answer.posterior, kCertain);
@@ -220,7 +220,7 @@ std::optional<Fit> check_single_readings(const UnknownQuestion& asked, const Ans
 }
 
 /// What a hidden loss competes with, and the scenes with it: alone and beside what the answer calls missing.
-std::vector<std::size_t> rows_with_hidden(const UnknownQuestion& asked, const Answer& answer,
+std::vector<std::size_t> rows_with_hidden(const QuestionContext& asked, const Answer& answer,
                                           const Observation& others, BlockId block) {
   const SceneTable& table = asked.comparison.library.table;
   const std::vector<std::size_t>& likely = answer.posterior->credible;
@@ -240,7 +240,7 @@ std::vector<std::size_t> rows_with_hidden(const UnknownQuestion& asked, const An
 
 /// A block that is read is not missing, unless what is read is on it no longer. Would its loss, alone or with
 /// others, explain all other readings better than what the answer calls likely?
-bool would_be_lost(const UnknownQuestion& asked, const Answer& answer, const HiddenLoss& hidden) {
+bool would_be_lost(const QuestionContext& asked, const Answer& answer, const HiddenLoss& hidden) {
   const SceneTable& table = asked.comparison.library.table;
   const BlockId block = table.scene(hidden.row).removed.front();
   const Observation others = without(asked.observation, hidden.channels);
@@ -256,7 +256,7 @@ bool would_be_lost(const UnknownQuestion& asked, const Answer& answer, const Hid
   return std::log(kKeptChance) + lost > there + std::log((1.0 - kCertain) / kCertain);
 }
 
-std::optional<Fit> check_hidden_losses(const UnknownQuestion& asked, const Answer& answer) {
+std::optional<Fit> check_hidden_losses(const QuestionContext& asked, const Answer& answer) {
   const Library& library = asked.comparison.library;
   const std::vector<double> prior =
       log_prior_by_missing(library.table, asked.preparation.eligible(), answer.prior);
@@ -278,7 +278,7 @@ std::optional<Fit> check_hidden_losses(const UnknownQuestion& asked, const Answe
 
 }  // namespace
 
-std::optional<Fit> find_other(const UnknownQuestion& asked, const Answer& answer) {
+std::optional<Fit> find_other(const QuestionContext& asked, const Answer& answer) {
   const bool is_alarm = 1.0 - intact_probability(*answer.posterior) >= kCertain;
   const std::vector<std::size_t> rows = is_alarm ? rows_beside(asked, answer) : std::vector<std::size_t>();
   if (is_alarm)

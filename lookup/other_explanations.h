@@ -8,7 +8,7 @@
 namespace voussoir {
 
 /// A question about a bridge that is not exactly known, and what it is asked of.
-struct UnknownQuestion {
+struct QuestionContext {
   UnknownBridgeQuestion& question;
   const UnknownSettings& settings;
   const Comparison& comparison;
@@ -22,6 +22,6 @@ struct UnknownQuestion {
 /// read all the same, which would be likely, too; and, where blocks are said to be missing, errors that are
 /// larger than stated, which would be far likelier. Preconditions: some scene is likely, and the answer has
 /// what the readings say of the bridge.
-std::optional<Fit> find_other(const UnknownQuestion& asked, const Answer& answer);
+std::optional<Fit> find_other(const QuestionContext& asked, const Answer& answer);
 
 }  // namespace voussoir

@@ -11,8 +11,9 @@ namespace voussoir {
 std::vector<GoneBlock> take_out(const std::vector<std::string>& labels, std::vector<Block>& blocks) {
   for (auto label = labels.begin(); label != labels.end(); ++label) {
     if (std::ranges::find(blocks, *label, &Block::label) == blocks.end())
-      throw InputError(fmt::format("missing_blocks: '{}' is no block: expected labels of blocks, such as \"{}\"",
-                                   *label, blocks.front().label));
+      throw InputError(
+          fmt::format("missing_blocks: '{}' is no block: expected labels of blocks, such as \"{}\"", *label,
+                      blocks.front().label));
     if (std::find(labels.begin(), label, *label) != label)
       throw InputError(fmt::format("missing_blocks: '{}' comes twice", *label));
   }

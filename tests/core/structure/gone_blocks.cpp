@@ -64,8 +64,8 @@ TEST_CASE("Labels that name no block of the bridge are refused") {
 }
 
 TEST_CASE("A bridge file says which blocks are missing") {
-  const std::string text = "missing_blocks = [\"5,2\", \"2,4\"]\n" +
-                           read_bridge_file(test::example_bridge("small")).text;
+  const std::string text =
+      "missing_blocks = [\"5,2\", \"2,4\"]\n" + read_bridge_file(test::example_bridge("small")).text;
   CHECK(parse_bridge_file(text, "small").description.missing_blocks ==
         std::vector<std::string>{"5,2", "2,4"});
 }

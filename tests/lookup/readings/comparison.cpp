@@ -24,6 +24,8 @@ const Model& small_bridge() {
 
 /// Databases of the small bridge with made-up numbers: with load cases, and as version 0.1 had them.
 class Shelf {
+  test::TemporaryFolder folder_;  // first, as what follows is made in it
+
  public:
   Database with_loads = make("loads.h5", kStates, KeepField::yes);
   Database plain = make("plain.h5", {"built"}, KeepField::no);
@@ -43,8 +45,6 @@ class Shelf {
     });
     return Database::open(folder_ / name);
   }
-
-  test::TemporaryFolder folder_;
 };
 
 const Shelf& shelf() {
