@@ -1,5 +1,8 @@
 /// @file plan-sensors: which losses of single blocks sensors would show, before anything is read.
 
+#include "core/error.h"
+#include "core/structure/sensor_description.h"
+#include "core/text.h"
 #include "core/text_file.h"
 #include "core/units.h"
 #include "lookup/command_line.h"
@@ -26,16 +29,41 @@ std::string plan(const Options& options) {
   return voussoir::plan_report(plan, {database, options.settings}, options.format);
 }
 
-void add_reading_options(CLI::App& app, Options& options) {
-  voussoir::PlanSettings& settings = options.settings;
-  app.add_option("-d,--database", options.database, "default: $VOUSSOIR_DATABASE, else ./bridge.h5")
-      ->option_text("FILE");
+/// "tilt=0.01mm"
+std::pair<voussoir::Quantity, double> sigma_of(const std::string& text) {
+  const std::size_t sign = text.find('=');
+  const auto quantity = voussoir::parse_quantity(std::string_view(text).substr(0, sign));
+  if (!quantity || sign == std::string::npos)
+    throw voussoir::InputError(
+        fmt::format("{} given, expected {}, an equals sign and millimetres, such as tilt=0.01mm",
+                    voussoir::in_quotes(text), voussoir::kQuantities));
+  return {*quantity, voussoir::parse_sigma(std::string_view(text).substr(sign + 1))};
+}
+
+void add_errors(CLI::App& app, voussoir::PlanSettings& settings) {
   app.add_option_function<std::string>(
          "--sigma", [&](const std::string& text) { settings.sigma = voussoir::parse_sigma(text); },
          "standard deviation of the change between two times at each sensor, such as 0.02mm")
       ->required()
       ->check(voussoir::checked_by(voussoir::parse_sigma, "MM"))
       ->option_text("MM");
+  app.add_option_function<std::vector<std::string>>(
+         "--sigma-of",
+         [&](const std::vector<std::string>& texts) {
+           for (const std::string& text : texts)
+             settings.sigma_of.insert_or_assign(sigma_of(text).first, sigma_of(text).second);
+         },
+         "the same of sensors of one quantity, such as tilt=0.01 (mm per m),distance=0.005mm")
+      ->delimiter(',')
+      ->check(voussoir::checked_by(sigma_of, "QUANTITY=MM"))
+      ->option_text("QUANTITY=MM");
+}
+
+void add_reading_options(CLI::App& app, Options& options) {
+  voussoir::PlanSettings& settings = options.settings;
+  app.add_option("-d,--database", options.database, "default: $VOUSSOIR_DATABASE, else ./bridge.h5")
+      ->option_text("FILE");
+  add_errors(app, settings);
   app.add_option(
          "--points", settings.points,
          "control points, and sensors of the bridge file, that can be read, such as T1,T8,A3; default: all")

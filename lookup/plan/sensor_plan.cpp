@@ -13,11 +13,16 @@ namespace voussoir {
 namespace {
 
 /// Changes of nothing at the points: what they are is no matter, only that they are read.
-ReadingsFile blank_readings(const SensorList& list, const std::vector<std::string>& points, double sigma) {
+ReadingsFile blank_readings(const SensorList& list, const PlanSettings& settings) {
   ReadingsFile file{"the plan", ReadingKind::change, false, {}};
-  for (std::size_t s = 0; s < list.sensors.size(); ++s)
-    if (points.empty() || std::ranges::find(points, list.sensors[s].name) != points.end())
-      file.readings.push_back({.sensor = s, .value = 0.0, .sigma = sigma});
+  const std::vector<std::string>& points = settings.points;
+  for (std::size_t s = 0; s < list.sensors.size(); ++s) {
+    const Sensor& sensor = list.sensors[s];
+    if (!points.empty() && std::ranges::find(points, sensor.name) == points.end()) continue;
+    const auto own = settings.sigma_of.find(sensor.quantity);
+    file.readings.push_back(
+        {.sensor = s, .value = 0.0, .sigma = own == settings.sigma_of.end() ? settings.sigma : own->second});
+  }
   return file;
 }
 
@@ -38,8 +43,7 @@ struct BlankQuestion {
   UnknownBridge bridge;
 
   BlankQuestion(const Database& database, const SensorList& list, const PlanSettings& settings)
-      : comparison(compare(blank_readings(list, settings.points, settings.sigma), list, database,
-                           {.history = settings.history})),
+      : comparison(compare(blank_readings(list, settings), list, database, {.history = settings.history})),
         observation(observe(comparison, {.shape = NoiseShape::gaussian, .relative = 0.0},
                             {.datum = settings.datum})) {
     const SceneTable& table = comparison.library.table;

@@ -1,6 +1,7 @@
 #pragma once
 /// @file From sensors to what they can show: the flow of plan-sensors.
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,8 +12,9 @@
 namespace voussoir {
 
 struct PlanSettings {
-  std::vector<std::string> points = {};  ///< of the database that may be read; empty: all
-  double sigma = 0.0;                    ///< [m] standard deviation of the change at each of them
+  std::vector<std::string> points = {};   ///< of the database that may be read; empty: all
+  double sigma = 0.0;                     ///< [m] standard deviation of the change at each of them
+  std::map<Quantity, double> sigma_of{};  ///< [m, or of tilts rad] the same of sensors of a quantity
   std::optional<std::size_t>
       choose{};  ///< how many of them, with which most is seen (rows_that_help); nothing: all
   std::optional<std::string> history{};  ///< as in ComparisonSettings

@@ -73,11 +73,18 @@ Table block_table(const SensorPlan& plan, const Database& database) {
   return table;
 }
 
+nlohmann::ordered_json sigmas_json(const PlanSettings& settings) {
+  nlohmann::ordered_json result = nlohmann::ordered_json::object();
+  for (const auto& [quantity, sigma] : settings.sigma_of) result[std::string(to_string(quantity))] = sigma;
+  return result;
+}
+
 std::string plan_json(const SensorPlan& plan, const PlannedBridge& bridge) {
   nlohmann::ordered_json result = {{"database", bridge.database.path().string()},
                                    {"digest", bridge.database.digest()},
                                    {"history", plan.history},
                                    {"sigma_m", bridge.settings.sigma},
+                                   {"sigma_of", sigmas_json(bridge.settings)},
                                    {"datum_m", bridge.settings.datum},
                                    {"conditions", to_string(bridge.settings.conditions)},
                                    {"points", plan.points},
@@ -104,11 +111,13 @@ bool reads_tilts(const SensorPlan& plan, const Database& database) {
   });
 }
 
-/// "changes between two times at 12 points, each off by 0.02 mm"
+/// "changes between two times at 12 points, each off by 0.02 mm, tilt by 0.01 mm per m"
 std::string planned_in_words(const SensorPlan& plan, const PlannedBridge& bridge) {
   std::string text = fmt::format("changes between two times at {} points, each off by {:g} mm{}",
                                  plan.points.size(), kMillimetres * bridge.settings.sigma,
                                  reads_tilts(plan, bridge.database) ? " (tilts: mm per m)" : "");
+  for (const auto& [quantity, sigma] : bridge.settings.sigma_of)
+    text += fmt::format(", {} by {:g} {}", to_string(quantity), kMillimetres * sigma, unit_of(quantity));
   if (bridge.settings.datum > 0.0)
     text +=
         fmt::format(", all heights of a levelling by {:g} mm alike", kMillimetres * bridge.settings.datum);

@@ -114,6 +114,28 @@ TEST_CASE("Databases without the sensors say how they come in") {
   CHECK_THAT(refused.err, Catch::Contains("[[sensors]] in the bridge file"));
 }
 
+TEST_CASE("A plan's errors may differ by what is read (the same as errors of all, where one is read)") {
+  const auto plan = [](std::vector<std::string> options) {
+    options.insert(options.end(), {"-d", sensed().sensed, "--format", "json"});
+    const auto result = test::run("plan-sensors", options);
+    INFO(result.err);
+    REQUIRE(result.exit_code == 0);
+    return json::parse(result.out)["blocks"];
+  };
+  const json small = plan({"--sigma", "0.01mm"}), large = plan({"--sigma", "0.5mm"});
+  CHECK(small != large);
+  CHECK(plan({"--sigma", "0.5mm", "--sigma-of", "uy=0.01mm,ux=0.01mm,tilt=0.01mm,distance=0.01mm"}) == small);
+  const json mixed = plan({"--sigma", "0.5mm", "--sigma-of", "tilt=0.01", "--sigma-of", "ux=0.01mm"});
+  CHECK(mixed != small);
+  CHECK(mixed != large);
+  CHECK(plan({"--sigma", "0.5mm", "--sigma-of", "tilt=0.01mm", "--points", "N1"}) ==
+        plan({"--sigma", "0.01mm", "--points", "N1"}));
+  const auto refused =
+      test::run("plan-sensors", {"-d", sensed().sensed, "--sigma", "1mm", "--sigma-of", "angle=0.01"});
+  CHECK(refused.exit_code == 2);
+  CHECK_THAT(refused.err, Catch::Contains("expected ux, uy, tilt or distance"));
+}
+
 TEST_CASE("verify-database solves sensed scenes anew, query-field and plan-sensors know the sensors") {
   const auto verified = test::run("verify-database", {sensed().sensed, "--recompute", "10"});
   INFO(verified.out << verified.err);
