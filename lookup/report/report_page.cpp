@@ -58,7 +58,8 @@ Figure candidates_figure(const Answer& answer, const Library& library) {
          std::string(to_string(candidate.outcome)), place_in_words(candidate.scene, library.layout)});
   }
   return {"candidates",
-          "Scenes that may explain the readings",
+          answer.fit && !answer.fit->explained ? "The closest scenes, none of which is an answer"
+                                               : "Scenes that may explain the readings",
           "A scene is a set of missing blocks, named (course, position from the left); course 0 is the arch.",
           "",
           table,

@@ -117,7 +117,9 @@ Drawing draw_bridge(const ReportPictures& report) {
       frame_of(report.library.layout, kPictureWidth, kReadingsHeight + room_above(report, longest), 0.15);
   const bool with_bar = has_probabilities(report);
   Drawing drawing{frame.width, frame.height + (with_bar ? kColourBarHeight : 0.0),
-                  "The bridge; each block coloured by the probability that it is missing", ""};
+                  with_bar ? "The bridge; each block coloured by the probability that it is missing"
+                           : "The bridge; the first candidate's blocks outlined",
+                  ""};
   drawing.elements =
       ground_element(report.library.layout, frame) +
       block_elements(report.library.layout, frame, [&](BlockId id) { return block_look(report, id); }) +
@@ -136,7 +138,8 @@ Figure bridge_figure(const ReportPictures& report) {
   const double longest = kMillimetres * largest_reading(report);
   return {
       "bridge",
-      "The bridge, and how likely each block is missing",
+      has_probabilities(report) ? "The bridge, and how likely each block is missing"
+                                : "The bridge and the first candidate",
       fmt::format(
           "{} Outlined: the first candidate. Blue lines hang from the control points by their {}s (the "
           "longest is {:.3g} mm; the top's hang from above the bridge); a hollow point has no reading, an "
