@@ -149,7 +149,7 @@ std::vector<std::vector<GrossError>> suspects_of(const QuestionContext& asked, s
     suspects.push_back(errors_of(bridge, believed, {channel}));
     std::vector<std::size_t> beside;
     std::ranges::copy_if(channels, std::back_inserter(beside),
-                         [&](std::size_t other) { return points[other].block == points[channel].block; });
+                         [&](std::size_t other) { return points[other].is_on(points[channel].block); });
     if (beside.size() > 1) suspects.push_back(errors_of(bridge, believed, beside));
   }
   return suspects;
@@ -191,16 +191,13 @@ std::optional<Scene> explained_by(const QuestionContext& asked, const Answer& an
 /// "only the reading at T2 says that these blocks are missing; were it wrong by 0.1 mm".
 std::string in_words(const std::vector<GrossError>& gross, bool named, const Library& library) {
   std::vector<std::string> names;
-  double size = 0.0;
-  for (const GrossError& one : gross) {
-    names.push_back(library.points[one.channel].name);
-    size = std::max(size, one.size);
-  }
+  for (const GrossError& one : gross) names.push_back(library.points[one.channel].name);
+  const GrossError& largest = *std::ranges::max_element(gross, {}, &GrossError::size);
   const bool alone = gross.size() == 1;
   return fmt::format("only the reading{} at {} say{} that {} missing; were {} wrong by {:.2g} {}",
                      alone ? "" : "s", names_in_words(names), alone ? "s" : "",
-                     named ? "these blocks are" : "blocks are", alone ? "it" : "they", kMillimetres * size,
-                     unit_of(library.points[gross.front().channel].quantity));
+                     named ? "these blocks are" : "blocks are", alone ? "it" : "they",
+                     kMillimetres * largest.size, unit_of(library.points[largest.channel].quantity));
 }
 
 /// Is it one reading alone, or what is read on one block, that says what the answer calls missing? If that
@@ -223,17 +220,20 @@ std::optional<Fit> check_single_readings(const QuestionContext& asked, const Ans
 std::vector<std::size_t> rows_with_hidden(const QuestionContext& asked, const Answer& answer,
                                           const Observation& others, BlockId block) {
   const SceneTable& table = asked.comparison.library.table;
+  const Eligible& eligible = asked.preparation.eligible();
   const std::vector<std::size_t>& likely = answer.posterior->credible;
   std::vector<std::size_t> rows = rows_near(asked, others, kMostNear);
   rows.insert(rows.end(), likely.begin(),
               likely.begin() + static_cast<std::ptrdiff_t>(std::min(likely.size(), kMostLikely)));
-  rows.push_back(asked.preparation.eligible().rows.front());
-  std::vector<Scene> scenes = {{{block}}, table.scene(likely.front())};
-  for (const BlockId missing : scenes.back().removed) scenes.push_back({{missing}});
+  if (eligible.missing.front() == 0) rows.push_back(eligible.rows.front());
+  const Scene called = table.scene(likely.front());
+  std::vector<Scene> scenes = {{{block}}, called};
+  for (const BlockId missing : called.removed) scenes.push_back({{missing}});
   for (Scene& scene : scenes) {
     if (!scene.lacks(block)) scene.removed.push_back(block);
     std::ranges::sort(scene.removed);
-    if (const auto row = table.find(scene)) rows.push_back(*row);
+    const auto row = table.find(scene);
+    if (row && std::ranges::binary_search(eligible.rows, *row)) rows.push_back(*row);
   }
   return distinct(std::move(rows));
 }
@@ -270,7 +270,7 @@ std::optional<Fit> check_hidden_losses(const QuestionContext& asked, const Answe
     for (const std::size_t channel : one.channels) names.push_back(library.points[channel].name);
     return Fit{false, answer.fit->chance,
                fmt::format("only what is read at {} says that {} is still there; if that is on it no longer, "
-                           "its loss is likely",
+                           "the loss of it or of a block beside it is likely",
                            names_in_words(names), to_string(library.table.scene(one.row), library.layout))};
   }
   return std::nullopt;

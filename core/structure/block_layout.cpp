@@ -161,9 +161,10 @@ std::optional<BlockId> BlockLayout::find_label(std::string_view label) const {
   return first_block(blocks, [&](const Block& b) { return b.label == label; });
 }
 
-void BlockLayout::expect(const std::string& where, const std::vector<std::string>& names) const {
+void BlockLayout::expect(const std::string& where, const std::vector<std::string>& names,
+                         const std::vector<std::string>& missing) const {
   for (const std::string& name : names)
-    if (!find_role(name) && !find_label(name))
+    if (!find_role(name) && !find_label(name) && std::ranges::find(missing, name) == missing.end())
       throw InputError(fmt::format("{}: '{}' is no block: expected the label of a block or a role ({})",
                                    where, name, role_names()));
 }

@@ -26,8 +26,10 @@ struct BlockLayout {
   std::optional<BlockId> find(BlockIndex index) const;
   std::optional<BlockId> find_label(std::string_view label) const;
 
-  /// Throws InputError "where: ..." unless every name is a role's or a block's label.
-  void expect(const std::string& where, const std::vector<std::string>& names) const;
+  /// Throws InputError "where: ..." unless every name is a role's or the label of a block or of a missing
+  /// one.
+  void expect(const std::string& where, const std::vector<std::string>& names,
+              const std::vector<std::string>& missing) const;
 
   /// Number of blocks that play this part.
   int count_with(BlockRole role) const;

@@ -5,27 +5,28 @@
 #include <algorithm>
 
 #include "core/error.h"
+#include "core/structure/scene.h"
 
 namespace voussoir {
 
-std::vector<GoneBlock> take_out(const std::vector<std::string>& labels, std::vector<Block>& blocks) {
-  for (auto label = labels.begin(); label != labels.end(); ++label) {
-    if (std::ranges::find(blocks, *label, &Block::label) == blocks.end())
-      throw InputError(
-          fmt::format("missing_blocks: '{}' is no block: expected labels of blocks, such as \"{}\"", *label,
-                      blocks.front().label));
-    if (std::find(labels.begin(), label, *label) != label)
-      throw InputError(fmt::format("missing_blocks: '{}' comes twice", *label));
+std::vector<GoneBlock> take_out(const std::vector<std::string>& names, std::vector<Block>& blocks) {
+  if (names.empty()) return {};
+  const BlockLayout layout{blocks};
+  Scene missing;
+  try {
+    missing = parse_scene(fmt::format("{}", fmt::join(names, "+")), layout);
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("missing_blocks: {}", error.what()));
   }
+  if (missing.removed.size() == blocks.size())
+    throw InputError("missing_blocks: all blocks of the bridge are missing");
   std::vector<GoneBlock> gone;
-  std::vector<Block> left;
-  for (Block& block : blocks)
-    if (std::ranges::find(labels, block.label) == labels.end())
-      left.push_back(std::move(block));
+  blocks.clear();
+  for (std::size_t b = 0; b < layout.size(); ++b)
+    if (missing.lacks(BlockId{static_cast<std::int32_t>(b)}))
+      gone.push_back({blocks.size(), layout.blocks[b]});
     else
-      gone.push_back({left.size(), std::move(block)});
-  if (left.empty()) throw InputError("missing_blocks: all blocks of the bridge are missing");
-  blocks = std::move(left);
+      blocks.push_back(layout.blocks[b]);
   return gone;
 }
 

@@ -8,8 +8,8 @@
 
 namespace voussoir {
 
-/// Takes the blocks with these labels out. They come back in the order in which they were there. Throws
-/// InputError for a label that no block has, one that comes twice, and if no block is left.
-std::vector<GoneBlock> take_out(const std::vector<std::string>& labels, std::vector<Block>& blocks);
+/// Takes these blocks out, each named as in a scene. They come back in the order in which they were there.
+/// Throws InputError as parse_scene, and if no block is left.
+std::vector<GoneBlock> take_out(const std::vector<std::string>& names, std::vector<Block>& blocks);
 
 }  // namespace voussoir

@@ -39,7 +39,7 @@ void check_energy(const JointMaterial& material, const Joint& joint, const Block
 void lay_mortar(const BridgeDescription& description, const Structure& structure, Parameters& parameters) {
   const BlockLayout& layout = structure.layout;
   for (const MortarRegion& region : description.mortar)
-    layout.expect("between in [[mortar]]", region.between);
+    layout.expect("between in [[mortar]]", region.between, description.missing_blocks);
   const bool held_together = std::ranges::any_of(description.mortar, &MortarRegion::within_blocks);
   if (description.wall.halved && !held_together)
     throw InputError("halved in [wall]: expected a table [[mortar]] with within_blocks = true beside it");

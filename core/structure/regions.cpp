@@ -22,7 +22,7 @@ JointMaterial weaker(const JointMaterial& a, const JointMaterial& b) {
 void set_regions(const BridgeDescription& description, const Structure& structure, Parameters& parameters) {
   std::vector<JointMaterial> of_block(structure.layout.size(), description.joints);
   for (const Region& region : description.regions) {
-    structure.layout.expect("of in [[regions]]", region.of);
+    structure.layout.expect("of in [[regions]]", region.of, description.missing_blocks);
     for (std::size_t b = 0; b < structure.layout.size(); ++b) {
       if (!names(region, structure.layout.blocks[b])) continue;
       parameters.blocks[b] = region.material;

@@ -15,7 +15,7 @@ namespace {
   if (last == 0)
     throw InputError(
         fmt::format("there is no block {}: this bridge has no course {}", to_string(index), index.course));
-  const bool gone = index.position >= 1 && index.position <= last;
+  const bool gone = index.position >= 1 && index.position < last;
   throw InputError(fmt::format("there is no block {}: course {} has positions 1 to {}{}", to_string(index),
                                index.course, last, gone ? " without it (missing_blocks)" : ""));
 }

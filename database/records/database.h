@@ -29,6 +29,7 @@ struct StoredPoint {
   BlockId block;   ///< the block it belongs to; without that block the point shows nothing
   Quantity quantity = Quantity::uy;
   std::optional<BlockId> other_block{};  ///< of a distance between two blocks the second: the same holds
+  bool is_on(BlockId id) const { return id == block || id == other_block; }
 };
 
 /// The records of a bridge: a row for each scene of each variant, in row_order, each with the same states.

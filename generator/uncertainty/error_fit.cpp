@@ -15,7 +15,7 @@ constexpr double kApart = 1e-12;
 
 /// Signals below this share of the median one (root mean squares) do not count. What a block beside a held
 /// end shows is rounding; the errors of others' sizes that are left there, in shares of that, are anything,
-/// and would be those of all signals. A block whose loss shows as little is not looked for.
+/// and would be those of all signals. A block whose loss shows as little, no readings show.
 constexpr double kLeastSignal = 0.05;
 
 }  // namespace
@@ -48,6 +48,7 @@ Eigen::Vector2d ErrorFit::squares() const {
       right += terms * (errors[i] * errors[i] / mean_square);
     }
   }
+  if (normal(1, 1) == 0.0) return Eigen::Vector2d::Zero();
   const bool are_apart = normal.determinant() > kApart * normal(0, 0) * normal(1, 1);
   const Eigen::Vector2d both =
       are_apart ? Eigen::Vector2d(normal.inverse() * right) : Eigen::Vector2d(-1.0, 0.0);

@@ -101,9 +101,12 @@ Library library_of_channels(const Database& database, std::size_t base,
   library.table.points = channels.size();
   library.table.vertical = storage->predictions;
   library.table.outcome = storage->outcome;
-  for (const Channel& channel : channels)
-    library.points.push_back({channel.sensor->name + under_load(channel.load), channel.sensor->position,
-                              channel.sensor->blocks.front()});
+  for (const Channel& channel : channels) {
+    const Sensor& sensor = *channel.sensor;
+    library.points.push_back({sensor.name + under_load(channel.load), sensor.position, sensor.blocks.front(),
+                              sensor.quantity,
+                              sensor.blocks.size() > 1 ? std::optional(sensor.blocks.back()) : std::nullopt});
+  }
   return library;
 }
 

@@ -65,8 +65,8 @@ std::string readings_in_words(const Comparison& comparison, std::size_t readings
       silent > 0 ? fmt::format(", {} {} silent", silent, silent == 1 ? "is" : "are") : "",
       comparison.kind == ReadingKind::absolute ? "" : fmt::format(" ({}", value_in_words(comparison.kind)),
       comparison.kind == ReadingKind::absolute ? ""
-      : is_change(comparison.kind)             ? ", the bridge taken to be complete at the first)"
-                                               : ")");
+      : is_change(comparison.kind) ? ", the bridge at the first taken to be as the database has it)"
+                                   : ")");
 }
 
 std::string history_in_words(const std::string& history) {

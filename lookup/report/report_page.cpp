@@ -29,9 +29,9 @@ std::string verdict_html(const Answer& answer, const Comparison& comparison) {
   if (answer.posterior) html += paragraph("Verdict: " + verdict_in_words(answer));
   if (answer.posterior && !answer.posterior->credible.empty())
     html += paragraph(
-        fmt::format("Number of missing blocks{}. {:.0f} % of the probability is held by {} scene{}.",
-                    missing_in_words(answer), 100.0 * kCredibleShare, answer.posterior->credible.size(),
-                    answer.posterior->credible.size() == 1 ? "" : "s"));
+        fmt::format("Number of missing blocks{}: {}. {:.0f} % of the probability is held by {} scene{}.",
+                    if_true(answer), missing_in_words(answer), 100.0 * kCredibleShare,
+                    answer.posterior->credible.size(), answer.posterior->credible.size() == 1 ? "" : "s"));
   std::string same;
   for (const Scene& scene : answer.candidates.front().same_readings)
     same += (same.empty() ? "" : "; ") + to_string(scene, library.layout);
@@ -58,8 +58,8 @@ Figure candidates_figure(const Answer& answer, const Library& library) {
          std::string(to_string(candidate.outcome)), place_in_words(candidate.scene, library.layout)});
   }
   return {"candidates",
-          answer.fit && !answer.fit->explained ? "The closest scenes, none of which is an answer"
-                                               : "Scenes that may explain the readings",
+          answer.posterior && !has_probabilities(answer) ? "The closest scenes, none of which is an answer"
+                                                         : "Scenes that may explain the readings",
           "A scene is a set of missing blocks, named (course, position from the left); course 0 is the arch.",
           "",
           table,

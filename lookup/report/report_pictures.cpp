@@ -10,7 +10,6 @@
 #include "lookup/report/drawing/bridge_drawing.h"
 #include "lookup/report/drawing/colour_map.h"
 #include "lookup/report/report_words.h"
-#include "lookup/report/verdict.h"
 #include "lookup/report/words.h"
 
 namespace voussoir {
@@ -22,13 +21,8 @@ constexpr double kReadingsHeight = 1.1;   // [m] above the bridge, for the top's
 constexpr double kLongestReading = 0.75;  // [m] on the bridge's scale
 constexpr double kSensorDisc = 3.0;
 
-/// Shares among scenes none of which is an answer are no probabilities.
-bool has_probabilities(const ReportPictures& report) {
-  return report.answer.posterior && verdict_of(report.answer) != Verdict::unexplained;
-}
-
 double probability_of(const ReportPictures& report, BlockId block) {
-  if (!has_probabilities(report)) return kNan;
+  if (!has_probabilities(report.answer)) return kNan;
   return report.answer.posterior->block_probability[static_cast<std::size_t>(value(block))];
 }
 
@@ -97,7 +91,7 @@ double largest_reading(const ReportPictures& report) {
 
 Table block_table(const ReportPictures& report) {
   Table table{{"block", "probability", "where"}, {}};
-  if (!has_probabilities(report)) {
+  if (!has_probabilities(report.answer)) {
     for (const BlockId id : report.answer.candidates.front().scene.removed)
       table.rows.push_back(
           {report.library.layout[id].label, "none", place_in_words(id, report.library.layout)});
@@ -115,7 +109,7 @@ Drawing draw_bridge(const ReportPictures& report) {
   const double longest = largest_reading(report);
   const BridgeFrame frame =
       frame_of(report.library.layout, kPictureWidth, kReadingsHeight + room_above(report, longest), 0.15);
-  const bool with_bar = has_probabilities(report);
+  const bool with_bar = has_probabilities(report.answer);
   Drawing drawing{frame.width, frame.height + (with_bar ? kColourBarHeight : 0.0),
                   with_bar ? "The bridge; each block coloured by the probability that it is missing"
                            : "The bridge; the first candidate's blocks outlined",
@@ -138,13 +132,14 @@ Figure bridge_figure(const ReportPictures& report) {
   const double longest = kMillimetres * largest_reading(report);
   return {
       "bridge",
-      has_probabilities(report) ? "The bridge, and how likely each block is missing"
-                                : "The bridge and the first candidate",
+      has_probabilities(report.answer) ? "The bridge, and how likely each block is missing"
+                                       : "The bridge and the first candidate",
       fmt::format(
           "{} Outlined: the first candidate. Blue lines hang from the control points by their {}s (the "
           "longest is {:.3g} mm; the top's hang from above the bridge); a hollow point has no reading, an "
           "orange one disagrees with the rest.",
-          has_probabilities(report) ? "Blocks that are missing with less than 0.1 % have the colour of stone."
+          has_probabilities(report.answer)
+              ? "Blocks that are missing with less than 0.1 % have the colour of stone."
           : report.answer.posterior ? "No block is coloured, as no scene is an answer."
                                     : "With this objective there are no probabilities.",
           reading_word(report), longest),

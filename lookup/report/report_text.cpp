@@ -4,7 +4,6 @@
 #include <cmath>
 #include <iterator>
 
-#include "core/not_a_number.h"
 #include "core/units.h"
 #include "lookup/report/bridge_report.h"
 #include "lookup/report/reading_words.h"
@@ -83,14 +82,14 @@ void write_groups(Text& text, const Answer& answer, const Library& library) {
 
 void write_probabilities(Text& text, const Answer& answer, const Library& library) {
   const Posterior& posterior = *answer.posterior;
-  text.line("Number of missing blocks{}", missing_in_words(answer));
+  text.line("Number of missing blocks{}: {}", if_true(answer), missing_in_words(answer));
   std::vector<BlockId> blocks = likely_blocks(posterior, kBlockWorthListing);
   blocks.resize(std::min(blocks.size(), kMostBlocksListed));
   std::string names;
   for (const BlockId id : blocks)
     names += fmt::format("{}{}: {}", names.empty() ? "" : "; ", library.layout[id].label,
                          percent(posterior.block_probability[static_cast<std::size_t>(value(id))]));
-  text.line("Blocks most likely missing: {}", names.empty() ? "none" : names);
+  text.line("Blocks most likely missing{}: {}", if_true(answer), names.empty() ? "none" : names);
   text.line("{:.0f} % of the probability is held by {} scene{}", 100.0 * kCredibleShare,
             posterior.credible.size(), posterior.credible.size() == 1 ? "" : "s");
 }
@@ -106,12 +105,11 @@ void write_movements(Text& text, const Answer& answer, const Comparison& compari
   const ShownReadings shown = shown_readings(comparison, answer.candidates.front().row);
   const std::vector<double> origin = origin_of(comparison);
   std::vector<std::size_t> channels;
-  std::vector<double> expected(shown.reading.size(), kNan);
+  std::vector<double> expected = shown.expected;
   for (std::size_t i = 0; i < shown.reading.size(); ++i)
     if (!std::isnan(shown.reading[i])) channels.push_back(i);
-  for (const SensorResidual& sensor : answer.residuals)
-    expected[sensor.point] = sensor.predicted - origin[sensor.point];
-  if (answer.residuals.empty()) expected = shown.expected;
+  for (const SensorResidual& sensor : answer.residuals)  // of a held point nothing else is known
+    if (!std::isnan(sensor.error)) expected[sensor.point] = sensor.predicted - origin[sensor.point];
   std::stable_sort(channels.begin(), channels.end(), [&](std::size_t a, std::size_t b) {
     return std::abs(shown.reading[a]) > std::abs(shown.reading[b]);
   });

@@ -213,15 +213,21 @@ std::string behind(const Candidate& candidate, const Candidate& best) {
   return odds < 1e6 ? fmt::format("1 : {:.4g}", odds) : "1 : > 10^6";
 }
 
-/// Probabilities are those of scenes; where none of them is an answer they are only shares among them.
 std::string missing_in_words(const Answer& answer) {
   const Posterior& posterior = *answer.posterior;
-  std::string numbers = verdict_of(answer) == Verdict::unexplained ? ", if a scene were the truth: " : ": ";
-  const std::size_t begin = numbers.size();
+  std::string numbers;
   for (std::size_t missing = 0; missing < posterior.missing_probability.size(); ++missing)
-    numbers += fmt::format("{}{}: {}", numbers.size() == begin ? "" : ", ", missing,
+    numbers += fmt::format("{}{}: {}", missing == 0 ? "" : ", ", missing,
                            percent(posterior.missing_probability[missing]));
   return numbers;
+}
+
+bool has_probabilities(const Answer& answer) {
+  return answer.posterior && verdict_of(answer) != Verdict::unexplained;
+}
+
+std::string_view if_true(const Answer& answer) {
+  return has_probabilities(answer) ? "" : ", if one of the scenes were the truth";
 }
 
 std::vector<std::string> odd_sensors(const Answer& answer, const Comparison& comparison) {

@@ -47,6 +47,12 @@ std::string behind(const Candidate& candidate, const Candidate& best);
 /// "0: < 0.1 %, 1: 91.5 %, 2: 8.5 %"
 std::string missing_in_words(const Answer& answer);
 
+/// Probabilities of scenes, if these may be the truth: where nothing explains the readings they are only
+/// shares among scenes none of which is an answer. Without probabilities false.
+bool has_probabilities(const Answer& answer);
+/// What goes with such shares: ", if one of the scenes were the truth"; nothing otherwise.
+std::string_view if_true(const Answer& answer);
+
 /// A sentence for each sensor that disagrees with the rest, the farthest first, at most five.
 std::vector<std::string> odd_sensors(const Answer& answer, const Comparison& comparison);
 

@@ -78,8 +78,9 @@ WithoutRows without_rows(const IntactGaussian& intact, const LossRows& loss) {
 }  // namespace
 
 std::vector<HiddenLoss> hidden_losses(UnknownBridge& bridge, const Observation& observation,
-                                      const SceneTable& table, const Eligible& eligible,
+                                      const Library& library, const Eligible& eligible,
                                       std::span<const UnknownCase> cases) {
+  const SceneTable& table = library.table;
   std::vector<IntactGaussian> gaussians;
   for (const UnknownCase& one : cases) {
     set_case(observation, one, bridge);
@@ -89,7 +90,11 @@ std::vector<HiddenLoss> hidden_losses(UnknownBridge& bridge, const Observation& 
   for (std::size_t i = 0; i < eligible.rows.size(); ++i) {
     if (eligible.missing[i] != 1) continue;
     const LossRows loss = rows_of_loss(bridge, observation, table.row(eligible.rows[i]));
-    if (loss.lost.empty() || loss.signal.isZero(0.0)) continue;
+    const BlockId block = table.scene(eligible.rows[i]).removed.front();
+    const bool on_block_alone = std::ranges::all_of(loss.lost, [&](Index k) {
+      return library.points[bridge.rows[static_cast<std::size_t>(k)].channel].is_on(block);
+    });
+    if (loss.lost.empty() || !on_block_alone || loss.signal.isZero(0.0)) continue;
     WithoutRows best;
     for (const IntactGaussian& intact : gaussians) {
       const WithoutRows found = without_rows(intact, loss);

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "lookup/readings/library.h"
 #include "lookup/search/eligible_rows.h"
 #include "lookup/unknown/unknown_bridge.h"
 
@@ -18,11 +19,11 @@ struct HiddenLoss {
                       ///< block missing, under the intact bridge's covariance, the loss of any size
 };
 
-/// Of all eligible scenes with one block missing those that some readings exclude, and others could show; the
-/// largest gain first. Of each case all that scatters does so as the bridge file states. The bridge's case is
-/// changed.
+/// Of all eligible scenes with one block missing those that readings on it alone exclude (and no load under
+/// which they do not stand), and others could show; the largest gain first. Of each case all that scatters
+/// does so as the bridge file states. The bridge's case is changed.
 std::vector<HiddenLoss> hidden_losses(UnknownBridge& bridge, const Observation& observation,
-                                      const SceneTable& table, const Eligible& eligible,
+                                      const Library& library, const Eligible& eligible,
                                       std::span<const UnknownCase> cases);
 
 }  // namespace voussoir

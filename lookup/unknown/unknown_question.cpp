@@ -110,7 +110,7 @@ std::vector<HiddenLoss> UnknownBridgeQuestion::hidden_losses(const Eligible& eli
   std::vector<UnknownCase> cases = cases_;
   std::erase_if(cases, [&](const UnknownCase& one) { return one.level != level(); });
   std::vector<HiddenLoss> result =
-      voussoir::hidden_losses(bridge_, observation_, comparison_.library.table, eligible, cases);
+      voussoir::hidden_losses(bridge_, observation_, comparison_.library, eligible, cases);
   set_case(observation_, cases_[likeliest_], bridge_);
   return result;
 }

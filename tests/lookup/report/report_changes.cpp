@@ -104,8 +104,10 @@ TEST_CASE("Figures of changes show the change, on an axis that says so, with bot
     CHECK(std::get<double>(table.rows[i][4]) == Approx(1e3 * change_at(i)).margin(1e-12));
   }
   const std::string page = page_report(answer, stated_noise(), comparison, {});
-  CHECK_THAT(page, Contains("(change between two times, the bridge taken to be complete at the first)") &&
-                       !Contains("settlement"));
+  CHECK_THAT(
+      page,
+      Contains("(change between two times, the bridge at the first taken to be as the database has it)") &&
+          !Contains("settlement"));
 }
 
 TEST_CASE("Sensors of one quantity under one load share a figure") {

@@ -83,7 +83,8 @@ TEST_CASE("A hidden loss gains what it makes of the density of all other reading
   const SceneTable& table = readings.library.table;
   const Observation observation = observe(readings.comparison, {NoiseShape::gaussian, 0.0}, {});
   UnknownBridge bridge = unknown_bridge(readings.comparison, observation, kCases.front(), settings);
-  const auto found = hidden_losses(bridge, observation, table, readings.eligible, kCases);
+  const auto found =
+      hidden_losses(bridge, observation, readings.comparison.library, readings.eligible, kCases);
 
   REQUIRE(found.size() == 4);  // the blocks of the highest course, each of which has two points
   CHECK(std::ranges::is_sorted(found, std::ranges::greater{}, &HiddenLoss::gain));
