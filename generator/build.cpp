@@ -277,9 +277,7 @@ BuildSummary build(BuildRequest request, const SolverChoice& solver, Progress& p
   request.output = behind_links(request.output);
   const Build build = prepare(request, solver, progress);
   const std::vector<Scene> shown =
-      request.xdmf_scenes.empty() ? std::vector<Scene>()
-                                  : shown_scenes(request.xdmf_scenes, {request.output, build.wanted,
-                                                                       build.fields, build.bridge().layout});
+      shown_scenes(request.xdmf_scenes, {request.output, build.wanted, build.fields, build.bridge().layout});
   BuildSummary summary;
   summary.output = request.output;
   summary.blocks = build.bridge().layout.size();

@@ -9,6 +9,7 @@
 namespace voussoir {
 
 std::vector<Scene> shown_scenes(const std::string& list, const DatabaseToShow& database) {
+  if (list.empty()) return {};
   const std::filesystem::path& output = database.output;
   if (index_paths(output).xdmf == output)
     throw InputError(

@@ -18,8 +18,8 @@ struct DatabaseToShow {
   const BlockLayout& layout;
 };
 
-/// The scenes of a list (parse_scene_list). Throws InputError for one that the database will not hold: before
-/// the build, which may take hours.
+/// The scenes of a list (parse_scene_list), of an empty one none. Throws InputError for one that the database
+/// will not hold: before the build, which may take hours.
 std::vector<Scene> shown_scenes(const std::string& list, const DatabaseToShow& database);
 
 /// The index of the scenes that are shown, if any; that of a file that was `replaced` goes.

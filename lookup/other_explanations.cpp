@@ -37,9 +37,26 @@ double log_sum_of(const std::vector<double>& logs) {
   return std::accumulate(logs.begin(), logs.end(), kImpossible, log_sum);
 }
 
-/// More than a tenth beside what the answer is about.
+/// More than a tenth beside something else.
+bool is_likely_beside(double log_other, double log) {
+  return log > log_other + std::log((1.0 - kCertain) / kCertain);
+}
+/// The same beside what the answer is about.
 bool is_likely_beside(const Answer& answer, double log) {
-  return log > answer.posterior->log_evidence + std::log((1.0 - kCertain) / kCertain);
+  return is_likely_beside(answer.posterior->log_evidence, log);
+}
+
+/// "T1, T2"
+std::string places_in_words(const Library& library, const std::vector<std::size_t>& channels) {
+  std::vector<std::string> names;
+  for (const std::size_t channel : channels) names.push_back(library.points[channel].name);
+  return names_in_words(names);
+}
+
+std::vector<std::size_t> channels_of(const std::vector<GrossError>& gross) {
+  std::vector<std::size_t> channels;
+  for (const GrossError& one : gross) channels.push_back(one.channel);
+  return channels;
 }
 
 /// Each once, in ascending order.
@@ -174,9 +191,8 @@ std::vector<std::size_t> rows_otherwise(const QuestionContext& asked, std::vecto
 std::optional<Scene> explained_by(const QuestionContext& asked, const Answer& answer,
                                   const std::vector<GrossError>& gross, std::vector<std::size_t> rows,
                                   const std::vector<BlockId>& named) {
-  std::vector<std::size_t> channels;
-  for (const GrossError& one : gross) channels.push_back(one.channel);
-  const std::vector<std::size_t> near = rows_near(asked, without(asked.observation, channels), kMostNear);
+  const std::vector<std::size_t> near =
+      rows_near(asked, without(asked.observation, channels_of(gross)), kMostNear);
   rows.insert(rows.end(), near.begin(), near.end());
   const std::vector<std::size_t> others = rows_otherwise(asked, std::move(rows), named);
   if (others.empty()) return std::nullopt;
@@ -190,12 +206,10 @@ std::optional<Scene> explained_by(const QuestionContext& asked, const Answer& an
 
 /// "only the reading at T2 says that these blocks are missing; were it wrong by 0.1 mm".
 std::string in_words(const std::vector<GrossError>& gross, bool named, const Library& library) {
-  std::vector<std::string> names;
-  for (const GrossError& one : gross) names.push_back(library.points[one.channel].name);
   const GrossError& largest = *std::ranges::max_element(gross, {}, &GrossError::size);
   const bool alone = gross.size() == 1;
   return fmt::format("only the reading{} at {} say{} that {} missing; were {} wrong by {:.2g} {}",
-                     alone ? "" : "s", names_in_words(names), alone ? "s" : "",
+                     alone ? "" : "s", places_in_words(library, channels_of(gross)), alone ? "s" : "",
                      named ? "these blocks are" : "blocks are", alone ? "it" : "they",
                      kMillimetres * largest.size, unit_of(library.points[largest.channel].quantity));
 }
@@ -253,7 +267,7 @@ bool would_be_lost(const QuestionContext& asked, const Answer& answer, const Hid
     double& sum = table.scene(rows[i]).lacks(block) ? lost : there;
     sum = log_sum(sum, logs[i]);
   }
-  return std::log(kKeptChance) + lost > there + std::log((1.0 - kCertain) / kCertain);
+  return is_likely_beside(there, std::log(kKeptChance) + lost);
 }
 
 std::optional<Fit> check_hidden_losses(const QuestionContext& asked, const Answer& answer) {
@@ -263,15 +277,13 @@ std::optional<Fit> check_hidden_losses(const QuestionContext& asked, const Answe
   std::vector<HiddenLoss> hidden = asked.question.hidden_losses(asked.preparation.eligible());
   hidden.resize(std::min(hidden.size(), kMostHidden));
   for (const HiddenLoss& one : hidden) {
-    const double odds = one.gain + prior[1] - prior[0] + std::log(kKeptChance);
-    if (odds < std::log((1.0 - kCertain) / kCertain)) break;
+    if (!is_likely_beside(prior[0], one.gain + prior[1] + std::log(kKeptChance))) break;
     if (!would_be_lost(asked, answer, one)) continue;
-    std::vector<std::string> names;
-    for (const std::size_t channel : one.channels) names.push_back(library.points[channel].name);
     return Fit{false, answer.fit->chance,
                fmt::format("only what is read at {} says that {} is still there; if that is on it no longer, "
                            "the loss of it or of a block beside it is likely",
-                           names_in_words(names), to_string(library.table.scene(one.row), library.layout))};
+                           places_in_words(library, one.channels),
+                           to_string(library.table.scene(one.row), library.layout))};
   }
   return std::nullopt;
 }

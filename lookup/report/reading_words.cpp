@@ -60,13 +60,12 @@ std::string readings_in_words(const Comparison& comparison, std::size_t readings
                                                                       : "sensors";
   const std::size_t channels = comparison.library.points.size();
   const auto silent = std::ranges::count(comparison.measured.silent, true);
+  std::string text = fmt::format("{} of {} {} have a reading", readings, channels, what);
+  if (silent > 0) text += fmt::format(", {} {} silent", silent, silent == 1 ? "is" : "are");
+  if (comparison.kind == ReadingKind::absolute) return text;
   return fmt::format(
-      "{} of {} {} have a reading{}{}{}", readings, channels, what,
-      silent > 0 ? fmt::format(", {} {} silent", silent, silent == 1 ? "is" : "are") : "",
-      comparison.kind == ReadingKind::absolute ? "" : fmt::format(" ({}", value_in_words(comparison.kind)),
-      comparison.kind == ReadingKind::absolute ? ""
-      : is_change(comparison.kind) ? ", the bridge at the first taken to be as the database has it)"
-                                   : ")");
+      "{} ({}{})", text, value_in_words(comparison.kind),
+      is_change(comparison.kind) ? ", the bridge at the first taken to be as the database has it" : "");
 }
 
 std::string history_in_words(const std::string& history) {
