@@ -3,95 +3,33 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
-#include <numeric>
 
-#include "core/not_a_number.h"
-#include "core/text.h"
-#include "core/units.h"
 #include "lookup/evidence/scene_evidence.h"
-#include "lookup/readings/sensor.h"
+#include "lookup/gross_errors.h"
 
 namespace voussoir {
 namespace {
 
-using Eigen::Index;
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
-
 constexpr std::size_t kMostFalls = 10;  // scenes near the readings, of which those that fall are looked at
-constexpr std::size_t kMostNear = 3;    // scenes near the readings, asked with larger errors:
-constexpr std::array kTimesErrors = {3.0, 10.0, 100.0};  // so many times what is stated
-// Beforehand that a reading is off by a size that is given to a factor of e. One in a thousand grossly wrong,
-// by anything from its own error to ten thousand times that, comes to about as much.
-constexpr double kGrossChance = 2e-4;
-constexpr double kOfOneBlock = 0.1;      // share of these that are of all that is read on a block
+constexpr std::array kTimesErrors = {3.0, 10.0, 100.0};  // errors that are asked about, of what is stated
+constexpr std::size_t kMostLoads = 3;                    // stretches of the top that a load may stand on
+constexpr double kNewtonsPerKilonewton = 1e3;
+constexpr double kLoadChance = 1e-3;     // beforehand that one stood there and is not stated
+constexpr std::size_t kMostNear = 3;     // scenes near the readings without those on a block
 constexpr std::size_t kMostHidden = 3;   // losses that only readings on their blocks exclude
 constexpr std::size_t kMostLikely = 10;  // scenes that each of them competes with
 // Beforehand that what was read on a block goes on giving a value when the block is lost: the block is loose
 // and carries nothing, but hangs there; a logger repeats its last value; the target was on the one beside it.
 constexpr double kKeptChance = 1e-2;
-constexpr std::size_t kMostSuspects = 2;  // readings, of each scene that is looked at for them
-
-double log_sum_of(const std::vector<double>& logs) {
-  return std::accumulate(logs.begin(), logs.end(), kImpossible, log_sum);
-}
-
-/// More than a tenth beside something else.
-bool is_likely_beside(double log_other, double log) {
-  return log > log_other + std::log((1.0 - kCertain) / kCertain);
-}
-/// The same beside what the answer is about.
-bool is_likely_beside(const Answer& answer, double log) {
-  return is_likely_beside(answer.posterior->log_evidence, log);
-}
-
-/// "T1, T2"
-std::string places_in_words(const Library& library, const std::vector<std::size_t>& channels) {
-  std::vector<std::string> names;
-  for (const std::size_t channel : channels) names.push_back(library.points[channel].name);
-  return names_in_words(names);
-}
-
-std::vector<std::size_t> channels_of(const std::vector<GrossError>& gross) {
-  std::vector<std::size_t> channels;
-  for (const GrossError& one : gross) channels.push_back(one.channel);
-  return channels;
-}
-
-/// Each once, in ascending order.
-std::vector<std::size_t> distinct(std::vector<std::size_t> rows) {
-  std::ranges::sort(rows);
-  rows.erase(std::ranges::unique(rows).begin(), rows.end());
-  return rows;
-}
-
-/// Of scenes near the readings.
-std::vector<std::size_t> rows_near(const QuestionContext& asked, const Observation& observation,
-                                   std::size_t count) {
-  std::vector<std::size_t> rows;
-  for (const ScoredRow& near : asked.preparation.smallest_misfits(observation, count))
-    rows.push_back(near.row);
-  return rows;
-}
-
-/// The intact bridge and what is near the readings, that any of these may be the truth.
-std::vector<std::size_t> rows_beside(const QuestionContext& asked, const Answer& answer) {
-  std::vector<std::size_t> rows = rows_near(asked, asked.observation, kMostNear);
-  rows.push_back(answer.posterior->credible.front());
-  const Eligible& eligible = asked.preparation.eligible();
-  if (eligible.missing.front() == 0) rows.push_back(eligible.rows.front());
-  return distinct(std::move(rows));
-}
 
 /// Do larger errors than those that are stated explain the readings far better, with no block missing or by
 /// scenes that are near them? A scene that scatters much, if errors of 0.02 mm are said to be 0.002, seems
 /// to.
 std::optional<Fit> check_stated_errors(const QuestionContext& asked, const Answer& answer,
-                                       const std::vector<std::size_t>& rows) {
+                                       const Alarm& alarm) {
   for (const double times : kTimesErrors) {
-    const double log = log_sum_of(
-        asked.question.log_parts_of(rows, asked.preparation.eligible(), answer.prior, {.errors = times}));
+    const double log = log_sum_of(asked.question.log_parts_of(alarm.rows, asked.preparation.eligible(),
+                                                              answer.prior, {.errors = times}));
     if (log > answer.posterior->log_evidence - std::log(kSmallestChance))
       return Fit{false, answer.fit->chance,
                  fmt::format("errors {:g} times as large as stated explain them far better", times)};
@@ -118,115 +56,39 @@ std::optional<Fit> check_falls(const QuestionContext& asked, const Answer& answe
                          to_string(table.scene(best), asked.comparison.library.layout))};
 }
 
-/// The same readings without those of some channels.
-Observation without(Observation observation, std::span<const std::size_t> channels) {
-  for (const std::size_t channel : channels)
-    observation.displacement[channel] = observation.reading[channel] = kNan;
+/// The readings without what a load most likely adds to them with no block missing.
+Observation without(const UnknownBridge& bridge, Observation observation, const UnstatedLoad& load) {
+  for (std::size_t k = 0; k < bridge.rows.size(); ++k) {
+    const auto& [channel, before, after] = bridge.rows[k];
+    if (after == 0.0) continue;
+    observation.displacement[channel] -= load.expected[static_cast<Eigen::Index>(k)];
+    observation.reading[channel] -= load.expected[static_cast<Eigen::Index>(k)];
+  }
   return observation;
 }
 
-/// By how much these readings are off what all others let expect of a scene.
-std::vector<GrossError> errors_of(const UnknownBridge& bridge, const BridgePosterior& believed,
-                                  const std::vector<std::size_t>& channels) {
-  std::vector<Index> rows;
-  for (std::size_t k = 0; k < bridge.rows.size(); ++k)
-    if (std::ranges::find(channels, bridge.rows[k].channel) != channels.end())
-      rows.push_back(static_cast<Index>(k));
-  const auto& covariance = believed.parts.front().covariance;
-  const MatrixXd identity = MatrixXd::Identity(covariance.rows(), covariance.rows());
-  const MatrixXd inverse = covariance.solve(MatrixXd(identity(Eigen::all, rows)));
-  const VectorXd pulled = covariance.solve(bridge.reading - believed.signal);
-  const VectorXd beside = inverse(rows, Eigen::all).llt().solve(pulled(rows));
-  std::vector<GrossError> errors;
-  for (const std::size_t channel : channels) errors.push_back({channel, 0.0});
-  for (std::size_t i = 0; i < rows.size(); ++i) {  // a channel that counts in two epochs has two rows
-    const std::size_t channel = bridge.rows[static_cast<std::size_t>(rows[i])].channel;
-    double& size = std::ranges::find(errors, channel, &GrossError::channel)->size;
-    size = std::max(size, std::abs(beside[static_cast<Index>(i)]));
+/// "a load of about 53 kN for each metre of the bridge's width between x = 8 and 16 m at one of the two
+/// times"
+std::string in_words(const UnstatedLoad& load, ReadingKind kind) {
+  return fmt::format(
+      "a load of about {:.2g} kN for each metre of the bridge's width between x = {:g} and {:g} m{}",
+      std::abs(load.force) / kNewtonsPerKilonewton, load.from, load.to,
+      is_change(kind) ? " at one of the two times" : "");
+}
+
+/// Did something stand on the bridge that nobody stated, so that others would be likely?
+std::optional<Fit> check_unstated_loads(const QuestionContext& asked, const Answer& answer,
+                                        const Alarm& alarm) {
+  for (const UnstatedLoad& load : asked.question.unstated_loads(kMostLoads)) {
+    const auto scene = explained_by(asked, answer, alarm,
+                                    {{.beside = load.covariance},
+                                     kLoadChance,
+                                     without(asked.question.bridge(), asked.observation, load)});
+    if (scene)
+      return Fit{false, answer.fit->chance,
+                 fmt::format("{} would explain them, too; {} would be likely then",
+                             in_words(load, asked.comparison.kind), scene_in_words(asked, *scene))};
   }
-  return errors;
-}
-
-/// The readings that are farthest from what all others let expect of a scene, in standard deviations: each
-/// alone, and with all that is read on the same block.
-std::vector<std::vector<GrossError>> suspects_of(const QuestionContext& asked, std::size_t row) {
-  const BridgePosterior believed = asked.question.posterior({{row, 1.0}});
-  const UnknownBridge& bridge = asked.question.bridge();
-  const std::vector<StoredPoint>& points = asked.comparison.library.points;
-  std::vector<std::size_t> order(bridge.rows.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::ranges::stable_sort(order, std::ranges::greater{},
-                           [&](std::size_t k) { return std::abs(believed.others[static_cast<Index>(k)]); });
-  std::vector<std::size_t> channels;  // a channel that counts in two epochs has two rows
-  for (const std::size_t k : order)
-    if (std::ranges::find(channels, bridge.rows[k].channel) == channels.end())
-      channels.push_back(bridge.rows[k].channel);
-  std::vector<std::vector<GrossError>> suspects;
-  for (const std::size_t channel : std::span(channels).first(std::min(channels.size(), kMostSuspects))) {
-    suspects.push_back(errors_of(bridge, believed, {channel}));
-    std::vector<std::size_t> beside;
-    std::ranges::copy_if(channels, std::back_inserter(beside),
-                         [&](std::size_t other) { return points[other].is_on(points[channel].block); });
-    if (beside.size() > 1) suspects.push_back(errors_of(bridge, believed, beside));
-  }
-  return suspects;
-}
-
-/// Of these rows those that readings leave possible and that lack not all of the named blocks; of none named
-/// those that lack none.
-std::vector<std::size_t> rows_otherwise(const QuestionContext& asked, std::vector<std::size_t> rows,
-                                        const std::vector<BlockId>& named) {
-  const SceneTable& table = asked.comparison.library.table;
-  rows = distinct(std::move(rows));
-  std::erase_if(rows, [&](std::size_t row) {
-    const Scene scene = table.scene(row);
-    const bool has_all = std::ranges::all_of(named, [&](BlockId block) { return scene.lacks(block); });
-    return (has_all && !scene.removed.empty()) ||
-           !scene_loss(asked.question.bridge(), asked.observation, table, row);
-  });
-  return rows;
-}
-
-/// A scene that would explain all other readings if these are grossly wrong; null unless it would be likely.
-std::optional<Scene> explained_by(const QuestionContext& asked, const Answer& answer,
-                                  const std::vector<GrossError>& gross, std::vector<std::size_t> rows,
-                                  const std::vector<BlockId>& named) {
-  const std::vector<std::size_t> near =
-      rows_near(asked, without(asked.observation, channels_of(gross)), kMostNear);
-  rows.insert(rows.end(), near.begin(), near.end());
-  const std::vector<std::size_t> others = rows_otherwise(asked, std::move(rows), named);
-  if (others.empty()) return std::nullopt;
-  const std::vector<double> logs =
-      asked.question.log_parts_of(others, asked.preparation.eligible(), answer.prior, {.gross = gross});
-  const double chance = gross.size() > 1 ? kOfOneBlock * kGrossChance : kGrossChance;
-  if (!is_likely_beside(answer, std::log(chance) + log_sum_of(logs))) return std::nullopt;
-  return asked.comparison.library.table.scene(
-      others[static_cast<std::size_t>(std::ranges::max_element(logs) - logs.begin())]);
-}
-
-/// "only the reading at T2 says that these blocks are missing; were it wrong by 0.1 mm".
-std::string in_words(const std::vector<GrossError>& gross, bool named, const Library& library) {
-  const GrossError& largest = *std::ranges::max_element(gross, {}, &GrossError::size);
-  const bool alone = gross.size() == 1;
-  return fmt::format("only the reading{} at {} say{} that {} missing; were {} wrong by {:.2g} {}",
-                     alone ? "" : "s", places_in_words(library, channels_of(gross)), alone ? "s" : "",
-                     named ? "these blocks are" : "blocks are", alone ? "it" : "they",
-                     kMillimetres * largest.size, unit_of(library.points[largest.channel].quantity));
-}
-
-/// Is it one reading alone, or what is read on one block, that says what the answer calls missing? If that
-/// were grossly wrong, would others explain the rest?
-std::optional<Fit> check_single_readings(const QuestionContext& asked, const Answer& answer,
-                                         const std::vector<std::size_t>& rows) {
-  const Library& library = asked.comparison.library;
-  const std::vector<BlockId> named = likely_blocks(*answer.posterior, kCertain);
-  for (const std::size_t row : rows_otherwise(asked, rows, named))
-    for (const std::vector<GrossError>& gross : suspects_of(asked, row))
-      if (const auto scene = explained_by(asked, answer, gross, rows, named))
-        return Fit{
-            false, answer.fit->chance,
-            fmt::format("{}, {} would be likely, too", in_words(gross, !named.empty(), library),
-                        scene->removed.empty() ? "an intact bridge" : to_string(*scene, library.layout))};
   return std::nullopt;
 }
 
@@ -292,13 +154,15 @@ std::optional<Fit> check_hidden_losses(const QuestionContext& asked, const Answe
 
 std::optional<Fit> find_other(const QuestionContext& asked, const Answer& answer) {
   const bool is_alarm = 1.0 - intact_probability(*answer.posterior) >= kCertain;
-  const std::vector<std::size_t> rows = is_alarm ? rows_beside(asked, answer) : std::vector<std::size_t>();
+  const Alarm alarm = is_alarm ? alarm_of(asked, answer) : Alarm{};
   if (is_alarm)
-    if (const auto single = check_single_readings(asked, answer, rows)) return single;
+    if (const auto gross = check_gross_errors(asked, answer, alarm)) return gross;
+  if (is_alarm)
+    if (const auto load = check_unstated_loads(asked, answer, alarm)) return load;
   if (const auto sizes = check_sizes(answer.bridge->posterior)) return sizes;
   if (const auto falls = check_falls(asked, answer)) return falls;
   if (const auto hidden = check_hidden_losses(asked, answer)) return hidden;
-  return is_alarm && !asked.observation.unknown_level ? check_stated_errors(asked, answer, rows)
+  return is_alarm && !asked.observation.unknown_level ? check_stated_errors(asked, answer, alarm)
                                                       : std::nullopt;
 }
 

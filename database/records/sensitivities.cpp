@@ -133,6 +133,17 @@ void append_unevenness(const Sensitivities& from, std::vector<DatasetValue>& dat
   unevenness.finish({from.unevenness.size(), extent(first.rows()), extent(first.cols())}, datasets);
 }
 
+void append_load(const LoadInfluence& load, std::vector<DatasetValue>& datasets) {
+  Filling<double>{dataset::kLoadPlace, ElementType::float64, "m", "places along the top, x", load.places}
+      .finish({load.places.size()}, datasets);
+  Filling<double> influence{
+      dataset::kLoadInfluence, ElementType::float64, "m2/N",
+      "what a force down of 1 N for each metre of the bridge's width at each place adds "
+      "to what the points of the intact bridge read"};
+  influence.add(load.readings);
+  influence.finish({extent(load.readings.rows()), extent(load.readings.cols())}, datasets);
+}
+
 // Reading.
 
 std::span<const double> finite_numbers(const Hdf5File& file, const char* path, const Shape& shape) {
@@ -224,6 +235,16 @@ void read_unevenness(const Hdf5File& file, const SensitivitySizes& sizes, Sensit
   for (std::size_t state = 0; state < sizes.states; ++state) into.unevenness.emplace_back(found[state]);
 }
 
+void read_load(const Hdf5File& file, const SensitivitySizes& sizes, Sensitivities& into) {
+  const StackedMatrices found = read_matrices(file, dataset::kLoadInfluence, {}, sizes.points);
+  if (found.columns() == 0) return;
+  const auto places =
+      finite_numbers(file, dataset::kLoadPlace, {static_cast<std::uint64_t>(found.columns())});
+  file.require(std::ranges::is_sorted(places),
+               fmt::format("dataset '{}': expected places in ascending order", dataset::kLoadPlace));
+  into.load = {{places.begin(), places.end()}, found[0]};
+}
+
 void read_factors(const Hdf5File& file, const SensitivitySizes& sizes, Sensitivities& into) {
   const std::uint64_t scenes = into.scenes.size();
   const auto known = read_flags(file, dataset::kSensitivityKnown, {sizes.states, scenes});
@@ -298,6 +319,7 @@ std::vector<DatasetValue> sensitivity_datasets(const Sensitivities& sensitivitie
   append_factors(sensitivities, datasets);
   append_residual(sensitivities, datasets);
   append_unevenness(sensitivities, datasets);
+  append_load(sensitivities.load, datasets);
   return datasets;
 }
 
@@ -311,6 +333,7 @@ std::optional<Sensitivities> read_sensitivities(const Hdf5File& file, const Sens
   read_factors(file, sizes, result);
   read_residuals(file, sizes, result);
   read_unevenness(file, sizes, result);
+  read_load(file, sizes, result);
   return result;
 }
 

@@ -59,6 +59,13 @@ struct FactorsView {
   StackedMatrices::View bridge, epoch, left;
 };
 
+/// What a load that stands on the top adds to the intact bridge's readings under its own weight.
+struct LoadInfluence {
+  std::vector<double> places;  ///< x along the top, ascending [m]
+  /// Points x places: of a force down of 1 N for each metre of the bridge's width [m per N/m].
+  Eigen::MatrixXd readings;
+};
+
 /// What a build makes, or what a file holds, whose factors stay where they are: they outlive this.
 struct Sensitivities {
   std::vector<UncertainParameter> parameters;  ///< those of the bridge, then those of an epoch
@@ -73,6 +80,7 @@ struct Sensitivities {
   /// [m], an error of its own in every epoch: of each state, points x columns that are independent and the
   /// same in all states. Empty: all is even.
   std::vector<Eigen::MatrixXd> unevenness;
+  LoadInfluence load;                    ///< no places: nothing is known of it
   std::optional<StoredSignals> signals;  ///< as a file keeps them
 
   Eigen::Index of_bridge() const { return basis.rows(); }  ///< parameters of the bridge

@@ -46,6 +46,8 @@ DIGEST_ORDER = [
     "sensitivity/bridge_factors", "sensitivity/epoch_factors", "sensitivity/residual_signal",
     "sensitivity/residual_bridge", "sensitivity/residual_epoch", "sensitivity/residual_share",
     "sensitivity/unevenness",
+    "sensitivity/load_place",
+    "sensitivity/load_influence",
     "variants/young_modulus", "variants/poisson_ratio", "variants/density",
     "variants/normal_stiffness", "variants/tangential_stiffness", "variants/friction_coefficient",
     "scenes/checksum",

@@ -10,11 +10,17 @@ SceneDerivatives::SceneDerivatives(const SensitivityStudy& study, const Sensitiv
       readings_(equations.readings),
       derivatives_(equations.system, equations.uncertain) {}
 
+std::optional<SolvedHistory> SceneDerivatives::history(const Scene& scene, std::size_t state,
+                                                       const SceneStates& states,
+                                                       const SceneStates& intact) const {
+  return history_of_state(equations_, scene, state, states, intact);
+}
+
 Eigen::MatrixXd SceneDerivatives::of(const Scene& scene, std::size_t state, const SceneStates& states,
                                      const SceneStates& intact) {
-  const auto history = history_of_state(equations_, scene, state, states, intact);
-  if (!history) return {};
-  return derivatives_.solve(*history, readings_).value_or(Eigen::MatrixXd());
+  const auto steps = history(scene, state, states, intact);
+  if (!steps) return {};
+  return derivatives_.solve(*steps, readings_).value_or(Eigen::MatrixXd());
 }
 
 }  // namespace voussoir

@@ -25,8 +25,12 @@ class SceneDerivatives {
  public:
   SceneDerivatives(const SensitivityStudy& study, const SensitivityEquations& equations);
 
-  /// Points x parameters [m per standard deviation], in the state of the plan; empty if the scene does not
-  /// stand. `states` are the scene's and `intact` the intact bridge's.
+  /// The steps that end in the state of the plan; nothing if the scene does not stand. `states` are the
+  /// scene's and `intact` the intact bridge's.
+  std::optional<SolvedHistory> history(const Scene& scene, std::size_t state, const SceneStates& states,
+                                       const SceneStates& intact) const;
+
+  /// Points x parameters [m per standard deviation] at their end; empty if the scene does not stand.
   Eigen::MatrixXd of(const Scene& scene, std::size_t state, const SceneStates& states,
                      const SceneStates& intact);
 

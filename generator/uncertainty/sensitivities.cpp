@@ -9,6 +9,7 @@
 #include "generator/running/parallel.h"
 #include "generator/scenes/scene_list.h"
 #include "generator/uncertainty/first_order_residual.h"
+#include "generator/uncertainty/load_influence.h"
 #include "generator/uncertainty/scene_derivatives.h"
 #include "generator/uncertainty/unevenness.h"
 
@@ -96,6 +97,7 @@ std::optional<Sensitivities> find_sensitivities(const SensitivityStudy& study,
                    Eigen::Index{kBridgesWithSingles});
   result.residuals = std::move(left.residuals);
   result.unevenness = find_unevenness(study, states.front());
+  result.load = find_load_influence(study, equations, states.front());
   Crew(study.threads).for_each_index(result.scenes.size(), [&](std::size_t i) {
     for (std::size_t state = 0; state < derivatives.size(); ++state) {
       const Eigen::MatrixXd scene = std::move(derivatives[state][i]);

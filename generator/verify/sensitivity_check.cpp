@@ -4,6 +4,7 @@
 
 #include "core/error.h"
 #include "database/records/stored_bridge.h"
+#include "generator/uncertainty/load_influence.h"
 #include "generator/uncertainty/scene_derivatives.h"
 #include "generator/uncertainty/unevenness.h"
 
@@ -28,6 +29,11 @@ bool is_same_unevenness(const std::vector<Eigen::MatrixXd>& found,
   return true;
 }
 
+bool is_same_influence(const LoadInfluence& found, const LoadInfluence& expected) {
+  return found.places == expected.places && found.readings.rows() == expected.readings.rows() &&
+         largest(found.readings - expected.readings) <= kSameSensitivity * largest(expected.readings);
+}
+
 }  // namespace
 
 SensitivityCheck check_sensitivities(const Database& database, const Model& bridge,
@@ -45,6 +51,8 @@ SensitivityCheck check_sensitivities(const Database& database, const Model& brid
   const SceneStates intact = stored_states(database, *intact_row, plan);
   if (!is_same_unevenness(stored->unevenness, find_unevenness(study, intact)))
     check.problems.push_back("what differs from part to part of the intact bridge is not that of its field");
+  if (!is_same_influence(stored->load, find_load_influence(study, equations, intact)))
+    check.problems.push_back("what a load adds to the intact bridge's readings is not that of its field");
   const std::size_t count = std::min(kCheckedSensitivities, stored->scenes.size());
   for (std::size_t i = 0; i < count; ++i) {
     const Scene& scene = stored->scenes[i * stored->scenes.size() / count];

@@ -282,6 +282,7 @@ SampledBridges sampled_bridges(const Database& database) {
     first_order.emplace(first_order_of(database, variants));
     made.parameters = sensitivities->parameters;
     made.unevenness = sensitivities->unevenness;
+    made.load = sensitivities->load;
     made.basis = MatrixXd::Zero(sensitivities->basis.rows(), sensitivities->basis.cols() + samples);
     made.basis.leftCols(sensitivities->basis.cols()) = sensitivities->basis;
   }

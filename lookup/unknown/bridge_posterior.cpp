@@ -28,8 +28,9 @@ struct Part {
 };
 
 /// All of them, the heaviest first.
-std::vector<Part> parts_of(UnknownBridge& bridge, const Observation& observation, const SceneTable& table,
-                           const std::vector<WeightedScene>& scenes, std::span<const UnknownCase> cases) {
+std::vector<Part> mixture_parts(UnknownBridge& bridge, const Observation& observation,
+                                const SceneTable& table, const std::vector<WeightedScene>& scenes,
+                                std::span<const UnknownCase> cases) {
   std::vector<std::size_t> rows;
   for (const WeightedScene& scene : scenes) rows.push_back(scene.row);
   const std::vector<CaseTerms> terms = case_terms(bridge, observation, cases);
@@ -169,7 +170,7 @@ BridgePosterior bridge_posterior(UnknownBridge& bridge, const Observation& obser
                                  const SceneTable& table, const std::vector<WeightedScene>& scenes,
                                  std::span<const UnknownCase> cases) {
   BridgePosterior result = empty_posterior(bridge);
-  const std::vector<Part> all = parts_of(bridge, observation, table, scenes, cases);
+  const std::vector<Part> all = mixture_parts(bridge, observation, table, scenes, cases);
   for (const Part& part : all) result.scatter[part.kappa] += part.weight;
   const std::vector<Part> kept = heaviest(all);
   std::vector<std::optional<SceneGaussian>> gaussians(scenes.size());

@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "lookup/evidence/scene_evidence.h"
+#include "lookup/unknown/intact_gaussian.h"
 
 namespace voussoir {
 namespace {
@@ -13,24 +14,6 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-
-/// The intact bridge's Gaussian in one case, but for what all cases have in common.
-struct IntactGaussian {
-  MatrixXd precision;
-  VectorXd pulled;   // C^-1 y
-  double log = 0.0;  // density of all readings
-};
-
-IntactGaussian intact_gaussian(const UnknownBridge& bridge) {
-  const Index n = bridge.reading.size();
-  const SceneLoss none{{}, VectorXd::Zero(n), VectorXd::Zero(n)};
-  const MatrixXd scatter = bridge_columns(bridge, Scene{});
-  const Eigen::LLT<MatrixXd> covariance(scene_noise(bridge, none) + scatter * scatter.transpose());
-  IntactGaussian result{covariance.solve(MatrixXd::Identity(n, n)), covariance.solve(bridge.reading)};
-  const double log_root = covariance.matrixLLT().diagonal().array().log().sum();
-  result.log = -0.5 * bridge.reading.dot(result.pulled) - log_root;
-  return result;
-}
 
 /// Rows of y that a loss leaves no value.
 struct LossRows {

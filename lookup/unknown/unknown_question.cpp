@@ -90,7 +90,10 @@ std::vector<double> UnknownBridgeQuestion::log_parts_of(std::span<const std::siz
   for (double& share : wider.share) share *= supposed.errors;
   for (double& floor : wider.floor) floor *= supposed.errors;
   for (const GrossError& gross : supposed.gross) wider.floor[gross.channel] += gross.size;
+  const Eigen::MatrixXd stated = bridge_.fixed_noise;
+  if (supposed.beside.size() > 0) bridge_.fixed_noise += supposed.beside;
   std::vector<CaseTerms> terms = case_terms(bridge_, wider, cases_);
+  bridge_.fixed_noise = stated;
   if (supposed.shown_exactly)
     for (CaseTerms& one : terms) one.spread = 0.0;
   const auto logs = SceneLikelihoods(bridge_, wider, table)(terms, rows, {}, hardware_threads());
@@ -106,11 +109,21 @@ std::vector<double> UnknownBridgeQuestion::log_parts_of(std::span<const std::siz
   return parts;
 }
 
-std::vector<HiddenLoss> UnknownBridgeQuestion::hidden_losses(const Eligible& eligible) {
+std::vector<UnknownCase> UnknownBridgeQuestion::cases_of_level() const {
   std::vector<UnknownCase> cases = cases_;
   std::erase_if(cases, [&](const UnknownCase& one) { return one.level != level(); });
+  return cases;
+}
+
+std::vector<HiddenLoss> UnknownBridgeQuestion::hidden_losses(const Eligible& eligible) {
   std::vector<HiddenLoss> result =
-      voussoir::hidden_losses(bridge_, observation_, comparison_.library, eligible, cases);
+      voussoir::hidden_losses(bridge_, observation_, comparison_.library, eligible, cases_of_level());
+  set_case(observation_, cases_[likeliest_], bridge_);
+  return result;
+}
+
+std::vector<UnstatedLoad> UnknownBridgeQuestion::unstated_loads(std::size_t count) {
+  std::vector<UnstatedLoad> result = voussoir::unstated_loads(bridge_, observation_, cases_of_level(), count);
   set_case(observation_, cases_[likeliest_], bridge_);
   return result;
 }

@@ -9,6 +9,7 @@
 #include "lookup/evidence/posterior.h"
 #include "lookup/unknown/bridge_posterior.h"
 #include "lookup/unknown/hidden_losses.h"
+#include "lookup/unknown/unstated_loads.h"
 
 namespace voussoir {
 
@@ -22,6 +23,7 @@ struct GrossError {
 struct Supposition {
   double errors = 1.0;  ///< all instruments are off by so many times what is stated
   std::vector<GrossError> gross{};
+  Eigen::MatrixXd beside{};    ///< [m2] in rows of y, covariance of what else acts; empty: nothing
   bool shown_exactly = false;  ///< what scenes show beyond losses with factors is just what the database has
 };
 
@@ -44,8 +46,9 @@ class UnknownBridgeQuestion {
   std::vector<double> log_parts_of(std::span<const std::size_t> rows, const Eligible& eligible,
                                    const Prior& prior, const Supposition& supposed);
 
-  /// At the likeliest level of the noise.
+  /// These two at the likeliest level of the noise.
   std::vector<HiddenLoss> hidden_losses(const Eligible& eligible);
+  std::vector<UnstatedLoad> unstated_loads(std::size_t count);
 
   /// Of these scenes, over all cases.
   BridgePosterior posterior(const std::vector<WeightedScene>& scenes);
@@ -54,6 +57,8 @@ class UnknownBridgeQuestion {
   double level() const { return cases_[likeliest_].level; }  ///< [-] of the noise: stated, or the likeliest
 
  private:
+  std::vector<UnknownCase> cases_of_level() const;
+
   const Comparison& comparison_;
   const Observation& observation_;
   std::vector<UnknownCase> cases_;

@@ -130,6 +130,7 @@ inline Sensitivities made_up_sensitivities(const Model& bridge, const std::vecto
     made.residuals[state] = {numbers(points, 4), numbers(points, 5), 0.1, 0.2, 0.3, 0.4};
     made.unevenness.push_back(numbers(points, 6));
   }
+  made.load = {{0.0, 0.5, 1.5}, numbers(points, 3)};
   return made;
 }
 

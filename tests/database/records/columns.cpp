@@ -83,6 +83,7 @@ struct ManySizes {
                {"H2", 5},
                {"H3", 6},
                {"H4", 2},
+               {"H5", 3},
                {"Q G", kStates * 39},
                {"Q G + 1", kStates * 39 + 1},
                {"L", 2 * (kStates * 38 - 7)}};  // seven singles are unknown in the last state

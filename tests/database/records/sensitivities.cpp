@@ -98,6 +98,8 @@ TEST_CASE("Sensitivities are read back as they were written, to the last bit") {
     CHECK(stored->residuals[state].epoch_common == expected.epoch_common);
   }
   CHECK(stored->unevenness == small.made.unevenness);
+  CHECK(stored->load.places == small.made.load.places);
+  CHECK(stored->load.readings == small.made.load.readings);
   CHECK_FALSE(stored->find(0, Scene{{BlockId{1}, BlockId{2}}}));
   CHECK_FALSE(stored->find(kStates - 1, small.made.scenes[4]));
   CHECK(stored->of_bridge() == 3);
@@ -117,6 +119,7 @@ TEST_CASE("A bridge without parameters of an epoch, or of its own, is read back 
     known.residuals[state].bridge.resize(known.bridge.rows(), 0);
   }
   known.unevenness.clear();
+  known.load = {};
   const Database database = small.write(known);
   const Sensitivities* stored = database.sensitivities();
   REQUIRE(stored != nullptr);
@@ -125,6 +128,7 @@ TEST_CASE("A bridge without parameters of an epoch, or of its own, is read back 
   CHECK(stored->find(0, Scene{})->epoch == known.find(0, Scene{})->epoch);
   CHECK(stored->residuals[1].bridge.cols() == 0);
   CHECK(stored->unevenness.empty());
+  CHECK(stored->load.places.empty());
   CHECK(are_factors_sound(*stored));
   CHECK(are_signals_right(*stored));
 }
@@ -161,16 +165,23 @@ TEST_CASE("Sensitivities that do not fit together are refused and named") {
   wrong = small.made;
   wrong.unevenness[1](2, 3) = std::numeric_limits<double>::infinity();
   CHECK_THAT(small.refusal(wrong), Catch::Contains("unevenness' holds a number that is not finite"));
+  wrong = small.made;
+  wrong.load.readings(1, 2) = std::numeric_limits<double>::quiet_NaN();
+  CHECK_THAT(small.refusal(wrong), Catch::Contains("load_influence' holds a number that is not finite"));
+  wrong = small.made;
+  std::swap(wrong.load.places[0], wrong.load.places[1]);
+  CHECK_THAT(small.refusal(wrong), Catch::Contains("load_place': expected places in ascending order"));
 }
 
 TEST_CASE("Datasets of sensitivities of another type or shape are refused and named") {
   for (const char* path :
-       {dataset::kUncertainName, dataset::kUncertainUnit, dataset::kUncertainSigma,
+       {dataset::kUncertainName,    dataset::kUncertainUnit,    dataset::kUncertainSigma,
         dataset::kUncertainOfEpoch, dataset::kSensitivityBasis, dataset::kSensitivityRemoved,
-        dataset::kSensitivityKnown, dataset::kBridgeFactors, dataset::kEpochFactors, dataset::kSignalLeft,
-        dataset::kResidualBridge, dataset::kResidualEpoch, dataset::kResidualShare, dataset::kUnevenness,
-        dataset::kSignalFirst, dataset::kSignalOwn, dataset::kSignalIntact, dataset::kSignalLead,
-        dataset::kSignalEpoch}) {
+        dataset::kSensitivityKnown, dataset::kBridgeFactors,    dataset::kEpochFactors,
+        dataset::kSignalLeft,       dataset::kResidualBridge,   dataset::kResidualEpoch,
+        dataset::kResidualShare,    dataset::kUnevenness,       dataset::kLoadPlace,
+        dataset::kLoadInfluence,    dataset::kSignalFirst,      dataset::kSignalOwn,
+        dataset::kSignalIntact,     dataset::kSignalLead,       dataset::kSignalEpoch}) {
     INFO(path);
     SmallDatabase small;
     static_cast<void>(small.write(small.made));

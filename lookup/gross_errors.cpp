@@ -1,0 +1,106 @@
+#include "lookup/gross_errors.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numeric>
+
+#include "core/units.h"
+#include "lookup/readings/sensor.h"
+
+namespace voussoir {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+// Beforehand that a reading is off by a size that is given to a factor of e. One in a thousand grossly wrong,
+// by anything from its own error to ten thousand times that, comes to about as much.
+constexpr double kGrossChance = 2e-4;
+constexpr double kOfOneBlock = 0.1;       // share of these that are of all that is read on a block
+constexpr std::size_t kMostSuspects = 2;  // readings, of each scene that is looked at for them
+
+std::vector<std::size_t> channels_of(const std::vector<GrossError>& gross) {
+  std::vector<std::size_t> channels;
+  for (const GrossError& one : gross) channels.push_back(one.channel);
+  return channels;
+}
+
+/// By how much these readings are off what all others let expect of a scene.
+std::vector<GrossError> errors_of(const UnknownBridge& bridge, const BridgePosterior& believed,
+                                  const std::vector<std::size_t>& channels) {
+  std::vector<Index> rows;
+  for (std::size_t k = 0; k < bridge.rows.size(); ++k)
+    if (std::ranges::find(channels, bridge.rows[k].channel) != channels.end())
+      rows.push_back(static_cast<Index>(k));
+  const auto& covariance = believed.parts.front().covariance;
+  const MatrixXd identity = MatrixXd::Identity(covariance.rows(), covariance.rows());
+  const MatrixXd inverse = covariance.solve(MatrixXd(identity(Eigen::all, rows)));
+  const VectorXd pulled = covariance.solve(bridge.reading - believed.signal);
+  const VectorXd beside = inverse(rows, Eigen::all).llt().solve(pulled(rows));
+  std::vector<GrossError> errors;
+  for (const std::size_t channel : channels) errors.push_back({channel, 0.0});
+  for (std::size_t i = 0; i < rows.size(); ++i) {  // a channel that counts in two epochs has two rows
+    const std::size_t channel = bridge.rows[static_cast<std::size_t>(rows[i])].channel;
+    double& size = std::ranges::find(errors, channel, &GrossError::channel)->size;
+    size = std::max(size, std::abs(beside[static_cast<Index>(i)]));
+  }
+  return errors;
+}
+
+/// The readings that are farthest from what all others let expect of a scene, in standard deviations: each
+/// alone, and with all that is read on the same block.
+std::vector<std::vector<GrossError>> suspects_of(const QuestionContext& asked, std::size_t row) {
+  const BridgePosterior believed = asked.question.posterior({{row, 1.0}});
+  const UnknownBridge& bridge = asked.question.bridge();
+  const std::vector<StoredPoint>& points = asked.comparison.library.points;
+  std::vector<std::size_t> order(bridge.rows.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::stable_sort(order, std::ranges::greater{},
+                           [&](std::size_t k) { return std::abs(believed.others[static_cast<Index>(k)]); });
+  std::vector<std::size_t> channels;  // a channel that counts in two epochs has two rows
+  for (const std::size_t k : order)
+    if (std::ranges::find(channels, bridge.rows[k].channel) == channels.end())
+      channels.push_back(bridge.rows[k].channel);
+  std::vector<std::vector<GrossError>> suspects;
+  for (const std::size_t channel : std::span(channels).first(std::min(channels.size(), kMostSuspects))) {
+    suspects.push_back(errors_of(bridge, believed, {channel}));
+    std::vector<std::size_t> beside;
+    std::ranges::copy_if(channels, std::back_inserter(beside),
+                         [&](std::size_t other) { return points[other].is_on(points[channel].block); });
+    if (beside.size() > 1) suspects.push_back(errors_of(bridge, believed, beside));
+  }
+  return suspects;
+}
+
+/// "only the reading at T2 says that these blocks are missing; were it wrong by 0.1 mm".
+std::string in_words(const std::vector<GrossError>& gross, bool named, const Library& library) {
+  const GrossError& largest = *std::ranges::max_element(gross, {}, &GrossError::size);
+  const bool alone = gross.size() == 1;
+  return fmt::format("only the reading{} at {} say{} that {} missing; were {} wrong by {:.2g} {}",
+                     alone ? "" : "s", places_in_words(library, channels_of(gross)), alone ? "s" : "",
+                     named ? "these blocks are" : "blocks are", alone ? "it" : "they",
+                     kMillimetres * largest.size, unit_of(library.points[largest.channel].quantity));
+}
+
+}  // namespace
+
+std::optional<Fit> check_gross_errors(const QuestionContext& asked, const Answer& answer,
+                                      const Alarm& alarm) {
+  for (const std::size_t row : rows_otherwise(asked, alarm.rows, alarm.named))
+    for (const std::vector<GrossError>& gross : suspects_of(asked, row)) {
+      const double chance = gross.size() > 1 ? kOfOneBlock * kGrossChance : kGrossChance;
+      const auto scene =
+          explained_by(asked, answer, alarm,
+                       {{.gross = gross}, chance, without(asked.observation, channels_of(gross))});
+      if (scene)
+        return Fit{false, answer.fit->chance,
+                   fmt::format("{}, {} would be likely, too",
+                               in_words(gross, !alarm.named.empty(), asked.comparison.library),
+                               scene_in_words(asked, *scene))};
+    }
+  return std::nullopt;
+}
+
+}  // namespace voussoir

@@ -1,0 +1,17 @@
+#pragma once
+/// @file The Gaussian of readings with no block missing, in a form that is asked about other causes.
+
+#include "lookup/unknown/unknown_bridge.h"
+
+namespace voussoir {
+
+/// In the bridge's case, all that scatters as the bridge file states.
+struct IntactGaussian {
+  Eigen::MatrixXd precision;  ///< C^-1
+  Eigen::VectorXd pulled;     ///< C^-1 y
+  double log = 0.0;           ///< density of all readings, but for what all cases have in common
+};
+
+IntactGaussian intact_gaussian(const UnknownBridge& bridge);
+
+}  // namespace voussoir

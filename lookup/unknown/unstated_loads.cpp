@@ -1,0 +1,118 @@
+#include "lookup/unknown/unstated_loads.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "lookup/unknown/intact_gaussian.h"
+
+namespace voussoir {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double kHalfStretch = 5.0;  // [m] a vehicle, or its heavy axles
+// What the first order and the joints' scatter leave of what a load adds, as a share of it at each point and
+// of its root mean square: of a lorry of 16 t on sampled bridges 2 to 5 % (docs/uncertainty.md).
+constexpr double kOwnShare = 0.05;
+constexpr double kCommonShare = 0.02;
+
+/// Neighbouring places.
+struct Stretch {
+  Index first = 0, count = 0;
+};
+
+/// About each place, with what is near it.
+std::vector<Stretch> stretches_of(const std::vector<double>& places) {
+  std::vector<Stretch> stretches;
+  for (const double centre : places) {
+    const auto first = std::ranges::lower_bound(places, centre - kHalfStretch);
+    const auto end = std::ranges::upper_bound(places, centre + kHalfStretch);
+    stretches.push_back({first - places.begin(), end - first});
+  }
+  return stretches;
+}
+
+/// Loads at one levelling, seen by the intact bridge in one case.
+struct SeenLoads {
+  MatrixXd seen;    // L^T C^-1 L of all places
+  VectorXd pulled;  // L^T C^-1 y
+  double log = 0.0;
+};
+
+/// Of a stretch: w ~ N(0, 1) at each of its places.
+struct StretchFit {
+  VectorXd forces;  // most likely w
+  double log = -std::numeric_limits<double>::infinity();
+};
+
+StretchFit fit_of(const SeenLoads& loads, const Stretch& stretch) {
+  const VectorXd pulled = loads.pulled.segment(stretch.first, stretch.count);
+  MatrixXd precision = loads.seen.block(stretch.first, stretch.first, stretch.count, stretch.count);
+  precision.diagonal().array() += 1.0;
+  const Eigen::LLT<MatrixXd> root(precision);
+  StretchFit fit{root.solve(pulled)};
+  fit.log = loads.log + 0.5 * pulled.dot(fit.forces) - root.matrixLLT().diagonal().array().log().sum();
+  return fit;
+}
+
+/// In rows of y, what a standard deviation at each place adds: at the second levelling, or at the only one;
+/// and at the first, where that counts by itself.
+std::vector<MatrixXd> columns_of(const UnknownBridge& bridge) {
+  const MatrixXd& influence = bridge.factors->sensitivities->load.readings;
+  MatrixXd of_channels(static_cast<Index>(bridge.factors->channels.size()), influence.cols());
+  for (Index k = 0; k < of_channels.rows(); ++k)
+    of_channels.row(k) =
+        kUnstatedForce * influence.row(static_cast<Index>(bridge.factors->channels[static_cast<std::size_t>(k)].point));
+  const MatrixXd none = MatrixXd::Zero(of_channels.rows(), of_channels.cols());
+  std::vector<MatrixXd> columns = {in_rows(bridge.rows, none, of_channels)};
+  if (bridge.has_first_epoch()) columns.push_back(in_rows(bridge.rows, of_channels, none));
+  return columns;
+}
+
+UnstatedLoad load_of(const std::vector<double>& places, const Stretch& stretch, const MatrixXd& columns,
+                     const StretchFit& fit) {
+  const MatrixXd own = columns.middleCols(stretch.first, stretch.count);
+  UnstatedLoad load;
+  load.from = places[static_cast<std::size_t>(stretch.first)];
+  load.to = places[static_cast<std::size_t>(stretch.first + stretch.count - 1)];
+  load.force = kUnstatedForce * fit.forces.sum();
+  load.expected = own * fit.forces;
+  load.covariance = own * own.transpose();
+  const double mean_square = load.expected.squaredNorm() / static_cast<double>(load.expected.size());
+  load.covariance.diagonal() += kOwnShare * kOwnShare * load.expected.cwiseAbs2();
+  load.covariance.diagonal().array() += kCommonShare * kCommonShare * mean_square;
+  load.log = fit.log;
+  return load;
+}
+
+}  // namespace
+
+std::vector<UnstatedLoad> unstated_loads(UnknownBridge& bridge, const Observation& observation,
+                                         std::span<const UnknownCase> cases, std::size_t count) {
+  const std::vector<double>& places = bridge.factors->sensitivities->load.places;
+  if (places.empty()) return {};
+  const std::vector<Stretch> stretches = stretches_of(places);
+  std::vector<UnstatedLoad> loads;
+  for (const MatrixXd& columns : columns_of(bridge)) {
+    std::vector<StretchFit> best(stretches.size());
+    for (const UnknownCase& one : cases) {
+      set_case(observation, one, bridge);
+      const IntactGaussian intact = intact_gaussian(bridge);
+      const SeenLoads seen{columns.transpose() * intact.precision * columns,
+                           columns.transpose() * intact.pulled, intact.log};
+      for (std::size_t i = 0; i < stretches.size(); ++i)
+        if (StretchFit fit = fit_of(seen, stretches[i]); fit.log > best[i].log) best[i] = std::move(fit);
+    }
+    for (std::size_t i = 0; i < stretches.size(); ++i)
+      loads.push_back(load_of(places, stretches[i], columns, best[i]));
+  }
+  std::ranges::stable_sort(loads, std::ranges::greater{}, &UnstatedLoad::log);
+  loads.resize(std::min(loads.size(), count));
+  return loads;
+}
+
+}  // namespace voussoir

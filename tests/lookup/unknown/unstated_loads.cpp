@@ -1,0 +1,134 @@
+/// @file Loads that nobody stated. Oracle: the density of the readings under a covariance with the load's own
+/// in it, and the mean of one part of a sum of Gaussians, both from their definitions (LDLT).
+
+#include "lookup/unknown/unstated_loads.h"
+
+#include <algorithm>
+#include <array>
+#include <catch2/catch.hpp>
+#include <functional>
+#include <numbers>
+#include <random>
+
+#include "tests/lookup/unknown/dense_normal.h"
+#include "tests/lookup/unknown/made_up_factors.h"
+
+using namespace voussoir;
+using namespace voussoir::test;
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+namespace {
+
+constexpr std::array<UnknownCase, 2> kCases = {{{0.0, 1.0}, {0.0, 0.2}}};
+constexpr std::size_t kPlaces = 30;  // a metre apart
+
+/// The intact bridge, on which a load stood when it was read, or at the second of two times.
+struct LoadedReadings {
+  SyntheticLibrary library{3, 6};
+  Sensitivities sensitivities = made_up_sensitivities_of(library);
+  Comparison comparison = absolute_readings(library.library(), no_measurements(library.points.size()));
+
+  explicit LoadedReadings(ReadingKind kind) {
+    const auto points = static_cast<Index>(library.points.size());
+    LoadInfluence& load = sensitivities.load;
+    std::mt19937_64 random(3);
+    std::normal_distribution<double> normal;
+    load.readings = MatrixXd::NullaryExpr(points, kPlaces, [&] { return 1e-8 * normal(random); });
+    for (std::size_t i = 0; i < kPlaces; ++i) load.places.push_back(static_cast<double>(i));
+    const VectorXd loaded = 30e3 * (load.readings.col(11) + load.readings.col(14));
+    comparison.kind = kind;
+    comparison.factors = factors_of(library, sensitivities);
+    comparison.model_error = {0.02, 0.01, {}};
+    for (std::size_t i = 0; i < library.points.size(); ++i) {
+      comparison.measured.displacement[i] = library.intact()[i] + loaded[static_cast<Index>(i)];
+      comparison.measured.sigma[i] = 2e-5;
+      if (kind == ReadingKind::change) comparison.before.push_back(library.intact()[i] + 1e-5);
+    }
+  }
+};
+
+/// What forces at the places of a stretch add, a column each, if they stand there at this time.
+MatrixXd columns_of(const UnknownBridge& bridge, const LoadInfluence& load, double from, double to,
+                    bool second) {
+  MatrixXd columns(bridge.reading.size(), 0);
+  for (std::size_t i = 0; i < load.places.size(); ++i) {
+    if (load.places[i] < from || load.places[i] > to) continue;
+    columns.conservativeResize(Eigen::NoChange, columns.cols() + 1);
+    for (Index k = 0; k < columns.rows(); ++k) {
+      const ReadingRow& row = bridge.rows[static_cast<std::size_t>(k)];
+      columns(k, columns.cols() - 1) =
+          kUnstatedForce * (second ? row.after : row.before) *
+          load.readings(static_cast<Index>(row.channel), static_cast<Index>(i));
+    }
+  }
+  return columns;
+}
+
+struct Expected {
+  double log = -std::numeric_limits<double>::infinity();
+  VectorXd mean;
+  double force = 0.0;  // [N/m]
+};
+
+Expected expected_of(UnknownBridge& bridge, const Observation& observation, const MatrixXd& columns) {
+  const VectorXd zero = VectorXd::Zero(bridge.reading.size());
+  Expected best;
+  for (const UnknownCase& one : kCases) {
+    set_case(observation, one, bridge);
+    const MatrixXd scatter = bridge_columns(bridge, Scene{});
+    const MatrixXd own = columns * columns.transpose();
+    const MatrixXd covariance =
+        scene_noise(bridge, {{}, zero, zero}) + scatter * scatter.transpose() + own;
+    const double log = log_normal(bridge.reading, covariance);
+    if (log < best.log) continue;
+    const VectorXd forces = columns.transpose() * covariance.ldlt().solve(bridge.reading);
+    best = {log, columns * forces, kUnstatedForce * forces.sum()};
+  }
+  return best;
+}
+
+}  // namespace
+
+TEST_CASE("A load on a stretch explains readings as well as its covariance makes them likely") {
+  const LoadedReadings readings(GENERATE(ReadingKind::absolute, ReadingKind::change));
+  const UnknownSettings settings{GENERATE(Epochs::change, Epochs::both)};
+  const Observation observation = observe(readings.comparison, {NoiseShape::gaussian, 0.0}, {});
+  UnknownBridge bridge = unknown_bridge(readings.comparison, observation, kCases.front(), settings);
+  const auto found = unstated_loads(bridge, observation, kCases, 100);
+
+  const bool both = bridge.has_first_epoch();
+  REQUIRE(found.size() == kPlaces * (both ? 2 : 1));
+  CHECK(std::ranges::is_sorted(found, std::ranges::greater{}, &UnstatedLoad::log));
+  CHECK(found.front().from <= 11.0);
+  CHECK(found.front().to >= 14.0);
+  CHECK(found.front().force > 0.0);
+  const double constant =
+      -0.5 * static_cast<double>(bridge.reading.size()) * std::log(2.0 * std::numbers::pi);
+  for (const UnstatedLoad& load : found) {
+    INFO(load.from << " to " << load.to);
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const bool second : {true, false}) {
+      if (!second && !both) continue;
+      const MatrixXd columns =
+          columns_of(bridge, readings.sensitivities.load, load.from, load.to, second);
+      const Expected expected = expected_of(bridge, observation, columns);
+      if (std::abs(expected.log - constant - load.log) > 1e-6 * std::abs(load.log)) continue;
+      nearest = (load.expected - expected.mean).norm() / expected.mean.norm();
+      CHECK(load.force == Approx(expected.force).epsilon(1e-6));
+      const MatrixXd beyond = load.covariance - columns * columns.transpose();
+      CHECK(MatrixXd(beyond.diagonal().asDiagonal()).isApprox(beyond, 1e-6));
+      CHECK(beyond.diagonal().minCoeff() > 0.0);
+    }
+    CHECK(nearest < 1e-6);
+  }
+}
+
+TEST_CASE("Without what loads do nothing is said of them") {
+  LoadedReadings readings(ReadingKind::absolute);
+  readings.sensitivities.load = {};
+  const Observation observation = observe(readings.comparison, {NoiseShape::gaussian, 0.0}, {});
+  UnknownBridge bridge = unknown_bridge(readings.comparison, observation, kCases.front(), {});
+  CHECK(unstated_loads(bridge, observation, kCases, 3).empty());
+}
