@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
-#include "core/structure/block.h"
 #include "core/structure/bridge_description.h"
+#include "core/structure/gone_blocks.h"
 #include "core/structure/small_pieces.h"
 
 namespace voussoir {
