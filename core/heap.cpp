@@ -1,7 +1,5 @@
 #include "core/heap.h"
 
-#include <cstdlib>
-
 #ifdef __GLIBC__
 #include <malloc.h>
 #endif

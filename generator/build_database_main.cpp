@@ -2,8 +2,8 @@
 
 #include <iostream>
 
-#include "core/failure_json.h"
 #include "core/heap.h"
+#include "core/program_failure.h"
 #include "core/structure/bridge_model.h"
 #include "core/text_file.h"
 #include "generator/bridge_drawing.h"

@@ -4,20 +4,12 @@
 #include <iostream>
 
 #include "core/error.h"
-#include "core/failure_json.h"
+#include "core/program_failure.h"
 
 namespace voussoir {
 namespace {
 
 constexpr int kMostThreads = 4096;
-constexpr int kFailed = 1;
-constexpr int kBadUsage = 2;
-
-int fail(const std::string& name, const std::exception& error, bool json, int exit_code) {
-  std::cerr << name << ": " << error.what() << '\n';
-  if (json) std::cout << failure_to_json(error.what());
-  return exit_code;
-}
 
 }  // namespace
 
@@ -29,7 +21,7 @@ std::optional<int> parse_command_line(CLI::App& app, int argc, char** argv) {
     if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
     std::cerr << app.get_name() << ": " << error.what() << " (see " << app.get_name() << " --help)\n";
     if (asks_for_json(argc, argv)) std::cout << failure_to_json(error.what());
-    return kBadUsage;
+    return kBadInput;
   }
 }
 
@@ -53,13 +45,7 @@ void say(const std::string& answer) {
 
 int run_writer(const std::string& name, bool json, const std::function<int()>& program) {
   std::signal(SIGXFSZ, SIG_IGN);
-  try {
-    return program();
-  } catch (const InputError& error) {
-    return fail(name, error, json, kBadUsage);
-  } catch (const std::exception& error) {
-    return fail(name, error, json, kFailed);
-  }
+  return exit_code_of(name, json, program);
 }
 
 }  // namespace voussoir

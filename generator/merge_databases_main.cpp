@@ -1,8 +1,6 @@
 /// @file merge-databases: from the parts of a database to the whole.
 
-#include <iostream>
-
-#include "core/failure_json.h"
+#include "core/program_failure.h"
 #include "generator/command_line.h"
 #include "generator/merge_options.h"
 #include "generator/summary.h"

@@ -1,8 +1,6 @@
 /// @file verify-database: is a database whole and right?
 
-#include <iostream>
-
-#include "core/failure_json.h"
+#include "core/program_failure.h"
 #include "generator/command_line.h"
 #include "generator/verify_options.h"
 
@@ -23,8 +21,6 @@ int main(int argc, char** argv) {
     const VerifyOptions options = parse_verify_options(argc, argv);
     return options.exit_code ? *options.exit_code : run(options);
   } catch (const std::exception& error) {
-    std::cerr << "verify-database: " << error.what() << '\n';
-    if (asks_for_json(argc, argv)) std::cout << failure_to_json(error.what());
-    return 1;
+    return fail("verify-database", error.what(), asks_for_json(argc, argv), kFailed);
   }
 }

@@ -12,23 +12,12 @@
 #include <cstdlib>
 
 #include "core/error.h"
-#include "core/failure_json.h"
 #include "core/heap.h"
+#include "core/program_failure.h"
 #include "core/text.h"
 
 namespace voussoir {
 namespace {
-
-constexpr int kDone = 0;
-constexpr int kFailed = 1;
-constexpr int kBadInput = 2;
-
-/// To people, and to programs that ask for JSON.
-int complain(const CLI::App& app, const std::string& message, bool json, int code) {
-  fmt::print(stderr, "{}: {}\n", app.get_name(), message);
-  if (json) std::fputs(failure_to_json(message).c_str(), stdout);
-  return code;
-}
 
 /// A short-lived program gains little from getting pages one by one: the heap begins where a large page may
 /// begin and grows at once to what a lookup needs, in large pages where there are any.
@@ -96,22 +85,20 @@ void share_heap() {
 
 int run_program(CLI::App& app, int argc, char** argv, const std::function<ProgramOutput()>& program) {
   prepare_heap();
+  const std::string& name = app.get_name();
   const bool json = asks_for_json(argc, argv);
-  try {
-    app.parse(argc, argv);
+  return exit_code_of(name, json, [&] {
+    try {
+      app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+      if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
+      return fail(name, fmt::format("{} (see {} --help)", error.what(), name), json, kBadInput);
+    }
     const ProgramOutput output = program();
     write_out(output.text);
-    if (output.complaint.empty()) leave(kDone);
-    fmt::print(stderr, "{}: {}\n", app.get_name(), output.complaint);
-    leave(kFailed);
-  } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
-    return complain(app, fmt::format("{} (see {} --help)", error.what(), app.get_name()), json, kBadInput);
-  } catch (const InputError& error) {
-    return complain(app, error.what(), json, kBadInput);
-  } catch (const std::exception& error) {
-    return complain(app, error.what(), json, kFailed);
-  }
+    if (output.complaint.empty()) leave(0);
+    leave(fail(name, output.complaint, false, kFailed));
+  });
 }
 
 }  // namespace voussoir

@@ -5,24 +5,24 @@
 #include "core/text_file.h"
 #include "core/threads.h"
 #include "lookup/command_line.h"
-#include "lookup/locate_damage_desks.h"
 #include "lookup/locate_damage_options.h"
+#include "lookup/opened_databases.h"
 #include "lookup/report/report.h"
 #include "lookup/report/survey_report.h"
 
 namespace {
 
-std::string report_one(voussoir::Desks& desks, const voussoir::LocateDamageOptions& options) {
+std::string report_one(voussoir::OpenedDatabases& opened, const voussoir::LocateDamageOptions& options) {
   const std::string& file = options.measurements.front();
   if (options.page)
     voussoir::check_output("--report", *options.page, {".html", ".htm", ".svg"},
                            std::array{std::filesystem::path(file)});
-  const auto [desk, comparison, settings, answer, databases] = ask(desks, voussoir::read_readings(file));
+  const auto [one, comparison, settings, answer, databases] = ask(opened, voussoir::read_readings(file));
   const voussoir::Source source{file,
-                                desk->database.path().string(),
-                                desk->database.bridge_name(),
-                                desk->database.digest(),
-                                desk->database.stands_by_slip(),
+                                one->database.path().string(),
+                                one->database.bridge_name(),
+                                one->database.digest(),
+                                one->database.stands_by_slip(),
                                 databases};
   if (const auto& page = options.page)
     voussoir::write_file(*page, page->extension() == ".svg"
@@ -32,9 +32,9 @@ std::string report_one(voussoir::Desks& desks, const voussoir::LocateDamageOptio
 }
 
 /// A file that cannot be answered has a row, too, and does not stop the others.
-voussoir::SurveyRow row_of(voussoir::Desks& desks, const std::string& file) {
+voussoir::SurveyRow row_of(voussoir::OpenedDatabases& opened, const std::string& file) {
   try {
-    const voussoir::Answered asked = ask(desks, voussoir::read_readings(file));
+    const voussoir::Answered asked = ask(opened, voussoir::read_readings(file));
     return voussoir::survey_row(file, asked.answer, asked.comparison,
                                 asked.databases.empty() ? "" : asked.databases.front().file);
   } catch (const std::exception& error) {
@@ -42,11 +42,12 @@ voussoir::SurveyRow row_of(voussoir::Desks& desks, const std::string& file) {
   }
 }
 
-voussoir::ProgramOutput report_all(voussoir::Desks& desks, const voussoir::LocateDamageOptions& options) {
+voussoir::ProgramOutput report_all(voussoir::OpenedDatabases& opened,
+                                   const voussoir::LocateDamageOptions& options) {
   const std::vector<std::string>& files = options.measurements;
   std::vector<voussoir::SurveyRow> rows(files.size());
   voussoir::for_each_index_on_threads(files.size(), voussoir::hardware_threads(),
-                                      [&](std::size_t i) { rows[i] = row_of(desks, files[i]); });
+                                      [&](std::size_t i) { rows[i] = row_of(opened, files[i]); });
   const auto failed = std::ranges::count_if(rows, [](const auto& row) { return !row.error.empty(); });
   return {voussoir::survey_report(rows, options.format),
           failed == 0 ? std::string() : fmt::format("{} of {} files have no answer", failed, rows.size())};
@@ -54,9 +55,9 @@ voussoir::ProgramOutput report_all(voussoir::Desks& desks, const voussoir::Locat
 
 voussoir::ProgramOutput locate(const voussoir::LocateDamageOptions& options) {
   if (options.measurements.size() == 1) voussoir::share_heap();
-  voussoir::Desks desks = voussoir::open_desks(options);
-  if (options.measurements.size() == 1) return report_one(desks, options);
-  return report_all(desks, options);
+  voussoir::OpenedDatabases opened = voussoir::open_databases(options);
+  if (options.measurements.size() == 1) return report_one(opened, options);
+  return report_all(opened, options);
 }
 
 }  // namespace

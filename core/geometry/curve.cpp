@@ -4,10 +4,6 @@
 
 namespace voussoir {
 
-Point normal_at(const Curve& curve, const CurvePlace& place) {
-  return (curve.point(place, 1.0) - curve.point(place, 0.0)).normalized();
-}
-
 Curve with_mirror_image(double axis, double length, HalfCurve half) {
   Curve curve{.length = length, .point = {}, .has_corner = false};
   curve.point = [axis, half = std::move(half)](const CurvePlace& place, double offset) -> Point {

@@ -23,9 +23,6 @@ struct Curve {
   bool has_corner = false;  ///< the direction jumps in the middle; the normal there halves the corner
 };
 
-/// Unit normal to the outer side. At a corner it is not defined.
-Point normal_at(const Curve& curve, const CurvePlace& place);
-
 /// The left half of a curve that is its own mirror image: x is the distance from the axis. Asked for places
 /// in the left half only.
 using HalfCurve = std::function<Point(const CurvePlace& place, double offset)>;

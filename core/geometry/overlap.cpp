@@ -1,7 +1,5 @@
 #include "core/geometry/overlap.h"
 
-#include <algorithm>
-
 #include "core/geometry/triangulation.h"
 
 namespace voussoir {

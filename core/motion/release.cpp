@@ -1,6 +1,5 @@
 #include "core/motion/release.h"
 
-#include <cmath>
 #include <limits>
 
 #include "core/motion/motion_kernels.h"

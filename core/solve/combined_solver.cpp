@@ -1,6 +1,5 @@
 #include "core/solve/combined_solver.h"
 
-#include "core/motion/early_motion.h"
 #include "core/solve/near_falls.h"
 #include "core/solve/settling.h"
 #include "core/structure/collapse.h"

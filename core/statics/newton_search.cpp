@@ -1,7 +1,6 @@
 #include "core/statics/newton_search.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <utility>
 

@@ -1,6 +1,5 @@
 #include "core/statics/thrust_line.h"
 
-#include <algorithm>
 #include <limits>
 #include <map>
 #include <tuple>

@@ -85,10 +85,4 @@ bool is_called(const Block& block, std::string_view name);
 /// Gives blocks that are in the order of their courses their positions, from the left, and labels.
 void number_by_courses(std::vector<Block>& blocks);
 
-/// A block that was gone before the bridge is looked at.
-struct GoneBlock {
-  std::size_t before = 0;  ///< the place of the next block that is left, among these
-  Block block;
-};
-
 }  // namespace voussoir

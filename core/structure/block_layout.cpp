@@ -174,9 +174,11 @@ int BlockLayout::count_with(BlockRole role) const {
       std::count_if(blocks.begin(), blocks.end(), [&](const Block& b) { return b.role == role; }));
 }
 
-int BlockLayout::count_in_course(int course) const {
-  return static_cast<int>(
-      std::count_if(blocks.begin(), blocks.end(), [&](const Block& b) { return b.index.course == course; }));
+int BlockLayout::last_position(int course) const {
+  int last = 0;
+  for (const Block& block : blocks)
+    if (block.index.course == course) last = std::max(last, block.index.position);
+  return last;
 }
 
 BlockLayout lay_blocks(const BridgeDescription& description) {

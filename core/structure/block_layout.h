@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
-#include "core/structure/block.h"
 #include "core/structure/bridge_description.h"
+#include "core/structure/gone_blocks.h"
 #include "core/structure/small_pieces.h"
 
 namespace voussoir {
@@ -34,8 +34,9 @@ struct BlockLayout {
   /// Number of blocks that play this part.
   int count_with(BlockRole role) const;
 
-  /// Number of blocks in a course; 0 is the arch.
-  int count_in_course(int course) const;
+  /// Position of the last block of a course (0 is the arch); not their number where some are known to be
+  /// missing. 0 if there is no such course.
+  int last_position(int course) const;
 };
 
 /// Lays the bridge's blocks (paper, Fig. 1): ring blocks of every span (make_arch), and the course rectangles

@@ -9,9 +9,7 @@ namespace voussoir {
 namespace {
 
 [[noreturn]] void refuse_index(BlockIndex index, const BlockLayout& layout) {
-  int last = 0;
-  for (const Block& block : layout.blocks)
-    if (block.index.course == index.course) last = std::max(last, block.index.position);
+  const int last = layout.last_position(index.course);
   if (last == 0)
     throw InputError(
         fmt::format("there is no block {}: this bridge has no course {}", to_string(index), index.course));

@@ -1,6 +1,5 @@
 #include "core/structure/separate_rings.h"
 
-#include <algorithm>
 #include <set>
 
 #include "core/geometry/box.h"

@@ -14,29 +14,15 @@ void TomlSection::refuse(const char* key, const std::string& expected) const {
   throw InputError(at_line(file_, line_of(key), fmt::format("{}{}: {}", key, title_, expected)));
 }
 
-std::optional<double> TomlSection::number(const char* key) {
+void TomlSection::number(const char* key, double& target, double least, double most, bool may_be_least) {
   const toml::node* node = take(key);
-  if (node == nullptr) return std::nullopt;
+  if (node == nullptr) return;
   const auto number = node->value<double>();
   if (!number || !node->is_number()) refuse(key, "expected a number");
-  return number;
-}
-
-void TomlSection::number(const char* key, double& target, double least, double most) {
-  const std::optional<double> found = number(key);
-  if (!found) return;
-  if (!(*found >= least && *found <= most))
-    refuse(key,
-           fmt::format("is {}: expected a number of at least {:g} and at most {:g}", *found, least, most));
-  target = *found;
-}
-
-void TomlSection::positive(const char* key, double& target, double most) {
-  const std::optional<double> found = number(key);
-  if (!found) return;
-  if (!(*found > 0.0 && *found <= most))
-    refuse(key, fmt::format("is {}: expected a number greater than 0 and at most {:g}", *found, most));
-  target = *found;
+  if (!(*number >= least && *number <= most) || (*number == least && !may_be_least))
+    refuse(key, fmt::format("is {}: expected a number {} {:g} and at most {:g}", *number,
+                            may_be_least ? "of at least" : "greater than", least, most));
+  target = *number;
 }
 
 void TomlSection::friction_angle(double& radians, double least) {

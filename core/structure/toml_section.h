@@ -3,7 +3,6 @@
 
 #include <toml++/toml.h>
 
-#include <optional>
 #include <set>
 #include <string>
 #include <type_traits>
@@ -27,8 +26,10 @@ class TomlSection {
   TomlSection(const std::string& file, const toml::table* table, std::string title)
       : file_(file), table_(table), title_(std::move(title)) {}
 
-  void number(const char* key, double& target, double least, double most);  ///< both ends are allowed
-  void positive(const char* key, double& target, double most = kMostOfAnySetting);
+  void number(const char* key, double& target, double least, double most, bool may_be_least = true);
+  void positive(const char* key, double& target, double most = kMostOfAnySetting) {
+    number(key, target, 0.0, most, false);
+  }
   void length(const char* key, double& target) { number(key, target, kSmallestLength, kLargestLength); }
   /// "friction_angle_deg", into radians of at least `least`.
   void friction_angle(double& radians, double least);
@@ -75,7 +76,6 @@ class TomlSection {
 
  private:
   const toml::node* take(const char* key);
-  std::optional<double> number(const char* key);
 
   const std::string& file_;
   const toml::table* table_;

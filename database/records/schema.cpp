@@ -9,8 +9,6 @@
 namespace voussoir {
 namespace {
 
-using Shape = std::vector<std::uint64_t>;
-
 Bytes bytes_of(ByteView view) {
   return {view.begin(), view.end()};
 }

@@ -1,7 +1,6 @@
 #include "database/search/row_clusters.h"
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 
 #include "core/simd/lanes.h"

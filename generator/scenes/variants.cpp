@@ -1,7 +1,5 @@
 #include "generator/scenes/variants.h"
 
-#include <algorithm>
-
 #include "core/error.h"
 #include "core/random.h"
 #include "core/structure/mortar_limits.h"

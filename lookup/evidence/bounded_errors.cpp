@@ -4,7 +4,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/not_a_number.h"
 #include "core/simd/lane_math.h"
 #include "lookup/evidence/point_arrays.h"
 #include "lookup/evidence/scale_fit.h"

@@ -8,7 +8,6 @@
 #include "lookup/evidence/largest_places.h"
 #include "lookup/evidence/level_evidence.h"
 #include "lookup/evidence/scene_evidence.h"
-#include "lookup/evidence/table_evidence.h"
 
 namespace voussoir {
 namespace {

@@ -1,8 +1,6 @@
 #include "lookup/evidence/row_statistics.h"
 
-#include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "core/simd/lane_math.h"

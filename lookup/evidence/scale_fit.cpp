@@ -1,7 +1,6 @@
 #include "lookup/evidence/scale_fit.h"
 
 #include <cmath>
-#include <limits>
 
 #include "lookup/evidence/point_arrays.h"
 

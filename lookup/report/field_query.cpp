@@ -1,7 +1,6 @@
 #include "lookup/report/field_query.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <optional>
 

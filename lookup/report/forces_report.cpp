@@ -1,6 +1,5 @@
 #include "lookup/report/forces_report.h"
 
-#include <limits>
 #include <map>
 
 #include "lookup/report/drawing/forces_drawing.h"

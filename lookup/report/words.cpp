@@ -38,11 +38,8 @@ std::string place_in_words(BlockId id, const BlockLayout& layout) {
     return fmt::format("course {}, {} from the left, {}", block.index.course, ordinal(block.index.position),
                        box);
   if (block.index.course < 0) return fmt::format("block {}, {}", block.label, box);
-  int last = 0;  // not their number, as some may be missing from the start
-  for (const Block& other : layout.blocks)
-    if (other.index.course == 0) last = std::max(last, other.index.position);
   return fmt::format("{} {} of {} of the arch, {}", block.kind == BlockKind::leg ? "leg block" : "voussoir",
-                     block.index.position, last, box);
+                     block.index.position, layout.last_position(0), box);
 }
 
 std::string place_in_words(const Scene& scene, const BlockLayout& layout) {

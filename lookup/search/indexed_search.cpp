@@ -243,7 +243,7 @@ std::vector<ScoredRow> IndexedSearch::score(const Query& query, const Finds& fin
 IndexedSearch::Result IndexedSearch::search(std::span<const double> readings, std::size_t count) const {
   if (count == 0) return {};
   const auto score_all = [&] {
-    return Result{exhaustive_search(readings, table_, eligible_.rows, count), eligible_.rows.size(), true};
+    return Result{exhaustive_search(readings, table_, eligible_.rows, count), eligible_.rows.size()};
   };
   if (eligible_.rows.size() <= kFewRows) return score_all();
   Query query{readings};
@@ -260,7 +260,7 @@ IndexedSearch::Result IndexedSearch::search(std::span<const double> readings, st
   std::erase_if(finds.found, [&](const Found& one) { return one.least > finds.smallest.largest(); });
   if (static_cast<double>(finds.found.size()) > kWorthwhile * static_cast<double>(eligible_.rows.size()))
     return score_all();
-  return {best_rows(score(query, finds), count), finds.found.size(), false};
+  return {best_rows(score(query, finds), count), finds.found.size()};
 }
 
 }  // namespace voussoir

@@ -22,8 +22,7 @@ class IndexedSearch {
 
   struct Result {
     std::vector<ScoredRow> best;  ///< the same rows, order and sums as exhaustive_search
-    std::size_t scored = 0;       ///< rows whose sum was computed
-    bool fell_back = false;       ///< the bounds ruled out too little, and all rows were scored
+    std::size_t scored = 0;       ///< rows whose sum was computed; all where bounds rule out too little
   };
   Result search(std::span<const double> readings, std::size_t count) const;
 

@@ -125,7 +125,7 @@ TEST_CASE("The list triples has the count of combinatorics and all that its scen
   CHECK(parse_scene_list("triples", layout) == all_scenes(38, 3));
   CHECK(parse_scene_list("triples", layout).size() == 1 + 38 + 703 + 8436);
   CHECK(parse_scene_list("2,1+0,2+0,1", layout).front().missing() == 3);
-  const auto arch = static_cast<std::size_t>(layout.count_in_course(0));
+  const auto arch = static_cast<std::size_t>(layout.last_position(0));
   CHECK(parse_scene_list("0,*+0,*+0,*", layout).size() == arch * (arch - 1) * (arch - 2) / 6);
 }
 

@@ -10,7 +10,7 @@
 #include "core/geometry/polygon.h"
 #include "core/structure/bridge_file.h"
 #include "core/structure/model.h"
-#include "lookup/locate_damage_desks.h"
+#include "lookup/opened_databases.h"
 #include "lookup/readings/readings_csv.h"
 #include "lookup/report/report_words.h"
 #include "tools/trials/sampled_truth.h"
@@ -48,8 +48,8 @@ struct SharedPoints {
   std::vector<std::size_t> of_bridge, of_database;
 };
 
-bool has_sensor(const Desk& desk, const std::string& name) {
-  return std::ranges::find(desk.sensors.sensors, name, &Sensor::name) != desk.sensors.sensors.end();
+bool has_sensor(const OpenedDatabase& one, const std::string& name) {
+  return std::ranges::find(one.sensors.sensors, name, &Sensor::name) != one.sensors.sensors.end();
 }
 
 /// The bridge's control point at a place, of the block whose middle is nearest to the given one: neighbours
@@ -68,13 +68,15 @@ std::optional<std::size_t> point_there(const Model& bridge, const Point& place, 
   return found;
 }
 
-SharedPoints shared_points(const std::string& file, const Model& bridge, const Desks& desks, double shift) {
-  const Database& first = desks.front().database;
+SharedPoints shared_points(const std::string& file, const Model& bridge, const OpenedDatabases& opened,
+                           double shift) {
+  const Database& first = opened.front().database;
   SharedPoints shared;
   for (std::size_t s = 0; s < first.control_points().size(); ++s) {
     const StoredPoint& point = first.control_points()[s];
     if (point.quantity != Quantity::uy) continue;
-    if (!std::ranges::all_of(desks, [&](const Desk& desk) { return has_sensor(desk, point.name); })) continue;
+    if (!std::ranges::all_of(opened, [&](const OpenedDatabase& one) { return has_sensor(one, point.name); }))
+      continue;
     const Point moved(shift, 0.0);
     const auto there =
         point_there(bridge, point.position + moved, centroid(first.layout()[point.block].polygon) + moved);
@@ -98,13 +100,14 @@ std::vector<double> chosen(const std::vector<double>& values, const std::vector<
 
 /// A file of readings of the shared points.
 ReadingsText readings_of(const IntactBridge& bridge, const SharedPoints& points, ReadingsTaken taken,
-                         const AssumptionOptions& options, std::uint64_t question, const Desk& desk) {
+                         const AssumptionOptions& options, std::uint64_t question,
+                         const OpenedDatabase& one) {
   Random random(series_seed(options.seed, question));
   const std::vector<double> before = chosen(bridge.before, points.of_bridge);
   const std::vector<double> after = chosen(bridge.after, points.of_bridge);
   ReadingsFile file = take_readings({before, after}, taken, options.sigma, random);
   for (Reading& reading : file.readings) reading.sensor = points.of_database[reading.sensor];
-  return {to_csv(file, desk.sensors), "readings"};
+  return {to_csv(file, one.sensors), "readings"};
 }
 
 void count(Verdict verdict, AssumptionCounts& counts) {
@@ -116,14 +119,14 @@ void count(Verdict verdict, AssumptionCounts& counts) {
 }
 
 /// What each database says, in the order in which they were given, and what they say together.
-std::vector<Verdict> verdicts_of(Desks& desks, const ReadingsText& readings) {
-  const Answered answered = ask(desks, readings);
+std::vector<Verdict> verdicts_of(OpenedDatabases& opened, const ReadingsText& readings) {
+  const Answered answered = ask(opened, readings);
   const Verdict together = verdict_of(answered.answer);
-  if (desks.size() == 1) return {together};
+  if (opened.size() == 1) return {together};
   std::vector<Verdict> verdicts;
-  for (const Desk& desk : desks)
+  for (const OpenedDatabase& one : opened)
     verdicts.push_back(
-        std::ranges::find(answered.databases, desk.database.path().string(), &AskedDatabase::file)->verdict);
+        std::ranges::find(answered.databases, one.database.path().string(), &AskedDatabase::file)->verdict);
   verdicts.push_back(together);
   return verdicts;
 }
@@ -131,14 +134,14 @@ std::vector<Verdict> verdicts_of(Desks& desks, const ReadingsText& readings) {
 /// One bridge's rows: one for each database and, of several, one for all together.
 class BridgeRows {
  public:
-  BridgeRows(const std::string& file, Desks& all, const AssumptionOptions& told)
+  BridgeRows(const std::string& file, OpenedDatabases& all, const AssumptionOptions& told)
       : description(read_bridge_file(file).description),
         bridge(make_model(description)),
         points(shared_points(file, bridge, all, told.shift)),
-        desks(all),
+        opened(all),
         options(told) {
-    for (const Desk& desk : desks) rows.push_back(row_for(desk.database.path().string(), file));
-    if (desks.size() > 1) rows.push_back(row_for("together", file));
+    for (const OpenedDatabase& one : opened) rows.push_back(row_for(one.database.path().string(), file));
+    if (opened.size() > 1) rows.push_back(row_for("together", file));
   }
 
   std::vector<AssumptionRow> measure() {
@@ -161,7 +164,7 @@ class BridgeRows {
   void ask_all(const std::string& name, const IntactBridge& shown, ReadingsTaken taken) {
     for (int i = 0; i < options.questions; ++i) {
       const std::vector<Verdict> verdicts =
-          verdicts_of(desks, readings_of(shown, points, taken, options, asked++, desks.front()));
+          verdicts_of(opened, readings_of(shown, points, taken, options, asked++, opened.front()));
       for (std::size_t r = 0; r < rows.size(); ++r) {
         count(verdicts[r], taken == ReadingsTaken::change ? rows[r].changes : rows[r].absolute);
         if (taken != ReadingsTaken::change || !is_alarm(verdicts[r])) continue;
@@ -174,7 +177,7 @@ class BridgeRows {
   BridgeDescription description;
   Model bridge;
   SharedPoints points;
-  Desks& desks;
+  OpenedDatabases& opened;
   const AssumptionOptions& options;
   std::vector<AssumptionRow> rows{};
   std::uint64_t asked = 0;
@@ -191,10 +194,10 @@ std::vector<AssumptionRow> measure_assumptions(const AssumptionOptions& options,
                                                const AssumptionRowsDone& done) {
   LocateDamageOptions asking;
   asking.databases = options.databases;
-  Desks desks = open_desks(asking);
+  OpenedDatabases opened = open_databases(asking);
   std::vector<AssumptionRow> all;
   for (const std::string& file : options.bridges) {
-    const std::vector<AssumptionRow> rows = BridgeRows(file, desks, options).measure();
+    const std::vector<AssumptionRow> rows = BridgeRows(file, opened, options).measure();
     done(rows);
     all.insert(all.end(), rows.begin(), rows.end());
   }

@@ -2,8 +2,6 @@
 
 #include <oneapi/tbb/parallel_for.h>
 
-#include <cmath>
-#include <map>
 #include <optional>
 
 #include "lookup/evidence/evidence_screen.h"

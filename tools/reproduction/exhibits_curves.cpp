@@ -1,7 +1,5 @@
 #include <fmt/format.h>
 
-#include <functional>
-
 #include "tools/reproduction/exhibits.h"
 #include "tools/reproduction/shares.h"
 

@@ -1,12 +1,10 @@
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 
 #include "core/units.h"
 #include "lookup/readings/simulate.h"
 #include "lookup/report/drawing/field_drawing.h"
-#include "lookup/report/words.h"
 #include "tools/reproduction/exhibits.h"
 
 namespace voussoir {

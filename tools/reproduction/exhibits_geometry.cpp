@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
 
 #include "core/structure/bridge_file.h"
@@ -59,11 +60,13 @@ Table block_table(const BlockLayout& layout) {
 
 Exhibit geometry_exhibit(const Subject& subject) {
   const BlockLayout& layout = subject.database.layout();
+  const auto in_arch =
+      std::ranges::count_if(layout.blocks, [](const Block& block) { return block.index.course == 0; });
   const std::string caption = fmt::format(
       "{} blocks, {} of them in the arch, and {} control points (T on top, A on the intrados). Course 0 is "
       "the "
       "arch; positions count from the left.",
-      layout.size(), layout.count_in_course(0), subject.database.control_points().size());
+      layout.size(), in_arch, subject.database.control_points().size());
   return {{"figure-1", "Fig. 1: blocks and control points", caption, panorama_html(draw_geometry(subject)),
            block_table(layout), true}};
 }

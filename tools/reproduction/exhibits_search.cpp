@@ -5,7 +5,6 @@
 
 #include "lookup/report/drawing/bridge_drawing.h"
 #include "lookup/report/drawing/colour_map.h"
-#include "lookup/report/words.h"
 #include "lookup/search/misfit.h"
 #include "tools/reproduction/exhibits.h"
 #include "tools/reproduction/shares.h"

@@ -2,7 +2,6 @@
 
 #include <oneapi/tbb/parallel_for.h>
 
-#include <functional>
 #include <optional>
 
 namespace voussoir {

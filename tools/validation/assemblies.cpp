@@ -6,7 +6,6 @@
 #include <numbers>
 #include <random>
 
-#include "core/law/triangle.h"
 #include "core/statics/joint_forces.h"
 
 namespace voussoir::validation {

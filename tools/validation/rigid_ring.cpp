@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <numbers>
-#include <vector>
 
 #include "core/geometry/polygon.h"
 #include "tools/validation/bisection.h"

@@ -4,7 +4,6 @@
 
 #include "core/error.h"
 #include "core/motion/dynamic_solver.h"
-#include "core/statics/equilibrium.h"
 #include "core/statics/quasi_static_solver.h"
 #include "tools/validation/hard_case_runs.h"
 #include "tools/validation/studies.h"

@@ -2,7 +2,6 @@
 
 #include <cmath>
 
-#include "core/geometry/arc_chain.h"
 #include "core/structure/arch.h"
 
 namespace voussoir::validation {

@@ -7,7 +7,6 @@
 
 #include "core/geometry/box.h"
 #include "core/text.h"
-#include "lookup/report/drawing/style.h"
 
 namespace voussoir {
 namespace {

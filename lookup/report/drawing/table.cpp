@@ -6,8 +6,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "core/text.h"
 #include "lookup/readings/csv_text.h"
-#include "lookup/report/drawing/svg.h"
 
 namespace voussoir {
 namespace {

@@ -46,6 +46,11 @@ std::vector<Named> all_curves() {
       {"round ellipse", half_ellipse(kMiddle, 6.0, 3.0), 6.0, 3.0}};
 }
 
+/// Unit normal to the outer side. At a corner it is not defined.
+Point normal_at(const Curve& curve, const CurvePlace& place) {
+  return (curve.point(place, 1.0) - curve.point(place, 0.0)).normalized();
+}
+
 /// Length by very many chords.
 double length_of_chords(const Curve& curve, double offset, int count) {
   double length = 0.0;

@@ -16,7 +16,7 @@ TEST_CASE("The reference bridge has the published 212 blocks, 193 of them in the
   const std::vector<int> per_course = {19, 14, 12, 14, 14, 14, 14, 16, 16, 18, 20, 21, 20};
   for (std::size_t course = 0; course < per_course.size(); ++course) {
     INFO("course " << course);
-    CHECK(layout.count_in_course(static_cast<int>(course)) == per_course[course]);
+    CHECK(layout.last_position(static_cast<int>(course)) == per_course[course]);
   }
 }
 
@@ -53,13 +53,13 @@ TEST_CASE("A bridge without spans is a plain wall in running bond", "[layout]") 
   wall.spans.clear();
   wall.wall = {.length = 3.0, .courses = 2, .course_height = 0.5, .block_length = 1.0};
   const BlockLayout layout = lay_blocks(wall);
-  CHECK(layout.count_in_course(1) == 4);  // half, whole, whole, half
-  CHECK(layout.count_in_course(2) == 3);
+  CHECK(layout.last_position(1) == 4);  // half, whole, whole, half
+  CHECK(layout.last_position(2) == 3);
 }
 
 TEST_CASE("Two spans number their arch blocks through from left to right", "[layout]") {
   const Model bridge = make_model(read_bridge_file(test::example_bridge("two-span")).description);
-  CHECK(bridge.layout.count_in_course(0) == 30);
+  CHECK(bridge.layout.last_position(0) == 30);
   for (int i = 1; i < 30; ++i)
     CHECK(centroid(bridge.layout.blocks[static_cast<std::size_t>(i)].polygon).x() >
           centroid(bridge.layout.blocks[static_cast<std::size_t>(i - 1)].polygon).x());

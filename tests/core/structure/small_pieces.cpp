@@ -38,7 +38,7 @@ TEST_CASE("The rest of a course below a tenth of a block stays at the last block
                  .smallest_block = 0.1};
   const BlockLayout layout = lay_blocks(bridge);
   CHECK(layout.small_pieces == SmallPieces{2, 0});
-  CHECK(layout.count_in_course(1) == 3);
+  CHECK(layout.last_position(1) == 3);
   const Block& last = layout[*layout.find({2, 3})];
   CHECK(area(last.polygon) == Approx(0.5 * 1.05));
   CHECK(last.polygon.size() == 4);
@@ -87,7 +87,7 @@ TEST_CASE("Of random bridges nothing is lost, no piece with a neighbour stays sm
     CHECK(total_area(layout) == Approx(total_area(lay_blocks(as_cut))).epsilon(1e-9));
     if (layout.small_pieces.left == 0) CHECK(smallest_share(layout, bridge.wall) >= 0.1 - 1e-12);
     for (int course = 1; course <= bridge.wall.courses; ++course)
-      for (int position = 1; position <= layout.count_in_course(course); ++position)
+      for (int position = 1; position <= layout.last_position(course); ++position)
         CHECK(layout.find({course, position}));
     joined_pieces += layout.small_pieces.joined;
     CHECK_NOTHROW(make_model(bridge));

@@ -119,8 +119,8 @@ TEST_CASE("Parts are laid where they stand, their courses counted on, and the pa
       parse_bridge_file("[[walls]]\nrole = \"parapet\"\nbase_y_m = 6\nlength_m = 20\ncourses = 2\n", "p.toml")
           .description);
   CHECK(bridge.layout.count_with(BlockRole::parapet) == 41);
-  CHECK(bridge.layout.count_in_course(13) == 21);
-  CHECK(bridge.layout.count_in_course(14) == 20);
+  CHECK(bridge.layout.last_position(13) == 21);
+  CHECK(bridge.layout.last_position(14) == 20);
   for (const Block& block : bridge.layout.blocks) CHECK(block.top_course == (block.index.course == 14));
   CHECK(bridge.symmetry.has_value());
 }

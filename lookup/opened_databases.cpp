@@ -1,4 +1,4 @@
-#include "lookup/locate_damage_desks.h"
+#include "lookup/opened_databases.h"
 
 #include <algorithm>
 
@@ -20,40 +20,41 @@ SensorList sensors_of(const Database& database, const LocateDamageOptions& optio
 }
 
 /// The same assumptions must not count twice.
-void require_another(const Database& database, const Desks& desks) {
-  for (const Desk& desk : desks)
-    if (desk.database.digest() == database.digest())
+void require_another(const Database& database, const OpenedDatabases& opened) {
+  for (const OpenedDatabase& one : opened)
+    if (one.database.digest() == database.digest())
       throw InputError(fmt::format("{} and {} are the same database (digest {}), expected each once",
-                                   desk.database.path().string(), database.path().string(),
+                                   one.database.path().string(), database.path().string(),
                                    database.digest().substr(0, kDigestShown)));
 }
 
-void open_desk(const LocateDamageOptions& options, const std::optional<std::string>& named, Desks& desks) {
+void open_database(const LocateDamageOptions& options, const std::optional<std::string>& named,
+                   OpenedDatabases& opened) {
   Database database = Database::open(find_database(named));
-  require_another(database, desks);
-  Desk& desk = desks.emplace_back(options, finish(options), std::move(database));
-  if (const auto& part = desk.database.shard())
+  require_another(database, opened);
+  OpenedDatabase& one = opened.emplace_back(options, finish(options), std::move(database));
+  if (const auto& part = one.database.shard())
     throw Failure(fmt::format("{}: is part {} of a database, expected the whole: see merge-databases",
-                              desk.database.path().string(), to_string(part->shard)));
-  desk.sensors = sensors_of(desk.database, options);
-  desk.sampled = sampled_bridges(desk.database, options.evidence);
+                              one.database.path().string(), to_string(part->shard)));
+  one.sensors = sensors_of(one.database, options);
+  one.sampled = sampled_bridges(one.database, options.evidence);
 }
 
-Answered ask_one(Desk& desk, const ReadingsText& readings) {
-  ComparisonSettings settings = comparison_settings(desk.options);
-  settings.sampled = desk.sampled;
-  Answered asked{&desk,
-                 compare(parse_readings(readings.text, readings.name, desk.sensors), desk.sensors,
-                         desk.database, settings),
-                 desk.settings,
-                 {}};
+Answered ask_one(OpenedDatabase& one, const ReadingsText& readings) {
+  ComparisonSettings settings = comparison_settings(one.options);
+  settings.sampled = one.sampled;
+  Answered asked{
+      &one,
+      compare(parse_readings(readings.text, readings.name, one.sensors), one.sensors, one.database, settings),
+      one.settings,
+      {}};
   asked.settings.noise = noise_of(asked.comparison.measured, asked.settings.noise);
-  asked.answer = desk.preparations.ask(asked.comparison, asked.settings);
+  asked.answer = one.preparations.ask(asked.comparison, asked.settings);
   return asked;
 }
 
 AskedDatabase summary_of(const Answered& asked) {
-  const Database& database = asked.desk->database;
+  const Database& database = asked.opened->database;
   const Posterior& posterior = *asked.answer.posterior;
   AskedDatabase summary{database.path().string(), database.bridge_name(), database.digest(),
                         verdict_of(asked.answer)};
@@ -67,37 +68,37 @@ AskedDatabase summary_of(const Answered& asked) {
 
 void require_comparable(const std::vector<Answered>& all) {
   std::vector<DatabaseReadings> readings;
-  for (const auto& [desk, comparison, settings, answer, databases] : all)
-    readings.push_back(database_readings(desk->database.path().string(), desk->database.control_points(),
-                                         comparison, answer));
+  for (const auto& [one, comparison, settings, answer, databases] : all)
+    readings.push_back(
+        database_readings(one->database.path().string(), one->database.control_points(), comparison, answer));
   require_one_bridge(readings);
   require_same_readings(readings);
 }
 
 /// One of several: messages say which.
-Answered ask_one_of_several(Desk& desk, const ReadingsText& readings) {
+Answered ask_one_of_several(OpenedDatabase& one, const ReadingsText& readings) {
   try {
-    return ask_one(desk, readings);
+    return ask_one(one, readings);
   } catch (const InputError& error) {
-    throw InputError(fmt::format("{} (asked of {})", error.what(), desk.database.path().string()));
+    throw InputError(fmt::format("{} (asked of {})", error.what(), one.database.path().string()));
   }
 }
 
 }  // namespace
 
-Desks open_desks(const LocateDamageOptions& options) {
+OpenedDatabases open_databases(const LocateDamageOptions& options) {
   if (options.databases.size() > 1 && options.settings.objective == Objective::paper)
     throw InputError("several databases are weighed by probabilities, expected --objective posterior");
-  Desks desks;
-  if (options.databases.empty()) open_desk(options, std::nullopt, desks);
-  for (const std::string& file : options.databases) open_desk(options, file, desks);
-  return desks;
+  OpenedDatabases opened;
+  if (options.databases.empty()) open_database(options, std::nullopt, opened);
+  for (const std::string& file : options.databases) open_database(options, file, opened);
+  return opened;
 }
 
-Answered ask(Desks& desks, const ReadingsText& readings) {
-  if (desks.size() == 1) return ask_one(desks.front(), readings);
+Answered ask(OpenedDatabases& opened, const ReadingsText& readings) {
+  if (opened.size() == 1) return ask_one(opened.front(), readings);
   std::vector<Answered> all;
-  for (Desk& desk : desks) all.push_back(ask_one_of_several(desk, readings));
+  for (OpenedDatabase& one : opened) all.push_back(ask_one_of_several(one, readings));
   require_comparable(all);
   std::vector<AskedDatabase> databases;
   for (const Answered& one : all) databases.push_back(summary_of(one));

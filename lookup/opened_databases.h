@@ -15,8 +15,8 @@
 namespace voussoir {
 
 /// A database, and what all questions to it share beside their readings.
-struct Desk {
-  const LocateDamageOptions& options;  ///< outlive the desk
+struct OpenedDatabase {
+  const LocateDamageOptions& options;  ///< outlive this
   LookupSettings settings;
   Database database;
   SensorList sensors;
@@ -24,15 +24,15 @@ struct Desk {
   Preparations preparations{};
 };
 
-using Desks = std::list<Desk>;  // a desk stays where it is
+using OpenedDatabases = std::list<OpenedDatabase>;  // each stays where it is
 
 /// Throws Failure for what is no whole database, InputError for options and files that do not go together and
 /// for a database that comes twice.
-Desks open_desks(const LocateDamageOptions& options);
+OpenedDatabases open_databases(const LocateDamageOptions& options);
 
 /// A question with the answer of the database whose assumptions are likeliest.
 struct Answered {
-  const Desk* desk;
+  const OpenedDatabase* opened;
   Comparison comparison;
   LookupSettings settings;
   Answer answer;
@@ -41,6 +41,6 @@ struct Answered {
 
 /// Puts a question to all databases. Throws InputError for readings that one of them cannot be asked about,
 /// and for databases that cannot be weighed against each other (weighed_databases.h).
-Answered ask(Desks& desks, const ReadingsText& readings);
+Answered ask(OpenedDatabases& opened, const ReadingsText& readings);
 
 }  // namespace voussoir
