@@ -91,9 +91,8 @@ std::optional<Fit> check_gross_errors(const QuestionContext& asked, const Answer
   for (const std::size_t row : rows_otherwise(asked, alarm.rows, alarm.named))
     for (const std::vector<GrossError>& gross : suspects_of(asked, row)) {
       const double chance = gross.size() > 1 ? kOfOneBlock * kGrossChance : kGrossChance;
-      const auto scene =
-          explained_by(asked, answer, alarm,
-                       {{.gross = gross}, chance, without(asked.observation, channels_of(gross))});
+      const auto scene = explained_by(
+          asked, answer, alarm, {{.gross = gross}, chance, without(asked.observation, channels_of(gross))});
       if (scene)
         return Fit{false, answer.fit->chance,
                    fmt::format("{}, {} would be likely, too",

@@ -159,7 +159,10 @@ void judge_unknown_bridge(const QuestionContext& asked, Answer& answer) {
   answer.bridge = {question.bridge(), std::move(posterior)};
   answer.fit = check_fit(answer.bridge->posterior);
   answer.residuals = sensor_residuals(observation, answer.bridge->model, answer.bridge->posterior);
-  if (!answer.fit->explained) name_farthest(comparison.library, answer);
+  if (!answer.fit->explained) {
+    name_farthest(comparison.library, answer);
+    if (const auto load = load_that_explains(asked)) answer.fit->reason += "; " + *load;
+  }
   if (answer.fit->explained)
     if (const auto doubt = check_scatter(answer.bridge->model, answer.bridge->posterior)) answer.fit = doubt;
   if (answer.fit->explained)

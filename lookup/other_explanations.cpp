@@ -152,6 +152,13 @@ std::optional<Fit> check_hidden_losses(const QuestionContext& asked, const Answe
 
 }  // namespace
 
+std::optional<std::string> load_that_explains(const QuestionContext& asked) {
+  const std::vector<UnstatedLoad> loads = asked.question.unstated_loads(1);
+  if (loads.empty() || loads.front().chance < kSmallestChance) return std::nullopt;
+  return fmt::format("{} on an intact bridge would explain them",
+                     in_words(loads.front(), asked.comparison.kind));
+}
+
 std::optional<Fit> find_other(const QuestionContext& asked, const Answer& answer) {
   const bool is_alarm = 1.0 - intact_probability(*answer.posterior) >= kCertain;
   const Alarm alarm = is_alarm ? alarm_of(asked, answer) : Alarm{};

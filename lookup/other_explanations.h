@@ -15,4 +15,8 @@ namespace voussoir {
 /// what the readings say of the bridge.
 std::optional<Fit> find_other(const QuestionContext& asked, const Answer& answer);
 
+/// In words, a load that is not stated and with which an intact bridge would show such readings, if there may
+/// be one.
+std::optional<std::string> load_that_explains(const QuestionContext& asked);
+
 }  // namespace voussoir

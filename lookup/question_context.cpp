@@ -79,8 +79,8 @@ std::optional<Scene> explained_by(const QuestionContext& asked, const Answer& an
   rows.insert(rows.end(), alarm.rows.begin(), alarm.rows.end());
   rows = rows_otherwise(asked, std::move(rows), alarm.named);
   if (rows.empty()) return std::nullopt;
-  const std::vector<double> logs = asked.question.log_parts_of(rows, asked.preparation.eligible(),
-                                                               answer.prior, alternative.supposed);
+  const std::vector<double> logs =
+      asked.question.log_parts_of(rows, asked.preparation.eligible(), answer.prior, alternative.supposed);
   if (!is_likely_beside(answer, std::log(alternative.chance) + log_sum_of(logs))) return std::nullopt;
   return asked.comparison.library.table.scene(
       rows[static_cast<std::size_t>(std::ranges::max_element(logs) - logs.begin())]);

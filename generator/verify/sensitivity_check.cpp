@@ -34,6 +34,17 @@ bool is_same_influence(const LoadInfluence& found, const LoadInfluence& expected
          largest(found.readings - expected.readings) <= kSameSensitivity * largest(expected.readings);
 }
 
+std::vector<std::string> problems_of_intact(const Sensitivities& stored, const SensitivityStudy& study,
+                                            const SensitivityEquations& equations,
+                                            const SceneStates& intact) {
+  std::vector<std::string> problems;
+  if (!is_same_unevenness(stored.unevenness, find_unevenness(study, intact)))
+    problems.push_back("what differs from part to part of the intact bridge is not that of its field");
+  if (!is_same_influence(stored.load, find_load_influence(study, equations, intact)))
+    problems.push_back("what a load adds to the intact bridge's readings is not that of its field");
+  return problems;
+}
+
 }  // namespace
 
 SensitivityCheck check_sensitivities(const Database& database, const Model& bridge,
@@ -49,10 +60,7 @@ SensitivityCheck check_sensitivities(const Database& database, const Model& brid
   const SensitivityEquations equations(bridge, uncertain_parameters(bridge, uncertainty));
   SceneDerivatives derivatives(study, equations);
   const SceneStates intact = stored_states(database, *intact_row, plan);
-  if (!is_same_unevenness(stored->unevenness, find_unevenness(study, intact)))
-    check.problems.push_back("what differs from part to part of the intact bridge is not that of its field");
-  if (!is_same_influence(stored->load, find_load_influence(study, equations, intact)))
-    check.problems.push_back("what a load adds to the intact bridge's readings is not that of its field");
+  check.problems = problems_of_intact(*stored, study, equations, intact);
   const std::size_t count = std::min(kCheckedSensitivities, stored->scenes.size());
   for (std::size_t i = 0; i < count; ++i) {
     const Scene& scene = stored->scenes[i * stored->scenes.size() / count];

@@ -5,7 +5,10 @@
 
 namespace voussoir {
 
-/// In the bridge's case, all that scatters as the bridge file states.
+/// [m2] of y in the bridge's case, all that scatters as the bridge file states.
+Eigen::MatrixXd intact_covariance(const UnknownBridge& bridge);
+
+/// With that covariance C.
 struct IntactGaussian {
   Eigen::MatrixXd precision;  ///< C^-1
   Eigen::VectorXd pulled;     ///< C^-1 y

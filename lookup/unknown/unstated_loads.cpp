@@ -2,6 +2,7 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
+#include <boost/math/special_functions/gamma.hpp>
 #include <cmath>
 #include <functional>
 
@@ -45,16 +46,17 @@ struct SeenLoads {
 
 /// Of a stretch: w ~ N(0, 1) at each of its places.
 struct StretchFit {
-  VectorXd forces;  // most likely w
+  VectorXd forces;   // most likely w
+  UnknownCase best;  // in which the readings are likeliest
   double log = -std::numeric_limits<double>::infinity();
 };
 
-StretchFit fit_of(const SeenLoads& loads, const Stretch& stretch) {
+StretchFit fit_of(const SeenLoads& loads, const Stretch& stretch, const UnknownCase& one) {
   const VectorXd pulled = loads.pulled.segment(stretch.first, stretch.count);
   MatrixXd precision = loads.seen.block(stretch.first, stretch.first, stretch.count, stretch.count);
   precision.diagonal().array() += 1.0;
   const Eigen::LLT<MatrixXd> root(precision);
-  StretchFit fit{root.solve(pulled)};
+  StretchFit fit{root.solve(pulled), one};
   fit.log = loads.log + 0.5 * pulled.dot(fit.forces) - root.matrixLLT().diagonal().array().log().sum();
   return fit;
 }
@@ -66,7 +68,8 @@ std::vector<MatrixXd> columns_of(const UnknownBridge& bridge) {
   MatrixXd of_channels(static_cast<Index>(bridge.factors->channels.size()), influence.cols());
   for (Index k = 0; k < of_channels.rows(); ++k)
     of_channels.row(k) =
-        kUnstatedForce * influence.row(static_cast<Index>(bridge.factors->channels[static_cast<std::size_t>(k)].point));
+        kUnstatedForce *
+        influence.row(static_cast<Index>(bridge.factors->channels[static_cast<std::size_t>(k)].point));
   const MatrixXd none = MatrixXd::Zero(of_channels.rows(), of_channels.cols());
   std::vector<MatrixXd> columns = {in_rows(bridge.rows, none, of_channels)};
   if (bridge.has_first_epoch()) columns.push_back(in_rows(bridge.rows, of_channels, none));
@@ -85,8 +88,17 @@ UnstatedLoad load_of(const std::vector<double>& places, const Stretch& stretch, 
   const double mean_square = load.expected.squaredNorm() / static_cast<double>(load.expected.size());
   load.covariance.diagonal() += kOwnShare * kOwnShare * load.expected.cwiseAbs2();
   load.covariance.diagonal().array() += kCommonShare * kCommonShare * mean_square;
+  load.best = fit.best;
   load.log = fit.log;
   return load;
+}
+
+/// UnstatedLoad::chance, all that scatters as the bridge file states.
+double chance_under(const UnstatedLoad& load, UnknownBridge& bridge, const Observation& observation) {
+  set_case(observation, load.best, bridge);
+  const MatrixXd covariance = intact_covariance(bridge) + load.covariance;
+  return boost::math::gamma_q(0.5 * static_cast<double>(bridge.reading.size()),
+                              0.5 * bridge.reading.dot(covariance.llt().solve(bridge.reading)));
 }
 
 }  // namespace
@@ -105,13 +117,14 @@ std::vector<UnstatedLoad> unstated_loads(UnknownBridge& bridge, const Observatio
       const SeenLoads seen{columns.transpose() * intact.precision * columns,
                            columns.transpose() * intact.pulled, intact.log};
       for (std::size_t i = 0; i < stretches.size(); ++i)
-        if (StretchFit fit = fit_of(seen, stretches[i]); fit.log > best[i].log) best[i] = std::move(fit);
+        if (StretchFit fit = fit_of(seen, stretches[i], one); fit.log > best[i].log) best[i] = std::move(fit);
     }
     for (std::size_t i = 0; i < stretches.size(); ++i)
       loads.push_back(load_of(places, stretches[i], columns, best[i]));
   }
   std::ranges::stable_sort(loads, std::ranges::greater{}, &UnstatedLoad::log);
   loads.resize(std::min(loads.size(), count));
+  for (UnstatedLoad& load : loads) load.chance = chance_under(load, bridge, observation);
   return loads;
 }
 

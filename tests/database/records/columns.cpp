@@ -38,6 +38,12 @@ std::map<std::string, Row> rows_of_readme() {
   return rows;
 }
 
+std::size_t corners_of(const Model& bridge) {
+  std::size_t corners = 0;
+  for (const Block& block : bridge.layout.blocks) corners += block.polygon.size();
+  return corners;
+}
+
 /// A database in which all extents are different numbers, so that one cannot stand for another.
 struct ManySizes {
   static constexpr std::size_t kScenes = 50, kVariants = 3, kStates = 4;
@@ -54,8 +60,6 @@ struct ManySizes {
     content.sensitivities = test::made_up_sensitivities(bridge, scenes, kStates);
     test::write_made_up_records(path, content);
     const Database database = Database::open(path);
-    std::size_t corners = 0;
-    for (const Block& block : bridge.layout.blocks) corners += block.polygon.size();
     extents = {{"R", kScenes * kVariants},
                {"S", kScenes},
                {"Q", kStates},
@@ -66,7 +70,7 @@ struct ManySizes {
                {"K", database.search_index().clusters()},
                {"K + 1", database.search_index().clusters() + 1},
                {"B", bridge.layout.size()},
-               {"C", corners},
+               {"C", corners_of(bridge)},
                {"N", static_cast<std::uint64_t>(bridge.mesh.node_count())},
                {"T", bridge.mesh.triangles.size()},
                {"E", bridge.mesh.edges.size()},

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <boost/math/distributions/chi_squared.hpp>
 #include <catch2/catch.hpp>
 #include <functional>
 #include <numbers>
@@ -58,9 +59,8 @@ MatrixXd columns_of(const UnknownBridge& bridge, const LoadInfluence& load, doub
     columns.conservativeResize(Eigen::NoChange, columns.cols() + 1);
     for (Index k = 0; k < columns.rows(); ++k) {
       const ReadingRow& row = bridge.rows[static_cast<std::size_t>(k)];
-      columns(k, columns.cols() - 1) =
-          kUnstatedForce * (second ? row.after : row.before) *
-          load.readings(static_cast<Index>(row.channel), static_cast<Index>(i));
+      columns(k, columns.cols() - 1) = kUnstatedForce * (second ? row.after : row.before) *
+                                       load.readings(static_cast<Index>(row.channel), static_cast<Index>(i));
     }
   }
   return columns;
@@ -79,8 +79,7 @@ Expected expected_of(UnknownBridge& bridge, const Observation& observation, cons
     set_case(observation, one, bridge);
     const MatrixXd scatter = bridge_columns(bridge, Scene{});
     const MatrixXd own = columns * columns.transpose();
-    const MatrixXd covariance =
-        scene_noise(bridge, {{}, zero, zero}) + scatter * scatter.transpose() + own;
+    const MatrixXd covariance = scene_noise(bridge, {{}, zero, zero}) + scatter * scatter.transpose() + own;
     const double log = log_normal(bridge.reading, covariance);
     if (log < best.log) continue;
     const VectorXd forces = columns.transpose() * covariance.ldlt().solve(bridge.reading);
@@ -111,11 +110,18 @@ TEST_CASE("A load on a stretch explains readings as well as its covariance makes
     double nearest = std::numeric_limits<double>::infinity();
     for (const bool second : {true, false}) {
       if (!second && !both) continue;
-      const MatrixXd columns =
-          columns_of(bridge, readings.sensitivities.load, load.from, load.to, second);
+      const MatrixXd columns = columns_of(bridge, readings.sensitivities.load, load.from, load.to, second);
       const Expected expected = expected_of(bridge, observation, columns);
       if (std::abs(expected.log - constant - load.log) > 1e-6 * std::abs(load.log)) continue;
       nearest = (load.expected - expected.mean).norm() / expected.mean.norm();
+      set_case(observation, load.best, bridge);
+      const MatrixXd scatter = bridge_columns(bridge, Scene{});
+      const VectorXd zero = VectorXd::Zero(bridge.reading.size());
+      const MatrixXd covariance =
+          scene_noise(bridge, {{}, zero, zero}) + scatter * scatter.transpose() + load.covariance;
+      const double square = bridge.reading.dot(covariance.ldlt().solve(bridge.reading));
+      const boost::math::chi_squared of_readings(static_cast<double>(bridge.reading.size()));
+      CHECK(load.chance == Approx(cdf(complement(of_readings, square))).margin(1e-9));
       CHECK(load.force == Approx(expected.force).epsilon(1e-6));
       const MatrixXd beyond = load.covariance - columns * columns.transpose();
       CHECK(MatrixXd(beyond.diagonal().asDiagonal()).isApprox(beyond, 1e-6));
