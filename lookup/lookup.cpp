@@ -137,13 +137,17 @@ void judge_known_bridge(const Library& library, const Observation& observation, 
   answer.fit = fit_of(library, observation, answer);
 }
 
-/// A fit that explains nothing names the reading that is farthest from all others, if one disagrees.
-void name_farthest(const Library& library, Answer& answer) {
+/// A fit that explains nothing names the reading that is farthest from all others, if one disagrees, or a
+/// load that would explain them.
+void name_suspect(const QuestionContext& asked, Answer& answer) {
   const auto farthest = std::ranges::max_element(answer.residuals, {}, [](const SensorResidual& sensor) {
     return sensor.disagrees ? std::abs(sensor.error) : 0.0;
   });
   if (farthest != answer.residuals.end() && farthest->disagrees)
-    answer.fit->reason += fmt::format(", at {} most of all", library.points[farthest->point].name);
+    answer.fit->reason +=
+        fmt::format(", at {} most of all", asked.comparison.library.points[farthest->point].name);
+  else if (const auto load = load_that_explains(asked))
+    answer.fit->reason += "; " + *load;
 }
 
 /// The same, and what the readings say of the bridge, averaged over the likeliest scenes.
@@ -159,10 +163,7 @@ void judge_unknown_bridge(const QuestionContext& asked, Answer& answer) {
   answer.bridge = {question.bridge(), std::move(posterior)};
   answer.fit = check_fit(answer.bridge->posterior);
   answer.residuals = sensor_residuals(observation, answer.bridge->model, answer.bridge->posterior);
-  if (!answer.fit->explained) {
-    name_farthest(comparison.library, answer);
-    if (const auto load = load_that_explains(asked)) answer.fit->reason += "; " + *load;
-  }
+  if (!answer.fit->explained) name_suspect(asked, answer);
   if (answer.fit->explained)
     if (const auto doubt = check_scatter(answer.bridge->model, answer.bridge->posterior)) answer.fit = doubt;
   if (answer.fit->explained)

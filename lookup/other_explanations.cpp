@@ -14,8 +14,9 @@ constexpr std::size_t kMostFalls = 10;  // scenes near the readings, of which th
 constexpr std::array kTimesErrors = {3.0, 10.0, 100.0};  // errors that are asked about, of what is stated
 constexpr std::size_t kMostLoads = 3;                    // stretches of the top that a load may stand on
 constexpr double kNewtonsPerKilonewton = 1e3;
-constexpr double kLoadChance = 1e-3;     // beforehand that one stood there and is not stated
-constexpr std::size_t kMostNear = 3;     // scenes near the readings without those on a block
+constexpr double kLeastForce = 10e3;  // [N/m] of a load that is spoken of where nothing explains the readings
+constexpr double kLoadChance = 1e-3;  // beforehand that one stood there and is not stated
+constexpr std::size_t kMostNear = 3;  // scenes near the readings without those on a block
 constexpr std::size_t kMostHidden = 3;   // losses that only readings on their blocks exclude
 constexpr std::size_t kMostLikely = 10;  // scenes that each of them competes with
 // Beforehand that what was read on a block goes on giving a value when the block is lost: the block is loose
@@ -67,18 +68,26 @@ Observation without(const UnknownBridge& bridge, Observation observation, const 
   return observation;
 }
 
-/// "a load of about 53 kN for each metre of the bridge's width between x = 8 and 16 m at one of the two
+/// To one digit: forces are known to a factor of two.
+double to_one_digit(double value) {
+  if (value == 0.0) return 0.0;
+  const double unit = std::pow(10.0, std::floor(std::log10(value)));
+  return unit * std::round(value / unit);
+}
+
+/// "a load of about 50 kN for each metre of the bridge's width between x = 8 and 16 m at one of the two
 /// times"
 std::string in_words(const UnstatedLoad& load, ReadingKind kind) {
   return fmt::format(
-      "a load of about {:.2g} kN for each metre of the bridge's width between x = {:g} and {:g} m{}",
-      std::abs(load.force) / kNewtonsPerKilonewton, load.from, load.to,
+      "a load of about {:g} kN for each metre of the bridge's width between x = {:g} and {:g} m{}",
+      to_one_digit(std::abs(load.force) / kNewtonsPerKilonewton), load.from, load.to,
       is_change(kind) ? " at one of the two times" : "");
 }
 
 /// Did something stand on the bridge that nobody stated, so that others would be likely?
 std::optional<Fit> check_unstated_loads(const QuestionContext& asked, const Answer& answer,
                                         const Alarm& alarm) {
+  const SceneTable& table = asked.comparison.library.table;
   for (const UnstatedLoad& load : asked.question.unstated_loads(kMostLoads)) {
     const auto scene = explained_by(asked, answer, alarm,
                                     {{.beside = load.covariance},
@@ -86,8 +95,9 @@ std::optional<Fit> check_unstated_loads(const QuestionContext& asked, const Answ
                                      without(asked.question.bridge(), asked.observation, load)});
     if (scene)
       return Fit{false, answer.fit->chance,
-                 fmt::format("{} would explain them, too; {} would be likely then",
-                             in_words(load, asked.comparison.kind), scene_in_words(asked, *scene))};
+                 fmt::format("{} may be behind them: with it {} would be likely, without it {}",
+                             in_words(load, asked.comparison.kind), scene_in_words(asked, *scene),
+                             scene_in_words(asked, table.scene(answer.posterior->credible.front())))};
   }
   return std::nullopt;
 }
@@ -154,7 +164,10 @@ std::optional<Fit> check_hidden_losses(const QuestionContext& asked, const Answe
 
 std::optional<std::string> load_that_explains(const QuestionContext& asked) {
   const std::vector<UnstatedLoad> loads = asked.question.unstated_loads(1);
-  if (loads.empty() || loads.front().chance < kSmallestChance) return std::nullopt;
+  const bool is_needed = !loads.empty() && loads.front().without < kSmallestChance &&
+                         loads.front().chance >= kSmallestChance &&
+                         std::abs(loads.front().force) >= kLeastForce;
+  if (!is_needed) return std::nullopt;
   return fmt::format("{} on an intact bridge would explain them",
                      in_words(loads.front(), asked.comparison.kind));
 }

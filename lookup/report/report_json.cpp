@@ -85,7 +85,7 @@ ordered_json sensors_json(const Answer& answer, const Comparison& comparison) {
     entry.update({{"reading_m", shown.reading[sensor.point]},
                   {"predicted_m", shown.expected[sensor.point]},
                   {"expected_m", sensor.predicted - origin[sensor.point]},
-                  {"standard_error", sensor.error},
+                  {"standardised_residual", sensor.error},
                   {"disagrees", sensor.disagrees}});
     result.push_back(std::move(entry));
   }

@@ -2,6 +2,7 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
+#include <array>
 #include <boost/math/special_functions/gamma.hpp>
 #include <cmath>
 #include <functional>
@@ -15,11 +16,11 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kHalfStretch = 5.0;  // [m] a vehicle, or its heavy axles
+constexpr std::array kHalfStretches = {2.5, 5.0};  // [m] a car or a lorry, or a long one
 // What the first order and the joints' scatter leave of what a load adds, as a share of it at each point and
-// of its root mean square: of a lorry of 16 t on sampled bridges 2 to 5 % (docs/uncertainty.md).
-constexpr double kOwnShare = 0.05;
-constexpr double kCommonShare = 0.02;
+// of its root mean square: of lorries on sampled bridges 2 to 7 % (docs/uncertainty.md).
+constexpr double kOwnShare = 0.08;
+constexpr double kCommonShare = 0.03;
 
 /// Neighbouring places.
 struct Stretch {
@@ -29,11 +30,12 @@ struct Stretch {
 /// About each place, with what is near it.
 std::vector<Stretch> stretches_of(const std::vector<double>& places) {
   std::vector<Stretch> stretches;
-  for (const double centre : places) {
-    const auto first = std::ranges::lower_bound(places, centre - kHalfStretch);
-    const auto end = std::ranges::upper_bound(places, centre + kHalfStretch);
-    stretches.push_back({first - places.begin(), end - first});
-  }
+  for (const double half : kHalfStretches)
+    for (const double centre : places) {
+      const auto first = std::ranges::lower_bound(places, centre - half);
+      const auto end = std::ranges::upper_bound(places, centre + half);
+      stretches.push_back({first - places.begin(), end - first});
+    }
   return stretches;
 }
 
@@ -93,12 +95,18 @@ UnstatedLoad load_of(const std::vector<double>& places, const Stretch& stretch, 
   return load;
 }
 
-/// UnstatedLoad::chance, all that scatters as the bridge file states.
-double chance_under(const UnstatedLoad& load, UnknownBridge& bridge, const Observation& observation) {
+/// Of a square as large as that of the readings, or larger.
+double chance_of(const VectorXd& reading, const MatrixXd& covariance) {
+  return boost::math::gamma_q(0.5 * static_cast<double>(reading.size()),
+                              0.5 * reading.dot(covariance.llt().solve(reading)));
+}
+
+/// All that scatters as the bridge file states.
+void add_chances(UnknownBridge& bridge, const Observation& observation, UnstatedLoad& load) {
   set_case(observation, load.best, bridge);
-  const MatrixXd covariance = intact_covariance(bridge) + load.covariance;
-  return boost::math::gamma_q(0.5 * static_cast<double>(bridge.reading.size()),
-                              0.5 * bridge.reading.dot(covariance.llt().solve(bridge.reading)));
+  const MatrixXd covariance = intact_covariance(bridge);
+  load.without = chance_of(bridge.reading, covariance);
+  load.chance = chance_of(bridge.reading, covariance + load.covariance);
 }
 
 }  // namespace
@@ -124,7 +132,7 @@ std::vector<UnstatedLoad> unstated_loads(UnknownBridge& bridge, const Observatio
   }
   std::ranges::stable_sort(loads, std::ranges::greater{}, &UnstatedLoad::log);
   loads.resize(std::min(loads.size(), count));
-  for (UnstatedLoad& load : loads) load.chance = chance_under(load, bridge, observation);
+  for (UnstatedLoad& load : loads) add_chances(bridge, observation, load);
   return loads;
 }
 

@@ -19,7 +19,8 @@ struct UnstatedLoad {
                        ///< changes positive if it stood there at the second levelling
   Eigen::VectorXd expected;    ///< [m] in rows of y: what it most likely adds
   Eigen::MatrixXd covariance;  ///< [m2] the same: what any load there may add
-  double chance = 0.0;         ///< of readings as far from an intact bridge under it as these, or farther
+  double chance = 0.0;         ///< of readings as far from an intact bridge under it as these, or farther,
+  double without = 0.0;        ///< and from an intact bridge without it
   UnknownCase best;            ///< in which the readings are likeliest
   double log = 0.0;            ///< density of the readings, but for what all cases have in common
 };
