@@ -177,11 +177,11 @@ std::optional<Fit> find_other(const QuestionContext& asked, const Answer& answer
   const Alarm alarm = is_alarm ? alarm_of(asked, answer) : Alarm{};
   if (is_alarm)
     if (const auto gross = check_gross_errors(asked, answer, alarm)) return gross;
+  if (const auto hidden = check_hidden_losses(asked, answer)) return hidden;
   if (is_alarm)
     if (const auto load = check_unstated_loads(asked, answer, alarm)) return load;
   if (const auto sizes = check_sizes(answer.bridge->posterior)) return sizes;
   if (const auto falls = check_falls(asked, answer)) return falls;
-  if (const auto hidden = check_hidden_losses(asked, answer)) return hidden;
   return is_alarm && !asked.observation.unknown_level ? check_stated_errors(asked, answer, alarm)
                                                       : std::nullopt;
 }
