@@ -16,7 +16,8 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr std::array kHalfStretches = {2.5, 5.0};  // [m] a car or a lorry, or a long one
+constexpr std::array kLengths = {5.0, 10.0};  // [m] of stretches: a lorry, or a long one
+constexpr double kRounding = 1e-6;            // [m] of places
 // What the first order and the joints' scatter leave of what a load adds, as a share of it at each point and
 // of its root mean square: of lorries on sampled bridges 2 to 7 % (docs/uncertainty.md).
 constexpr double kOwnShare = 0.08;
@@ -27,15 +28,17 @@ struct Stretch {
   Index first = 0, count = 0;
 };
 
-/// About each place, with what is near it.
+/// From each place on, as long as they fit: shorter ones at the ends would be as blocks that are lost there.
 std::vector<Stretch> stretches_of(const std::vector<double>& places) {
   std::vector<Stretch> stretches;
-  for (const double half : kHalfStretches)
-    for (const double centre : places) {
-      const auto first = std::ranges::lower_bound(places, centre - half);
-      const auto end = std::ranges::upper_bound(places, centre + half);
-      stretches.push_back({first - places.begin(), end - first});
+  const auto count = static_cast<Index>(places.size());
+  for (const double length : kLengths) {
+    const double fits = std::min(length, places.back() - places.front()) - kRounding;
+    for (Index first = 0; first < count; ++first) {
+      const auto end = std::ranges::lower_bound(places, places[static_cast<std::size_t>(first)] + fits);
+      if (end != places.end()) stretches.push_back({first, end + 1 - places.begin() - first});
     }
+  }
   return stretches;
 }
 
