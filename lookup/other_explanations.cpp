@@ -14,11 +14,11 @@ constexpr std::size_t kMostFalls = 10;  // scenes near the readings, of which th
 constexpr std::array kTimesErrors = {3.0, 10.0, 100.0};  // errors that are asked about, of what is stated
 constexpr std::size_t kMostLoads = 3;                    // stretches of the top that a load may stand on
 constexpr double kNewtonsPerKilonewton = 1e3;
-constexpr double kLeastForce = 10e3;  // [N/m] of a load that is spoken of where nothing explains the readings
-constexpr double kLoadChance = 1e-3;  // beforehand that one stood there and is not stated
-constexpr std::size_t kMostNear = 3;  // scenes near the readings without those on a block
-constexpr std::size_t kMostHidden = 3;   // losses that only readings on their blocks exclude
-constexpr std::size_t kMostLikely = 10;  // scenes that each of them competes with
+constexpr double kLeastForce = 10e3;        // [N/m] of a load that is spoken of: less is no vehicle
+constexpr double kLoadChance = 1e-3;        // beforehand that one stood there and is not stated
+constexpr std::size_t kMostNearOthers = 3;  // scenes near the readings without those on a block
+constexpr std::size_t kMostHidden = 3;      // losses that only readings on their blocks exclude
+constexpr std::size_t kMostLikely = 10;     // scenes that each of them competes with
 // Beforehand that what was read on a block goes on giving a value when the block is lost: the block is loose
 // and carries nothing, but hangs there; a logger repeats its last value; the target was on the one beside it.
 constexpr double kKeptChance = 1e-2;
@@ -75,29 +75,32 @@ double to_one_digit(double value) {
   return unit * std::round(value / unit);
 }
 
-/// "a load of about 50 kN for each metre of the bridge's width between x = 8 and 16 m at one of the two
-/// times"
+/// "a load of about 50 kN for each metre of the bridge's width between x = 8 and 16 m at the second of the
+/// two times"
 std::string in_words(const UnstatedLoad& load, ReadingKind kind) {
   return fmt::format(
-      "a load of about {:g} kN for each metre of the bridge's width between x = {:g} and {:g} m{}",
-      to_one_digit(std::abs(load.force) / kNewtonsPerKilonewton), load.from, load.to,
-      is_change(kind) ? " at one of the two times" : "");
+      "a load of about {:g} kN for each metre of the bridge's width between x = {:.3g} and {:.3g} m{}",
+      to_one_digit(load.force / kNewtonsPerKilonewton), load.from, load.to,
+      !is_change(kind)   ? ""
+      : load.first_epoch ? " at the first of the two times"
+                         : " at the second of the two times");
 }
 
 /// Did something stand on the bridge that nobody stated, so that others would be likely?
 std::optional<Fit> check_unstated_loads(const QuestionContext& asked, const Answer& answer,
                                         const Alarm& alarm) {
-  const SceneTable& table = asked.comparison.library.table;
+  const std::string named =
+      alarm.named.empty() ? "some block" : to_string(Scene{alarm.named}, asked.comparison.library.layout);
   for (const UnstatedLoad& load : asked.question.unstated_loads(kMostLoads)) {
+    if (load.force < kLeastForce) continue;
     const auto scene = explained_by(asked, answer, alarm,
                                     {{.beside = load.covariance},
                                      kLoadChance,
                                      without(asked.question.bridge(), asked.observation, load)});
     if (scene)
       return Fit{false, answer.fit->chance,
-                 fmt::format("{} may be behind them: with it {} would be likely, without it {}",
-                             in_words(load, asked.comparison.kind), scene_in_words(asked, *scene),
-                             scene_in_words(asked, table.scene(answer.posterior->credible.front())))};
+                 fmt::format("{} may be behind them: with it {} would be likely, without it {} is missing",
+                             in_words(load, asked.comparison.kind), scene_in_words(asked, *scene), named)};
   }
   return std::nullopt;
 }
@@ -108,7 +111,7 @@ std::vector<std::size_t> rows_with_hidden(const QuestionContext& asked, const An
   const SceneTable& table = asked.comparison.library.table;
   const Eligible& eligible = asked.preparation.eligible();
   const std::vector<std::size_t>& likely = answer.posterior->credible;
-  std::vector<std::size_t> rows = rows_near(asked, others, kMostNear);
+  std::vector<std::size_t> rows = rows_near(asked, others, kMostNearOthers);
   rows.insert(rows.end(), likely.begin(),
               likely.begin() + static_cast<std::ptrdiff_t>(std::min(likely.size(), kMostLikely)));
   if (eligible.missing.front() == 0) rows.push_back(eligible.rows.front());
@@ -165,8 +168,7 @@ std::optional<Fit> check_hidden_losses(const QuestionContext& asked, const Answe
 std::optional<std::string> load_that_explains(const QuestionContext& asked) {
   const std::vector<UnstatedLoad> loads = asked.question.unstated_loads(1);
   const bool is_needed = !loads.empty() && loads.front().without < kSmallestChance &&
-                         loads.front().chance >= kSmallestChance &&
-                         std::abs(loads.front().force) >= kLeastForce;
+                         loads.front().chance >= kSmallestChance && loads.front().force >= kLeastForce;
   if (!is_needed) return std::nullopt;
   return fmt::format("{} on an intact bridge would explain them",
                      in_words(loads.front(), asked.comparison.kind));

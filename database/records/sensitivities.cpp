@@ -1,6 +1,7 @@
 #include "database/records/sensitivities.h"
 
 #include <algorithm>
+#include <functional>
 
 #include "database/format/names.h"
 #include "database/records/record_key.h"
@@ -10,6 +11,8 @@ namespace voussoir {
 namespace {
 
 using Shape = std::vector<std::uint64_t>;
+
+constexpr double kMostInfluence = 1e-3;  // [m per N/m] bridges have some 1e-8
 
 std::uint64_t extent(Eigen::Index size) {
   return static_cast<std::uint64_t>(size);
@@ -238,11 +241,16 @@ void read_unevenness(const Hdf5File& file, const SensitivitySizes& sizes, Sensit
 void read_load(const Hdf5File& file, const SensitivitySizes& sizes, Sensitivities& into) {
   const StackedMatrices found = read_matrices(file, dataset::kLoadInfluence, {}, sizes.points);
   if (found.columns() == 0) return;
-  const auto places =
-      finite_numbers(file, dataset::kLoadPlace, {static_cast<std::uint64_t>(found.columns())});
-  file.require(std::ranges::is_sorted(places),
+  const auto count = static_cast<std::uint64_t>(found.columns());
+  file.require(count <= kMostLoadPlaces, fmt::format("dataset '{}' has {} columns, at most {} were expected",
+                                                     dataset::kLoadInfluence, count, kMostLoadPlaces));
+  const auto places = finite_numbers(file, dataset::kLoadPlace, {count});
+  file.require(std::ranges::adjacent_find(places, std::greater_equal{}) == places.end(),
                fmt::format("dataset '{}': expected places in ascending order", dataset::kLoadPlace));
   into.load = {{places.begin(), places.end()}, found[0]};
+  file.require(into.load.readings.cwiseAbs().maxCoeff() < kMostInfluence,
+               fmt::format("dataset '{}' holds a number that is not below {:g}", dataset::kLoadInfluence,
+                           kMostInfluence));
 }
 
 void read_factors(const Hdf5File& file, const SensitivitySizes& sizes, Sensitivities& into) {

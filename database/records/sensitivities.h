@@ -59,6 +59,9 @@ struct FactorsView {
   StackedMatrices::View bridge, epoch, left;
 };
 
+/// Places on the top of a bridge that what a load adds is kept for, at most.
+inline constexpr std::size_t kMostLoadPlaces = 201;
+
 /// What a load that stands on the top adds to the intact bridge's readings under its own weight.
 struct LoadInfluence {
   std::vector<double> places;  ///< x along the top, ascending [m]

@@ -9,14 +9,13 @@
 namespace voussoir {
 namespace {
 
-constexpr double kSpacing = 0.5;        // [m] of places along the top: a wheel is not felt more sharply
-constexpr double kMostIntervals = 200;  // between places, on long bridges
+constexpr double kSpacing = 0.5;  // [m] of places along the top: a wheel is not felt more sharply
 
 /// Evenly along the bridge, where there is a block to carry a load [m].
 std::vector<double> places_on_top(const Structure& structure, const TopSurface& top) {
   const auto x = structure.mesh.nodes.row(0);
   const double left = x.minCoeff(), length = x.maxCoeff() - left;
-  const double intervals = std::clamp(std::round(length / kSpacing), 1.0, kMostIntervals);
+  const double intervals = std::clamp(std::round(length / kSpacing), 1.0, kMostLoadPlaces - 1.0);
   std::vector<double> places;
   for (double i = 0.0; i <= intervals; ++i)
     if (const double place = left + length * (i / intervals); top.is_under(place)) places.push_back(place);

@@ -17,7 +17,8 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr std::array kLengths = {5.0, 10.0};  // [m] of stretches: a lorry, or a long one
-constexpr double kRounding = 1e-6;            // [m] of places
+constexpr double kHalfMetre = 0.5;
+constexpr double kRounding = 1e-6;  // [m] of places
 // What the first order and the joints' scatter leave of what a load adds, as a share of it at each point and
 // of its root mean square: of lorries on sampled bridges 2 to 7 % (docs/uncertainty.md).
 constexpr double kOwnShare = 0.08;
@@ -28,16 +29,27 @@ struct Stretch {
   Index first = 0, count = 0;
 };
 
+/// [m] between places, gaps in the top apart.
+double spacing_of(const std::vector<double>& places) {
+  double least = places.back() - places.front();
+  for (std::size_t i = 1; i < places.size(); ++i) least = std::min(least, places[i] - places[i - 1]);
+  return least;
+}
+
 /// From each place on, as long as they fit: shorter ones at the ends would be as blocks that are lost there.
+/// None goes over a gap.
 std::vector<Stretch> stretches_of(const std::vector<double>& places) {
+  const double whole = places.back() - places.front(), spacing = spacing_of(places);
   std::vector<Stretch> stretches;
-  const auto count = static_cast<Index>(places.size());
   for (const double length : kLengths) {
-    const double fits = std::min(length, places.back() - places.front()) - kRounding;
-    for (Index first = 0; first < count; ++first) {
-      const auto end = std::ranges::lower_bound(places, places[static_cast<std::size_t>(first)] + fits);
-      if (end != places.end()) stretches.push_back({first, end + 1 - places.begin() - first});
+    const double fits = std::min(length, whole) - kRounding;
+    for (auto first = places.begin(); first != places.end(); ++first) {
+      const auto last = std::lower_bound(first, places.end(), *first + fits);
+      const bool is_over_gap = last != places.end() && *last - *first > fits + 2.0 * spacing + kRounding;
+      if (last == places.end() || is_over_gap) continue;
+      stretches.push_back({first - places.begin(), last + 1 - first});
     }
+    if (length >= whole) break;
   }
   return stretches;
 }
@@ -66,36 +78,84 @@ StretchFit fit_of(const SeenLoads& loads, const Stretch& stretch, const UnknownC
   return fit;
 }
 
-/// In rows of y, what a standard deviation at each place adds: at the second levelling, or at the only one;
-/// and at the first, where that counts by itself.
-std::vector<MatrixXd> columns_of(const UnknownBridge& bridge) {
-  const MatrixXd& influence = bridge.factors->sensitivities->load.readings;
-  MatrixXd of_channels(static_cast<Index>(bridge.factors->channels.size()), influence.cols());
-  for (Index k = 0; k < of_channels.rows(); ++k)
-    of_channels.row(k) =
-        kUnstatedForce *
+/// What loads add at one of the levellings.
+struct EpochLoads {
+  bool first_epoch = false;
+  MatrixXd columns;  // in rows of y: a standard deviation at each place
+};
+
+/// In rows of y, what is added to channels at one of the levellings.
+MatrixXd at_levelling(const UnknownBridge& bridge, const MatrixXd& channels, bool first_epoch) {
+  const MatrixXd none = MatrixXd::Zero(channels.rows(), channels.cols());
+  return first_epoch ? in_rows(bridge.rows, channels, none) : in_rows(bridge.rows, none, channels);
+}
+
+/// Of channels: a standard deviation at each place.
+MatrixXd channel_columns(const UnknownBridge& bridge) {
+  const auto& [places, influence] = bridge.factors->sensitivities->load;
+  const double force = kUnstatedForce * std::sqrt(spacing_of(places) / kHalfMetre);
+  MatrixXd columns(static_cast<Index>(bridge.factors->channels.size()), influence.cols());
+  for (Index k = 0; k < columns.rows(); ++k)
+    columns.row(k) =
+        force *
         influence.row(static_cast<Index>(bridge.factors->channels[static_cast<std::size_t>(k)].point));
-  const MatrixXd none = MatrixXd::Zero(of_channels.rows(), of_channels.cols());
-  std::vector<MatrixXd> columns = {in_rows(bridge.rows, none, of_channels)};
-  if (bridge.has_first_epoch()) columns.push_back(in_rows(bridge.rows, of_channels, none));
   return columns;
 }
 
-UnstatedLoad load_of(const std::vector<double>& places, const Stretch& stretch, const MatrixXd& columns,
-                     const StretchFit& fit) {
-  const MatrixXd own = columns.middleCols(stretch.first, stretch.count);
+/// A fit, of which stretch and at which levelling.
+struct Found {
+  const EpochLoads* loads;
+  Stretch stretch;
+  StretchFit fit;
+
+  /// Sum of the forces, downwards: of changes alone those of the first levelling count as negative.
+  double force() const { return fit.forces.sum(); }
+};
+
+/// Errors of what it adds are those of the channels, the same wherever a channel counts.
+UnstatedLoad load_of(const UnknownBridge& bridge, const MatrixXd& channels, const Found& found) {
+  const std::vector<double>& places = bridge.factors->sensitivities->load.places;
+  const auto& [first, count] = found.stretch;
+  const MatrixXd own = found.loads->columns.middleCols(first, count);
+  const VectorXd added = channels.middleCols(first, count) * found.fit.forces;
+  const double common = kCommonShare * std::sqrt(added.squaredNorm() / static_cast<double>(added.size()));
+  const VectorXd errors = ((kOwnShare * added).array().square() + common * common).sqrt();
+  const MatrixXd off = at_levelling(bridge, errors.asDiagonal(), found.loads->first_epoch);
   UnstatedLoad load;
-  load.from = places[static_cast<std::size_t>(stretch.first)];
-  load.to = places[static_cast<std::size_t>(stretch.first + stretch.count - 1)];
-  load.force = kUnstatedForce * fit.forces.sum();
-  load.expected = own * fit.forces;
-  load.covariance = own * own.transpose();
-  const double mean_square = load.expected.squaredNorm() / static_cast<double>(load.expected.size());
-  load.covariance.diagonal() += kOwnShare * kOwnShare * load.expected.cwiseAbs2();
-  load.covariance.diagonal().array() += kCommonShare * kCommonShare * mean_square;
-  load.best = fit.best;
-  load.log = fit.log;
+  load.from = places[static_cast<std::size_t>(first)];
+  load.to = places[static_cast<std::size_t>(first + count - 1)];
+  load.first_epoch = found.loads->first_epoch || found.force() < 0.0;
+  load.force = kUnstatedForce * std::sqrt(spacing_of(places) / kHalfMetre) * std::abs(found.force());
+  load.expected = own * found.fit.forces;
+  load.covariance = own * own.transpose() + off * off.transpose();
+  load.best = found.fit.best;
+  load.log = found.fit.log;
   return load;
+}
+
+/// At the second levelling, or the only one; and at the first, where that counts by itself.
+std::vector<EpochLoads> loads_of(const UnknownBridge& bridge, const MatrixXd& channels) {
+  std::vector<EpochLoads> loads = {{false, at_levelling(bridge, channels, false)}};
+  if (bridge.has_first_epoch()) loads.push_back({true, at_levelling(bridge, channels, true)});
+  return loads;
+}
+
+/// Of all stretches in the case in which each is likeliest.
+std::vector<Found> fits_of(UnknownBridge& bridge, const Observation& observation,
+                           std::span<const UnknownCase> cases, const EpochLoads& loads,
+                           const std::vector<Stretch>& stretches) {
+  std::vector<Found> best;
+  for (const Stretch& stretch : stretches) best.push_back({&loads, stretch, {}});
+  for (const UnknownCase& one : cases) {
+    set_case(observation, one, bridge);
+    const IntactGaussian intact = intact_gaussian(bridge);
+    const SeenLoads seen{loads.columns.transpose() * intact.precision * loads.columns,
+                         loads.columns.transpose() * intact.pulled, intact.log};
+    for (Found& found : best)
+      if (StretchFit fit = fit_of(seen, found.stretch, one); fit.log > found.fit.log)
+        found.fit = std::move(fit);
+  }
+  return best;
 }
 
 /// Of a square as large as that of the readings, or larger.
@@ -117,26 +177,26 @@ void add_chances(UnknownBridge& bridge, const Observation& observation, Unstated
 std::vector<UnstatedLoad> unstated_loads(UnknownBridge& bridge, const Observation& observation,
                                          std::span<const UnknownCase> cases, std::size_t count) {
   const std::vector<double>& places = bridge.factors->sensitivities->load.places;
-  if (places.empty()) return {};
-  const std::vector<Stretch> stretches = stretches_of(places);
-  std::vector<UnstatedLoad> loads;
-  for (const MatrixXd& columns : columns_of(bridge)) {
-    std::vector<StretchFit> best(stretches.size());
-    for (const UnknownCase& one : cases) {
-      set_case(observation, one, bridge);
-      const IntactGaussian intact = intact_gaussian(bridge);
-      const SeenLoads seen{columns.transpose() * intact.precision * columns,
-                           columns.transpose() * intact.pulled, intact.log};
-      for (std::size_t i = 0; i < stretches.size(); ++i)
-        if (StretchFit fit = fit_of(seen, stretches[i], one); fit.log > best[i].log) best[i] = std::move(fit);
-    }
-    for (std::size_t i = 0; i < stretches.size(); ++i)
-      loads.push_back(load_of(places, stretches[i], columns, best[i]));
+  const bool is_loaded = std::ranges::any_of(
+      bridge.factors->channels, [](const Channel& channel) { return channel.loaded.has_value(); });
+  if (places.size() < 2 || is_loaded) return {};
+  const MatrixXd channels = channel_columns(bridge);
+  const std::vector<EpochLoads> loads = loads_of(bridge, channels);
+  // Of changes alone a load at the first levelling is one at the second with the other sign.
+  const bool any_sign = !bridge.has_first_epoch() && bridge.rows.front().before != 0.0;
+  std::vector<Found> all;
+  for (const EpochLoads& one : loads)
+    std::ranges::copy_if(fits_of(bridge, observation, cases, one, stretches_of(places)),
+                         std::back_inserter(all), [&](const Found& found) {
+                           return std::isfinite(found.fit.log) && (any_sign || found.force() > 0.0);
+                         });
+  std::ranges::stable_sort(all, std::ranges::greater{}, [](const Found& found) { return found.fit.log; });
+  std::vector<UnstatedLoad> best;
+  for (const Found& found : std::span(all).first(std::min(all.size(), count))) {
+    best.push_back(load_of(bridge, channels, found));
+    add_chances(bridge, observation, best.back());
   }
-  std::ranges::stable_sort(loads, std::ranges::greater{}, &UnstatedLoad::log);
-  loads.resize(std::min(loads.size(), count));
-  for (UnstatedLoad& load : loads) add_chances(bridge, observation, load);
-  return loads;
+  return best;
 }
 
 }  // namespace voussoir

@@ -8,16 +8,16 @@
 
 namespace voussoir {
 
-/// [N/m] Standard deviation of the force at each place, for each metre of the width: of a lorry of 16 t, 3 m
-/// wide, 53e3 stand on two axles.
+/// [N/m] Standard deviation of the force on half a metre of the top, for each metre of the width: of a lorry
+/// of 16 t, 3 m wide, 53e3 stand on two axles.
 inline constexpr double kUnstatedForce = 20e3;
 
 /// A load on one stretch of the top, at one of the levellings.
 struct UnstatedLoad {
   double from = 0.0, to = 0.0;  ///< [m] x of the stretch
-  double force = 0.0;  ///< [N/m] its most likely sum with no block missing, of each metre of the width; of
-                       ///< changes positive if it stood there at the second levelling
-  Eigen::VectorXd expected;    ///< [m] in rows of y: what it most likely adds
+  bool first_epoch = false;     ///< it stood there at the first of two times, not at the second or only one
+  double force = 0.0;        ///< [N/m] its most likely sum with no block missing, of each metre of the width
+  Eigen::VectorXd expected;  ///< [m] in rows of y: what it most likely adds
   Eigen::MatrixXd covariance;  ///< [m2] the same: what any load there may add
   double chance = 0.0;         ///< of readings as far from an intact bridge under it as these, or farther,
   double without = 0.0;        ///< and from an intact bridge without it
@@ -25,8 +25,9 @@ struct UnstatedLoad {
   double log = 0.0;            ///< density of the readings, but for what all cases have in common
 };
 
-/// The stretches on which a load explains readings of the intact bridge best, the best first. Nothing if the
-/// database does not know what loads do. The bridge's case is changed.
+/// The stretches on which a load explains readings of the intact bridge best, the best first. Loads
+/// act downwards as a whole. Nothing if the database does not know what loads do, or readings are what other
+/// loads add. The bridge's case is changed.
 std::vector<UnstatedLoad> unstated_loads(UnknownBridge& bridge, const Observation& observation,
                                          std::span<const UnknownCase> cases, std::size_t count);
 

@@ -169,7 +169,10 @@ TEST_CASE("Sensitivities that do not fit together are refused and named") {
   wrong.load.readings(1, 2) = std::numeric_limits<double>::quiet_NaN();
   CHECK_THAT(small.refusal(wrong), Catch::Contains("load_influence' holds a number that is not finite"));
   wrong = small.made;
-  std::swap(wrong.load.places[0], wrong.load.places[1]);
+  wrong.load.readings(1, 2) = 1e200;
+  CHECK_THAT(small.refusal(wrong), Catch::Contains("load_influence' holds a number that is not below"));
+  wrong = small.made;
+  wrong.load.places[1] = wrong.load.places[0];
   CHECK_THAT(small.refusal(wrong), Catch::Contains("load_place': expected places in ascending order"));
 }
 

@@ -14,6 +14,8 @@
 namespace voussoir {
 namespace {
 
+constexpr double kWidth = 3.0;  // [m]
+
 Eigen::VectorXd readings_under(QuasiStaticSolver& solver, const Model& bridge, double x, double force) {
   Field load = Field::Zero(2, bridge.mesh.node_count());
   TopSurface(bridge.mesh).add_force(x, force, load);
@@ -29,6 +31,7 @@ TEST_CASE("The influence of a load is what a little of it adds to the intact bri
   const test::TemporaryFolder folder;
   BuildRequest request;
   request.bridge = test::small_bridge_file();
+  request.bridge.description.material.thickness = kWidth;
   request.output = folder / "small.h5";
   request.scenes = "intact;4,1";
   Progress quiet(Progress::Mode::quiet);
@@ -36,18 +39,18 @@ TEST_CASE("The influence of a load is what a little of it adds to the intact bri
   const Database database = Database::open(request.output);
   REQUIRE(database.sensitivities() != nullptr);
   const LoadInfluence& found = database.sensitivities()->load;
-  const Model bridge = test::small_bridge();
+  const Model bridge = make_model(request.bridge.description);
   REQUIRE(found.places.size() == 13);  // 6 m, every half metre
   CHECK(found.places.front() == Approx(0.0));
   CHECK(found.places.back() == Approx(6.0));
   QuasiStaticSettings exact;
   exact.tolerance = 1e-11;
   QuasiStaticSolver solver(bridge, exact);
-  constexpr double kStep = 1.0;  // [N] on a bridge that is one metre wide
+  constexpr double kStep = 1.0;  // [N] for each metre of the width
   for (std::size_t i = 0; i < found.places.size(); ++i) {
     INFO("at x = " << found.places[i]);
-    const Eigen::VectorXd anew = (readings_under(solver, bridge, found.places[i], kStep) -
-                                  readings_under(solver, bridge, found.places[i], -kStep)) /
+    const Eigen::VectorXd anew = (readings_under(solver, bridge, found.places[i], kWidth * kStep) -
+                                  readings_under(solver, bridge, found.places[i], -kWidth * kStep)) /
                                  (2.0 * kStep);
     const auto column = static_cast<Eigen::Index>(i);
     CHECK((found.readings.col(column) - anew).norm() < 1e-5 * anew.norm());

@@ -59,7 +59,8 @@ MatrixXd columns_of(const UnknownBridge& bridge, const LoadInfluence& load, doub
     columns.conservativeResize(Eigen::NoChange, columns.cols() + 1);
     for (Index k = 0; k < columns.rows(); ++k) {
       const ReadingRow& row = bridge.rows[static_cast<std::size_t>(k)];
-      columns(k, columns.cols() - 1) = kUnstatedForce * (second ? row.after : row.before) *
+      columns(k, columns.cols() - 1) = kUnstatedForce * std::sqrt(1.0 / 0.5) *
+                                       (second ? row.after : row.before) *
                                        load.readings(static_cast<Index>(row.channel), static_cast<Index>(i));
     }
   }
@@ -83,9 +84,32 @@ Expected expected_of(UnknownBridge& bridge, const Observation& observation, cons
     const double log = log_normal(bridge.reading, covariance);
     if (log < best.log) continue;
     const VectorXd forces = columns.transpose() * covariance.ldlt().solve(bridge.reading);
-    best = {log, columns * forces, kUnstatedForce * forces.sum()};
+    best = {log, columns * forces, kUnstatedForce * std::sqrt(1.0 / 0.5) * std::abs(forces.sum())};
   }
   return best;
+}
+
+/// Of what is off in what a load adds to a channel, 8 % of it and 3 % of the root mean square: the same
+/// wherever the channel counts.
+MatrixXd errors_of(const UnknownBridge& bridge, const VectorXd& added, bool second) {
+  const auto weight = [&](Index k) {
+    const ReadingRow& row = bridge.rows[static_cast<std::size_t>(k)];
+    return second ? row.after : row.before;
+  };
+  double square = 0.0, channels = 0.0;
+  for (Index k = 0; k < added.size(); ++k)
+    if (weight(k) > 0.0) {
+      square += added[k] * added[k];
+      channels += 1.0;
+    }
+  MatrixXd errors = MatrixXd::Zero(added.size(), added.size());
+  for (Index k = 0; k < added.size(); ++k)
+    for (Index l = 0; l < added.size(); ++l)
+      if (bridge.rows[static_cast<std::size_t>(k)].channel ==
+          bridge.rows[static_cast<std::size_t>(l)].channel)
+        errors(k, l) =
+            0.08 * 0.08 * added[k] * added[l] + 0.03 * 0.03 * weight(k) * weight(l) * square / channels;
+  return errors;
 }
 
 /// Chi square of the readings, from its definition.
@@ -112,29 +136,27 @@ TEST_CASE("A load on a stretch explains readings as well as its covariance makes
   const auto found = unstated_loads(bridge, observation, kCases, 1000);
 
   const bool both = bridge.has_first_epoch();
-  REQUIRE(found.size() == (25 + 20) * (both ? 2 : 1));  // stretches of 5 and 10 m on 29 m
+  const std::size_t stretches = 25 + 20;  // of 5 and 10 m on 29 m
+  if (is_change(readings.comparison.kind) && !both) REQUIRE(found.size() == stretches);
+  CHECK(found.size() >= stretches / 4);
   CHECK(std::ranges::is_sorted(found, std::ranges::greater{}, &UnstatedLoad::log));
   CHECK(found.front().from <= 11.0);
   CHECK(found.front().to >= 14.0);
-  CHECK(found.front().force > 0.0);
+  CHECK_FALSE(found.front().first_epoch);
   const double constant =
       -0.5 * static_cast<double>(bridge.reading.size()) * std::log(2.0 * std::numbers::pi);
   for (const UnstatedLoad& load : found) {
     INFO(load.from << " to " << load.to);
-    double nearest = std::numeric_limits<double>::infinity();
-    for (const bool second : {true, false}) {
-      if (!second && !both) continue;
-      const MatrixXd columns = columns_of(bridge, readings.sensitivities.load, load.from, load.to, second);
-      const Expected expected = expected_of(bridge, observation, columns);
-      if (std::abs(expected.log - constant - load.log) > 1e-6 * std::abs(load.log)) continue;
-      nearest = (load.expected - expected.mean).norm() / expected.mean.norm();
-      check_chances(load, bridge, observation);
-      CHECK(load.force == Approx(expected.force).epsilon(1e-6));
-      const MatrixXd beyond = load.covariance - columns * columns.transpose();
-      CHECK(MatrixXd(beyond.diagonal().asDiagonal()).isApprox(beyond, 1e-6));
-      CHECK(beyond.diagonal().minCoeff() > 0.0);
-    }
-    CHECK(nearest < 1e-6);
+    const bool second = !both || !load.first_epoch;
+    const MatrixXd columns = columns_of(bridge, readings.sensitivities.load, load.from, load.to, second);
+    const Expected expected = expected_of(bridge, observation, columns);
+    CHECK(load.log == Approx(expected.log - constant).epsilon(1e-6));
+    CHECK((load.expected - expected.mean).norm() < 1e-6 * expected.mean.norm());
+    CHECK(load.force == Approx(expected.force).epsilon(1e-6));
+    CHECK(load.force > 0.0);
+    const MatrixXd errors = errors_of(bridge, load.expected, second);
+    CHECK((load.covariance - columns * columns.transpose() - errors).norm() < 1e-6 * errors.norm());
+    check_chances(load, bridge, observation);
   }
 }
 
