@@ -14,8 +14,8 @@ constexpr std::size_t kMostFalls = 10;  // scenes near the readings, of which th
 constexpr std::array kTimesErrors = {3.0, 10.0, 100.0};  // errors that are asked about, of what is stated
 constexpr std::size_t kMostLoads = 3;                    // stretches of the top that a load may stand on
 constexpr double kNewtonsPerKilonewton = 1e3;
-constexpr double kLeastForce = 10e3;        // [N/m] of a load that is spoken of: less is no vehicle
-constexpr double kLoadChance = 1e-3;        // beforehand that one stood there and is not stated
+constexpr double kLeastForce = 10e3;  // [N/m] of a load that is spoken of where nothing explains readings
+constexpr double kLoadChance = 1e-3;  // beforehand that one stood there and is not stated
 constexpr std::size_t kMostNearOthers = 3;  // scenes near the readings without those on a block
 constexpr std::size_t kMostHidden = 3;      // losses that only readings on their blocks exclude
 constexpr std::size_t kMostLikely = 10;     // scenes that each of them competes with
@@ -92,7 +92,6 @@ std::optional<Fit> check_unstated_loads(const QuestionContext& asked, const Answ
   const std::string named =
       alarm.named.empty() ? "some block" : to_string(Scene{alarm.named}, asked.comparison.library.layout);
   for (const UnstatedLoad& load : asked.question.unstated_loads(kMostLoads)) {
-    if (load.force < kLeastForce) continue;
     const auto scene = explained_by(asked, answer, alarm,
                                     {{.beside = load.covariance},
                                      kLoadChance,
