@@ -14,6 +14,7 @@
 #include "core/median.h"
 #include "core/not_a_number.h"
 #include "lookup/evidence/bounded_errors.h"
+#include "lookup/evidence/chi_square.h"
 #include "lookup/evidence/nuisance_likelihood.h"
 #include "lookup/evidence/row_statistics.h"
 #include "lookup/evidence/scale_fit.h"
@@ -90,12 +91,11 @@ double chance_at_stated_level(const Observation& observation, const NoiseEstimat
   const ErrorScales scales = scales_at(observation, level);
   if (observation.has_levelling()) {
     const RowStatistics row = nuisance_statistics(observation, level, table, kRow).row(0);
-    return std::isnan(row.sum_absolute) ? 0.0 : boost::math::gamma_q(n / 2.0, row.sum_square / 2.0);
+    return std::isnan(row.sum_absolute) ? 0.0 : chi_square_chance(row.sum_square, n);
   }
   const RowStatistics row = table_statistics(observation, scales, table, kRow).row(0);
   if (std::isnan(row.sum_absolute)) return 0.0;
-  if (noise.shape == NoiseShape::gaussian)
-    return boost::math::gamma_q(n / 2.0, (row.sum_square + row.scale_square) / 2.0);
+  if (noise.shape == NoiseShape::gaussian) return chi_square_chance(row.sum_square + row.scale_square, n);
   if (noise.shape == NoiseShape::laplace)
     return boost::math::gamma_q(n, std::numbers::sqrt2 * row.sum_absolute);
   const double instrument_variance = noise.shape == NoiseShape::uniform ? kBoundedVariance : 1.0;

@@ -14,11 +14,10 @@ constexpr std::size_t kMostFalls = 10;  // scenes near the readings, of which th
 constexpr std::array kTimesErrors = {3.0, 10.0, 100.0};  // errors that are asked about, of what is stated
 constexpr std::size_t kMostLoads = 3;                    // stretches of the top that a load may stand on
 constexpr double kNewtonsPerKilonewton = 1e3;
-constexpr double kLeastForce = 10e3;  // [N/m] of a load that is spoken of where nothing explains readings
-constexpr double kLoadChance = 1e-3;  // beforehand that one stood there and is not stated
-constexpr std::size_t kMostNearOthers = 3;  // scenes near the readings without those on a block
-constexpr std::size_t kMostHidden = 3;      // losses that only readings on their blocks exclude
-constexpr std::size_t kMostLikely = 10;     // scenes that each of them competes with
+constexpr double kLeastForce = 10e3;     // [N/m] of a load that is spoken of where nothing explains readings
+constexpr double kLoadChance = 1e-3;     // beforehand that one stood there and is not stated
+constexpr std::size_t kMostHidden = 3;   // losses that only readings on their blocks exclude
+constexpr std::size_t kMostLikely = 10;  // scenes that each of them competes with
 // Beforehand that what was read on a block goes on giving a value when the block is lost: the block is loose
 // and carries nothing, but hangs there; a logger repeats its last value; the target was on the one beside it.
 constexpr double kKeptChance = 1e-2;
@@ -110,7 +109,7 @@ std::vector<std::size_t> rows_with_hidden(const QuestionContext& asked, const An
   const SceneTable& table = asked.comparison.library.table;
   const Eligible& eligible = asked.preparation.eligible();
   const std::vector<std::size_t>& likely = answer.posterior->credible;
-  std::vector<std::size_t> rows = rows_near(asked, others, kMostNearOthers);
+  std::vector<std::size_t> rows = rows_near(asked, others, kMostNear);
   rows.insert(rows.end(), likely.begin(),
               likely.begin() + static_cast<std::ptrdiff_t>(std::min(likely.size(), kMostLikely)));
   if (eligible.missing.front() == 0) rows.push_back(eligible.rows.front());
@@ -166,8 +165,9 @@ std::optional<Fit> check_hidden_losses(const QuestionContext& asked, const Answe
 
 std::optional<std::string> load_that_explains(const QuestionContext& asked) {
   const std::vector<UnstatedLoad> loads = asked.question.unstated_loads(1);
-  const bool is_needed = !loads.empty() && loads.front().without < kSmallestChance &&
-                         loads.front().chance >= kSmallestChance && loads.front().force >= kLeastForce;
+  if (loads.empty() || loads.front().force < kLeastForce) return std::nullopt;
+  const LoadChances chances = asked.question.load_chances(loads.front());
+  const bool is_needed = chances.without < kSmallestChance && chances.with >= kSmallestChance;
   if (!is_needed) return std::nullopt;
   return fmt::format("{} on an intact bridge would explain them",
                      in_words(loads.front(), asked.comparison.kind));

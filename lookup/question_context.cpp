@@ -9,11 +9,6 @@
 #include "lookup/evidence/scene_evidence.h"
 
 namespace voussoir {
-namespace {
-
-constexpr std::size_t kMostNear = 3;  // scenes near the readings that something else is asked about
-
-}  // namespace
 
 std::string places_in_words(const Library& library, const std::vector<std::size_t>& channels) {
   std::vector<std::string> names;

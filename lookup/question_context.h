@@ -33,6 +33,9 @@ bool is_likely_beside(const Answer& answer, double log);
 /// Each once, in ascending order.
 std::vector<std::size_t> distinct(std::vector<std::size_t> rows);
 
+/// Scenes near the readings that something else is asked about.
+inline constexpr std::size_t kMostNear = 3;
+
 /// So many scenes near the readings.
 std::vector<std::size_t> rows_near(const QuestionContext& asked, const Observation& observation,
                                    std::size_t count);

@@ -1,12 +1,12 @@
 #include "lookup/unknown/bridge_posterior.h"
 
 #include <algorithm>
-#include <boost/math/special_functions/gamma.hpp>
 #include <cmath>
 #include <optional>
 
 #include "core/simd/column_products.h"
 #include "core/threads.h"
+#include "lookup/evidence/chi_square.h"
 #include "lookup/evidence/scene_evidence.h"
 
 namespace voussoir {
@@ -93,7 +93,7 @@ double chance_of(const UnknownBridge& bridge, const SceneGaussian& scene, const 
     const MatrixXd less = covariance - scene_noise(bridge, scene.loss) + scene_noise(bridge, loss);
     square = scene.difference.dot(less.llt().solve(scene.difference));
   }
-  return boost::math::gamma_q(0.5 * n, 0.5 * square);
+  return chi_square_chance(square, n);
 }
 
 /// What all others let expect of reading i is off by (C^-1 r)_i / (C^-1)_ii, which has the variance

@@ -128,6 +128,12 @@ std::vector<UnstatedLoad> UnknownBridgeQuestion::unstated_loads(std::size_t coun
   return result;
 }
 
+LoadChances UnknownBridgeQuestion::load_chances(const UnstatedLoad& load) {
+  const LoadChances result = voussoir::load_chances(bridge_, observation_, load);
+  set_case(observation_, cases_[likeliest_], bridge_);
+  return result;
+}
+
 BridgePosterior UnknownBridgeQuestion::posterior(const std::vector<WeightedScene>& scenes) {
   BridgePosterior result = bridge_posterior(bridge_, observation_, comparison_.library.table, scenes, cases_);
   set_case(observation_, cases_[likeliest_], bridge_);

@@ -46,9 +46,10 @@ class UnknownBridgeQuestion {
   std::vector<double> log_parts_of(std::span<const std::size_t> rows, const Eligible& eligible,
                                    const Prior& prior, const Supposition& supposed);
 
-  /// These two at the likeliest level of the noise.
+  /// These three at the likeliest level of the noise.
   std::vector<HiddenLoss> hidden_losses(const Eligible& eligible);
   std::vector<UnstatedLoad> unstated_loads(std::size_t count);
+  LoadChances load_chances(const UnstatedLoad& load);
 
   /// Of these scenes, over all cases.
   BridgePosterior posterior(const std::vector<WeightedScene>& scenes);

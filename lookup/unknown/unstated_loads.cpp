@@ -3,10 +3,11 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <array>
-#include <boost/math/special_functions/gamma.hpp>
 #include <cmath>
 #include <functional>
+#include <limits>
 
+#include "lookup/evidence/chi_square.h"
 #include "lookup/unknown/intact_gaussian.h"
 
 namespace voussoir {
@@ -90,10 +91,15 @@ MatrixXd at_levelling(const UnknownBridge& bridge, const MatrixXd& channels, boo
   return first_epoch ? in_rows(bridge.rows, channels, none) : in_rows(bridge.rows, none, channels);
 }
 
+/// [N/m] Standard deviation of the force at each place.
+double force_at(const std::vector<double>& places) {
+  return kUnstatedForce * std::sqrt(spacing_of(places) / kHalfMetre);
+}
+
 /// Of channels: a standard deviation at each place.
 MatrixXd channel_columns(const UnknownBridge& bridge) {
   const auto& [places, influence] = bridge.factors->sensitivities->load;
-  const double force = kUnstatedForce * std::sqrt(spacing_of(places) / kHalfMetre);
+  const double force = force_at(places);
   MatrixXd columns(static_cast<Index>(bridge.factors->channels.size()), influence.cols());
   for (Index k = 0; k < columns.rows(); ++k)
     columns.row(k) =
@@ -125,7 +131,7 @@ UnstatedLoad load_of(const UnknownBridge& bridge, const MatrixXd& channels, cons
   load.from = places[static_cast<std::size_t>(first)];
   load.to = places[static_cast<std::size_t>(first + count - 1)];
   load.first_epoch = found.loads->first_epoch || found.force() < 0.0;
-  load.force = kUnstatedForce * std::sqrt(spacing_of(places) / kHalfMetre) * std::abs(found.force());
+  load.force = force_at(places) * std::abs(found.force());
   load.expected = own * found.fit.forces;
   load.covariance = own * own.transpose() + off * off.transpose();
   load.best = found.fit.best;
@@ -140,36 +146,26 @@ std::vector<EpochLoads> loads_of(const UnknownBridge& bridge, const MatrixXd& ch
   return loads;
 }
 
-/// Of all stretches in the case in which each is likeliest.
+/// Of all stretches at each levelling in the case in which each is likeliest.
 std::vector<Found> fits_of(UnknownBridge& bridge, const Observation& observation,
-                           std::span<const UnknownCase> cases, const EpochLoads& loads,
-                           const std::vector<Stretch>& stretches) {
+                           std::span<const UnknownCase> cases, const std::vector<EpochLoads>& loads) {
   std::vector<Found> best;
-  for (const Stretch& stretch : stretches) best.push_back({&loads, stretch, {}});
+  for (const EpochLoads& one : loads)
+    for (const Stretch& stretch : stretches_of(bridge.factors->sensitivities->load.places))
+      best.push_back({&one, stretch, {}});
   for (const UnknownCase& one : cases) {
     set_case(observation, one, bridge);
     const IntactGaussian intact = intact_gaussian(bridge);
-    const SeenLoads seen{loads.columns.transpose() * intact.precision * loads.columns,
-                         loads.columns.transpose() * intact.pulled, intact.log};
-    for (Found& found : best)
-      if (StretchFit fit = fit_of(seen, found.stretch, one); fit.log > found.fit.log)
-        found.fit = std::move(fit);
+    for (const EpochLoads& at : loads) {
+      const SeenLoads seen{at.columns.transpose() * intact.precision * at.columns,
+                           at.columns.transpose() * intact.pulled, intact.log};
+      for (Found& found : best)
+        if (found.loads == &at)
+          if (StretchFit fit = fit_of(seen, found.stretch, one); fit.log > found.fit.log)
+            found.fit = std::move(fit);
+    }
   }
   return best;
-}
-
-/// Of a square as large as that of the readings, or larger.
-double chance_of(const VectorXd& reading, const MatrixXd& covariance) {
-  return boost::math::gamma_q(0.5 * static_cast<double>(reading.size()),
-                              0.5 * reading.dot(covariance.llt().solve(reading)));
-}
-
-/// All that scatters as the bridge file states.
-void add_chances(UnknownBridge& bridge, const Observation& observation, UnstatedLoad& load) {
-  set_case(observation, load.best, bridge);
-  const MatrixXd covariance = intact_covariance(bridge);
-  load.without = chance_of(bridge.reading, covariance);
-  load.chance = chance_of(bridge.reading, covariance + load.covariance);
 }
 
 }  // namespace
@@ -184,19 +180,25 @@ std::vector<UnstatedLoad> unstated_loads(UnknownBridge& bridge, const Observatio
   const std::vector<EpochLoads> loads = loads_of(bridge, channels);
   // Of changes alone a load at the first levelling is one at the second with the other sign.
   const bool any_sign = !bridge.has_first_epoch() && bridge.rows.front().before != 0.0;
-  std::vector<Found> all;
-  for (const EpochLoads& one : loads)
-    std::ranges::copy_if(fits_of(bridge, observation, cases, one, stretches_of(places)),
-                         std::back_inserter(all), [&](const Found& found) {
-                           return std::isfinite(found.fit.log) && (any_sign || found.force() > 0.0);
-                         });
+  std::vector<Found> all = fits_of(bridge, observation, cases, loads);
+  std::erase_if(all, [&](const Found& found) {
+    return !std::isfinite(found.fit.log) || !(any_sign || found.force() > 0.0);
+  });
   std::ranges::stable_sort(all, std::ranges::greater{}, [](const Found& found) { return found.fit.log; });
   std::vector<UnstatedLoad> best;
-  for (const Found& found : std::span(all).first(std::min(all.size(), count))) {
+  for (const Found& found : std::span(all).first(std::min(all.size(), count)))
     best.push_back(load_of(bridge, channels, found));
-    add_chances(bridge, observation, best.back());
-  }
   return best;
+}
+
+LoadChances load_chances(UnknownBridge& bridge, const Observation& observation, const UnstatedLoad& load) {
+  set_case(observation, load.best, bridge);
+  const MatrixXd without = intact_covariance(bridge);
+  const auto chance = [&](const MatrixXd& covariance) {
+    return chi_square_chance(bridge.reading.dot(covariance.llt().solve(bridge.reading)),
+                             static_cast<double>(bridge.reading.size()));
+  };
+  return {chance(without + load.covariance), chance(without)};
 }
 
 }  // namespace voussoir

@@ -19,8 +19,6 @@ struct UnstatedLoad {
   double force = 0.0;        ///< [N/m] its most likely sum with no block missing, of each metre of the width
   Eigen::VectorXd expected;  ///< [m] in rows of y: what it most likely adds
   Eigen::MatrixXd covariance;  ///< [m2] the same: what any load there may add
-  double chance = 0.0;         ///< of readings as far from an intact bridge under it as these, or farther,
-  double without = 0.0;        ///< and from an intact bridge without it
   UnknownCase best;            ///< in which the readings are likeliest
   double log = 0.0;            ///< density of the readings, but for what all cases have in common
 };
@@ -30,5 +28,15 @@ struct UnstatedLoad {
 /// loads add. The bridge's case is changed.
 std::vector<UnstatedLoad> unstated_loads(UnknownBridge& bridge, const Observation& observation,
                                          std::span<const UnknownCase> cases, std::size_t count);
+
+/// Of readings as far from an intact bridge as these, or farther, all that scatters as the bridge file
+/// states.
+struct LoadChances {
+  double with = 0.0;  ///< under the load
+  double without = 0.0;
+};
+
+/// In the load's best case. The bridge's case is changed.
+LoadChances load_chances(UnknownBridge& bridge, const Observation& observation, const UnstatedLoad& load);
 
 }  // namespace voussoir

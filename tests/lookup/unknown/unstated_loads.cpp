@@ -67,6 +67,13 @@ MatrixXd columns_of(const UnknownBridge& bridge, const LoadInfluence& load, doub
   return columns;
 }
 
+/// Of the intact bridge in the bridge's case.
+MatrixXd intact_covariance_of(const UnknownBridge& bridge) {
+  const VectorXd zero = VectorXd::Zero(bridge.reading.size());
+  const MatrixXd scatter = bridge_columns(bridge, Scene{});
+  return scene_noise(bridge, {{}, zero, zero}) + scatter * scatter.transpose();
+}
+
 struct Expected {
   double log = -std::numeric_limits<double>::infinity();
   VectorXd mean;
@@ -74,13 +81,10 @@ struct Expected {
 };
 
 Expected expected_of(UnknownBridge& bridge, const Observation& observation, const MatrixXd& columns) {
-  const VectorXd zero = VectorXd::Zero(bridge.reading.size());
   Expected best;
   for (const UnknownCase& one : kCases) {
     set_case(observation, one, bridge);
-    const MatrixXd scatter = bridge_columns(bridge, Scene{});
-    const MatrixXd own = columns * columns.transpose();
-    const MatrixXd covariance = scene_noise(bridge, {{}, zero, zero}) + scatter * scatter.transpose() + own;
+    const MatrixXd covariance = intact_covariance_of(bridge) + columns * columns.transpose();
     const double log = log_normal(bridge.reading, covariance);
     if (log < best.log) continue;
     const VectorXd forces = columns.transpose() * covariance.ldlt().solve(bridge.reading);
@@ -115,15 +119,14 @@ MatrixXd errors_of(const UnknownBridge& bridge, const VectorXd& added, bool seco
 /// Chi square of the readings, from its definition.
 void check_chances(const UnstatedLoad& load, UnknownBridge& bridge, const Observation& observation) {
   set_case(observation, load.best, bridge);
-  const VectorXd zero = VectorXd::Zero(bridge.reading.size());
-  const MatrixXd scatter = bridge_columns(bridge, Scene{});
-  const MatrixXd intact = scene_noise(bridge, {{}, zero, zero}) + scatter * scatter.transpose();
+  const MatrixXd intact = intact_covariance_of(bridge);
   const auto chance = [&](const MatrixXd& covariance) {
     const boost::math::chi_squared of_readings(static_cast<double>(bridge.reading.size()));
     return cdf(complement(of_readings, bridge.reading.dot(covariance.ldlt().solve(bridge.reading))));
   };
-  CHECK(load.chance == Approx(chance(intact + load.covariance)).margin(1e-9));
-  CHECK(load.without == Approx(chance(intact)).margin(1e-9));
+  const LoadChances found = load_chances(bridge, observation, load);
+  CHECK(found.with == Approx(chance(intact + load.covariance)).margin(1e-9));
+  CHECK(found.without == Approx(chance(intact)).margin(1e-9));
 }
 
 }  // namespace
