@@ -49,7 +49,8 @@ void add_reading_options(CLI::App& app, LocateDamageOptions& options) {
          "MEASUREMENTS", options.measurements,
          "CSV with a header: point (or x_m,y_m), and uy_mm, uy_m, settlement_mm (positive downwards, all "
          "others upwards) or value_mm, or change_mm, or before_mm and after_mm; optionally sigma_mm, "
-         "load; - reads the standard input. Several files: a row each, from all cores")
+         "load, levelling (a name of what was levelled at once); - reads the standard input. Several files: "
+         "a row each, from all cores")
       ->required()
       ->option_text("FILE...");
   app.add_option("-d,--database", options.databases,
@@ -139,8 +140,10 @@ void add_nuisance_options(CLI::App& app, LocateDamageOptions& options) {
                  "noise only")
       ->check(checked_by(parse_noise_level, "LEVEL"))
       ->option_text("LEVEL");
-  app.add_option("--unknown-datum", options.unknown_datum_mm,
-                 "standard deviation of a shift of all heights of one levelling [mm]; gaussian only")
+  app.add_option(
+         "--unknown-datum", options.unknown_datum_mm,
+         "standard deviation of a shift of all heights of one levelling (those of one load, or of one name "
+         "in a column levelling) [mm]; gaussian only")
       ->check(number_in_range(0.0, kLargestError, "MM"))
       ->option_text("MM");
   app.add_option("--unknown-tilt", options.unknown_tilt_mm_per_m,

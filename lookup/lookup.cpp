@@ -137,8 +137,8 @@ void judge_known_bridge(const Library& library, const Observation& observation, 
   answer.fit = fit_of(library, observation, answer);
 }
 
-/// A fit that explains nothing names the reading that is farthest from all others, if one disagrees, or a
-/// load that would explain them.
+/// A fit that explains nothing names the reading that is farthest from all others, if one disagrees, or
+/// what nobody stated and would explain them.
 void name_suspect(const QuestionContext& asked, Answer& answer) {
   const auto farthest = std::ranges::max_element(answer.residuals, {}, [](const SensorResidual& sensor) {
     return sensor.disagrees ? std::abs(sensor.error) : 0.0;
@@ -146,8 +146,8 @@ void name_suspect(const QuestionContext& asked, Answer& answer) {
   if (farthest != answer.residuals.end() && farthest->disagrees)
     answer.fit->reason +=
         fmt::format(", at {} most of all", asked.comparison.library.points[farthest->point].name);
-  else if (const auto load = load_that_explains(asked))
-    answer.fit->reason += "; " + *load;
+  else if (const auto cause = cause_that_explains(asked))
+    answer.fit->reason += "; " + *cause;
 }
 
 /// The same, and what the readings say of the bridge, averaged over the likeliest scenes.

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "core/units.h"
 #include "lookup/evidence/scene_evidence.h"
 #include "lookup/gross_errors.h"
 
@@ -12,6 +13,7 @@ namespace {
 
 constexpr std::size_t kMostFalls = 10;  // scenes near the readings, of which those that fall are looked at
 constexpr std::array kTimesErrors = {3.0, 10.0, 100.0};  // errors that are asked about, of what is stated
+constexpr std::size_t kMostLines = 4;                    // of levelling that may be off alike
 constexpr std::size_t kMostLoads = 3;                    // stretches of the top that a load may stand on
 constexpr double kNewtonsPerKilonewton = 1e3;
 constexpr double kLeastForce = 10e3;     // [N/m] of a load that is spoken of where nothing explains readings
@@ -56,13 +58,13 @@ std::optional<Fit> check_falls(const QuestionContext& asked, const Answer& answe
                          to_string(table.scene(best), asked.comparison.library.layout))};
 }
 
-/// The readings without what a load most likely adds to them with no block missing.
-Observation without(const UnknownBridge& bridge, Observation observation, const UnstatedLoad& load) {
+/// The readings without what a cause most likely adds to them with no block missing.
+Observation without(const UnknownBridge& bridge, Observation observation, const UnstatedCause& cause) {
   for (std::size_t k = 0; k < bridge.rows.size(); ++k) {
     const auto& [channel, before, after] = bridge.rows[k];
     if (after == 0.0) continue;
-    observation.displacement[channel] -= load.expected[static_cast<Eigen::Index>(k)];
-    observation.reading[channel] -= load.expected[static_cast<Eigen::Index>(k)];
+    observation.displacement[channel] -= cause.expected[static_cast<Eigen::Index>(k)];
+    observation.reading[channel] -= cause.expected[static_cast<Eigen::Index>(k)];
   }
   return observation;
 }
@@ -74,32 +76,51 @@ double to_one_digit(double value) {
   return unit * std::round(value / unit);
 }
 
+std::string_view at_time(ReadingKind kind, bool first_epoch) {
+  if (!is_change(kind)) return "";
+  return first_epoch ? " at the first of the two times" : " at the second of the two times";
+}
+
 /// "a load of about 50 kN for each metre of the bridge's width between x = 8 and 16 m at the second of the
 /// two times"
 std::string in_words(const UnstatedLoad& load, ReadingKind kind) {
   return fmt::format(
       "a load of about {:g} kN for each metre of the bridge's width between x = {:.3g} and {:.3g} m{}",
-      to_one_digit(load.force / kNewtonsPerKilonewton), load.from, load.to,
-      !is_change(kind)   ? ""
-      : load.first_epoch ? " at the first of the two times"
-                         : " at the second of the two times");
+      to_one_digit(load.force / kNewtonsPerKilonewton), load.from, load.to, at_time(kind, load.first_epoch));
 }
 
-/// Did something stand on the bridge that nobody stated, so that others would be likely?
-std::optional<Fit> check_unstated_loads(const QuestionContext& asked, const Answer& answer,
-                                        const Alarm& alarm) {
+/// "an error of about 0.3 mm that all readings at A1 to A38 share (a datum or tilt of their own, ..)"
+std::string in_words(const LineError& line, const Library& library) {
+  return fmt::format(
+      "an error of about {:g} mm that all readings at {} share (a datum or tilt of their own, which a column "
+      "levelling and --unknown-datum would state)",
+      to_one_digit(kMillimetres * line.size), places_in_words(library, line.channels));
+}
+
+/// If something acted that nobody stated, would others be likely?
+std::optional<Fit> check_cause(const QuestionContext& asked, const Answer& answer, const Alarm& alarm,
+                               const UnstatedCause& cause, double chance, const std::string& in_words) {
+  const auto scene = explained_by(
+      asked, answer, alarm,
+      {{.beside = cause.covariance}, chance, without(asked.question.bridge(), asked.observation, cause)});
+  if (!scene) return std::nullopt;
   const std::string named =
       alarm.named.empty() ? "some block" : to_string(Scene{alarm.named}, asked.comparison.library.layout);
-  for (const UnstatedLoad& load : asked.question.unstated_loads(kMostLoads)) {
-    const auto scene = explained_by(asked, answer, alarm,
-                                    {{.beside = load.covariance},
-                                     kLoadChance,
-                                     without(asked.question.bridge(), asked.observation, load)});
-    if (scene)
-      return Fit{false, answer.fit->chance,
-                 fmt::format("{} may be behind them: with it {} would be likely, without it {} is missing",
-                             in_words(load, asked.comparison.kind), scene_in_words(asked, *scene), named)};
-  }
+  return Fit{false, answer.fit->chance,
+             fmt::format("{} may be behind them: with it {} would be likely, without it {} is missing",
+                         in_words, scene_in_words(asked, *scene), named)};
+}
+
+std::optional<Fit> check_unstated_causes(const QuestionContext& asked, const Answer& answer,
+                                         const Alarm& alarm) {
+  for (const LineError& line : asked.question.line_errors(kMostLines))
+    if (const auto fit = check_cause(asked, answer, alarm, line.cause, line.chance,
+                                     in_words(line, asked.comparison.library)))
+      return fit;
+  for (const UnstatedLoad& load : asked.question.unstated_loads(kMostLoads))
+    if (const auto fit =
+            check_cause(asked, answer, alarm, load.cause, kLoadChance, in_words(load, asked.comparison.kind)))
+      return fit;
   return std::nullopt;
 }
 
@@ -163,14 +184,21 @@ std::optional<Fit> check_hidden_losses(const QuestionContext& asked, const Answe
 
 }  // namespace
 
-std::optional<std::string> load_that_explains(const QuestionContext& asked) {
-  const std::vector<UnstatedLoad> loads = asked.question.unstated_loads(1);
-  if (loads.empty() || loads.front().force < kLeastForce) return std::nullopt;
-  const LoadChances chances = asked.question.load_chances(loads.front());
-  const bool is_needed = chances.without < kSmallestChance && chances.with >= kSmallestChance;
-  if (!is_needed) return std::nullopt;
-  return fmt::format("{} on an intact bridge would explain them",
-                     in_words(loads.front(), asked.comparison.kind));
+/// The line, if one alone may be off, else the load, if it is not a small one.
+std::optional<std::string> cause_that_explains(const QuestionContext& asked) {
+  const auto explains = [&](const UnstatedCause& cause) {
+    const CauseChances chances = asked.question.chances(cause);
+    return chances.without < kSmallestChance && chances.with >= kSmallestChance;
+  };
+  const auto on_intact = [](const std::string& cause) {
+    return cause + " on an intact bridge would explain them";
+  };
+  for (const LineError& line : asked.question.line_errors(kMostLines))
+    if (explains(line.cause)) return on_intact(in_words(line, asked.comparison.library));
+  for (const UnstatedLoad& load : asked.question.unstated_loads(1))
+    if (load.force >= kLeastForce && explains(load.cause))
+      return on_intact(in_words(load, asked.comparison.kind));
+  return std::nullopt;
 }
 
 std::optional<Fit> find_other(const QuestionContext& asked, const Answer& answer) {
@@ -180,7 +208,7 @@ std::optional<Fit> find_other(const QuestionContext& asked, const Answer& answer
     if (const auto gross = check_gross_errors(asked, answer, alarm)) return gross;
   if (const auto hidden = check_hidden_losses(asked, answer)) return hidden;
   if (is_alarm)
-    if (const auto load = check_unstated_loads(asked, answer, alarm)) return load;
+    if (const auto cause = check_unstated_causes(asked, answer, alarm)) return cause;
   if (const auto sizes = check_sizes(answer.bridge->posterior)) return sizes;
   if (const auto falls = check_falls(asked, answer)) return falls;
   return is_alarm && !asked.observation.unknown_level ? check_stated_errors(asked, answer, alarm)

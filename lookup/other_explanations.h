@@ -8,15 +8,16 @@ namespace voussoir {
 
 /// A fit that explains nothing, with the reason, if there is one: where blocks are said to be missing a
 /// single reading that is grossly wrong (check_gross_errors), so that others would be likely, too; losses of
-/// blocks that are read all the same, which would be likely, too; where blocks are said to be missing, a load
-/// that stood on the bridge and is not stated, with which others would be likely; sizes that cannot be
-/// (check_sizes); falls that show just what the database has of them, which would be likely, too; and, where
-/// blocks are said to be missing, errors that are larger than stated, which would be far likelier.
-/// Preconditions: some scene is likely, and the answer has what the readings say of the bridge.
+/// blocks that are read all the same, which would be likely, too; where blocks are said to be missing, an
+/// error that a line of levelling shares or a load that stood on the bridge, not stated, with which others
+/// would be likely; sizes that cannot be (check_sizes); falls that show just what the database has of them,
+/// which would be likely, too; and, where blocks are said to be missing, errors that are larger than stated,
+/// which would be far likelier. Preconditions: some scene is likely, and the answer has what the readings say
+/// of the bridge.
 std::optional<Fit> find_other(const QuestionContext& asked, const Answer& answer);
 
-/// In words, a load that is not stated and with which an intact bridge would show such readings, if there may
-/// be one.
-std::optional<std::string> load_that_explains(const QuestionContext& asked);
+/// In words, an error that a line of levelling shares, or a load, that nobody stated and with which an intact
+/// bridge would show such readings, if there may be one.
+std::optional<std::string> cause_that_explains(const QuestionContext& asked);
 
 }  // namespace voussoir

@@ -30,18 +30,28 @@ bool is_vertical(const Channel& channel) {
   return channel.sensor->quantity == Quantity::uy;
 }
 
-/// Readings of heights with one load were levelled together; other instruments have no common level.
-std::vector<int> levelling_of(const std::vector<Channel>& channels) {
+/// By channel; where nothing is read that of the first reading.
+std::vector<std::string> levelling_names(const ReadingsFile& file, const Comparison& comparison) {
+  std::vector<std::string> names(comparison.library.points.size(), file.readings.front().levelling);
+  for (std::size_t i = 0; i < file.readings.size(); ++i)
+    names[channel_of(comparison, file.readings[i], i)] = file.readings[i].levelling;
+  return names;
+}
+
+/// Readings of heights with one load were levelled together, unless the file names levellings; other
+/// instruments have no common level.
+std::vector<int> levelling_of(const std::vector<Channel>& channels, const std::vector<std::string>& names) {
   std::vector<int> groups;
-  std::vector<std::string> loads;
-  for (const Channel& channel : channels) {
-    if (!is_vertical(channel)) {
+  std::vector<std::pair<std::string, std::string>> levellings;
+  for (std::size_t i = 0; i < channels.size(); ++i) {
+    if (!is_vertical(channels[i])) {
       groups.push_back(kNoLevelling);
       continue;
     }
-    const auto found = std::find(loads.begin(), loads.end(), channel.load);
-    groups.push_back(static_cast<int>(found - loads.begin()));
-    if (found == loads.end()) loads.push_back(channel.load);
+    const std::pair levelling{channels[i].load, names[i]};
+    const auto found = std::ranges::find(levellings, levelling);
+    groups.push_back(static_cast<int>(found - levellings.begin()));
+    if (found == levellings.end()) levellings.push_back(levelling);
   }
   return groups;
 }
@@ -159,8 +169,11 @@ Comparison compare(const ReadingsFile& file, const SensorList& list, const Datab
     require_control_points(file, list);
     result.factors = reading_factors(*sensitivities, states.base, channels, result.library.layout.size());
   }
-  if (own_table && std::ranges::all_of(channels, is_vertical)) return result;
-  result.levelling = levelling_of(channels);
+  const std::vector<std::string> levellings = levelling_names(file, result);
+  const bool one_levelling =
+      std::ranges::all_of(levellings, [&](const std::string& name) { return name == levellings.front(); });
+  if (own_table && one_levelling && std::ranges::all_of(channels, is_vertical)) return result;
+  result.levelling = levelling_of(channels, levellings);
   for (const Channel& channel : channels) {
     result.quantity.push_back(channel.sensor->quantity);
     result.load.push_back(channel.load);

@@ -69,6 +69,7 @@ class Header {
     if (name == "after_mm") return columns_.after;
     if (name == "sigma_mm") return columns_.sigma;
     if (name == "load") return columns_.load;
+    if (name == "levelling") return columns_.levelling;
     fail(fmt::format("unknown column {}", in_quotes(name)));
   }
 
@@ -99,7 +100,7 @@ class Header {
 
 const std::string_view kReadingsColumns =
     "point or x_m,y_m; one of uy_mm, uy_m, settlement_mm, value_mm, change_mm, or before_mm,after_mm; "
-    "optionally sigma_mm, load";
+    "optionally sigma_mm, load, levelling";
 
 /// Beside a load a change is the load's own: what it adds. How that changed needs two epochs.
 ReadingKind ReadingsColumns::kind() const {

@@ -21,6 +21,7 @@ struct ReadingsColumns {
   std::size_t after = kAbsent;
   std::size_t sigma = kAbsent;
   std::size_t load = kAbsent;
+  std::size_t levelling = kAbsent;
   double factor = 1.0;         ///< from the value's unit and sign to metres, up positive
   bool change = false;         ///< the value is one
   bool vertical_only = false;  ///< the value's name says what is read

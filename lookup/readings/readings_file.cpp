@@ -57,6 +57,7 @@ class ReadingsReader {
                               first->second));
     read_value(line, reading);
     reading.sigma = columns_.sigma != kAbsent ? sigma(line) : kNan;
+    if (columns_.levelling != kAbsent) reading.levelling = line.fields[columns_.levelling];
     return reading;
   }
 

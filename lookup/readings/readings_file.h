@@ -5,8 +5,9 @@
 /// `x_m,y_m` of control points. One value: `uy_mm`, `uy_m` (up is positive), `settlement_mm` (down is
 /// positive), `value_mm` (whatever the sensor reads), `change_mm` (second epoch minus first), or the pair
 /// `before_mm,after_mm`. Tilts are in mm per m in all columns of mm. Optionally `sigma_mm`, the standard
-/// deviation of the row's value (of the change, where it is one), and `load`, the load case under which the
-/// reading was taken: the value is then what the load adds.
+/// deviation of the row's value (of the change, where it is one), `load`, the load case under which the
+/// reading was taken: the value is then what the load adds, and `levelling`, a name of what was levelled at
+/// once: heights of one share its datum and tilt.
 ///
 /// An empty value or NaN is a sensor that gave no reading. Of two epochs: a sensor that fell silent after the
 /// first; without a reading in the first it is as if there were no sensor, since it does not tell what the
@@ -25,10 +26,11 @@ namespace voussoir {
 /// A row. Displacements in metres, tilts in radians; NaN where the file says nothing.
 struct Reading {
   long line = 0;
-  std::size_t sensor = 0;  ///< number in the list of sensors
-  std::string load{};      ///< none: the bridge's own weight alone
-  double value = 0.0;      ///< of two epochs the change
-  double before = 0.0;     ///< of two epochs
+  std::size_t sensor = 0;   ///< number in the list of sensors
+  std::string load{};       ///< none: the bridge's own weight alone
+  std::string levelling{};  ///< none: of the one without a name
+  double value = 0.0;       ///< of two epochs the change
+  double before = 0.0;      ///< of two epochs
   double after = 0.0;
   double sigma = 0.0;
   bool silent = false;  ///< there is a sensor, but it gave no reading

@@ -128,8 +128,15 @@ std::vector<UnstatedLoad> UnknownBridgeQuestion::unstated_loads(std::size_t coun
   return result;
 }
 
-LoadChances UnknownBridgeQuestion::load_chances(const UnstatedLoad& load) {
-  const LoadChances result = voussoir::load_chances(bridge_, observation_, load);
+std::vector<LineError> UnknownBridgeQuestion::line_errors(std::size_t count) {
+  std::vector<LineError> result =
+      voussoir::line_errors(bridge_, observation_, comparison_, cases_of_level(), count);
+  set_case(observation_, cases_[likeliest_], bridge_);
+  return result;
+}
+
+CauseChances UnknownBridgeQuestion::chances(const UnstatedCause& cause) {
+  const CauseChances result = cause_chances(bridge_, observation_, cause);
   set_case(observation_, cases_[likeliest_], bridge_);
   return result;
 }

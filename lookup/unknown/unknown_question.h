@@ -9,6 +9,7 @@
 #include "lookup/evidence/posterior.h"
 #include "lookup/unknown/bridge_posterior.h"
 #include "lookup/unknown/hidden_losses.h"
+#include "lookup/unknown/line_errors.h"
 #include "lookup/unknown/unstated_loads.h"
 
 namespace voussoir {
@@ -46,10 +47,11 @@ class UnknownBridgeQuestion {
   std::vector<double> log_parts_of(std::span<const std::size_t> rows, const Eligible& eligible,
                                    const Prior& prior, const Supposition& supposed);
 
-  /// These three at the likeliest level of the noise.
+  /// These at the likeliest level of the noise.
   std::vector<HiddenLoss> hidden_losses(const Eligible& eligible);
   std::vector<UnstatedLoad> unstated_loads(std::size_t count);
-  LoadChances load_chances(const UnstatedLoad& load);
+  std::vector<LineError> line_errors(std::size_t count);
+  CauseChances chances(const UnstatedCause& cause);
 
   /// Of these scenes, over all cases.
   BridgePosterior posterior(const std::vector<WeightedScene>& scenes);

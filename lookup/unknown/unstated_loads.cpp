@@ -1,14 +1,9 @@
 #include "lookup/unknown/unstated_loads.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <functional>
-#include <limits>
-
-#include "lookup/evidence/chi_square.h"
-#include "lookup/unknown/intact_gaussian.h"
 
 namespace voussoir {
 namespace {
@@ -25,11 +20,6 @@ constexpr double kRounding = 1e-6;  // [m] of places
 constexpr double kOwnShare = 0.08;
 constexpr double kCommonShare = 0.03;
 
-/// Neighbouring places.
-struct Stretch {
-  Index first = 0, count = 0;
-};
-
 /// [m] between places, gaps in the top apart.
 double spacing_of(const std::vector<double>& places) {
   double least = places.back() - places.front();
@@ -39,9 +29,9 @@ double spacing_of(const std::vector<double>& places) {
 
 /// From each place on, as long as they fit: shorter ones at the ends would be as blocks that are lost there.
 /// None goes over a gap.
-std::vector<Stretch> stretches_of(const std::vector<double>& places) {
+std::vector<CauseColumns> stretches_of(const std::vector<double>& places) {
   const double whole = places.back() - places.front(), spacing = spacing_of(places);
-  std::vector<Stretch> stretches;
+  std::vector<CauseColumns> stretches;
   for (const double length : kLengths) {
     const double fits = std::min(length, whole) - kRounding;
     for (auto first = places.begin(); first != places.end(); ++first) {
@@ -53,42 +43,6 @@ std::vector<Stretch> stretches_of(const std::vector<double>& places) {
     if (length >= whole) break;
   }
   return stretches;
-}
-
-/// Loads at one levelling, seen by the intact bridge in one case.
-struct SeenLoads {
-  MatrixXd seen;    // L^T C^-1 L of all places
-  VectorXd pulled;  // L^T C^-1 y
-  double log = 0.0;
-};
-
-/// Of a stretch: w ~ N(0, 1) at each of its places.
-struct StretchFit {
-  VectorXd forces;   // most likely w
-  UnknownCase best;  // in which the readings are likeliest
-  double log = -std::numeric_limits<double>::infinity();
-};
-
-StretchFit fit_of(const SeenLoads& loads, const Stretch& stretch, const UnknownCase& one) {
-  const VectorXd pulled = loads.pulled.segment(stretch.first, stretch.count);
-  MatrixXd precision = loads.seen.block(stretch.first, stretch.first, stretch.count, stretch.count);
-  precision.diagonal().array() += 1.0;
-  const Eigen::LLT<MatrixXd> root(precision);
-  StretchFit fit{root.solve(pulled), one};
-  fit.log = loads.log + 0.5 * pulled.dot(fit.forces) - root.matrixLLT().diagonal().array().log().sum();
-  return fit;
-}
-
-/// What loads add at one of the levellings.
-struct EpochLoads {
-  bool first_epoch = false;
-  MatrixXd columns;  // in rows of y: a standard deviation at each place
-};
-
-/// In rows of y, what is added to channels at one of the levellings.
-MatrixXd at_levelling(const UnknownBridge& bridge, const MatrixXd& channels, bool first_epoch) {
-  const MatrixXd none = MatrixXd::Zero(channels.rows(), channels.cols());
-  return first_epoch ? in_rows(bridge.rows, channels, none) : in_rows(bridge.rows, none, channels);
 }
 
 /// [N/m] Standard deviation of the force at each place.
@@ -108,64 +62,23 @@ MatrixXd channel_columns(const UnknownBridge& bridge) {
   return columns;
 }
 
-/// A fit, of which stretch and at which levelling.
-struct Found {
-  const EpochLoads* loads;
-  Stretch stretch;
-  StretchFit fit;
-
-  /// Sum of the forces, downwards: of changes alone those of the first levelling count as negative.
-  double force() const { return fit.forces.sum(); }
-};
-
-/// Errors of what it adds are those of the channels, the same wherever a channel counts.
-UnstatedLoad load_of(const UnknownBridge& bridge, const MatrixXd& channels, const Found& found) {
+/// Errors of what it adds are those of the channels, the same wherever a channel counts. Of changes alone
+/// forces of the first levelling count as negative.
+UnstatedLoad load_of(const UnknownBridge& bridge, const PossibleCauses& possible, const CauseFit& fit) {
   const std::vector<double>& places = bridge.factors->sensitivities->load.places;
-  const auto& [first, count] = found.stretch;
-  const MatrixXd own = found.loads->columns.middleCols(first, count);
-  const VectorXd added = channels.middleCols(first, count) * found.fit.forces;
+  const auto& [first, count] = possible.causes[fit.cause];
+  const VectorXd added = possible.columns.middleCols(first, count) * fit.amounts;
   const double common = kCommonShare * std::sqrt(added.squaredNorm() / static_cast<double>(added.size()));
   const VectorXd errors = ((kOwnShare * added).array().square() + common * common).sqrt();
-  const MatrixXd off = at_levelling(bridge, errors.asDiagonal(), found.loads->first_epoch);
+  const MatrixXd off = at_epoch(bridge, errors.asDiagonal(), fit.first_epoch);
   UnstatedLoad load;
   load.from = places[static_cast<std::size_t>(first)];
   load.to = places[static_cast<std::size_t>(first + count - 1)];
-  load.first_epoch = found.loads->first_epoch || found.force() < 0.0;
-  load.force = force_at(places) * std::abs(found.force());
-  load.expected = own * found.fit.forces;
-  load.covariance = own * own.transpose() + off * off.transpose();
-  load.best = found.fit.best;
-  load.log = found.fit.log;
+  load.first_epoch = fit.first_epoch || fit.amounts.sum() < 0.0;
+  load.force = force_at(places) * std::abs(fit.amounts.sum());
+  load.cause = unstated_cause(bridge, possible, fit);
+  load.cause.covariance += off * off.transpose();
   return load;
-}
-
-/// At the second levelling, or the only one; and at the first, where that counts by itself.
-std::vector<EpochLoads> loads_of(const UnknownBridge& bridge, const MatrixXd& channels) {
-  std::vector<EpochLoads> loads = {{false, at_levelling(bridge, channels, false)}};
-  if (bridge.has_first_epoch()) loads.push_back({true, at_levelling(bridge, channels, true)});
-  return loads;
-}
-
-/// Of all stretches at each levelling in the case in which each is likeliest.
-std::vector<Found> fits_of(UnknownBridge& bridge, const Observation& observation,
-                           std::span<const UnknownCase> cases, const std::vector<EpochLoads>& loads) {
-  std::vector<Found> best;
-  for (const EpochLoads& one : loads)
-    for (const Stretch& stretch : stretches_of(bridge.factors->sensitivities->load.places))
-      best.push_back({&one, stretch, {}});
-  for (const UnknownCase& one : cases) {
-    set_case(observation, one, bridge);
-    const IntactGaussian intact = intact_gaussian(bridge);
-    for (const EpochLoads& at : loads) {
-      const SeenLoads seen{at.columns.transpose() * intact.precision * at.columns,
-                           at.columns.transpose() * intact.pulled, intact.log};
-      for (Found& found : best)
-        if (found.loads == &at)
-          if (StretchFit fit = fit_of(seen, found.stretch, one); fit.log > found.fit.log)
-            found.fit = std::move(fit);
-    }
-  }
-  return best;
 }
 
 }  // namespace
@@ -176,29 +89,16 @@ std::vector<UnstatedLoad> unstated_loads(UnknownBridge& bridge, const Observatio
   const bool is_loaded = std::ranges::any_of(
       bridge.factors->channels, [](const Channel& channel) { return channel.loaded.has_value(); });
   if (places.size() < 2 || is_loaded) return {};
-  const MatrixXd channels = channel_columns(bridge);
-  const std::vector<EpochLoads> loads = loads_of(bridge, channels);
+  const PossibleCauses possible{channel_columns(bridge), stretches_of(places)};
+  std::vector<CauseFit> fits = cause_fits(bridge, observation, cases, possible);
   // Of changes alone a load at the first levelling is one at the second with the other sign.
   const bool any_sign = !bridge.has_first_epoch() && bridge.rows.front().before != 0.0;
-  std::vector<Found> all = fits_of(bridge, observation, cases, loads);
-  std::erase_if(all, [&](const Found& found) {
-    return !std::isfinite(found.fit.log) || !(any_sign || found.force() > 0.0);
-  });
-  std::ranges::stable_sort(all, std::ranges::greater{}, [](const Found& found) { return found.fit.log; });
+  std::erase_if(fits, [&](const CauseFit& fit) { return !(any_sign || fit.amounts.sum() > 0.0); });
+  std::ranges::stable_sort(fits, std::ranges::greater{}, &CauseFit::log);
+  fits.resize(std::min(fits.size(), count));
   std::vector<UnstatedLoad> best;
-  for (const Found& found : std::span(all).first(std::min(all.size(), count)))
-    best.push_back(load_of(bridge, channels, found));
+  for (const CauseFit& fit : fits) best.push_back(load_of(bridge, possible, fit));
   return best;
-}
-
-LoadChances load_chances(UnknownBridge& bridge, const Observation& observation, const UnstatedLoad& load) {
-  set_case(observation, load.best, bridge);
-  const MatrixXd without = intact_covariance(bridge);
-  const auto chance = [&](const MatrixXd& covariance) {
-    return chi_square_chance(bridge.reading.dot(covariance.llt().solve(bridge.reading)),
-                             static_cast<double>(bridge.reading.size()));
-  };
-  return {chance(without + load.covariance), chance(without)};
 }
 
 }  // namespace voussoir

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "lookup/unknown/unknown_bridge.h"
+#include "lookup/unknown/unstated_cause.h"
 
 namespace voussoir {
 
@@ -16,11 +16,8 @@ inline constexpr double kUnstatedForce = 20e3;
 struct UnstatedLoad {
   double from = 0.0, to = 0.0;  ///< [m] x of the stretch
   bool first_epoch = false;     ///< it stood there at the first of two times, not at the second or only one
-  double force = 0.0;        ///< [N/m] its most likely sum with no block missing, of each metre of the width
-  Eigen::VectorXd expected;  ///< [m] in rows of y: what it most likely adds
-  Eigen::MatrixXd covariance;  ///< [m2] the same: what any load there may add
-  UnknownCase best;            ///< in which the readings are likeliest
-  double log = 0.0;            ///< density of the readings, but for what all cases have in common
+  double force = 0.0;   ///< [N/m] its most likely sum with no block missing, of each metre of the width
+  UnstatedCause cause;  ///< with errors of the first order
 };
 
 /// The stretches on which a load explains readings of the intact bridge best, the best first. Loads
@@ -28,15 +25,5 @@ struct UnstatedLoad {
 /// loads add. The bridge's case is changed.
 std::vector<UnstatedLoad> unstated_loads(UnknownBridge& bridge, const Observation& observation,
                                          std::span<const UnknownCase> cases, std::size_t count);
-
-/// Of readings as far from an intact bridge as these, or farther, all that scatters as the bridge file
-/// states.
-struct LoadChances {
-  double with = 0.0;  ///< under the load
-  double without = 0.0;
-};
-
-/// In the load's best case. The bridge's case is changed.
-LoadChances load_chances(UnknownBridge& bridge, const Observation& observation, const UnstatedLoad& load);
 
 }  // namespace voussoir

@@ -98,3 +98,25 @@ TEST_CASE("A load that stood there at one of the two times and is not stated nam
   CHECK(alarms >= 3);  // of 6 of which nobody knows what loads do
   CHECK(loads >= 3);
 }
+
+TEST_CASE("A line that was levelled apart from the others, all of it off alike, names no block") {
+  int alarms = 0, lines = 0;
+  for (const std::uint64_t seed : {1, 2, 3})
+    for (const bool is_line : {false, true})
+      for (const double off : {-1e-4, 1e-4}) {
+        IntactBridge bridge(seed);
+        for (std::size_t i = 4; i < 10; ++i) {  // on three blocks
+          if (is_line) bridge.comparison.library.points[i].name = "A" + std::to_string(i - 3);
+          bridge.comparison.measured.displacement[i] += off;
+        }
+        const Answer answer = locate_damage(bridge.comparison, {});
+        INFO(seed << ", off by " << off << " m: " << answer.fit->reason);
+        if (is_line) CHECK(!is_alarm(answer));
+        alarms += is_alarm(answer) ? 1 : 0;
+        lines +=
+            answer.fit->reason.starts_with("an error of about 0.1 mm that all readings at A1 to A6") ? 1 : 0;
+      }
+  UNSCOPED_INFO(alarms << " alarms, " << lines << " lines");
+  CHECK(alarms >= 3);  // of 6 in which all points are of one line
+  CHECK(lines >= 3);
+}

@@ -166,6 +166,22 @@ TEST_CASE("Heights share a level under each load, and tilts and distances have n
   CHECK(comparison.levelling == std::vector<int>{kNoLevelling, 0, 0});
 }
 
+TEST_CASE("Levellings that a file names are told apart, under each load, too (written out)") {
+  const Comparison change = compare_text(
+      "point,change_mm,levelling\nT1,-1,road\nT2,-1,\"below\"\nT3,-1,\nT4,-1,road\n", shelf().with_loads);
+  REQUIRE(change.levelling.size() == shelf().with_loads.control_points().size());
+  CHECK(change.levelling[0] == change.levelling[3]);
+  CHECK(change.levelling[0] != change.levelling[1]);
+  CHECK(change.levelling[0] != change.levelling[2]);
+  CHECK(change.levelling[1] != change.levelling[2]);
+  const Comparison load = compare_text(
+      "point,load,uy_mm,levelling\nT1,axle,-1,road\nT1,truck@2,-2,road\nT2,axle,-1,road\nT3,axle,-1,below\n",
+      shelf().with_loads);
+  CHECK(load.levelling == std::vector<int>{0, 1, 0, 2});
+  CHECK(compare_text("point,change_mm,levelling\nT1,-1,road\n", shelf().with_loads).levelling ==
+        compare_text("point,change_mm\nT1,-1\n", shelf().with_loads).levelling);
+}
+
 TEST_CASE(
     "The errors of what a load adds are those of both states, of other sensors the share of control points") {
   const Comparison comparison = compare_text("point,load,value_mm\nT2,axle,-1\nV,axle,1\n",

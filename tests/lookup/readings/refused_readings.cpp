@@ -36,7 +36,7 @@ struct Wrong {
 const std::string kExpected =
     ", expected point or x_m,y_m; one of uy_mm, uy_m, settlement_mm, value_mm, change_mm, or "
     "before_mm,after_mm; "
-    "optionally sigma_mm, load";
+    "optionally sigma_mm, load, levelling";
 
 const std::vector<Wrong> kHeaders = {
     {"point,uy_cm\nT1,1\n", "unknown column 'uy_cm'"},

@@ -118,14 +118,14 @@ MatrixXd errors_of(const UnknownBridge& bridge, const VectorXd& added, bool seco
 
 /// Chi square of the readings, from its definition.
 void check_chances(const UnstatedLoad& load, UnknownBridge& bridge, const Observation& observation) {
-  set_case(observation, load.best, bridge);
+  set_case(observation, load.cause.best, bridge);
   const MatrixXd intact = intact_covariance_of(bridge);
   const auto chance = [&](const MatrixXd& covariance) {
     const boost::math::chi_squared of_readings(static_cast<double>(bridge.reading.size()));
     return cdf(complement(of_readings, bridge.reading.dot(covariance.ldlt().solve(bridge.reading))));
   };
-  const LoadChances found = load_chances(bridge, observation, load);
-  CHECK(found.with == Approx(chance(intact + load.covariance)).margin(1e-9));
+  const CauseChances found = cause_chances(bridge, observation, load.cause);
+  CHECK(found.with == Approx(chance(intact + load.cause.covariance)).margin(1e-9));
   CHECK(found.without == Approx(chance(intact)).margin(1e-9));
 }
 
@@ -142,7 +142,8 @@ TEST_CASE("A load on a stretch explains readings as well as its covariance makes
   const std::size_t stretches = 25 + 20;  // of 5 and 10 m on 29 m
   if (is_change(readings.comparison.kind) && !both) REQUIRE(found.size() == stretches);
   CHECK(found.size() >= stretches / 4);
-  CHECK(std::ranges::is_sorted(found, std::ranges::greater{}, &UnstatedLoad::log));
+  CHECK(std::ranges::is_sorted(found, std::ranges::greater{},
+                               [](const UnstatedLoad& load) { return load.cause.log; }));
   CHECK(found.front().from <= 11.0);
   CHECK(found.front().to >= 14.0);
   CHECK_FALSE(found.front().first_epoch);
@@ -153,12 +154,12 @@ TEST_CASE("A load on a stretch explains readings as well as its covariance makes
     const bool second = !both || !load.first_epoch;
     const MatrixXd columns = columns_of(bridge, readings.sensitivities.load, load.from, load.to, second);
     const Expected expected = expected_of(bridge, observation, columns);
-    CHECK(load.log == Approx(expected.log - constant).epsilon(1e-6));
-    CHECK((load.expected - expected.mean).norm() < 1e-6 * expected.mean.norm());
+    CHECK(load.cause.log == Approx(expected.log - constant).epsilon(1e-6));
+    CHECK((load.cause.expected - expected.mean).norm() < 1e-6 * expected.mean.norm());
     CHECK(load.force == Approx(expected.force).epsilon(1e-6));
     CHECK(load.force > 0.0);
-    const MatrixXd errors = errors_of(bridge, load.expected, second);
-    CHECK((load.covariance - columns * columns.transpose() - errors).norm() < 1e-6 * errors.norm());
+    const MatrixXd errors = errors_of(bridge, load.cause.expected, second);
+    CHECK((load.cause.covariance - columns * columns.transpose() - errors).norm() < 1e-6 * errors.norm());
     check_chances(load, bridge, observation);
   }
 }

@@ -1,0 +1,27 @@
+#pragma once
+/// @file Lines of levelling whose readings are all off alike: each has a datum, a tilt and a drift of its
+/// own, of which nobody says anything.
+
+#include <span>
+#include <vector>
+
+#include "lookup/unknown/unstated_cause.h"
+
+namespace voussoir {
+
+/// What was levelled at once (Comparison::levelling), or of it the points whose names differ by their number
+/// alone, T1 to T40: all of it, or from one of its points on, as the instrument was set up anew.
+struct LineError {
+  std::vector<std::size_t> channels;
+  double chance = 0.0;  ///< [-] of such an error, beforehand
+  double size = 0.0;    ///< [m] root mean square of what it most likely adds with no block missing
+  UnstatedCause cause;
+};
+
+/// Those that are likeliest beside the intact bridge, the likeliest first, of lines of three points and more
+/// beside which others were levelled and whose datum is not stated. The bridge's case is changed.
+std::vector<LineError> line_errors(UnknownBridge& bridge, const Observation& observation,
+                                   const Comparison& comparison, std::span<const UnknownCase> cases,
+                                   std::size_t count);
+
+}  // namespace voussoir

@@ -1,0 +1,94 @@
+#include "lookup/unknown/unstated_cause.h"
+
+#include <Eigen/Cholesky>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "lookup/evidence/chi_square.h"
+#include "lookup/unknown/intact_gaussian.h"
+
+namespace voussoir {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+/// All causes at one time, seen by the intact bridge in one case.
+struct SeenCauses {
+  MatrixXd seen;    // L^T C^-1 L of all columns L
+  VectorXd pulled;  // L^T C^-1 y
+  double log = 0.0;
+};
+
+/// The density of readings beside which one cause acts, and its most likely amounts.
+std::pair<double, VectorXd> log_and_amounts(const SeenCauses& all, const CauseColumns& columns) {
+  const auto& [first, count] = columns;
+  const VectorXd pulled = all.pulled.segment(first, count);
+  MatrixXd precision = all.seen.block(first, first, count, count);
+  precision.diagonal().array() += 1.0;
+  const Eigen::LLT<MatrixXd> root(precision);
+  VectorXd amounts = root.solve(pulled);
+  const double log = all.log + 0.5 * pulled.dot(amounts) - root.matrixLLT().diagonal().array().log().sum();
+  return {log, std::move(amounts)};
+}
+
+/// At the second time, or the only one, and at the first, where that counts by itself.
+std::vector<bool> epochs_of(const UnknownBridge& bridge) {
+  return bridge.has_first_epoch() ? std::vector{false, true} : std::vector{false};
+}
+
+}  // namespace
+
+MatrixXd at_epoch(const UnknownBridge& bridge, const MatrixXd& channels, bool first_epoch) {
+  const MatrixXd none = MatrixXd::Zero(channels.rows(), channels.cols());
+  return first_epoch ? in_rows(bridge.rows, channels, none) : in_rows(bridge.rows, none, channels);
+}
+
+std::vector<CauseFit> cause_fits(UnknownBridge& bridge, const Observation& observation,
+                                 std::span<const UnknownCase> cases, const PossibleCauses& possible) {
+  std::vector<CauseFit> fits;
+  std::vector<MatrixXd> columns;  // at each time
+  for (const bool first_epoch : epochs_of(bridge)) {
+    columns.push_back(at_epoch(bridge, possible.columns, first_epoch));
+    for (std::size_t i = 0; i < possible.causes.size(); ++i)
+      fits.push_back({i, first_epoch, {}, {}, -std::numeric_limits<double>::infinity()});
+  }
+  for (const UnknownCase& one : cases) {
+    set_case(observation, one, bridge);
+    const IntactGaussian intact = intact_gaussian(bridge);
+    auto fit = fits.begin();
+    for (const MatrixXd& own : columns) {
+      const SeenCauses all{own.transpose() * intact.precision * own, own.transpose() * intact.pulled,
+                           intact.log};
+      for (const CauseColumns& cause : possible.causes) {
+        auto [log, amounts] = log_and_amounts(all, cause);
+        if (log > fit->log) fit->amounts = std::move(amounts), fit->best = one, fit->log = log;
+        ++fit;
+      }
+    }
+  }
+  std::erase_if(fits, [](const CauseFit& fit) { return !std::isfinite(fit.log); });
+  return fits;
+}
+
+UnstatedCause unstated_cause(const UnknownBridge& bridge, const PossibleCauses& possible,
+                             const CauseFit& fit) {
+  const auto& [first, count] = possible.causes[fit.cause];
+  const MatrixXd own = at_epoch(bridge, possible.columns.middleCols(first, count), fit.first_epoch);
+  return {own * fit.amounts, own * own.transpose(), fit.best, fit.log};
+}
+
+CauseChances cause_chances(UnknownBridge& bridge, const Observation& observation,
+                           const UnstatedCause& cause) {
+  set_case(observation, cause.best, bridge);
+  const MatrixXd without = intact_covariance(bridge);
+  const auto chance = [&](const MatrixXd& covariance) {
+    return chi_square_chance(bridge.reading.dot(covariance.llt().solve(bridge.reading)),
+                             static_cast<double>(bridge.reading.size()));
+  };
+  return {chance(without + cause.covariance), chance(without)};
+}
+
+}  // namespace voussoir

@@ -1,0 +1,156 @@
+/// @file Errors that a line of levelling shares. Oracle: the density of the readings under a covariance with
+/// a shift and a tilt of the line in it, from its definition (LDLT); lines written out.
+
+#include "lookup/unknown/line_errors.h"
+
+#include <algorithm>
+#include <array>
+#include <catch2/catch.hpp>
+#include <functional>
+#include <numbers>
+#include <set>
+
+#include "core/not_a_number.h"
+#include "lookup/unknown/intact_gaussian.h"
+#include "tests/lookup/unknown/dense_normal.h"
+#include "tests/lookup/unknown/made_up_factors.h"
+
+using namespace voussoir;
+using namespace voussoir::test;
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+namespace {
+
+constexpr std::array<UnknownCase, 2> kLineCases = {{{0.0, 1.0}, {0.0, 0.2}}};
+constexpr double kShift = 0.4e-3;   // [m]
+constexpr std::size_t kOfLine = 6;  // points
+constexpr std::size_t kAll = 1000;
+
+/// The intact bridge, read at T1 to T6 and A1 to A6; what is read at the latter is too high at the second
+/// time.
+struct ShiftedReadings {
+  SyntheticLibrary library{3, 6};
+  Sensitivities sensitivities = made_up_sensitivities_of(library);
+  Comparison comparison;
+
+  explicit ShiftedReadings(ReadingKind kind)
+      : comparison(absolute_readings(named(library), no_measurements(library.points.size()))) {
+    comparison.kind = kind;
+    comparison.factors = factors_of(library, sensitivities);
+    comparison.model_error = {0.02, 0.01, {}};
+    for (std::size_t i = 0; i < library.points.size(); ++i) {
+      comparison.measured.displacement[i] = library.intact()[i] + (i < 6 ? 0.0 : kShift);
+      comparison.measured.sigma[i] = 2e-5;
+      if (kind == ReadingKind::change) comparison.before.push_back(library.intact()[i] + 1e-5);
+    }
+  }
+
+  static Library named(SyntheticLibrary& made_up) {
+    for (std::size_t i = 6; i < made_up.points.size(); ++i)
+      made_up.points[i].name = "A" + std::to_string(i - 5);
+    return made_up.library();
+  }
+
+  Observation observed(const Nuisance& nuisance = {}) const {
+    return observe(comparison, {NoiseShape::gaussian, 0.0}, nuisance);
+  }
+};
+
+/// A shift of the channels and, of a whole line, a tilt that makes as much of its end, in rows of y.
+MatrixXd line_columns(const UnknownBridge& bridge, const Comparison& comparison, const LineError& line,
+                      double size, bool first_epoch) {
+  double least = 1e9, most = -1e9;
+  for (const std::size_t channel : line.channels) {
+    least = std::min(least, comparison.library.points[channel].position.x());
+    most = std::max(most, comparison.library.points[channel].position.x());
+  }
+  MatrixXd columns = MatrixXd::Zero(bridge.reading.size(), 2);
+  for (Index k = 0; k < columns.rows(); ++k) {
+    const ReadingRow& row = bridge.rows[static_cast<std::size_t>(k)];
+    if (std::ranges::find(line.channels, row.channel) == line.channels.end()) continue;
+    const double x = comparison.library.points[row.channel].position.x();
+    const double weight = size * (first_epoch ? row.before : row.after);
+    columns.row(k) << weight, weight * (2.0 * (x - least) / (most - least) - 1.0);
+  }
+  return line.channels.size() == kOfLine ? columns : MatrixXd(columns.leftCols(1));
+}
+
+/// Are these columns what explains the readings in one of the cases, and in none better?
+bool explains(UnknownBridge& bridge, const Observation& observation, const MatrixXd& columns,
+              const UnstatedCause& cause) {
+  double best = -std::numeric_limits<double>::infinity();
+  VectorXd expected;
+  for (const UnknownCase& one : kLineCases) {
+    set_case(observation, one, bridge);
+    const MatrixXd covariance = intact_covariance(bridge) + columns * columns.transpose();
+    const double log = log_normal(bridge.reading, covariance);
+    if (log < best) continue;
+    best = log;
+    expected = columns * (columns.transpose() * covariance.ldlt().solve(bridge.reading));
+  }
+  best += 0.5 * static_cast<double>(bridge.reading.size()) * std::log(2.0 * std::numbers::pi);
+  return cause.log == Approx(best).epsilon(1e-6) &&
+         (cause.expected - expected).norm() < 1e-6 * expected.norm() &&
+         (cause.covariance - columns * columns.transpose()).norm() < 1e-12 * cause.covariance.norm();
+}
+
+/// Lines that may be off as a whole, by their number of points.
+std::multiset<std::size_t> whole_lines(const ShiftedReadings& readings, const Nuisance& nuisance = {}) {
+  const Observation observation = readings.observed(nuisance);
+  UnknownBridge bridge = unknown_bridge(readings.comparison, observation, kLineCases.front(), {});
+  std::set<std::vector<std::size_t>> lines;
+  for (const LineError& line : line_errors(bridge, observation, readings.comparison, kLineCases, kAll))
+    if (line.chance == 1e-3) lines.insert(line.channels);
+  std::multiset<std::size_t> sizes;
+  for (const auto& line : lines) sizes.insert(line.size());
+  return sizes;
+}
+
+}  // namespace
+
+TEST_CASE("An error that a line shares explains readings as well as its covariance makes them likely") {
+  const ShiftedReadings readings(GENERATE(ReadingKind::absolute, ReadingKind::change));
+  const UnknownSettings settings{GENERATE(Epochs::change, Epochs::both)};
+  const Observation observation = readings.observed();
+  UnknownBridge bridge = unknown_bridge(readings.comparison, observation, kLineCases.front(), settings);
+  const auto found = line_errors(bridge, observation, readings.comparison, kLineCases, kAll);
+
+  // Two lines, and of each the first and last three points, of two sizes, at one time or two.
+  REQUIRE(found.size() == (bridge.has_first_epoch() ? 24 : 12));
+  CHECK(std::ranges::is_sorted(found, std::ranges::greater{},
+                               [](const LineError& line) { return line.cause.log + std::log(line.chance); }));
+  for (const LineError& line : found) {
+    INFO(line.channels.size() << " from channel " << line.channels.front() << " on, off by " << line.size);
+    CHECK(line.chance == (line.channels.size() == kOfLine ? 1e-3 : 1e-4));
+    const double mean = line.cause.expected.squaredNorm() / static_cast<double>(line.channels.size());
+    CHECK(line.size == Approx(std::sqrt(mean)));
+    int explained = 0;
+    for (const double size : {0.3e-3, 3e-3})
+      for (const bool first_epoch : {false, true}) {
+        const MatrixXd columns = line_columns(bridge, readings.comparison, line, size, first_epoch);
+        if (columns.isZero(0.0)) continue;
+        explained += explains(bridge, observation, columns, line.cause) ? 1 : 0;
+      }
+    CHECK(explained >= 1);  // of changes alone either time's columns
+  }
+}
+
+TEST_CASE("Lines are what was levelled at once or is named alike, unless it is all or its datum is stated") {
+  using Sizes = std::multiset<std::size_t>;
+  ShiftedReadings readings(ReadingKind::change);
+  CHECK(whole_lines(readings) == Sizes{6, 6});                   // T and A
+  CHECK(whole_lines(readings, {.datum = 1e-3}) == Sizes{6, 6});  // of one levelling
+  readings.comparison.levelling = {0, 0, 0, 0, 0, 0, 1, 1, 1, 1, 1, 1};
+  CHECK(whole_lines(readings) == Sizes{6, 6});
+  CHECK(whole_lines(readings, {.datum = 1e-3}).empty());
+  readings.comparison.levelling = {0, 0, 0, 1, 1, 1, 1, 1, 1, 1, 1, 1};
+  CHECK(whole_lines(readings) == Sizes{3, 9, 3, 6});  // T1 to T3; T4 to A6, and of it T and A
+  CHECK(whole_lines(readings, {.datum = 1e-3}) == Sizes{3, 6});
+  readings.comparison.levelling = std::vector<int>(12, kNoLevelling);
+  CHECK(whole_lines(readings).empty());
+  readings.comparison.levelling.clear();
+  for (std::size_t i = 8; i < 12; ++i) readings.comparison.measured.displacement[i] = kNan;
+  CHECK(whole_lines(readings) == Sizes{6});  // A1 and A2 are too few
+}
