@@ -19,9 +19,9 @@ std::optional<int> parse_command_line(CLI::App& app, int argc, char** argv) {
     return std::nullopt;
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
-    std::cerr << app.get_name() << ": " << error.what() << " (see " << app.get_name() << " --help)\n";
-    if (asks_for_json(argc, argv)) std::cout << failure_to_json(error.what());
-    return kBadInput;
+    const std::string& name = app.get_name();
+    return fail(name, fmt::format("{} (see {} --help)", error.what(), name), asks_for_json(argc, argv),
+                kBadInput);
   }
 }
 

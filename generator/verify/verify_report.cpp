@@ -11,7 +11,7 @@ constexpr std::size_t kMostProblems = 20;  ///< problems in the text; JSON has t
 
 std::string problem_text(const std::vector<std::string>& problems) {
   if (problems.empty()) return "  no problems\n";
-  std::string text = fmt::format("  {} problems:\n", problems.size());
+  std::string text = fmt::format("  {} problem{}:\n", problems.size(), problems.size() == 1 ? "" : "s");
   for (std::size_t i = 0; i < std::min(problems.size(), kMostProblems); ++i)
     text += "    " + problems[i] + "\n";
   if (problems.size() > kMostProblems)

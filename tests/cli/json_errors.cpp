@@ -24,7 +24,7 @@ void check_error(const std::string& name, std::vector<std::string> arguments, in
     REQUIRE_FALSE(result.out.empty());
     const auto printed = nlohmann::json::parse(result.out);
     CHECK(printed.at("ok") == false);
-    CHECK_THAT(result.err, Catch::Matchers::Contains(printed.at("error").get<std::string>()));
+    CHECK(result.err == name + ": " + printed.at("error").get<std::string>() + "\n");
   }
 }
 
