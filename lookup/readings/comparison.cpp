@@ -169,11 +169,12 @@ Comparison compare(const ReadingsFile& file, const SensorList& list, const Datab
     require_control_points(file, list);
     result.factors = reading_factors(*sensitivities, states.base, channels, result.library.layout.size());
   }
+  const bool heights_alone = own_table && std::ranges::all_of(channels, is_vertical);
   const std::vector<std::string> levellings = levelling_names(file, result);
   const bool one_levelling =
       std::ranges::all_of(levellings, [&](const std::string& name) { return name == levellings.front(); });
-  if (own_table && one_levelling && std::ranges::all_of(channels, is_vertical)) return result;
-  result.levelling = levelling_of(channels, levellings);
+  if (!heights_alone || !one_levelling) result.levelling = levelling_of(channels, levellings);
+  if (heights_alone) return result;
   for (const Channel& channel : channels) {
     result.quantity.push_back(channel.sensor->quantity);
     result.load.push_back(channel.load);

@@ -174,6 +174,7 @@ TEST_CASE("Levellings that a file names are told apart, under each load, too (wr
   CHECK(change.levelling[0] != change.levelling[1]);
   CHECK(change.levelling[0] != change.levelling[2]);
   CHECK(change.levelling[1] != change.levelling[2]);
+  CHECK(change.quantity.empty());  // all are heights of control points
   const Comparison load = compare_text(
       "point,load,uy_mm,levelling\nT1,axle,-1,road\nT1,truck@2,-2,road\nT2,axle,-1,road\nT3,axle,-1,below\n",
       shelf().with_loads);
