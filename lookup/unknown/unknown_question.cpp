@@ -115,36 +115,35 @@ std::vector<UnknownCase> UnknownBridgeQuestion::cases_of_level() const {
   return cases;
 }
 
-std::vector<HiddenLoss> UnknownBridgeQuestion::hidden_losses(const Eligible& eligible) {
-  std::vector<HiddenLoss> result =
-      voussoir::hidden_losses(bridge_, observation_, comparison_.library, eligible, cases_of_level());
+template <class Ask>
+auto UnknownBridgeQuestion::asked(const Ask& ask) {
+  auto result = ask();
   set_case(observation_, cases_[likeliest_], bridge_);
   return result;
+}
+
+std::vector<HiddenLoss> UnknownBridgeQuestion::hidden_losses(const Eligible& eligible) {
+  return asked([&] {
+    return voussoir::hidden_losses(bridge_, observation_, comparison_.library, eligible, cases_of_level());
+  });
 }
 
 std::vector<UnstatedLoad> UnknownBridgeQuestion::unstated_loads(std::size_t count) {
-  std::vector<UnstatedLoad> result = voussoir::unstated_loads(bridge_, observation_, cases_of_level(), count);
-  set_case(observation_, cases_[likeliest_], bridge_);
-  return result;
+  return asked([&] { return voussoir::unstated_loads(bridge_, observation_, cases_of_level(), count); });
 }
 
 std::vector<LineError> UnknownBridgeQuestion::line_errors(std::size_t count) {
-  std::vector<LineError> result =
-      voussoir::line_errors(bridge_, observation_, comparison_, cases_of_level(), count);
-  set_case(observation_, cases_[likeliest_], bridge_);
-  return result;
+  return asked(
+      [&] { return voussoir::line_errors(bridge_, observation_, comparison_, cases_of_level(), count); });
 }
 
 CauseChances UnknownBridgeQuestion::chances(const UnstatedCause& cause) {
-  const CauseChances result = cause_chances(bridge_, observation_, cause);
-  set_case(observation_, cases_[likeliest_], bridge_);
-  return result;
+  return asked([&] { return cause_chances(bridge_, observation_, cause); });
 }
 
 BridgePosterior UnknownBridgeQuestion::posterior(const std::vector<WeightedScene>& scenes) {
-  BridgePosterior result = bridge_posterior(bridge_, observation_, comparison_.library.table, scenes, cases_);
-  set_case(observation_, cases_[likeliest_], bridge_);
-  return result;
+  return asked(
+      [&] { return bridge_posterior(bridge_, observation_, comparison_.library.table, scenes, cases_); });
 }
 
 }  // namespace voussoir

@@ -61,6 +61,9 @@ class UnknownBridgeQuestion {
 
  private:
   std::vector<UnknownCase> cases_of_level() const;
+  /// What `ask` finds by going through cases; then the bridge is in the likeliest one again.
+  template <class Ask>
+  auto asked(const Ask& ask);
 
   const Comparison& comparison_;
   const Observation& observation_;
