@@ -147,7 +147,7 @@ void add_nuisance_options(CLI::App& app, LocateDamageOptions& options) {
       ->check(number_in_range(0.0, kLargestError, "MM"))
       ->option_text("MM");
   app.add_option("--unknown-tilt", options.unknown_tilt_mm_per_m,
-                 "standard deviation of a rotation of one levelling [mm per m]; gaussian only")
+                 "standard deviation of a rotation of the same [mm per m]; gaussian only")
       ->check(number_in_range(0.0, kLargestError, "MM/M"))
       ->option_text("MM/M");
 }

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "core/text.h"
 #include "core/units.h"
 #include "lookup/evidence/scene_evidence.h"
 #include "lookup/gross_errors.h"
@@ -89,12 +90,18 @@ std::string in_words(const UnstatedLoad& load, ReadingKind kind) {
       to_one_digit(load.force / kNewtonsPerKilonewton), load.from, load.to, at_time(kind, load.first_epoch));
 }
 
-/// "an error of about 0.3 mm that all readings at A1 to A38 share (a datum or tilt of their own, ..)"
-std::string in_words(const LineError& line, const Library& library) {
+/// "an error of about 0.3 mm that all readings at A1 to A38 share (a datum, tilt or set-up of their own, ..)"
+std::string in_words(const LineError& line, const QuestionContext& asked) {
+  const Comparison& comparison = asked.comparison;
+  std::vector<std::string> names;
+  for (const std::size_t channel : line.channels) names.push_back(name_without_load(comparison, channel));
+  const bool both_count = asked.question.bridge().has_first_epoch();
   return fmt::format(
-      "an error of about {:g} mm that all readings at {} share (a datum or tilt of their own, which a column "
-      "levelling and --unknown-datum would state)",
-      to_one_digit(kMillimetres * line.size), places_in_words(library, line.channels));
+      "an error of about {:g} mm that all readings at {}{}{} share (a datum, tilt or set-up of their own, "
+      "which a column levelling with --unknown-datum and --unknown-tilt would state)",
+      to_one_digit(kMillimetres * line.size), names_in_words(names),
+      under_load(load_of(comparison, line.channels.front())),
+      both_count ? at_time(comparison.kind, line.first_epoch) : "");
 }
 
 /// If something acted that nobody stated, would others be likely?
@@ -114,8 +121,7 @@ std::optional<Fit> check_cause(const QuestionContext& asked, const Answer& answe
 std::optional<Fit> check_unstated_causes(const QuestionContext& asked, const Answer& answer,
                                          const Alarm& alarm) {
   for (const LineError& line : asked.question.line_errors(kMostLines))
-    if (const auto fit = check_cause(asked, answer, alarm, line.cause, line.chance,
-                                     in_words(line, asked.comparison.library)))
+    if (const auto fit = check_cause(asked, answer, alarm, line.cause, line.chance, in_words(line, asked)))
       return fit;
   for (const UnstatedLoad& load : asked.question.unstated_loads(kMostLoads))
     if (const auto fit =
@@ -194,7 +200,7 @@ std::optional<std::string> cause_that_explains(const QuestionContext& asked) {
     return cause + " on an intact bridge would explain them";
   };
   for (const LineError& line : asked.question.line_errors(kMostLines))
-    if (explains(line.cause)) return on_intact(in_words(line, asked.comparison.library));
+    if (explains(line.cause)) return on_intact(in_words(line, asked));
   for (const UnstatedLoad& load : asked.question.unstated_loads(1))
     if (load.force >= kLeastForce && explains(load.cause))
       return on_intact(in_words(load, asked.comparison.kind));

@@ -191,6 +191,16 @@ Quantity quantity_of(const Comparison& comparison, std::size_t channel) {
   return comparison.quantity.empty() ? Quantity::uy : comparison.quantity[channel];
 }
 
+std::string load_of(const Comparison& comparison, std::size_t channel) {
+  return comparison.load.empty() ? std::string() : comparison.load[channel];
+}
+
+/// Channels are named "T1 under truck@2" (under_load).
+std::string name_without_load(const Comparison& comparison, std::size_t channel) {
+  const std::string& name = comparison.library.points[channel].name;
+  return name.substr(0, name.size() - under_load(load_of(comparison, channel)).size());
+}
+
 std::vector<double> origin_of(const Comparison& comparison) {
   if (!is_change(comparison.kind)) return std::vector<double>(comparison.library.points.size(), 0.0);
   const std::span<const double> intact = intact_predictions(comparison.library.table);

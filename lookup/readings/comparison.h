@@ -58,6 +58,12 @@ std::size_t channel_of(const Comparison& comparison, const Reading& reading, std
 
 Quantity quantity_of(const Comparison& comparison, std::size_t channel);
 
+/// Under which a channel is read; none: the bridge's own weight alone.
+std::string load_of(const Comparison& comparison, std::size_t channel);
+
+/// Of the sensor that a channel is read at.
+std::string name_without_load(const Comparison& comparison, std::size_t channel);
+
 /// What has been added to the readings of each channel [m]: the intact bridge's prediction to changes, else
 /// zero.
 std::vector<double> origin_of(const Comparison& comparison);

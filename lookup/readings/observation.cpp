@@ -76,6 +76,8 @@ Observation observe(const Comparison& comparison, const NoiseModel& noise, const
   const bool is_absolute = !is_change(comparison.kind) && result.has_model_error();
   result.unknown_scale = std::max(nuisance.scale, is_absolute ? kLeastUnknownScale : 0.0);
   result.levelling = levelling_columns(comparison, comparison.measured, nuisance);
+  result.datum_stated = nuisance.datum > 0.0;
+  result.tilt_stated = nuisance.tilt > 0.0;
   return result;
 }
 

@@ -25,7 +25,9 @@ struct Observation {
   double error_share = 0.0;          ///< ModelError of the signals
   double error_common = 0.0;
   double unknown_scale = 0.0;  ///< standard deviation of the common factor of all movements
-  Eigen::MatrixXd levelling;   ///< levelling_columns
+  Eigen::MatrixXd levelling;   ///< levelling_columns, of
+  bool datum_stated = false;   ///< a datum of each levelling,
+  bool tilt_stated = false;    ///< and a tilt
   std::vector<bool> silent;    ///< there is a sensor, but it gave no reading
   NoiseModel noise;            ///< noise_of the readings
   std::size_t count = 0;       ///< of `reading`

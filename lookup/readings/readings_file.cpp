@@ -5,6 +5,7 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <set>
 #include <span>
 
 #include "core/error.h"
@@ -19,6 +20,7 @@ namespace voussoir {
 namespace {
 
 constexpr double kSamePlace = 1e-6;  // [m] points closer than this share a place
+constexpr std::size_t kMostLevellings = 50;
 constexpr double kFarAway = std::numeric_limits<double>::max();
 
 /// Nothing, or what programs write where they have no number.
@@ -57,7 +59,7 @@ class ReadingsReader {
                               first->second));
     read_value(line, reading);
     reading.sigma = columns_.sigma != kAbsent ? sigma(line) : kNan;
-    if (columns_.levelling != kAbsent) reading.levelling = line.fields[columns_.levelling];
+    if (columns_.levelling != kAbsent) reading.levelling = levelling(line);
     return reading;
   }
 
@@ -79,6 +81,15 @@ class ReadingsReader {
     if (name.empty())
       table_.fail(line.number,
                   "no load in this row, expected one, as all readings of a file are of one kind");
+    return name;
+  }
+
+  std::string levelling(const CsvLine& line) {
+    const std::string& name = line.fields[columns_.levelling];
+    levellings_.insert(name);
+    if (levellings_.size() > kMostLevellings)
+      table_.fail(line.number, fmt::format("{} is another levelling, expected at most {} in a file",
+                                           in_quotes(name), kMostLevellings));
     return name;
   }
 
@@ -169,6 +180,7 @@ class ReadingsReader {
   std::size_t control_points_;
   ReadingsColumns columns_;
   std::map<std::pair<std::size_t, std::string>, long> line_of_;  // of each sensor under each load
+  std::set<std::string> levellings_;
 };
 
 }  // namespace

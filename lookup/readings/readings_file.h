@@ -7,7 +7,7 @@
 /// `before_mm,after_mm`. Tilts are in mm per m in all columns of mm. Optionally `sigma_mm`, the standard
 /// deviation of the row's value (of the change, where it is one), `load`, the load case under which the
 /// reading was taken: the value is then what the load adds, and `levelling`, a name of what was levelled at
-/// once: heights of one share its datum and tilt.
+/// once: heights of one share its datum and tilt. There are at most 50.
 ///
 /// An empty value or NaN is a sensor that gave no reading. Of two epochs: a sensor that fell silent after the
 /// first; without a reading in the first it is as if there were no sensor, since it does not tell what the

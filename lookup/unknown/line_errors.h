@@ -9,17 +9,19 @@
 
 namespace voussoir {
 
-/// What was levelled at once (Comparison::levelling), or of it the points whose names differ by their number
-/// alone, T1 to T40: all of it, or from one of its points on, as the instrument was set up anew.
+/// Of what was levelled at once (Comparison::levelling), of the points whose names differ by their number
+/// alone, T1 to T40, or of both: all of it, or from one of its points on, as the instrument was set up anew.
 struct LineError {
-  std::vector<std::size_t> channels;
-  double chance = 0.0;  ///< [-] of such an error, beforehand
-  double size = 0.0;    ///< [m] root mean square of what it most likely adds with no block missing
+  std::vector<std::size_t> channels;  ///< in ascending order, all under the same load
+  bool first_epoch = false;           ///< at the first of two times, which counts by itself
+  double chance = 0.0;                ///< [-] of such an error, beforehand
+  double size = 0.0;  ///< [m] root mean square of what it most likely adds with no block missing
   UnstatedCause cause;
 };
 
-/// Those that are likeliest beside the intact bridge, the likeliest first, of lines of three points and more
-/// beside which others were levelled and whose datum is not stated. The bridge's case is changed.
+/// Of each line of three points and more, beside which others were levelled, what is likeliest of the whole,
+/// and of a part, beside the intact bridge; the likeliest first. What a stated datum or tilt of levellings
+/// allows for is none. The bridge's case is changed.
 std::vector<LineError> line_errors(UnknownBridge& bridge, const Observation& observation,
                                    const Comparison& comparison, std::span<const UnknownCase> cases,
                                    std::size_t count);

@@ -17,16 +17,18 @@ using Eigen::VectorXd;
 
 /// All causes at one time, seen by the intact bridge in one case.
 struct SeenCauses {
-  MatrixXd seen;    // L^T C^-1 L of all columns L
-  VectorXd pulled;  // L^T C^-1 y
+  MatrixXd own;        // L, in rows of y
+  MatrixXd precision;  // C^-1 L
+  VectorXd pulled;     // L^T C^-1 y
   double log = 0.0;
 };
 
 /// The density of readings beside which one cause acts, and its most likely amounts.
 std::pair<double, VectorXd> log_and_amounts(const SeenCauses& all, const CauseColumns& columns) {
-  const auto& [first, count] = columns;
-  const VectorXd pulled = all.pulled.segment(first, count);
-  MatrixXd precision = all.seen.block(first, first, count, count);
+  const auto& [first, count, size] = columns;
+  const VectorXd pulled = size * all.pulled.segment(first, count);
+  MatrixXd precision =
+      size * size * all.own.middleCols(first, count).transpose() * all.precision.middleCols(first, count);
   precision.diagonal().array() += 1.0;
   const Eigen::LLT<MatrixXd> root(precision);
   VectorXd amounts = root.solve(pulled);
@@ -60,8 +62,7 @@ std::vector<CauseFit> cause_fits(UnknownBridge& bridge, const Observation& obser
     const IntactGaussian intact = intact_gaussian(bridge);
     auto fit = fits.begin();
     for (const MatrixXd& own : columns) {
-      const SeenCauses all{own.transpose() * intact.precision * own, own.transpose() * intact.pulled,
-                           intact.log};
+      const SeenCauses all{own, intact.precision * own, own.transpose() * intact.pulled, intact.log};
       for (const CauseColumns& cause : possible.causes) {
         auto [log, amounts] = log_and_amounts(all, cause);
         if (log > fit->log) fit->amounts = std::move(amounts), fit->best = one, fit->log = log;
@@ -73,10 +74,14 @@ std::vector<CauseFit> cause_fits(UnknownBridge& bridge, const Observation& obser
   return fits;
 }
 
+MatrixXd channel_columns(const PossibleCauses& possible, std::size_t cause) {
+  const auto& [first, count, size] = possible.causes[cause];
+  return size * possible.columns.middleCols(first, count);
+}
+
 UnstatedCause unstated_cause(const UnknownBridge& bridge, const PossibleCauses& possible,
                              const CauseFit& fit) {
-  const auto& [first, count] = possible.causes[fit.cause];
-  const MatrixXd own = at_epoch(bridge, possible.columns.middleCols(first, count), fit.first_epoch);
+  const MatrixXd own = at_epoch(bridge, channel_columns(possible, fit.cause), fit.first_epoch);
   return {own * fit.amounts, own * own.transpose(), fit.best, fit.log};
 }
 

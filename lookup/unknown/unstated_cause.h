@@ -15,14 +15,15 @@ struct UnstatedCause {
   double log = 0.0;            ///< density of the readings, but for what all cases have in common
 };
 
-/// What one cause adds, as a part of the columns of all: N(0, 1) times each.
+/// What one cause adds, as a part of the columns of all: N(0, size^2) times each.
 struct CauseColumns {
   Eigen::Index first = 0, count = 0;
+  double size = 1.0;
 };
 
 /// What may have acted when the bridge was read: at the first of two times, or at the second or only one.
 struct PossibleCauses {
-  Eigen::MatrixXd columns;  ///< [m] channels x columns of all causes
+  Eigen::MatrixXd columns;  ///< channels x columns of all causes, times their sizes [m]
   std::vector<CauseColumns> causes;
 };
 
@@ -30,7 +31,7 @@ struct PossibleCauses {
 struct CauseFit {
   std::size_t cause = 0;
   bool first_epoch = false;
-  Eigen::VectorXd amounts;  ///< the most likely ones
+  Eigen::VectorXd amounts;  ///< the most likely ones, in sizes
   UnknownCase best;         ///< in which the readings are likeliest
   double log = 0.0;         ///< their density, but for what all cases have in common
 };
@@ -38,6 +39,9 @@ struct CauseFit {
 /// Of each cause at each time that counts by itself. The bridge's case is changed.
 std::vector<CauseFit> cause_fits(UnknownBridge& bridge, const Observation& observation,
                                  std::span<const UnknownCase> cases, const PossibleCauses& possible);
+
+/// [m] By channel, a standard deviation of a cause.
+Eigen::MatrixXd channel_columns(const PossibleCauses& possible, std::size_t cause);
 
 UnstatedCause unstated_cause(const UnknownBridge& bridge, const PossibleCauses& possible,
                              const CauseFit& fit);

@@ -51,7 +51,7 @@ double force_at(const std::vector<double>& places) {
 }
 
 /// Of channels: a standard deviation at each place.
-MatrixXd channel_columns(const UnknownBridge& bridge) {
+MatrixXd columns_of_places(const UnknownBridge& bridge) {
   const auto& [places, influence] = bridge.factors->sensitivities->load;
   const double force = force_at(places);
   MatrixXd columns(static_cast<Index>(bridge.factors->channels.size()), influence.cols());
@@ -64,10 +64,10 @@ MatrixXd channel_columns(const UnknownBridge& bridge) {
 
 /// Errors of what it adds are those of the channels, the same wherever a channel counts. Of changes alone
 /// forces of the first levelling count as negative.
-UnstatedLoad load_of(const UnknownBridge& bridge, const PossibleCauses& possible, const CauseFit& fit) {
+UnstatedLoad unstated_load(const UnknownBridge& bridge, const PossibleCauses& possible, const CauseFit& fit) {
   const std::vector<double>& places = bridge.factors->sensitivities->load.places;
-  const auto& [first, count] = possible.causes[fit.cause];
-  const VectorXd added = possible.columns.middleCols(first, count) * fit.amounts;
+  const auto& [first, count, size] = possible.causes[fit.cause];
+  const VectorXd added = channel_columns(possible, fit.cause) * fit.amounts;
   const double common = kCommonShare * std::sqrt(added.squaredNorm() / static_cast<double>(added.size()));
   const VectorXd errors = ((kOwnShare * added).array().square() + common * common).sqrt();
   const MatrixXd off = at_epoch(bridge, errors.asDiagonal(), fit.first_epoch);
@@ -89,7 +89,7 @@ std::vector<UnstatedLoad> unstated_loads(UnknownBridge& bridge, const Observatio
   const bool is_loaded = std::ranges::any_of(
       bridge.factors->channels, [](const Channel& channel) { return channel.loaded.has_value(); });
   if (places.size() < 2 || is_loaded) return {};
-  const PossibleCauses possible{channel_columns(bridge), stretches_of(places)};
+  const PossibleCauses possible{columns_of_places(bridge), stretches_of(places)};
   std::vector<CauseFit> fits = cause_fits(bridge, observation, cases, possible);
   // Of changes alone a load at the first levelling is one at the second with the other sign.
   const bool any_sign = !bridge.has_first_epoch() && bridge.rows.front().before != 0.0;
@@ -97,7 +97,7 @@ std::vector<UnstatedLoad> unstated_loads(UnknownBridge& bridge, const Observatio
   std::ranges::stable_sort(fits, std::ranges::greater{}, &CauseFit::log);
   fits.resize(std::min(fits.size(), count));
   std::vector<UnstatedLoad> best;
-  for (const CauseFit& fit : fits) best.push_back(load_of(bridge, possible, fit));
+  for (const CauseFit& fit : fits) best.push_back(unstated_load(bridge, possible, fit));
   return best;
 }
 

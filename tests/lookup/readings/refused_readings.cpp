@@ -117,3 +117,12 @@ TEST_CASE("Wrong rows are refused with the file, the line, the value and what wa
 TEST_CASE("Files without any reading are refused") {
   for (const Wrong& wrong : kFiles) CHECK(refusal_of(wrong.text) == "m.csv: " + wrong.message);
 }
+
+TEST_CASE("A column that has another name in each row names no levellings") {
+  std::string text = "point,load,uy_mm,levelling\n";
+  for (int row = 0; row < 50; ++row) text += fmt::format("T1,load{},-1,{}\n", row, row);
+  CHECK(refusal_of(text) == "no error");
+  CHECK(refusal_of(text + "T2,load0,-1,7\n") == "no error");
+  CHECK(refusal_of(text + "T2,load0,-1,road\n") ==
+        "m.csv:52: 'road' is another levelling, expected at most 50 in a file");
+}
