@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "lookup/evidence/largest_places.h"
+#include "lookup/lines_and_loads.h"
 #include "lookup/other_explanations.h"
 #include "lookup/plausible_readings.h"
 #include "lookup/same_readings.h"
@@ -146,7 +147,7 @@ void name_suspect(const QuestionContext& asked, Answer& answer) {
   if (farthest != answer.residuals.end() && farthest->disagrees)
     answer.fit->reason +=
         fmt::format(", at {} most of all", asked.comparison.library.points[farthest->point].name);
-  else if (const auto cause = cause_that_explains(asked))
+  else if (const auto cause = line_or_load_that_explains(asked))
     answer.fit->reason += "; " + *cause;
 }
 

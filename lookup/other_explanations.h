@@ -16,8 +16,4 @@ namespace voussoir {
 /// of the bridge.
 std::optional<Fit> find_other(const QuestionContext& asked, const Answer& answer);
 
-/// In words, an error that a line of levelling shares, or a load, that nobody stated and with which an intact
-/// bridge would show such readings, if there may be one.
-std::optional<std::string> cause_that_explains(const QuestionContext& asked);
-
 }  // namespace voussoir
