@@ -8,11 +8,11 @@
 namespace voussoir {
 namespace {
 
-constexpr std::size_t kMostLines = 4;                    // of levelling that may be off alike
-constexpr std::size_t kMostLoads = 3;                    // stretches of the top that a load may stand on
+constexpr std::size_t kMostLines = 4;  // of levelling that may be off alike
+constexpr std::size_t kMostLoads = 3;  // stretches of the top that a load may stand on
 constexpr double kNewtonsPerKilonewton = 1e3;
-constexpr double kLeastForce = 10e3;     // [N/m] of a load that is spoken of where nothing explains readings
-constexpr double kLoadChance = 1e-3;     // beforehand that one stood there and is not stated
+constexpr double kLeastForce = 10e3;  // [N/m] of a load that is spoken of where nothing explains readings
+constexpr double kLoadChance = 1e-3;  // beforehand that one stood there and is not stated
 
 /// The readings without what a cause most likely adds to them with no block missing.
 Observation without(const UnknownBridge& bridge, Observation observation, const UnstatedCause& cause) {

@@ -32,7 +32,7 @@ Prior stated_prior(Prior prior, const SceneTable& table, bool known_bridge);
 
 /// Readings that say nothing leave the prior as it is: with equal weights two blocks in three questions would
 /// be said to be missing. Of 500 intact bridges levelled to 0.1 and 0.2 mm, equal weights call 15 and 33 %
-/// damaged, these 0.4 and 0.6 % (docs/results.md).
+/// damaged, these 0.5 % (docs/results.md).
 inline constexpr double kIntactWeight = 8.0;
 
 /// The weight of each of a stated prior's numbers of missing blocks. Throws InputError if the prior has not

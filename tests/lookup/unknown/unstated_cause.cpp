@@ -23,7 +23,8 @@ namespace {
 
 constexpr std::array<UnknownCase, 2> kTwoSizes = {{{0.0, 1.0}, {0.0, 0.2}}};
 
-/// Changes of the intact bridge, of which the first epoch was read, too, and two causes of one and two columns.
+/// Changes of the intact bridge, of which the first epoch was read, too, and two causes of one and two
+/// columns.
 struct ReadWithCauses {
   SyntheticLibrary library{3, 6};
   Sensitivities sensitivities = made_up_sensitivities_of(library);
@@ -76,8 +77,8 @@ TEST_CASE("A cause explains readings in its likeliest case as well as its covari
     double best = -std::numeric_limits<double>::infinity();
     for (const UnknownCase& one : kTwoSizes) {
       set_case(observation, one, bridge);
-      best = std::max(best, log_normal(bridge.reading,
-                                       intact_covariance(bridge) + columns * columns.transpose()));
+      best = std::max(best,
+                      log_normal(bridge.reading, intact_covariance(bridge) + columns * columns.transpose()));
     }
     CHECK(fit.log == Approx(best + 0.5 * rows * std::log(2.0 * std::numbers::pi)).epsilon(1e-9));
 
