@@ -6,7 +6,6 @@
 #include <functional>
 
 #include "lookup/evidence/scene_evidence.h"
-#include "lookup/unknown/intact_gaussian.h"
 
 namespace voussoir {
 namespace {
@@ -60,15 +59,10 @@ WithoutRows without_rows(const IntactGaussian& intact, const LossRows& loss) {
 
 }  // namespace
 
-std::vector<HiddenLoss> hidden_losses(UnknownBridge& bridge, const Observation& observation,
+std::vector<HiddenLoss> hidden_losses(const UnknownBridge& bridge, const Observation& observation,
                                       const Library& library, const Eligible& eligible,
-                                      std::span<const UnknownCase> cases) {
+                                      std::span<const IntactGaussian> gaussians) {
   const SceneTable& table = library.table;
-  std::vector<IntactGaussian> gaussians;
-  for (const UnknownCase& one : cases) {
-    set_case(observation, one, bridge);
-    gaussians.push_back(intact_gaussian(bridge));
-  }
   std::vector<HiddenLoss> result;
   for (std::size_t i = 0; i < eligible.rows.size(); ++i) {
     if (eligible.missing[i] != 1) continue;

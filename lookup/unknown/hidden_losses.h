@@ -7,7 +7,7 @@
 
 #include "lookup/readings/library.h"
 #include "lookup/search/eligible_rows.h"
-#include "lookup/unknown/unknown_bridge.h"
+#include "lookup/unknown/intact_gaussian.h"
 
 namespace voussoir {
 
@@ -20,10 +20,9 @@ struct HiddenLoss {
 };
 
 /// Of all eligible scenes with one block missing those that readings on it alone exclude (and no load under
-/// which they do not stand), and others could show; the largest gain first. Of each case all that scatters
-/// does so as the bridge file states. The bridge's case is changed.
-std::vector<HiddenLoss> hidden_losses(UnknownBridge& bridge, const Observation& observation,
+/// which they do not stand), and others could show; the largest gain first, in the best case of each.
+std::vector<HiddenLoss> hidden_losses(const UnknownBridge& bridge, const Observation& observation,
                                       const Library& library, const Eligible& eligible,
-                                      std::span<const UnknownCase> cases);
+                                      std::span<const IntactGaussian> gaussians);
 
 }  // namespace voussoir

@@ -11,12 +11,19 @@ Eigen::MatrixXd intact_covariance(const UnknownBridge& bridge) {
   return scene_noise(bridge, none) + scatter * scatter.transpose();
 }
 
-IntactGaussian intact_gaussian(const UnknownBridge& bridge) {
+std::vector<IntactGaussian> intact_gaussians(UnknownBridge& bridge, const Observation& observation,
+                                             std::span<const UnknownCase> cases) {
   const Eigen::Index n = bridge.reading.size();
-  const Eigen::LLT<Eigen::MatrixXd> covariance(intact_covariance(bridge));
-  IntactGaussian result{covariance.solve(Eigen::MatrixXd::Identity(n, n)), covariance.solve(bridge.reading)};
-  const double log_root = covariance.matrixLLT().diagonal().array().log().sum();
-  result.log = -0.5 * bridge.reading.dot(result.pulled) - log_root;
+  std::vector<IntactGaussian> result;
+  for (const UnknownCase& one : cases) {
+    set_case(observation, one, bridge);
+    const Eigen::LLT<Eigen::MatrixXd> covariance(intact_covariance(bridge));
+    IntactGaussian intact{one, covariance.solve(Eigen::MatrixXd::Identity(n, n)),
+                          covariance.solve(bridge.reading)};
+    const double log_root = covariance.matrixLLT().diagonal().array().log().sum();
+    intact.log = -0.5 * bridge.reading.dot(intact.pulled) - log_root;
+    result.push_back(std::move(intact));
+  }
   return result;
 }
 

@@ -1,6 +1,9 @@
 #pragma once
 /// @file The Gaussian of readings with no block missing, in a form that is asked about other causes.
 
+#include <span>
+#include <vector>
+
 #include "lookup/unknown/unknown_bridge.h"
 
 namespace voussoir {
@@ -8,13 +11,16 @@ namespace voussoir {
 /// [m2] of y in the bridge's case, all that scatters as the bridge file states.
 Eigen::MatrixXd intact_covariance(const UnknownBridge& bridge);
 
-/// With that covariance C.
+/// In one case, with that covariance C.
 struct IntactGaussian {
+  UnknownCase in_case;
   Eigen::MatrixXd precision;  ///< C^-1
   Eigen::VectorXd pulled;     ///< C^-1 y
   double log = 0.0;           ///< density of all readings, but for what all cases have in common
 };
 
-IntactGaussian intact_gaussian(const UnknownBridge& bridge);
+/// Of each of these cases. The bridge's case is changed.
+std::vector<IntactGaussian> intact_gaussians(UnknownBridge& bridge, const Observation& observation,
+                                             std::span<const UnknownCase> cases);
 
 }  // namespace voussoir

@@ -131,15 +131,15 @@ PossibleCauses causes_of(const std::vector<OffAlike>& all, const Comparison& com
 
 }  // namespace
 
-std::vector<LineError> line_errors(UnknownBridge& bridge, const Observation& observation,
-                                   const Comparison& comparison, std::span<const UnknownCase> cases,
+std::vector<LineError> line_errors(const UnknownBridge& bridge, const Observation& observation,
+                                   const Comparison& comparison, std::span<const IntactGaussian> gaussians,
                                    std::size_t count) {
   const std::vector<OffAlike> all = all_off_alike(lines_of(bridge, observation, comparison), comparison);
   const PossibleCauses possible = causes_of(all, comparison);
   const auto off_alike = [&](const CauseFit& fit) -> const OffAlike& {
     return all[fit.cause / kSizes.size()];
   };
-  std::vector<CauseFit> fits = cause_fits(bridge, observation, cases, possible);
+  std::vector<CauseFit> fits = cause_fits(bridge, gaussians, possible);
   std::ranges::stable_sort(fits, std::ranges::greater{},
                            [&](const CauseFit& fit) { return fit.log + std::log(off_alike(fit).chance()); });
   std::vector<LineError> best;

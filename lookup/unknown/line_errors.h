@@ -21,9 +21,9 @@ struct LineError {
 
 /// Of each line of three points and more, beside which others were levelled, what is likeliest of the whole,
 /// and of a part, beside the intact bridge; the likeliest first. What a stated datum or tilt of levellings
-/// allows for is none. The bridge's case is changed.
-std::vector<LineError> line_errors(UnknownBridge& bridge, const Observation& observation,
-                                   const Comparison& comparison, std::span<const UnknownCase> cases,
+/// allows for is none.
+std::vector<LineError> line_errors(const UnknownBridge& bridge, const Observation& observation,
+                                   const Comparison& comparison, std::span<const IntactGaussian> gaussians,
                                    std::size_t count);
 
 }  // namespace voussoir

@@ -78,6 +78,14 @@ RowValues UnknownBridgeQuestion::log_evidence(const Eligible& eligible, const Pr
     result.values.push_back(log + of_silence[place]);
   }
   likeliest_ = screened.likeliest();
+  gaussians_.clear();
+  set_case(observation_, cases_[likeliest_], bridge_);
+  return result;
+}
+
+template <class Ask>
+auto UnknownBridgeQuestion::asked(const Ask& ask) {
+  auto result = ask();
   set_case(observation_, cases_[likeliest_], bridge_);
   return result;
 }
@@ -90,10 +98,13 @@ std::vector<double> UnknownBridgeQuestion::log_parts_of(std::span<const std::siz
   for (double& share : wider.share) share *= supposed.errors;
   for (double& floor : wider.floor) floor *= supposed.errors;
   for (const GrossError& gross : supposed.gross) wider.floor[gross.channel] += gross.size;
-  const Eigen::MatrixXd stated = bridge_.fixed_noise;
-  if (supposed.beside.size() > 0) bridge_.fixed_noise += supposed.beside;
-  std::vector<CaseTerms> terms = case_terms(bridge_, wider, cases_);
-  bridge_.fixed_noise = stated;
+  std::vector<CaseTerms> terms = asked([&] {
+    const Eigen::MatrixXd stated = bridge_.fixed_noise;
+    if (supposed.beside.size() > 0) bridge_.fixed_noise += supposed.beside;
+    std::vector<CaseTerms> supposed_terms = case_terms(bridge_, wider, cases_);
+    bridge_.fixed_noise = stated;
+    return supposed_terms;
+  });
   if (supposed.shown_exactly)
     for (CaseTerms& one : terms) one.spread = 0.0;
   const auto logs = SceneLikelihoods(bridge_, wider, table)(terms, rows, {}, hardware_threads());
@@ -109,32 +120,24 @@ std::vector<double> UnknownBridgeQuestion::log_parts_of(std::span<const std::siz
   return parts;
 }
 
-std::vector<UnknownCase> UnknownBridgeQuestion::cases_of_level() const {
+const std::vector<IntactGaussian>& UnknownBridgeQuestion::gaussians_of_level() {
+  if (!gaussians_.empty()) return gaussians_;
   std::vector<UnknownCase> cases = cases_;
   std::erase_if(cases, [&](const UnknownCase& one) { return one.level != level(); });
-  return cases;
-}
-
-template <class Ask>
-auto UnknownBridgeQuestion::asked(const Ask& ask) {
-  auto result = ask();
-  set_case(observation_, cases_[likeliest_], bridge_);
-  return result;
+  gaussians_ = asked([&] { return intact_gaussians(bridge_, observation_, cases); });
+  return gaussians_;
 }
 
 std::vector<HiddenLoss> UnknownBridgeQuestion::hidden_losses(const Eligible& eligible) {
-  return asked([&] {
-    return voussoir::hidden_losses(bridge_, observation_, comparison_.library, eligible, cases_of_level());
-  });
+  return voussoir::hidden_losses(bridge_, observation_, comparison_.library, eligible, gaussians_of_level());
 }
 
 std::vector<UnstatedLoad> UnknownBridgeQuestion::unstated_loads(std::size_t count) {
-  return asked([&] { return voussoir::unstated_loads(bridge_, observation_, cases_of_level(), count); });
+  return voussoir::unstated_loads(bridge_, gaussians_of_level(), count);
 }
 
 std::vector<LineError> UnknownBridgeQuestion::line_errors(std::size_t count) {
-  return asked(
-      [&] { return voussoir::line_errors(bridge_, observation_, comparison_, cases_of_level(), count); });
+  return voussoir::line_errors(bridge_, observation_, comparison_, gaussians_of_level(), count);
 }
 
 CauseChances UnknownBridgeQuestion::chances(const UnstatedCause& cause) {

@@ -43,7 +43,7 @@ class UnknownBridgeQuestion {
   RowValues log_evidence(const Eligible& eligible, const Prior& prior, std::size_t count);
 
   /// What each of these rows would have in the sum that Posterior::log_evidence is the logarithm of, if all
-  /// this were so: its logarithm. Changes the bridge's case.
+  /// this were so: its logarithm.
   std::vector<double> log_parts_of(std::span<const std::size_t> rows, const Eligible& eligible,
                                    const Prior& prior, const Supposition& supposed);
 
@@ -60,7 +60,7 @@ class UnknownBridgeQuestion {
   double level() const { return cases_[likeliest_].level; }  ///< [-] of the noise: stated, or the likeliest
 
  private:
-  std::vector<UnknownCase> cases_of_level() const;
+  const std::vector<IntactGaussian>& gaussians_of_level();
   /// What `ask` finds by going through cases; then the bridge is in the likeliest one again.
   template <class Ask>
   auto asked(const Ask& ask);
@@ -70,6 +70,7 @@ class UnknownBridgeQuestion {
   std::vector<UnknownCase> cases_;
   UnknownBridge bridge_;
   std::size_t likeliest_ = 0;
+  std::vector<IntactGaussian> gaussians_;  // of the likeliest level, once they are needed
 };
 
 /// The noise as the evidence of an unknown bridge counts it: of any shape a Gaussian of its variance, as all

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "lookup/evidence/chi_square.h"
-#include "lookup/unknown/intact_gaussian.h"
 
 namespace voussoir {
 namespace {
@@ -48,8 +47,8 @@ MatrixXd at_epoch(const UnknownBridge& bridge, const MatrixXd& channels, bool fi
   return first_epoch ? in_rows(bridge.rows, channels, none) : in_rows(bridge.rows, none, channels);
 }
 
-std::vector<CauseFit> cause_fits(UnknownBridge& bridge, const Observation& observation,
-                                 std::span<const UnknownCase> cases, const PossibleCauses& possible) {
+std::vector<CauseFit> cause_fits(const UnknownBridge& bridge, std::span<const IntactGaussian> gaussians,
+                                 const PossibleCauses& possible) {
   std::vector<CauseFit> fits;
   std::vector<MatrixXd> columns;  // at each time
   for (const bool first_epoch : epochs_of(bridge)) {
@@ -57,15 +56,13 @@ std::vector<CauseFit> cause_fits(UnknownBridge& bridge, const Observation& obser
     for (std::size_t i = 0; i < possible.causes.size(); ++i)
       fits.push_back({i, first_epoch, {}, {}, -std::numeric_limits<double>::infinity()});
   }
-  for (const UnknownCase& one : cases) {
-    set_case(observation, one, bridge);
-    const IntactGaussian intact = intact_gaussian(bridge);
+  for (const IntactGaussian& intact : gaussians) {
     auto fit = fits.begin();
     for (const MatrixXd& own : columns) {
       const SeenCauses all{own, intact.precision * own, own.transpose() * intact.pulled, intact.log};
       for (const CauseColumns& cause : possible.causes) {
         auto [log, amounts] = log_and_amounts(all, cause);
-        if (log > fit->log) fit->amounts = std::move(amounts), fit->best = one, fit->log = log;
+        if (log > fit->log) fit->amounts = std::move(amounts), fit->best = intact.in_case, fit->log = log;
         ++fit;
       }
     }

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "lookup/unknown/unknown_bridge.h"
+#include "lookup/unknown/intact_gaussian.h"
 
 namespace voussoir {
 
@@ -36,9 +36,9 @@ struct CauseFit {
   double log = 0.0;         ///< their density, but for what all cases have in common
 };
 
-/// Of each cause at each time that counts by itself. The bridge's case is changed.
-std::vector<CauseFit> cause_fits(UnknownBridge& bridge, const Observation& observation,
-                                 std::span<const UnknownCase> cases, const PossibleCauses& possible);
+/// Of each cause at each time that counts by itself.
+std::vector<CauseFit> cause_fits(const UnknownBridge& bridge, std::span<const IntactGaussian> gaussians,
+                                 const PossibleCauses& possible);
 
 /// [m] By channel, a standard deviation of a cause.
 Eigen::MatrixXd channel_columns(const PossibleCauses& possible, std::size_t cause);

@@ -83,14 +83,14 @@ UnstatedLoad unstated_load(const UnknownBridge& bridge, const PossibleCauses& po
 
 }  // namespace
 
-std::vector<UnstatedLoad> unstated_loads(UnknownBridge& bridge, const Observation& observation,
-                                         std::span<const UnknownCase> cases, std::size_t count) {
+std::vector<UnstatedLoad> unstated_loads(const UnknownBridge& bridge,
+                                         std::span<const IntactGaussian> gaussians, std::size_t count) {
   const std::vector<double>& places = bridge.factors->sensitivities->load.places;
   const bool is_loaded = std::ranges::any_of(
       bridge.factors->channels, [](const Channel& channel) { return channel.loaded.has_value(); });
   if (places.size() < 2 || is_loaded) return {};
   const PossibleCauses possible{columns_of_places(bridge), stretches_of(places)};
-  std::vector<CauseFit> fits = cause_fits(bridge, observation, cases, possible);
+  std::vector<CauseFit> fits = cause_fits(bridge, gaussians, possible);
   // Of changes alone a load at the first levelling is one at the second with the other sign.
   const bool any_sign = !bridge.has_first_epoch() && bridge.rows.front().before != 0.0;
   std::erase_if(fits, [&](const CauseFit& fit) { return !(any_sign || fit.amounts.sum() > 0.0); });

@@ -22,8 +22,8 @@ struct UnstatedLoad {
 
 /// The stretches on which a load explains readings of the intact bridge best, the best first. Loads
 /// act downwards as a whole. Nothing if the database does not know what loads do, or readings are what other
-/// loads add. The bridge's case is changed.
-std::vector<UnstatedLoad> unstated_loads(UnknownBridge& bridge, const Observation& observation,
-                                         std::span<const UnknownCase> cases, std::size_t count);
+/// loads add.
+std::vector<UnstatedLoad> unstated_loads(const UnknownBridge& bridge,
+                                         std::span<const IntactGaussian> gaussians, std::size_t count);
 
 }  // namespace voussoir

@@ -4,13 +4,12 @@
 #include "lookup/unknown/hidden_losses.h"
 
 #include <algorithm>
-#include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <functional>
 
 #include "lookup/evidence/scene_evidence.h"
-#include "tests/lookup/unknown/dense_normal.h"
+#include "tests/lookup/unknown/explained_readings.h"
 #include "tests/lookup/unknown/made_up_factors.h"
 
 using namespace voussoir;
@@ -20,8 +19,6 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 namespace {
-
-constexpr std::array<UnknownCase, 2> kCases = {{{0.0, 1.0}, {0.0, 0.2}}};
 
 /// Readings of what shows without a block, but for the points on another one.
 struct KeptReadings {
@@ -46,9 +43,7 @@ struct KeptReadings {
 /// log density of the rows that a scene has values in, at most over sizes from none to ten times its signal.
 double largest_density(const UnknownBridge& bridge, const std::vector<Index>& kept, const VectorXd& signal,
                        double most) {
-  const VectorXd zero = VectorXd::Zero(signal.size());
-  const MatrixXd scatter = bridge_columns(bridge, Scene{});
-  const MatrixXd covariance = scene_noise(bridge, {{}, zero, zero}) + scatter * scatter.transpose();
+  const MatrixXd covariance = intact_covariance_of(bridge);
   double best = kImpossible;
   for (double size = 0.0; size <= most; size += 1e-3)
     best = std::max(
@@ -67,7 +62,7 @@ double gain_of(UnknownBridge& bridge, const Observation& observation, std::span<
     signal[k] = row.after * (prediction[row.channel] - observation.intact[row.channel]);
   }
   double with = kImpossible, without = kImpossible;
-  for (const UnknownCase& one : kCases) {
+  for (const UnknownCase& one : kTwoCases) {
     set_case(observation, one, bridge);
     with = std::max(with, largest_density(bridge, kept, signal, 10.0));
     without = std::max(without, largest_density(bridge, kept, signal, 0.0));
@@ -82,9 +77,9 @@ TEST_CASE("A hidden loss gains what it makes of the density of all other reading
   const UnknownSettings settings{GENERATE(Epochs::change, Epochs::both)};
   const SceneTable& table = readings.library.table;
   const Observation observation = observe(readings.comparison, {NoiseShape::gaussian, 0.0}, {});
-  UnknownBridge bridge = unknown_bridge(readings.comparison, observation, kCases.front(), settings);
-  const auto found =
-      hidden_losses(bridge, observation, readings.comparison.library, readings.eligible, kCases);
+  UnknownBridge bridge = unknown_bridge(readings.comparison, observation, kTwoCases.front(), settings);
+  const auto found = hidden_losses(bridge, observation, readings.comparison.library, readings.eligible,
+                                   intact_gaussians(bridge, observation, kTwoCases));
 
   REQUIRE(found.size() == 4);  // the blocks of the highest course, each of which has two points
   CHECK(std::ranges::is_sorted(found, std::ranges::greater{}, &HiddenLoss::gain));

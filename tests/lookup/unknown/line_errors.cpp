@@ -7,12 +7,10 @@
 #include <array>
 #include <catch2/catch.hpp>
 #include <functional>
-#include <numbers>
 #include <set>
 
 #include "core/not_a_number.h"
-#include "lookup/unknown/intact_gaussian.h"
-#include "tests/lookup/unknown/dense_normal.h"
+#include "tests/lookup/unknown/explained_readings.h"
 #include "tests/lookup/unknown/made_up_factors.h"
 
 using namespace voussoir;
@@ -23,7 +21,6 @@ using Eigen::VectorXd;
 
 namespace {
 
-constexpr std::array<UnknownCase, 2> kLineCases = {{{0.0, 1.0}, {0.0, 0.2}}};
 constexpr double kShift = 0.4e-3;   // [m]
 constexpr std::size_t kOfLine = 6;  // points
 constexpr std::size_t kAll = 1000;
@@ -86,25 +83,16 @@ MatrixXd line_columns(const UnknownBridge& bridge, const Comparison& comparison,
 /// Are these columns what explains the readings in one of the cases, and in none better?
 bool explains(UnknownBridge& bridge, const Observation& observation, const MatrixXd& columns,
               const UnstatedCause& cause) {
-  double best = -std::numeric_limits<double>::infinity();
-  VectorXd expected;
-  for (const UnknownCase& one : kLineCases) {
-    set_case(observation, one, bridge);
-    const MatrixXd covariance = intact_covariance(bridge) + columns * columns.transpose();
-    const double log = log_normal(bridge.reading, covariance);
-    if (log < best) continue;
-    best = log;
-    expected = columns * (columns.transpose() * covariance.ldlt().solve(bridge.reading));
-  }
-  best += 0.5 * static_cast<double>(bridge.reading.size()) * std::log(2.0 * std::numbers::pi);
-  return cause.log == Approx(best).epsilon(1e-6) &&
+  const Explained best = explained_by(bridge, observation, columns);
+  const VectorXd expected = columns * best.amounts;
+  return cause.log == Approx(best.log).epsilon(1e-6) &&
          (cause.expected - expected).norm() < 1e-6 * expected.norm() &&
          (cause.covariance - columns * columns.transpose()).norm() < 1e-12 * cause.covariance.norm();
 }
 
 /// How often one of these columns of the line is what it says.
-int explained_by(UnknownBridge& bridge, const ShiftedReadings& readings, const Observation& observation,
-                 const LineError& line, bool shift, bool tilt) {
+int columns_that_explain(UnknownBridge& bridge, const ShiftedReadings& readings,
+                         const Observation& observation, const LineError& line, bool shift, bool tilt) {
   int count = 0;
   for (const double size : {0.3e-3, 3e-3}) {
     const MatrixXd columns =
@@ -120,9 +108,10 @@ struct FoundLines {
 };
 FoundLines lines_found(const ShiftedReadings& readings, const Nuisance& nuisance = {}) {
   const Observation observation = readings.observed(nuisance);
-  UnknownBridge bridge = unknown_bridge(readings.comparison, observation, kLineCases.front(), {});
+  UnknownBridge bridge = unknown_bridge(readings.comparison, observation, kTwoCases.front(), {});
   FoundLines found;
-  for (const LineError& line : line_errors(bridge, observation, readings.comparison, kLineCases, kAll))
+  for (const LineError& line : line_errors(bridge, observation, readings.comparison,
+                                           intact_gaussians(bridge, observation, kTwoCases), kAll))
     (line.chance == 1e-3 ? found.whole : found.parted).insert(line.channels.size());
   return found;
 }
@@ -133,8 +122,9 @@ TEST_CASE("An error that a line shares explains readings as well as its covarian
   const ShiftedReadings readings(GENERATE(ReadingKind::absolute, ReadingKind::change));
   const UnknownSettings settings{GENERATE(Epochs::change, Epochs::both)};
   const Observation observation = readings.observed();
-  UnknownBridge bridge = unknown_bridge(readings.comparison, observation, kLineCases.front(), settings);
-  const auto found = line_errors(bridge, observation, readings.comparison, kLineCases, kAll);
+  UnknownBridge bridge = unknown_bridge(readings.comparison, observation, kTwoCases.front(), settings);
+  const auto found = line_errors(bridge, observation, readings.comparison,
+                                 intact_gaussians(bridge, observation, kTwoCases), kAll);
 
   // Of two lines the whole, and the likelier of the first and last three points, at one time or two.
   REQUIRE(found.size() == (bridge.has_first_epoch() ? 8 : 4));
@@ -144,7 +134,7 @@ TEST_CASE("An error that a line shares explains readings as well as its covarian
     INFO(line.channels.size() << " from channel " << line.channels.front() << " on, off by " << line.size);
     const bool is_whole = line.channels.size() == kOfLine;
     CHECK(line.chance == (is_whole ? 1e-3 : 1e-4));
-    CHECK(explained_by(bridge, readings, observation, line, true, is_whole) == 1);
+    CHECK(columns_that_explain(bridge, readings, observation, line, true, is_whole) == 1);
   }
   if (bridge.has_first_epoch()) return;
   CHECK(found.front().channels.size() == kOfLine);
@@ -156,9 +146,11 @@ TEST_CASE("What is stated of a levelling is no error of it, but what is not stat
   readings.comparison.levelling = {0, 0, 0, 0, 0, 0, 1, 1, 1, 1, 1, 1};
   const auto check = [&](const Nuisance& nuisance, bool shift, bool tilt) {
     const Observation observation = readings.observed(nuisance);
-    UnknownBridge bridge = unknown_bridge(readings.comparison, observation, kLineCases.front(), {});
-    for (const LineError& line : line_errors(bridge, observation, readings.comparison, kLineCases, kAll))
-      if (line.chance == 1e-3) CHECK(explained_by(bridge, readings, observation, line, shift, tilt) == 1);
+    UnknownBridge bridge = unknown_bridge(readings.comparison, observation, kTwoCases.front(), {});
+    for (const LineError& line : line_errors(bridge, observation, readings.comparison,
+                                             intact_gaussians(bridge, observation, kTwoCases), kAll))
+      if (line.chance == 1e-3)
+        CHECK(columns_that_explain(bridge, readings, observation, line, shift, tilt) == 1);
   };
   check({}, true, true);
   check({.datum = 1e-3}, false, true);

@@ -3,14 +3,11 @@
 
 #include "lookup/unknown/unstated_cause.h"
 
-#include <array>
 #include <boost/math/distributions/chi_squared.hpp>
 #include <catch2/catch.hpp>
-#include <numbers>
 #include <random>
 
-#include "lookup/unknown/intact_gaussian.h"
-#include "tests/lookup/unknown/dense_normal.h"
+#include "tests/lookup/unknown/explained_readings.h"
 #include "tests/lookup/unknown/made_up_factors.h"
 
 using namespace voussoir;
@@ -20,8 +17,6 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 namespace {
-
-constexpr std::array<UnknownCase, 2> kTwoSizes = {{{0.0, 1.0}, {0.0, 0.2}}};
 
 /// Changes of the intact bridge, of which the first epoch was read, too, and two causes of one and two
 /// columns.
@@ -67,27 +62,23 @@ TEST_CASE("A cause explains readings in its likeliest case as well as its covari
   const ReadWithCauses read;
   const UnknownSettings settings{GENERATE(Epochs::change, Epochs::both)};
   const Observation observation = observe(read.comparison, {NoiseShape::gaussian, 0.0}, {});
-  UnknownBridge bridge = unknown_bridge(read.comparison, observation, kTwoSizes.front(), settings);
-  const std::vector<CauseFit> fits = cause_fits(bridge, observation, kTwoSizes, read.possible);
+  UnknownBridge bridge = unknown_bridge(read.comparison, observation, kTwoCases.front(), settings);
+  const std::vector<CauseFit> fits =
+      cause_fits(bridge, intact_gaussians(bridge, observation, kTwoCases), read.possible);
   REQUIRE(fits.size() == (bridge.has_first_epoch() ? 4 : 2));
   const auto rows = static_cast<double>(bridge.reading.size());
   for (const CauseFit& fit : fits) {
     INFO("cause " << fit.cause << (fit.first_epoch ? ", first time" : ""));
     const MatrixXd columns = columns_in_rows(bridge, read.possible, fit);
-    double best = -std::numeric_limits<double>::infinity();
-    for (const UnknownCase& one : kTwoSizes) {
-      set_case(observation, one, bridge);
-      best = std::max(best,
-                      log_normal(bridge.reading, intact_covariance(bridge) + columns * columns.transpose()));
-    }
-    CHECK(fit.log == Approx(best + 0.5 * rows * std::log(2.0 * std::numbers::pi)).epsilon(1e-9));
+    const Explained expected = explained_by(bridge, observation, columns);
+    CHECK(fit.log == Approx(expected.log).epsilon(1e-9));
 
     const UnstatedCause cause = unstated_cause(bridge, read.possible, fit);
     CHECK((cause.covariance - columns * columns.transpose()).norm() < 1e-12 * cause.covariance.norm());
     set_case(observation, fit.best, bridge);
-    const MatrixXd intact = intact_covariance(bridge), with = intact + cause.covariance;
-    const VectorXd expected = cause.covariance * with.ldlt().solve(bridge.reading);
-    CHECK((cause.expected - expected).norm() < 1e-9 * expected.norm());
+    const MatrixXd intact = intact_covariance_of(bridge), with = intact + cause.covariance;
+    const VectorXd mean = columns * expected.amounts;
+    CHECK((cause.expected - mean).norm() < 1e-9 * mean.norm());
 
     const auto chance = [&](const MatrixXd& covariance) {
       const double square = bridge.reading.dot(covariance.ldlt().solve(bridge.reading));

@@ -4,13 +4,11 @@
 #include "lookup/unknown/unstated_loads.h"
 
 #include <algorithm>
-#include <array>
 #include <catch2/catch.hpp>
 #include <functional>
-#include <numbers>
 #include <random>
 
-#include "tests/lookup/unknown/dense_normal.h"
+#include "tests/lookup/unknown/explained_readings.h"
 #include "tests/lookup/unknown/made_up_factors.h"
 
 using namespace voussoir;
@@ -21,7 +19,6 @@ using Eigen::VectorXd;
 
 namespace {
 
-constexpr std::array<UnknownCase, 2> kCases = {{{0.0, 1.0}, {0.0, 0.2}}};
 constexpr std::size_t kPlaces = 30;  // a metre apart
 
 /// The intact bridge, on which a load stood when it was read, or at the second of two times.
@@ -66,32 +63,6 @@ MatrixXd columns_of(const UnknownBridge& bridge, const LoadInfluence& load, doub
   return columns;
 }
 
-/// Of the intact bridge in the bridge's case.
-MatrixXd intact_covariance_of(const UnknownBridge& bridge) {
-  const VectorXd zero = VectorXd::Zero(bridge.reading.size());
-  const MatrixXd scatter = bridge_columns(bridge, Scene{});
-  return scene_noise(bridge, {{}, zero, zero}) + scatter * scatter.transpose();
-}
-
-struct Expected {
-  double log = -std::numeric_limits<double>::infinity();
-  VectorXd mean;
-  double force = 0.0;  // [N/m]
-};
-
-Expected expected_of(UnknownBridge& bridge, const Observation& observation, const MatrixXd& columns) {
-  Expected best;
-  for (const UnknownCase& one : kCases) {
-    set_case(observation, one, bridge);
-    const MatrixXd covariance = intact_covariance_of(bridge) + columns * columns.transpose();
-    const double log = log_normal(bridge.reading, covariance);
-    if (log < best.log) continue;
-    const VectorXd forces = columns.transpose() * covariance.ldlt().solve(bridge.reading);
-    best = {log, columns * forces, kUnstatedForce * std::sqrt(1.0 / 0.5) * std::abs(forces.sum())};
-  }
-  return best;
-}
-
 /// Of what is off in what a load adds to a channel, 8 % of it and 3 % of the root mean square: the same
 /// wherever the channel counts.
 MatrixXd errors_of(const UnknownBridge& bridge, const VectorXd& added, bool second) {
@@ -121,8 +92,8 @@ TEST_CASE("A load on a stretch explains readings as well as its covariance makes
   const LoadedReadings readings(GENERATE(ReadingKind::absolute, ReadingKind::change));
   const UnknownSettings settings{GENERATE(Epochs::change, Epochs::both)};
   const Observation observation = observe(readings.comparison, {NoiseShape::gaussian, 0.0}, {});
-  UnknownBridge bridge = unknown_bridge(readings.comparison, observation, kCases.front(), settings);
-  const auto found = unstated_loads(bridge, observation, kCases, 1000);
+  UnknownBridge bridge = unknown_bridge(readings.comparison, observation, kTwoCases.front(), settings);
+  const auto found = unstated_loads(bridge, intact_gaussians(bridge, observation, kTwoCases), 1000);
 
   const bool both = bridge.has_first_epoch();
   const std::size_t stretches = 25 + 20;  // of 5 and 10 m on 29 m
@@ -133,16 +104,16 @@ TEST_CASE("A load on a stretch explains readings as well as its covariance makes
   CHECK(found.front().from <= 11.0);
   CHECK(found.front().to >= 14.0);
   CHECK_FALSE(found.front().first_epoch);
-  const double constant =
-      -0.5 * static_cast<double>(bridge.reading.size()) * std::log(2.0 * std::numbers::pi);
   for (const UnstatedLoad& load : found) {
     INFO(load.from << " to " << load.to);
     const bool second = !both || !load.first_epoch;
     const MatrixXd columns = columns_of(bridge, readings.sensitivities.load, load.from, load.to, second);
-    const Expected expected = expected_of(bridge, observation, columns);
-    CHECK(load.cause.log == Approx(expected.log - constant).epsilon(1e-6));
-    CHECK((load.cause.expected - expected.mean).norm() < 1e-6 * expected.mean.norm());
-    CHECK(load.force == Approx(expected.force).epsilon(1e-6));
+    const Explained expected = explained_by(bridge, observation, columns);
+    const VectorXd mean = columns * expected.amounts;
+    CHECK(load.cause.log == Approx(expected.log).epsilon(1e-6));
+    CHECK((load.cause.expected - mean).norm() < 1e-6 * mean.norm());
+    CHECK(load.force ==
+          Approx(kUnstatedForce * std::sqrt(1.0 / 0.5) * std::abs(expected.amounts.sum())).epsilon(1e-6));
     CHECK(load.force > 0.0);
     const MatrixXd errors = errors_of(bridge, load.cause.expected, second);
     CHECK((load.cause.covariance - columns * columns.transpose() - errors).norm() < 1e-6 * errors.norm());
@@ -153,6 +124,6 @@ TEST_CASE("Without what loads do nothing is said of them") {
   LoadedReadings readings(ReadingKind::absolute);
   readings.sensitivities.load = {};
   const Observation observation = observe(readings.comparison, {NoiseShape::gaussian, 0.0}, {});
-  UnknownBridge bridge = unknown_bridge(readings.comparison, observation, kCases.front(), {});
-  CHECK(unstated_loads(bridge, observation, kCases, 3).empty());
+  UnknownBridge bridge = unknown_bridge(readings.comparison, observation, kTwoCases.front(), {});
+  CHECK(unstated_loads(bridge, intact_gaussians(bridge, observation, kTwoCases), 3).empty());
 }
