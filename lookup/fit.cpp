@@ -143,7 +143,7 @@ std::vector<SensorResidual> sensor_residuals(const Observation& observation, con
 }
 
 std::vector<SensorResidual> sensor_residuals(const Observation& observation, const UnknownBridge& bridge,
-                                             const BridgePosterior& posterior) {
+                                             const CaseNoise& noise, const BridgePosterior& posterior) {
   std::vector<SensorResidual> result;
   for (std::size_t point = 0; point < observation.displacement.size(); ++point)
     if (const double reading = observation.displacement[point]; !std::isnan(reading))
@@ -155,7 +155,7 @@ std::vector<SensorResidual> sensor_residuals(const Observation& observation, con
       return residual.point == bridge.rows[k].channel;
     });
     found->predicted = found->reading - posterior.beside[row];
-    found->scale = std::sqrt(bridge.instruments[row]);
+    found->scale = std::sqrt(noise.instruments[row]);
     found->error = posterior.others[row];
   }
   mark_disagreement(result);

@@ -45,7 +45,7 @@ Fit check_fit(const Observation& observation, const NoiseEstimate& noise, std::s
 /// The same of a bridge that is not exactly known. `predicted` is what all other readings let expect, `error`
 /// how far the reading is from it, in standard deviations of that; `scale` is the instrument's alone.
 std::vector<SensorResidual> sensor_residuals(const Observation& observation, const UnknownBridge& bridge,
-                                             const BridgePosterior& posterior);
+                                             const CaseNoise& noise, const BridgePosterior& posterior);
 Fit check_fit(const BridgePosterior& posterior);
 
 /// Does what is believed of the bridge make the model move by less than a fifth or more than five times? To

@@ -163,7 +163,8 @@ void judge_unknown_bridge(const QuestionContext& asked, Answer& answer) {
   BridgePosterior posterior = question.posterior(scenes);
   answer.bridge = {question.bridge(), std::move(posterior)};
   answer.fit = check_fit(answer.bridge->posterior);
-  answer.residuals = sensor_residuals(observation, answer.bridge->model, answer.bridge->posterior);
+  answer.residuals =
+      sensor_residuals(observation, answer.bridge->model, question.noise(), answer.bridge->posterior);
   if (!answer.fit->explained) name_suspect(asked, answer);
   if (answer.fit->explained)
     if (const auto doubt = check_scatter(answer.bridge->model, answer.bridge->posterior)) answer.fit = doubt;

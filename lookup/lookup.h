@@ -50,7 +50,7 @@ struct Candidate {
 
 /// What the readings say of a bridge that is not exactly known, beside the scenes.
 struct BridgeAnswer {
-  UnknownBridge model;  ///< of the readings, at the likeliest level of the noise
+  UnknownBridge model;  ///< of the readings
   BridgePosterior posterior;
 };
 

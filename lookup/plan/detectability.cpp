@@ -52,8 +52,9 @@ AllDrawn blocks_by_rows(const UnknownBridge& bridge, int draws) {
 
 /// The Gaussian is made here and once more to explain the draws: those of all blocks at once would take
 /// gigabytes of a long bridge.
-void draw(const UnknownBridge& bridge, BlockId block, int draws, Random& random, AllDrawn& all) {
-  const LossGaussian loss = loss_gaussian(bridge, block);
+void draw(const UnknownBridge& bridge, const CaseNoise& noise, BlockId block, int draws, Random& random,
+          AllDrawn& all) {
+  const LossGaussian loss = loss_gaussian(bridge, noise, block);
   const std::vector<Index> rows = rows_with_reading(loss.signal);
   if (rows.empty()) return;  // the block takes all sensors with it
   DrawnReadings& drawn = all.at(rows);
@@ -65,11 +66,11 @@ void draw(const UnknownBridge& bridge, BlockId block, int draws, Random& random,
       (factor.matrixL() * standard).colwise() + loss.signal(rows);
 }
 
-AllDrawn drawn_readings(const UnknownBridge& bridge, const SightSettings& settings) {
+AllDrawn drawn_readings(const UnknownBridge& bridge, const CaseNoise& noise, const SightSettings& settings) {
   Random random(settings.seed);
   AllDrawn all = blocks_by_rows(bridge, settings.draws);
   for (const BlockId block : blocks_with_sensitivities(bridge))
-    draw(bridge, block, settings.draws, random, all);
+    draw(bridge, noise, block, settings.draws, random, all);
   return all;
 }
 
@@ -136,12 +137,13 @@ Sight sight_of(const UnknownBridge& bridge, const DrawnReadings& drawn, std::siz
 
 }  // namespace
 
-std::vector<Sight> sights_of(const UnknownBridge& bridge, const SightSettings& settings) {
-  AllDrawn all = drawn_readings(bridge, settings);
+std::vector<Sight> sights_of(const UnknownBridge& bridge, const CaseNoise& noise,
+                             const SightSettings& settings) {
+  AllDrawn all = drawn_readings(bridge, noise, settings);
   std::vector<std::optional<BlockId>> losses = {std::nullopt};
   for (const BlockId block : blocks_with_sensitivities(bridge)) losses.emplace_back(block);
   for (const std::optional<BlockId> lost : losses) {
-    const LossGaussian loss = loss_gaussian(bridge, lost);
+    const LossGaussian loss = loss_gaussian(bridge, noise, lost);
     for (auto& [rows, drawn] : all) explain(lost, loss, settings, drawn);
   }
   std::vector<Sight> sights;

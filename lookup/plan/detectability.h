@@ -10,7 +10,7 @@
 #include <optional>
 #include <vector>
 
-#include "lookup/unknown/unknown_bridge.h"
+#include "lookup/unknown/case_noise.h"
 
 namespace voussoir {
 
@@ -35,6 +35,7 @@ struct Sight {
 };
 
 /// Of each block without which the bridge stands and has sensitivities, ascending.
-std::vector<Sight> sights_of(const UnknownBridge& bridge, const SightSettings& settings);
+std::vector<Sight> sights_of(const UnknownBridge& bridge, const CaseNoise& noise,
+                             const SightSettings& settings);
 
 }  // namespace voussoir

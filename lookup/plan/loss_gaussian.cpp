@@ -4,7 +4,7 @@
 
 namespace voussoir {
 
-LossGaussian loss_gaussian(const UnknownBridge& bridge, std::optional<BlockId> lost) {
+LossGaussian loss_gaussian(const UnknownBridge& bridge, const CaseNoise& noise, std::optional<BlockId> lost) {
   const Eigen::VectorXd nothing = Eigen::VectorXd::Zero(bridge.reading.size());
   SceneLoss loss{{}, nothing, nothing, 0.0};
   Scene scene;
@@ -14,7 +14,7 @@ LossGaussian loss_gaussian(const UnknownBridge& bridge, std::optional<BlockId> l
     scene.removed = {*lost};
   }
   const Eigen::MatrixXd columns = bridge_columns(bridge, scene);
-  return {loss.signal, scene_noise(bridge, loss) + columns * columns.transpose()};
+  return {loss.signal, scene_noise(bridge, noise, loss) + columns * columns.transpose()};
 }
 
 std::vector<BlockId> blocks_with_sensitivities(const UnknownBridge& bridge) {

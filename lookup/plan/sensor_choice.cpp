@@ -66,9 +66,9 @@ MatrixXd columns_of(const LossGaussian& loss, const MatrixXd& covariance, const 
   return columns;
 }
 
-LossBesideIntact loss_beside_intact(const UnknownBridge& bridge, BlockId block, const MatrixXd& covariance,
-                                    const MatrixXd& precision) {
-  const LossGaussian loss = loss_gaussian(bridge, block);
+LossBesideIntact loss_beside_intact(const UnknownBridge& bridge, const CaseNoise& noise, BlockId block,
+                                    const MatrixXd& covariance, const MatrixXd& precision) {
+  const LossGaussian loss = loss_gaussian(bridge, noise, block);
   const std::vector<Index> read = rows_with_reading(loss.signal);
   const MatrixXd columns = columns_of(loss, covariance, read);
   LossBesideIntact result{{}, precision * columns, {}};
@@ -81,14 +81,15 @@ LossBesideIntact loss_beside_intact(const UnknownBridge& bridge, BlockId block, 
 /// The rows that are still read, and the losses in them.
 class ReadRows {
  public:
-  explicit ReadRows(const UnknownBridge& bridge) : rows_(static_cast<std::size_t>(bridge.reading.size())) {
+  ReadRows(const UnknownBridge& bridge, const CaseNoise& noise)
+      : rows_(static_cast<std::size_t>(bridge.reading.size())) {
     std::iota(rows_.begin(), rows_.end(), Index{0});
-    const MatrixXd covariance = loss_gaussian(bridge, std::nullopt).covariance;
+    const MatrixXd covariance = loss_gaussian(bridge, noise, std::nullopt).covariance;
     precision_ = covariance.llt().solve(MatrixXd::Identity(covariance.rows(), covariance.cols()));
     const std::vector<BlockId> blocks = blocks_with_sensitivities(bridge);
     losses_.resize(blocks.size());
     for_each_index_on_threads(blocks.size(), hardware_threads(), [&](std::size_t b) {
-      losses_[b] = loss_beside_intact(bridge, blocks[b], covariance, precision_);
+      losses_[b] = loss_beside_intact(bridge, noise, blocks[b], covariance, precision_);
     });
   }
 
@@ -156,10 +157,10 @@ class ReadRows {
 
 }  // namespace
 
-std::vector<Index> rows_that_help(const UnknownBridge& bridge, const SightSettings& settings,
-                                  std::size_t count) {
+std::vector<Index> rows_that_help(const UnknownBridge& bridge, const CaseNoise& noise,
+                                  const SightSettings& settings, std::size_t count) {
   const Odds odds(settings);
-  ReadRows read(bridge);
+  ReadRows read(bridge, noise);
   std::vector<Index> chosen;
   while (!read.rows().empty()) {
     const Index row = read.least_missed(odds);

@@ -15,7 +15,7 @@ namespace voussoir {
 /// log if the block is missing, the Kullback-Leibler divergence of the loss's Gaussian from the intact
 /// bridge's in the rows that are read. That the log is distributed exponentially is an approximation, of
 /// which docs/plan.md has the figures.
-std::vector<Eigen::Index> rows_that_help(const UnknownBridge& bridge, const SightSettings& settings,
-                                         std::size_t count);
+std::vector<Eigen::Index> rows_that_help(const UnknownBridge& bridge, const CaseNoise& noise,
+                                         const SightSettings& settings, std::size_t count);
 
 }  // namespace voussoir

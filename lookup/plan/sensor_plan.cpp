@@ -41,6 +41,7 @@ struct BlankQuestion {
   Comparison comparison;
   Observation observation;
   UnknownBridge bridge;
+  CaseNoise noise;
 
   BlankQuestion(const Database& database, const SensorList& list, const PlanSettings& settings)
       : comparison(compare(blank_readings(list, settings), list, database, {.history = settings.history})),
@@ -61,9 +62,8 @@ struct BlankQuestion {
                       "built without --known-bridge",
                       database.path().string()));
     require_readings(observation);
-    bridge =
-        unknown_bridge(comparison, observation, {0.0, settings.conditions == Conditions::known ? 0.0 : 1.0},
-                       {.conditions = settings.conditions});
+    bridge = unknown_bridge(comparison, observation, {.conditions = settings.conditions});
+    noise = case_noise(bridge, observation, {0.0, settings.conditions == Conditions::known ? 0.0 : 1.0});
   }
 
   std::vector<std::string> points() const {
@@ -105,7 +105,8 @@ std::vector<std::string> points_that_help(const BlankQuestion& question, const D
     throw InputError(fmt::format("{} points are to be chosen, expected at most the {} that can be read",
                                  count, all.size()));
   std::vector<std::string> chosen;
-  for (const Eigen::Index row : rows_that_help(question.bridge, sight_settings(question, database), count))
+  for (const Eigen::Index row :
+       rows_that_help(question.bridge, question.noise, sight_settings(question, database), count))
     chosen.push_back(all[static_cast<std::size_t>(row)]);
   return chosen;
 }
@@ -122,7 +123,7 @@ SensorPlan plan_sensors(const Database& database, const PlanSettings& settings) 
         points_that_help(BlankQuestion(database, list, settings), database, *settings.choose);
   const BlankQuestion question(database, list, acting);
   SensorPlan plan{question.comparison.history, question.points(), std::move(chosen),
-                  sights_of(question.bridge, sight_settings(question, database))};
+                  sights_of(question.bridge, question.noise, sight_settings(question, database))};
   add_others(question, plan);
   return plan;
 }

@@ -141,7 +141,7 @@ std::vector<KnownParameter> known_of_epochs(const BridgeAnswer& bridge, const Re
   const auto& [model, posterior] = bridge;
   const Index columns = factors.of_epoch();
   std::vector<KnownParameter> result;
-  if (model.conditions == 0.0) return result;  // they were told to be known
+  if (model.conditions == Conditions::known) return result;
   for (Index i = 0; i < factors.epoch_parameters(); ++i) {
     VectorXd weights = VectorXd::Zero(posterior.epoch_mean.size());
     weights[weights.size() - columns + i] = 1.0;

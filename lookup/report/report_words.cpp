@@ -178,7 +178,7 @@ std::string verdict_in_words(const Answer& answer) {
 
 std::string bridge_in_words(const Answer& answer) {
   if (answer.known_bridge) return "taken as exactly known";
-  const bool known_conditions = answer.bridge && answer.bridge->model.conditions == 0.0;
+  const bool known_conditions = answer.bridge && answer.bridge->model.conditions == Conditions::known;
   return known_conditions ? "not exactly known: joints and stone are uncertain as the bridge file states; "
                             "temperature and supports are taken as known"
                           : "not exactly known: joints, stone, temperature and supports are uncertain as "

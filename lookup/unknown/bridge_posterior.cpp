@@ -28,7 +28,7 @@ struct Part {
 };
 
 /// All of them, the heaviest first.
-std::vector<Part> mixture_parts(UnknownBridge& bridge, const Observation& observation,
+std::vector<Part> mixture_parts(const UnknownBridge& bridge, const Observation& observation,
                                 const SceneTable& table, const std::vector<WeightedScene>& scenes,
                                 std::span<const UnknownCase> cases) {
   std::vector<std::size_t> rows;
@@ -83,14 +83,15 @@ SceneGaussian scene_gaussian(const UnknownBridge& bridge, const Observation& obs
 }
 
 /// Of readings as far away as these if scenes without factors are not off at each point by itself.
-double chance_of(const UnknownBridge& bridge, const SceneGaussian& scene, const MatrixXd& covariance,
-                 double whitened_square) {
+double chance_of(const UnknownBridge& bridge, const CaseNoise& noise, const SceneGaussian& scene,
+                 const MatrixXd& covariance, double whitened_square) {
   const auto n = static_cast<double>(scene.difference.size());
   double square = whitened_square;
   if (scene.loss.square_at_points > 0.0) {
     SceneLoss loss = scene.loss;
     loss.square_at_points = 0.0;
-    const MatrixXd less = covariance - scene_noise(bridge, scene.loss) + scene_noise(bridge, loss);
+    const MatrixXd less =
+        covariance - scene_noise(bridge, noise, scene.loss) + scene_noise(bridge, noise, loss);
     square = scene.difference.dot(less.llt().solve(scene.difference));
   }
   return chi_square_chance(square, n);
@@ -98,12 +99,12 @@ double chance_of(const UnknownBridge& bridge, const SceneGaussian& scene, const 
 
 /// What all others let expect of reading i is off by (C^-1 r)_i / (C^-1)_ii, which has the variance
 /// 1 / (C^-1)_ii. The epochs' parameters have the mean E^T C^-1 r and the covariance I - E^T C^-1 E, in
-/// deviations of the bridge's case.
-void add_part(const UnknownBridge& bridge, const SceneGaussian& scene, double kappa, double weight,
-              BridgePosterior& result) {
+/// deviations of the case.
+void add_part(const UnknownBridge& bridge, const CaseNoise& noise, const SceneGaussian& scene, double kappa,
+              double weight, BridgePosterior& result) {
   const Index n = scene.difference.size();
-  const double size = bridge.conditions;
-  const MatrixXd covariance = scene_noise(bridge, scene.loss) + kappa * scene.scatter;
+  const double size = noise.conditions;
+  const MatrixXd covariance = scene_noise(bridge, noise, scene.loss) + kappa * scene.scatter;
   BridgePart part{weight, kappa, scene.bridge, Eigen::LLT<MatrixXd>(covariance), {}};
   const auto lower = part.covariance.matrixL();
   const VectorXd whitened = lower.solve(scene.difference);
@@ -121,10 +122,10 @@ void add_part(const UnknownBridge& bridge, const SceneGaussian& scene, double ka
   result.epoch_covariance += weight * (epoch * epoch.transpose() - fall.transpose() * fall);
   const MatrixXd inverse = lower.solve(MatrixXd::Identity(n, n));
   const VectorXd precision = inverse.colwise().squaredNorm();
-  result.square += weight * whitened.squaredNorm() / bridge.instruments.dot(precision);
+  result.square += weight * whitened.squaredNorm() / noise.instruments.dot(precision);
   result.beside += weight * pulled.cwiseQuotient(precision);
   result.others += weight * (pulled.array() / precision.array().sqrt()).matrix();
-  result.chance += weight * chance_of(bridge, scene, covariance, whitened.squaredNorm());
+  result.chance += weight * chance_of(bridge, noise, scene, covariance, whitened.squaredNorm());
   result.parts.push_back(std::move(part));
 }
 
@@ -166,7 +167,7 @@ BridgePosterior empty_posterior(const UnknownBridge& bridge) {
 
 }  // namespace
 
-BridgePosterior bridge_posterior(UnknownBridge& bridge, const Observation& observation,
+BridgePosterior bridge_posterior(const UnknownBridge& bridge, const Observation& observation,
                                  const SceneTable& table, const std::vector<WeightedScene>& scenes,
                                  std::span<const UnknownCase> cases) {
   BridgePosterior result = empty_posterior(bridge);
@@ -179,8 +180,8 @@ BridgePosterior bridge_posterior(UnknownBridge& bridge, const Observation& obser
     return *gaussians[i];
   };
   for (const Part& part : kept) {
-    set_case(observation, cases[part.in_case], bridge);
-    add_part(bridge, gaussian(part.scene), kScatterFactors[part.kappa], part.weight, result);
+    const CaseNoise noise = case_noise(bridge, observation, cases[part.in_case]);
+    add_part(bridge, noise, gaussian(part.scene), kScatterFactors[part.kappa], part.weight, result);
   }
   result.epoch_covariance -= result.epoch_mean * result.epoch_mean.transpose();
   explain(bridge, observation, gaussian(0), result);

@@ -55,9 +55,8 @@ struct BridgePosterior {
                         ///< explain any scatter
 };
 
-/// Scenes are possible ones, likeliest first; cases as likely beforehand as each other. The bridge's case is
-/// changed.
-BridgePosterior bridge_posterior(UnknownBridge& bridge, const Observation& observation,
+/// Scenes are possible ones, likeliest first; cases as likely beforehand as each other.
+BridgePosterior bridge_posterior(const UnknownBridge& bridge, const Observation& observation,
                                  const SceneTable& table, const std::vector<WeightedScene>& scenes,
                                  std::span<const UnknownCase> cases);
 

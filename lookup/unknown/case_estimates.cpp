@@ -28,9 +28,9 @@ double highest_rise(const ScatterLogs& from, const ScatterLogs& to) {
 
 }  // namespace
 
-CaseEstimates::CaseEstimates(UnknownBridge& bridge, const Observation& observation, const SceneTable& table,
-                             std::span<const UnknownCase> cases, std::span<const std::size_t> rows,
-                             std::span<const double> beforehand)
+CaseEstimates::CaseEstimates(const UnknownBridge& bridge, const Observation& observation,
+                             const SceneTable& table, std::span<const UnknownCase> cases,
+                             std::span<const std::size_t> rows, std::span<const double> beforehand)
     : bridge_(bridge),
       observation_(observation),
       table_(table),

@@ -12,9 +12,9 @@ namespace voussoir {
 /// Rows of a table are named by their places in a list.
 class CaseEstimates {
  public:
-  /// All of them outlive this; the bridge's case is changed. `beforehand`: log prior of each of the rows.
+  /// All of them outlive this. `beforehand`: log prior of each of the rows.
   /// Cases come in descending order of levels and conditions, those of one level side by side.
-  CaseEstimates(UnknownBridge& bridge, const Observation& observation, const SceneTable& table,
+  CaseEstimates(const UnknownBridge& bridge, const Observation& observation, const SceneTable& table,
                 std::span<const UnknownCase> cases, std::span<const std::size_t> rows,
                 std::span<const double> beforehand);
 
@@ -54,7 +54,7 @@ class CaseEstimates {
   static double sum_over_cases(std::span<const float> logs, double largest);
   void add_rises(std::size_t number);
 
-  UnknownBridge& bridge_;
+  const UnknownBridge& bridge_;
   const Observation& observation_;
   const SceneTable& table_;
   std::span<const UnknownCase> cases_;

@@ -4,20 +4,20 @@
 
 namespace voussoir {
 
-Eigen::MatrixXd intact_covariance(const UnknownBridge& bridge) {
+Eigen::MatrixXd intact_covariance(const UnknownBridge& bridge, const CaseNoise& noise) {
   const Eigen::Index n = bridge.reading.size();
   const SceneLoss none{{}, Eigen::VectorXd::Zero(n), Eigen::VectorXd::Zero(n)};
   const Eigen::MatrixXd scatter = bridge_columns(bridge, Scene{});
-  return scene_noise(bridge, none) + scatter * scatter.transpose();
+  return scene_noise(bridge, noise, none) + scatter * scatter.transpose();
 }
 
-std::vector<IntactGaussian> intact_gaussians(UnknownBridge& bridge, const Observation& observation,
+std::vector<IntactGaussian> intact_gaussians(const UnknownBridge& bridge, const Observation& observation,
                                              std::span<const UnknownCase> cases) {
   const Eigen::Index n = bridge.reading.size();
   std::vector<IntactGaussian> result;
   for (const UnknownCase& one : cases) {
-    set_case(observation, one, bridge);
-    const Eigen::LLT<Eigen::MatrixXd> covariance(intact_covariance(bridge));
+    const Eigen::LLT<Eigen::MatrixXd> covariance(
+        intact_covariance(bridge, case_noise(bridge, observation, one)));
     IntactGaussian intact{one, covariance.solve(Eigen::MatrixXd::Identity(n, n)),
                           covariance.solve(bridge.reading)};
     const double log_root = covariance.matrixLLT().diagonal().array().log().sum();

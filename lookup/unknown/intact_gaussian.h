@@ -4,12 +4,12 @@
 #include <span>
 #include <vector>
 
-#include "lookup/unknown/unknown_bridge.h"
+#include "lookup/unknown/case_noise.h"
 
 namespace voussoir {
 
-/// [m2] of y in the bridge's case, all that scatters as the bridge file states.
-Eigen::MatrixXd intact_covariance(const UnknownBridge& bridge);
+/// [m2] of y, all that scatters as the bridge file states.
+Eigen::MatrixXd intact_covariance(const UnknownBridge& bridge, const CaseNoise& noise);
 
 /// In one case, with that covariance C.
 struct IntactGaussian {
@@ -19,8 +19,8 @@ struct IntactGaussian {
   double log = 0.0;           ///< density of all readings, but for what all cases have in common
 };
 
-/// Of each of these cases. The bridge's case is changed.
-std::vector<IntactGaussian> intact_gaussians(UnknownBridge& bridge, const Observation& observation,
+/// Of each of these cases.
+std::vector<IntactGaussian> intact_gaussians(const UnknownBridge& bridge, const Observation& observation,
                                              std::span<const UnknownCase> cases);
 
 }  // namespace voussoir

@@ -33,9 +33,9 @@ constexpr std::size_t kTried = 4;  // scenes with which a case is tried before p
 
 }  // namespace
 
-ScreenedCases::ScreenedCases(UnknownBridge& bridge, const Observation& observation, const SceneTable& table,
-                             std::span<const UnknownCase> cases, std::span<const std::size_t> rows,
-                             std::span<const double> beforehand)
+ScreenedCases::ScreenedCases(const UnknownBridge& bridge, const Observation& observation,
+                             const SceneTable& table, std::span<const UnknownCase> cases,
+                             std::span<const std::size_t> rows, std::span<const double> beforehand)
     : bridge_(bridge),
       observation_(observation),
       table_(table),

@@ -17,8 +17,8 @@ namespace voussoir {
 class ScreenedCases {
  public:
   /// `beforehand`: log prior of each of the rows. Cases come in descending order of levels and conditions.
-  /// All of them outlive this; the bridge's case is changed.
-  ScreenedCases(UnknownBridge& bridge, const Observation& observation, const SceneTable& table,
+  /// All of them outlive this.
+  ScreenedCases(const UnknownBridge& bridge, const Observation& observation, const SceneTable& table,
                 std::span<const UnknownCase> cases, std::span<const std::size_t> rows,
                 std::span<const double> beforehand);
 
@@ -58,7 +58,7 @@ class ScreenedCases {
   bool may_matter(std::size_t place, std::size_t number) const;
   double total(std::size_t place) const;
 
-  UnknownBridge& bridge_;
+  const UnknownBridge& bridge_;
   const Observation& observation_;
   const SceneTable& table_;
   std::span<const std::size_t> rows_;

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/median.h"
 #include "core/threads.h"
 
 namespace voussoir {
@@ -13,11 +12,6 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-
-constexpr double kLeastDeviation = 1e-9;  // [m] of an instrument: what the database was solved to
-/// What the first order leaves of conditions is far from Gaussian, so it counts for more than its second
-/// moments: at once, 53 of 400 intact bridges that were heated and moved were called damaged, twice, 7.
-constexpr double kHeavyTails = 2.0;
 
 /// The readings that there are. Of two epochs, where both count, first those of the first.
 std::vector<ReadingRow> rows_of(const Comparison& comparison, const Observation& observation, Epochs epochs) {
@@ -44,39 +38,6 @@ MatrixXd of_epochs(const std::vector<ReadingRow>& rows, Index epochs, const Matr
     to.tail(columns) += rows[k].after * after.row(channel);
   }
   return result;
-}
-
-/// Variance of an instrument's error where something moved by so much. `floor`: of one error's own part.
-double instrument_variance(double share, double movement, double floor) {
-  const double deviation = share * (std::abs(movement) + kSmallestMovement) + floor;
-  return std::max(deviation * deviation, kLeastDeviation * kLeastDeviation);
-}
-
-/// Changes have the errors of their difference, in shares of the change. Where both of two epochs count, each
-/// has an error of its own, in shares of what it shows, and the first one's is in the change.
-void add_instruments(const Observation& observation, double level, UnknownBridge& bridge) {
-  const auto n = static_cast<Index>(bridge.rows.size());
-  bridge.instruments.resize(n);
-  for (Index k = 0; k < n; ++k) {
-    const std::size_t channel = bridge.rows[static_cast<std::size_t>(k)].channel;
-    bridge.instruments[k] = instrument_variance(observation.share[channel] * level,
-                                                observation.reading[channel] - observation.origin[channel],
-                                                observation.floor[channel]);
-  }
-  for (Index k = 0; bridge.has_first_epoch() && k < n / 2; ++k) {
-    const Index change = k + n / 2;  // the same channels in the same order
-    const std::size_t channel = bridge.rows[static_cast<std::size_t>(k)].channel;
-    const double share = observation.share[channel] * level,
-                 floor = observation.floor[channel] / std::numbers::sqrt2;
-    const double before = bridge.reading[k] + bridge.movement[k];
-    const double after = before + observation.reading[channel] - observation.origin[channel];
-    bridge.instruments[k] = instrument_variance(share, before, floor);
-    bridge.instruments[change] = bridge.instruments[k] + instrument_variance(share, after, floor);
-    bridge.noise(k, change) -= bridge.instruments[k];
-    bridge.noise(change, k) -= bridge.instruments[k];
-  }
-  bridge.noise.diagonal() += bridge.instruments;
-  bridge.least_variance = (bridge.has_first_epoch() ? 1.0 : 0.5) * bridge.instruments.minCoeff();
 }
 
 /// Of joints that soften and blocks that warm unevenly in each epoch, however little is warmed and moved:
@@ -178,44 +139,21 @@ void add_losses(const Comparison& comparison, const Observation& observation, Un
     }
 }
 
-/// The median over the known losses; 1 if there are none.
-double typical_spread(const UnknownBridge& bridge) {
-  std::vector<double> shares;
-  for (const Loss& loss : std::span(bridge.losses).first(bridge.blocks)) {
-    if (!loss.known()) continue;
-    const double size = loss.signal.array().isNaN().select(0.0, loss.signal).norm();
-    const double variance =
-        loss.bridge_variance + bridge.conditions * bridge.conditions * loss.epoch_variance;
-    if (size > 0.0) shares.push_back(std::sqrt(variance) / size);
-  }
-  return shares.empty() ? 1.0 : median(shares);
-}
-
 }  // namespace
 
 UnknownBridge unknown_bridge(const Comparison& comparison, const Observation& observation,
-                             const UnknownCase& one, const UnknownSettings& settings) {
+                             const UnknownSettings& settings) {
   UnknownBridge bridge;
   bridge.factors = comparison.factors.get();
   bridge.rows = rows_of(comparison, observation, settings.epochs);
   bridge.epochs = bridge.rows.back().before != 0.0 ? 2 : 1;
+  bridge.conditions = settings.conditions;
   bridge.scale = settings.scale;
   bridge.model_error = std::hypot(observation.error_share, observation.error_common);
   add_readings(comparison, observation, bridge);
   add_noise(comparison, observation, bridge);
   add_losses(comparison, observation, bridge);
-  set_case(observation, one, bridge);
   return bridge;
-}
-
-/// What heat and moved supports do beyond the first order grows with the square of their size; of little heat
-/// as much as with the size itself, to be careful.
-void set_case(const Observation& observation, const UnknownCase& one, UnknownBridge& bridge) {
-  bridge.conditions = one.conditions;
-  const double left = one.conditions * std::max(1.0, kHeavyTails * one.conditions);
-  bridge.noise = bridge.fixed_noise + left * left * bridge.epoch_noise;
-  add_instruments(observation, one.level, bridge);
-  bridge.spread = typical_spread(bridge);
 }
 
 /// Column by column, as they lie in memory.
@@ -267,18 +205,6 @@ MatrixXd other_columns(const UnknownBridge& bridge, const SceneLoss& loss) {
   for (std::size_t i = 0; i < loss.known.size(); ++i)
     columns.col(1 + static_cast<Index>(i)) = bridge.model_error * loss.known[i]->signal;
   return columns;
-}
-
-MatrixXd scene_noise(const UnknownBridge& bridge, const SceneLoss& loss) {
-  MatrixXd noise = bridge.noise;
-  const MatrixXd epoch = bridge.conditions * epoch_columns(bridge, loss),
-                 others = other_columns(bridge, loss);
-  noise.noalias() += epoch * epoch.transpose() + others * others.transpose();
-  const double square = bridge.spread * bridge.spread;
-  noise.noalias() += square * loss.beyond * loss.beyond.transpose();
-  for (Index k = 0; k < noise.rows(); ++k)
-    if (bridge.rows[static_cast<std::size_t>(k)].after != 0.0) noise(k, k) += square * loss.square_at_points;
-  return noise;
 }
 
 }  // namespace voussoir

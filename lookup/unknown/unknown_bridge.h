@@ -44,28 +44,14 @@ enum class Epochs {
 /// Temperature, movements of supports and a factor on the joints' stiffness, which every epoch has of its
 /// own. What is uneven is uncertain either way: no readings can be corrected for that.
 enum class Conditions {
-  uncertain,  ///< as the bridge file states, or less (kConditionSizes)
+  uncertain,  ///< as the bridge file states, or less (case_noise.h)
   known       ///< they are those of the model, or readings have been corrected for them
 };
-
-/// Conditions differ from the model's by this much of what the bridge file states, in every epoch alike: by
-/// all of it, or, each as likely beforehand, hardly. One standard deviation for all would count every epoch
-/// as warm and moved; what heat does to joints is not linear, and its error would drown what a block does.
-/// The readings decide. Without 0.5 a foot that alone is 1.1 to 1.5 deviations lower was damage at times:
-/// what else had not happened spoke for 0.2.
-inline constexpr std::array<double, 5> kConditionSizes = {0.03, 0.2, 0.5, 1.0, 3.0};
 
 struct UnknownSettings {
   Epochs epochs = Epochs::change;
   Conditions conditions = Conditions::uncertain;
   double scale = 0.0;  ///< Nuisance::scale
-};
-
-/// What is gone through, as it is neither Gaussian nor linear.
-struct UnknownCase {
-  double level = 0.0;  ///< of the noise
-  double conditions =
-      1.0;  ///< of what the bridge file states: one of kConditionSizes, or 0 if they are known
 };
 
 /// In rows of y what a matrix whose rows are channels shows before and after.
@@ -90,7 +76,8 @@ struct UnknownBridge {
   std::vector<Scene> several;  ///< scenes of several blocks with factors of their own, in ascending order
   std::size_t blocks = 0;
   Eigen::Index epochs = 1;  ///< in y, each with its own columns of E
-  double scale = 0.0;       ///< [-] of a factor on all movements, as far as it was asked for
+  Conditions conditions = Conditions::uncertain;
+  double scale = 0.0;  ///< [-] of a factor on all movements, as far as it was asked for
   double model_error =
       0.0;  ///< [-] standard deviation of the model's own error: a factor of a loss's signal. The
             ///< mesh errs to one side; an error of each point by itself would say more than is known
@@ -98,23 +85,12 @@ struct UnknownBridge {
   Eigen::MatrixXd unevenness;   ///< [m2] of them: of what is uneven in an epoch
   Eigen::MatrixXd epoch_noise;  ///< what the first order leaves of conditions as the file states them
 
-  // Of one case.
-  double conditions = 1.0;
-  Eigen::VectorXd instruments;  ///< [m2] variance of each row's instrument
-  double least_variance = 0.0;  ///< [m2] the least of them, of one epoch
-  Eigen::MatrixXd noise;        ///< [m2] of all scenes
-  double spread = 0.0;  ///< [-] standard deviation of a signal as a share of it, where it is not known better
-
   bool has_first_epoch() const { return rows.front().after == 0.0; }  ///< before the rows of changes
 };
 
 /// Preconditions: the comparison has factors, the observation Gaussian noise and at least one reading.
 UnknownBridge unknown_bridge(const Comparison& comparison, const Observation& observation,
-                             const UnknownCase& one, const UnknownSettings& settings);
-
-/// Another case of the same: the instruments' errors are those of its noise level, in shares of what was
-/// read; what the first order leaves of conditions goes with their size.
-void set_case(const Observation& observation, const UnknownCase& one, UnknownBridge& bridge);
+                             const UnknownSettings& settings);
 
 /// The losses with factors that a scene is made of: places in UnknownBridge::losses.
 inline constexpr std::size_t kMostLosses = 3;
@@ -163,10 +139,5 @@ Eigen::MatrixXd epoch_columns(const UnknownBridge& bridge, const SceneLoss& loss
 /// Columns of what else is uncertain of a scene in all cases: the common factor, and the model's own error in
 /// each of its known losses.
 Eigen::MatrixXd other_columns(const UnknownBridge& bridge, const SceneLoss& loss);
-
-/// Everything that adds to the covariance of a scene's readings in the bridge's case, but for A A^T: noise,
-/// E E^T and what else is uncertain; and its signal beyond known losses, by one factor and, of unknown ones,
-/// at each point.
-Eigen::MatrixXd scene_noise(const UnknownBridge& bridge, const SceneLoss& loss);
 
 }  // namespace voussoir

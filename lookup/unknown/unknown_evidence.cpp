@@ -130,17 +130,14 @@ struct SceneCases {
 
 }  // namespace
 
-CaseTerms case_terms(const UnknownBridge& bridge) {
-  return {bridge.conditions, bridge.spread, lower_of(bridge.noise)};
+CaseTerms case_terms(const CaseNoise& noise) {
+  return {noise.conditions, noise.spread, lower_of(noise.covariance)};
 }
 
-std::vector<CaseTerms> case_terms(UnknownBridge& bridge, const Observation& observation,
+std::vector<CaseTerms> case_terms(const UnknownBridge& bridge, const Observation& observation,
                                   std::span<const UnknownCase> cases) {
   std::vector<CaseTerms> terms;
-  for (const UnknownCase& one : cases) {
-    set_case(observation, one, bridge);
-    terms.push_back(case_terms(bridge));
-  }
+  for (const UnknownCase& one : cases) terms.push_back(case_terms(case_noise(bridge, observation, one)));
   return terms;
 }
 

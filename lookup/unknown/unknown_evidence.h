@@ -5,21 +5,21 @@
 #include <span>
 #include <vector>
 
+#include "lookup/unknown/case_noise.h"
 #include "lookup/unknown/scatter_density.h"
-#include "lookup/unknown/unknown_bridge.h"
 
 namespace voussoir {
 
-/// What a case makes of a bridge's noise, in the form that densities are made of.
+/// CaseNoise in the form that densities are made of.
 struct CaseTerms {
   double conditions = 1.0;
   double spread = 0.0;
   LowerTriangle noise;
 };
-CaseTerms case_terms(const UnknownBridge& bridge);
+CaseTerms case_terms(const CaseNoise& noise);
 
-/// The same of several cases. The bridge's case is changed.
-std::vector<CaseTerms> case_terms(UnknownBridge& bridge, const Observation& observation,
+/// The same of several cases.
+std::vector<CaseTerms> case_terms(const UnknownBridge& bridge, const Observation& observation,
                                   std::span<const UnknownCase> cases);
 
 /// What need not be worked out, as cases with wider covariances show.

@@ -49,7 +49,7 @@ UnknownBridgeQuestion::UnknownBridgeQuestion(const Comparison& comparison, const
                                              const UnknownSettings& settings)
     : comparison_(comparison), observation_(observation), cases_(cases_of(observation, settings.conditions)) {
   require_readings(observation);
-  bridge_ = unknown_bridge(comparison, observation, cases_.front(), settings);
+  bridge_ = unknown_bridge(comparison, observation, settings);
 }
 
 /// Rows that are impossible beforehand, as no such number of blocks can be missing or a sensor would not be
@@ -79,34 +79,24 @@ RowValues UnknownBridgeQuestion::log_evidence(const Eligible& eligible, const Pr
   }
   likeliest_ = screened.likeliest();
   gaussians_.clear();
-  set_case(observation_, cases_[likeliest_], bridge_);
-  return result;
-}
-
-template <class Ask>
-auto UnknownBridgeQuestion::asked(const Ask& ask) {
-  auto result = ask();
-  set_case(observation_, cases_[likeliest_], bridge_);
   return result;
 }
 
 std::vector<double> UnknownBridgeQuestion::log_parts_of(std::span<const std::size_t> rows,
                                                         const Eligible& eligible, const Prior& prior,
-                                                        const Supposition& supposed) {
+                                                        const Supposition& supposed) const {
   const SceneTable& table = comparison_.library.table;
   Observation wider = observation_;
   for (double& share : wider.share) share *= supposed.errors;
   for (double& floor : wider.floor) floor *= supposed.errors;
   for (const GrossError& gross : supposed.gross) wider.floor[gross.channel] += gross.size;
-  std::vector<CaseTerms> terms = asked([&] {
-    const Eigen::MatrixXd stated = bridge_.fixed_noise;
-    if (supposed.beside.size() > 0) bridge_.fixed_noise += supposed.beside;
-    std::vector<CaseTerms> supposed_terms = case_terms(bridge_, wider, cases_);
-    bridge_.fixed_noise = stated;
-    return supposed_terms;
-  });
-  if (supposed.shown_exactly)
-    for (CaseTerms& one : terms) one.spread = 0.0;
+  std::vector<CaseTerms> terms;
+  for (const UnknownCase& one : cases_) {
+    CaseNoise noise = case_noise(bridge_, wider, one);
+    if (supposed.beside.size() > 0) noise.covariance += supposed.beside;
+    if (supposed.shown_exactly) noise.spread = 0.0;
+    terms.push_back(case_terms(noise));
+  }
   const auto logs = SceneLikelihoods(bridge_, wider, table)(terms, rows, {}, hardware_threads());
   const std::vector<double> beforehand = log_prior_by_missing(table, eligible, prior);
   const std::vector<double> silence = log_chance_of_silence(observation_, table, {rows.begin(), rows.end()});
@@ -124,7 +114,7 @@ const std::vector<IntactGaussian>& UnknownBridgeQuestion::gaussians_of_level() {
   if (!gaussians_.empty()) return gaussians_;
   std::vector<UnknownCase> cases = cases_;
   std::erase_if(cases, [&](const UnknownCase& one) { return one.level != level(); });
-  gaussians_ = asked([&] { return intact_gaussians(bridge_, observation_, cases); });
+  gaussians_ = intact_gaussians(bridge_, observation_, cases);
   return gaussians_;
 }
 
@@ -140,13 +130,16 @@ std::vector<LineError> UnknownBridgeQuestion::line_errors(std::size_t count) {
   return voussoir::line_errors(bridge_, observation_, comparison_, gaussians_of_level(), count);
 }
 
-CauseChances UnknownBridgeQuestion::chances(const UnstatedCause& cause) {
-  return asked([&] { return cause_chances(bridge_, observation_, cause); });
+CauseChances UnknownBridgeQuestion::chances(const UnstatedCause& cause) const {
+  return cause_chances(bridge_, observation_, cause);
 }
 
-BridgePosterior UnknownBridgeQuestion::posterior(const std::vector<WeightedScene>& scenes) {
-  return asked(
-      [&] { return bridge_posterior(bridge_, observation_, comparison_.library.table, scenes, cases_); });
+CaseNoise UnknownBridgeQuestion::noise() const {
+  return case_noise(bridge_, observation_, cases_[likeliest_]);
+}
+
+BridgePosterior UnknownBridgeQuestion::posterior(const std::vector<WeightedScene>& scenes) const {
+  return bridge_posterior(bridge_, observation_, comparison_.library.table, scenes, cases_);
 }
 
 }  // namespace voussoir

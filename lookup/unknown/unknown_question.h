@@ -45,25 +45,23 @@ class UnknownBridgeQuestion {
   /// What each of these rows would have in the sum that Posterior::log_evidence is the logarithm of, if all
   /// this were so: its logarithm.
   std::vector<double> log_parts_of(std::span<const std::size_t> rows, const Eligible& eligible,
-                                   const Prior& prior, const Supposition& supposed);
+                                   const Prior& prior, const Supposition& supposed) const;
 
   /// These at the likeliest level of the noise.
   std::vector<HiddenLoss> hidden_losses(const Eligible& eligible);
   std::vector<UnstatedLoad> unstated_loads(std::size_t count);
   std::vector<LineError> line_errors(std::size_t count);
-  CauseChances chances(const UnstatedCause& cause);
+  CauseChances chances(const UnstatedCause& cause) const;
 
   /// Of these scenes, over all cases.
-  BridgePosterior posterior(const std::vector<WeightedScene>& scenes);
+  BridgePosterior posterior(const std::vector<WeightedScene>& scenes) const;
 
-  const UnknownBridge& bridge() const { return bridge_; }    ///< in the likeliest case
+  const UnknownBridge& bridge() const { return bridge_; }
+  CaseNoise noise() const;                                   ///< in the likeliest case
   double level() const { return cases_[likeliest_].level; }  ///< [-] of the noise: stated, or the likeliest
 
  private:
   const std::vector<IntactGaussian>& gaussians_of_level();
-  /// What `ask` finds by going through cases; then the bridge is in the likeliest one again.
-  template <class Ask>
-  auto asked(const Ask& ask);
 
   const Comparison& comparison_;
   const Observation& observation_;

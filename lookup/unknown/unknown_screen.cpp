@@ -86,18 +86,21 @@ void add_lower(const DirectionColumns& a, const DirectionColumns& b, double fact
 
 }  // namespace
 
-UnknownScreen::UnknownScreen(UnknownBridge& bridge, const Observation& observation, const SceneTable& table,
-                             std::span<const UnknownCase> cases, const MatrixXd& pulls, int threads)
+UnknownScreen::UnknownScreen(const UnknownBridge& bridge, const Observation& observation,
+                             const SceneTable& table, std::span<const UnknownCase> cases,
+                             const MatrixXd& pulls, int threads)
     : bridge_(bridge), observation_(observation), table_(table) {
   const MatrixXd product = intact_product(bridge);
   const MatrixXd epoch = epoch_columns(bridge, {});
   MatrixXd always = epoch * epoch.transpose();
   std::vector<MatrixXd> others;
   for (const UnknownCase& one : cases) {
-    set_case(observation, one, bridge);
-    others.push_back(bridge.noise + bridge.conditions * bridge.conditions * always +
+    const CaseNoise noise = case_noise(bridge, observation, one);
+    const double conditions = noise.conditions * noise.conditions;
+    others.push_back(noise.covariance + conditions * always +
                      bridge.scale * bridge.scale * bridge.movement * bridge.movement.transpose());
-    cases_.push_back({bridge.conditions * bridge.conditions, bridge.spread * bridge.spread});
+    cases_.push_back({conditions, noise.spread * noise.spread});
+    least_variance_ = noise.least_variance;
   }
   choose_directions(others, product, pulls);
   epoch_after_ = directions_.transpose() * epoch.rightCols(bridge.factors->of_epoch());
@@ -225,7 +228,7 @@ DirectionColumns UnknownScreen::projected(const MatrixXd& columns,
 void UnknownScreen::reduce_bridge(const LossFactors& factors, LossInDirections<double>& to) const {
   const DirectionColumns first = projected(factors.lead.leading(kFirstColumns), directions_by_channel_);
   store_rows(first, kFirstColumns, to.first.data());
-  const Index shown = factors.own.that_show(kTooSmall * bridge_.least_variance);
+  const Index shown = factors.own.that_show(kTooSmall * least_variance_);
   const DirectionColumns columns = projected(factors.own.leading(shown), directions_by_channel_);
   DirectionTriangle crossed{}, own{};
   add_lower(columns, columns, 1.0, own);

@@ -35,9 +35,9 @@ struct ScreenedRow {
 
 class UnknownScreen {
  public:
-  /// All but `pulls` outlive the screen; the bridge's case is changed. `cases` differ in conditions only.
+  /// All but `pulls` outlive the screen. `cases` differ in conditions only.
   /// Columns of `pulls` are directions of their own, in rows of y (SceneLikelihoods::pull).
-  UnknownScreen(UnknownBridge& bridge, const Observation& observation, const SceneTable& table,
+  UnknownScreen(const UnknownBridge& bridge, const Observation& observation, const SceneTable& table,
                 std::span<const UnknownCase> cases, const Eigen::MatrixXd& pulls, int threads);
 
   /// log p(readings | scene, case) of rows of the table in the first directions, and in a few more where that
@@ -82,7 +82,8 @@ class UnknownScreen {
   std::vector<double> intact_, is_read_, directions_by_channel_, of_bridge_by_channel_;
   std::vector<float> rounded_directions_;
   DirectionVector reading_{};
-  DirectionTriangle points_{};  // what a unit variance at each changed point adds
+  double least_variance_ = 0.0;  // CaseNoise
+  DirectionTriangle points_{};   // what a unit variance at each changed point adds
   DirectionTriangle bridge_of_intact_{};
 };
 

@@ -82,10 +82,9 @@ UnstatedCause unstated_cause(const UnknownBridge& bridge, const PossibleCauses& 
   return {own * fit.amounts, own * own.transpose(), fit.best, fit.log};
 }
 
-CauseChances cause_chances(UnknownBridge& bridge, const Observation& observation,
+CauseChances cause_chances(const UnknownBridge& bridge, const Observation& observation,
                            const UnstatedCause& cause) {
-  set_case(observation, cause.best, bridge);
-  const MatrixXd without = intact_covariance(bridge);
+  const MatrixXd without = intact_covariance(bridge, case_noise(bridge, observation, cause.best));
   const auto chance = [&](const MatrixXd& covariance) {
     return chi_square_chance(bridge.reading.dot(covariance.llt().solve(bridge.reading)),
                              static_cast<double>(bridge.reading.size()));

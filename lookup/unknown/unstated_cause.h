@@ -56,7 +56,8 @@ struct CauseChances {
   double without = 0.0;
 };
 
-/// In the cause's best case. The bridge's case is changed.
-CauseChances cause_chances(UnknownBridge& bridge, const Observation& observation, const UnstatedCause& cause);
+/// In the cause's best case.
+CauseChances cause_chances(const UnknownBridge& bridge, const Observation& observation,
+                           const UnstatedCause& cause);
 
 }  // namespace voussoir

@@ -30,9 +30,9 @@ SightSettings settings() {
 }
 
 /// Density times prior of readings, given which sensors are silent; 0 if that cannot be.
-double weight(const UnknownBridge& bridge, std::optional<BlockId> lost, const std::vector<Index>& rows,
+double weight(const PlannedBridge& planned, std::optional<BlockId> lost, const std::vector<Index>& rows,
               const VectorXd& readings) {
-  const LossGaussian loss = loss_gaussian(bridge, lost);
+  const LossGaussian loss = loss_gaussian(planned.bridge, planned.noise, lost);
   const VectorXd mean = loss.signal(rows);
   if (mean.hasNaN()) return 0.0;
   const auto silent = static_cast<double>(rows_with_reading(loss.signal).size() - rows.size());
@@ -45,21 +45,21 @@ struct Shares {
   double seen = 0.0, named = 0.0;
 };
 
-Shares by_brute_force(const UnknownBridge& bridge, BlockId block, std::mt19937_64& random) {
+Shares by_brute_force(const PlannedBridge& planned, BlockId block, std::mt19937_64& random) {
   std::normal_distribution<double> normal;
-  const LossGaussian loss = loss_gaussian(bridge, block);
+  const LossGaussian loss = loss_gaussian(planned.bridge, planned.noise, block);
   const std::vector<Index> rows = rows_with_reading(loss.signal);
   const Eigen::MatrixXd root = Eigen::MatrixXd(loss.covariance(rows, rows)).llt().matrixL();
   Shares shares;
   for (int draw = 0; draw < kDraws; ++draw) {
     const VectorXd standard = VectorXd::NullaryExpr(root.rows(), [&] { return normal(random); });
     const VectorXd readings = loss.signal(rows) + root * standard;
-    const double intact = weight(bridge, std::nullopt, rows, readings);
+    const double intact = weight(planned, std::nullopt, rows, readings);
     double all = intact;
-    for (const BlockId other : blocks_with_sensitivities(bridge))
-      all += weight(bridge, other, rows, readings);
+    for (const BlockId other : blocks_with_sensitivities(planned.bridge))
+      all += weight(planned, other, rows, readings);
     shares.seen += intact / all <= 0.2 ? 1.0 / kDraws : 0.0;
-    shares.named += weight(bridge, block, rows, readings) / all >= 0.8 ? 1.0 / kDraws : 0.0;
+    shares.named += weight(planned, block, rows, readings) / all >= 0.8 ? 1.0 / kDraws : 0.0;
   }
   return shares;
 }
@@ -75,11 +75,11 @@ double allowed(double one, double other) {
 TEST_CASE("Losses are seen and named as often as in draws by brute force", "[plan]") {
   const PlannedBridge planned(2e-5);
   std::mt19937_64 random(5);
-  const std::vector<Sight> sights = sights_of(planned.bridge, settings());
+  const std::vector<Sight> sights = sights_of(planned.bridge, planned.noise, settings());
   REQUIRE(sights.size() == 11);
   double most = 0.0, least = 1.0;
   for (const Sight& sight : sights) {
-    const Shares expected = by_brute_force(planned.bridge, sight.block, random);
+    const Shares expected = by_brute_force(planned, sight.block, random);
     CHECK(std::abs(sight.seen - expected.seen) <= allowed(sight.seen, expected.seen));
     CHECK(std::abs(sight.named - expected.named) <= allowed(sight.named, expected.named));
     CHECK(sight.silent == (sight.block >= BlockId{8} ? 2 : 0));
@@ -92,7 +92,8 @@ TEST_CASE("Losses are seen and named as often as in draws by brute force", "[pla
 TEST_CASE("The same seed gives the same shares; smaller errors show more", "[plan]") {
   const auto seen = [](double sigma) {
     double sum = 0.0;
-    for (const Sight& sight : sights_of(PlannedBridge(sigma).bridge, settings())) sum += sight.seen;
+    const PlannedBridge planned(sigma);
+    for (const Sight& sight : sights_of(planned.bridge, planned.noise, settings())) sum += sight.seen;
     return sum;
   };
   CHECK(seen(2e-5) == seen(2e-5));
@@ -104,9 +105,8 @@ TEST_CASE("A loss that silences the only sensors is seen by their silence alone 
   PlannedBridge planned(2e-5);
   for (std::size_t i = 0; i < planned.library.points.size(); ++i)  // points 3 and 4 are on block 9
     if (i != 2 && i != 3) planned.comparison.measured.displacement[i] = std::nan("");
-  planned.observation = observe(planned.comparison, {NoiseShape::gaussian, 0.0});
-  planned.bridge = unknown_bridge(planned.comparison, planned.observation, {0.0, 1.0}, {});
-  const std::vector<Sight> sights = sights_of(planned.bridge, settings());
+  planned.look_at(observe(planned.comparison, {NoiseShape::gaussian, 0.0}));
+  const std::vector<Sight> sights = sights_of(planned.bridge, planned.noise, settings());
   const auto on_top = std::ranges::find(sights, BlockId{9}, &Sight::block);
   REQUIRE(on_top != sights.end());
   CHECK(on_top->silent == 2);
@@ -116,5 +116,6 @@ TEST_CASE("A loss that silences the only sensors is seen by their silence alone 
   CHECK(on_top->seen == 0.0);
   SightSettings surer = settings();
   surer.certain = 0.49;
-  CHECK(sights_of(planned.bridge, surer)[static_cast<std::size_t>(on_top - sights.begin())].named == 1.0);
+  CHECK(sights_of(planned.bridge, planned.noise, surer)[static_cast<std::size_t>(on_top - sights.begin())]
+            .named == 1.0);
 }

@@ -16,9 +16,11 @@ TEST_CASE("The Gaussian of a loss gives readings the density that their evidence
   int compared = 0;
   const auto compare_with = [&](std::optional<BlockId> lost, const Scene& scene) {
     const std::vector<std::size_t> rows = {planned.library.row_of(scene)};
-    const LossGaussian loss = loss_gaussian(bridge, lost);
+    const LossGaussian loss = loss_gaussian(bridge, planned.noise, lost);
     if (loss.signal.hasNaN()) return;
-    const auto logs = test::scatter_logs(bridge, planned.observation, planned.library.table, rows, 1).front();
+    const auto logs =
+        test::scatter_logs(bridge, planned.noise, planned.observation, planned.library.table, rows, 1)
+            .front();
     const Eigen::MatrixXd scatter =
         in_rows(bridge.rows, bridge.factors->intact.bridge, bridge.factors->of(scene).bridge);
     for (std::size_t k = 0; k < kScatterFactors.size(); ++k)
@@ -35,7 +37,7 @@ TEST_CASE("The Gaussian of a loss gives readings the density that their evidence
 TEST_CASE("A loss takes the sensors on its block with it (by hand)", "[unknown-bridge]") {
   const PlannedBridge planned(2e-5);
   const BlockId on_top{9};  // second of the highest course: points 3 and 4
-  const LossGaussian loss = loss_gaussian(planned.bridge, on_top);
+  const LossGaussian loss = loss_gaussian(planned.bridge, planned.noise, on_top);
   CHECK(rows_with_reading(loss.signal) == std::vector<Eigen::Index>{0, 1, 4, 5, 6, 7});
   const std::vector<BlockId> blocks = blocks_with_sensitivities(planned.bridge);
   CHECK(blocks.size() == 11);

@@ -11,6 +11,7 @@ struct PlannedBridge {
   Comparison comparison = absolute_readings(library.library(), no_measurements(library.points.size()));
   Observation observation;
   UnknownBridge bridge;
+  CaseNoise noise;
 
   /// `shown`: readings beside the intact bridge's [m].
   explicit PlannedBridge(double sigma, double shown = 0.0) {
@@ -22,8 +23,13 @@ struct PlannedBridge {
           library.intact()[i] + shown * std::sin(static_cast<double>(5 * i));
       comparison.measured.sigma[i] = sigma;
     }
-    observation = observe(comparison, {NoiseShape::gaussian, 0.0});
-    bridge = unknown_bridge(comparison, observation, {0.0, 1.0}, {});
+    look_at(observe(comparison, {NoiseShape::gaussian, 0.0}));
+  }
+
+  void look_at(const Observation& readings) {
+    observation = readings;
+    bridge = unknown_bridge(comparison, observation, {});
+    noise = case_noise(bridge, observation, {0.0, 1.0});
   }
 };
 

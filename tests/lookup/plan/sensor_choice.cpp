@@ -40,12 +40,12 @@ LossGaussian wider_than(const MatrixXd& intact, LossGaussian loss) {
   return loss;
 }
 
-double sum_of_chances(const UnknownBridge& bridge, const std::vector<Index>& rows,
+double sum_of_chances(const PlannedBridge& planned, const std::vector<Index>& rows,
                       const SightSettings& settings) {
-  const MatrixXd intact = loss_gaussian(bridge, std::nullopt).covariance;
+  const MatrixXd intact = loss_gaussian(planned.bridge, planned.noise, std::nullopt).covariance;
   double sum = 0.0;
-  for (const BlockId block : blocks_with_sensitivities(bridge)) {
-    const LossGaussian loss = wider_than(intact, loss_gaussian(bridge, block));
+  for (const BlockId block : blocks_with_sensitivities(planned.bridge)) {
+    const LossGaussian loss = wider_than(intact, loss_gaussian(planned.bridge, planned.noise, block));
     std::vector<Index> read;
     std::ranges::copy_if(rows, std::back_inserter(read),
                          [&](Index row) { return !std::isnan(loss.signal[row]); });
@@ -71,16 +71,16 @@ TEST_CASE("The sensor is left out whose absence costs the fewest sights (dense i
   const double sigma = GENERATE(5e-6, 2e-5, 1e-4), certain = GENERATE(0.5, 0.9);
   const SightSettings settings = settings_for(certain);
   const PlannedBridge planned(sigma);
-  std::vector<Index> left = rows_that_help(planned.bridge, settings, 100);
+  std::vector<Index> left = rows_that_help(planned.bridge, planned.noise, settings, 100);
   REQUIRE(left.size() == 8);
   while (left.size() > 1) {
     const Index last = left.back();
     left.pop_back();
-    const double kept = sum_of_chances(planned.bridge, left, settings);
+    const double kept = sum_of_chances(planned, left, settings);
     for (const Index other : left) {
       std::vector<Index> instead = left;
       *std::ranges::find(instead, other) = last;
-      CHECK(sum_of_chances(planned.bridge, instead, settings) <= kept * (1.0 + 1e-9));
+      CHECK(sum_of_chances(planned, instead, settings) <= kept * (1.0 + 1e-9));
     }
   }
 }
@@ -88,21 +88,22 @@ TEST_CASE("The sensor is left out whose absence costs the fewest sights (dense i
 TEST_CASE("Fewer sensors are the first of more", "[plan]") {
   const PlannedBridge planned(2e-5);
   const SightSettings settings = settings_for(0.9);
-  const std::vector<Index> all = rows_that_help(planned.bridge, settings, 100);
+  const std::vector<Index> all = rows_that_help(planned.bridge, planned.noise, settings, 100);
   std::vector<Index> sorted = all;
   std::ranges::sort(sorted);
   CHECK(sorted == std::vector<Index>{0, 1, 2, 3, 4, 5, 6, 7});
-  CHECK(rows_that_help(planned.bridge, settings, 3) == std::vector<Index>(all.begin(), all.begin() + 3));
+  CHECK(rows_that_help(planned.bridge, planned.noise, settings, 3) ==
+        std::vector<Index>(all.begin(), all.begin() + 3));
 }
 
 TEST_CASE("As many losses are seen as their chances sum up to (drawn readings)", "[plan]") {
   const double sigma = GENERATE(5e-6, 2e-5, 1e-4);
   const SightSettings settings = settings_for(0.9);
   const PlannedBridge planned(sigma);
-  const std::vector<Sight> sights = sights_of(planned.bridge, settings);
+  const std::vector<Sight> sights = sights_of(planned.bridge, planned.noise, settings);
   double seen = 0.0;
   for (const Sight& sight : sights) seen += sight.seen;
   const std::vector<Index> all = {0, 1, 2, 3, 4, 5, 6, 7};
   const auto count = static_cast<double>(sights.size());
-  CHECK(sum_of_chances(planned.bridge, all, settings) / count == Approx(seen / count).margin(0.1));
+  CHECK(sum_of_chances(planned, all, settings) / count == Approx(seen / count).margin(0.1));
 }

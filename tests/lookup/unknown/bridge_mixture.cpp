@@ -270,7 +270,7 @@ TEST_CASE("What readings say of a bridge is the mean over scenes, conditions, no
   NoiseModel noise{NoiseShape::gaussian};
   noise.floor = kOwnError;
   const Observation observation = observe(question.comparison, noise);
-  UnknownBridge bridge = unknown_bridge(question.comparison, observation, cases[0], {.epochs = epochs});
+  const UnknownBridge bridge = unknown_bridge(question.comparison, observation, {.epochs = epochs});
   std::vector<WeightedScene> weighted;
   for (std::size_t i = 0; i < scenes.size(); ++i)  // others hold a tenth
     weighted.push_back({question.library.row_of(scenes[i]), 0.9 * probability[i]});

@@ -85,7 +85,7 @@ TEST_CASE(
   const Readings readings;
   const Observation observation = observe(readings.comparison, {NoiseShape::gaussian, 0.0}, {});
   const UnknownCase in_case{0.0, conditions};
-  UnknownBridge bridge = unknown_bridge(readings.comparison, observation, in_case, {});
+  const UnknownBridge bridge = unknown_bridge(readings.comparison, observation, {});
   const BridgePosterior posterior =
       bridge_posterior(bridge, observation, readings.library.table, {{0, 1.0}}, {&in_case, 1});
   ScatterLogs counts{};

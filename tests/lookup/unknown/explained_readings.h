@@ -7,18 +7,17 @@
 #include <limits>
 #include <numbers>
 
-#include "lookup/unknown/unknown_bridge.h"
+#include "lookup/unknown/case_noise.h"
 #include "tests/lookup/unknown/dense_normal.h"
 
 namespace voussoir::test {
 
 inline constexpr std::array<UnknownCase, 2> kTwoCases = {{{0.0, 1.0}, {0.0, 0.2}}};
 
-/// Of the intact bridge in the bridge's case.
-inline Eigen::MatrixXd intact_covariance_of(const UnknownBridge& bridge) {
+inline Eigen::MatrixXd intact_covariance_of(const UnknownBridge& bridge, const CaseNoise& noise) {
   const Eigen::VectorXd zero = Eigen::VectorXd::Zero(bridge.reading.size());
   const Eigen::MatrixXd scatter = bridge_columns(bridge, Scene{});
-  return scene_noise(bridge, {{}, zero, zero}) + scatter * scatter.transpose();
+  return scene_noise(bridge, noise, {{}, zero, zero}) + scatter * scatter.transpose();
 }
 
 struct Explained {
@@ -26,13 +25,13 @@ struct Explained {
   Eigen::VectorXd amounts;                                ///< most likely ones
 };
 
-/// By N(0, 1) times each of these columns, in the likeliest of kTwoCases. The bridge's case is changed.
-inline Explained explained_by(UnknownBridge& bridge, const Observation& observation,
+/// By N(0, 1) times each of these columns, in the likeliest of kTwoCases.
+inline Explained explained_by(const UnknownBridge& bridge, const Observation& observation,
                               const Eigen::MatrixXd& columns) {
   Explained best;
   for (const UnknownCase& one : kTwoCases) {
-    set_case(observation, one, bridge);
-    const Eigen::MatrixXd covariance = intact_covariance_of(bridge) + columns * columns.transpose();
+    const Eigen::MatrixXd covariance =
+        intact_covariance_of(bridge, case_noise(bridge, observation, one)) + columns * columns.transpose();
     const double log = log_normal(bridge.reading, covariance);
     if (log > best.log) best = {log, columns.transpose() * covariance.ldlt().solve(bridge.reading)};
   }

@@ -41,9 +41,9 @@ struct KeptReadings {
 };
 
 /// log density of the rows that a scene has values in, at most over sizes from none to ten times its signal.
-double largest_density(const UnknownBridge& bridge, const std::vector<Index>& kept, const VectorXd& signal,
-                       double most) {
-  const MatrixXd covariance = intact_covariance_of(bridge);
+double largest_density(const UnknownBridge& bridge, const CaseNoise& noise, const std::vector<Index>& kept,
+                       const VectorXd& signal, double most) {
+  const MatrixXd covariance = intact_covariance_of(bridge, noise);
   double best = kImpossible;
   for (double size = 0.0; size <= most; size += 1e-3)
     best = std::max(
@@ -52,7 +52,8 @@ double largest_density(const UnknownBridge& bridge, const std::vector<Index>& ke
 }
 
 /// HiddenLoss::gain of a row, from the definition.
-double gain_of(UnknownBridge& bridge, const Observation& observation, std::span<const double> prediction) {
+double gain_of(const UnknownBridge& bridge, const Observation& observation,
+               std::span<const double> prediction) {
   std::vector<Index> kept;
   VectorXd signal = VectorXd::Zero(bridge.reading.size());
   for (Index k = 0; k < signal.size(); ++k) {
@@ -63,9 +64,9 @@ double gain_of(UnknownBridge& bridge, const Observation& observation, std::span<
   }
   double with = kImpossible, without = kImpossible;
   for (const UnknownCase& one : kTwoCases) {
-    set_case(observation, one, bridge);
-    with = std::max(with, largest_density(bridge, kept, signal, 10.0));
-    without = std::max(without, largest_density(bridge, kept, signal, 0.0));
+    const CaseNoise noise = case_noise(bridge, observation, one);
+    with = std::max(with, largest_density(bridge, noise, kept, signal, 10.0));
+    without = std::max(without, largest_density(bridge, noise, kept, signal, 0.0));
   }
   return with - without;
 }
@@ -77,7 +78,7 @@ TEST_CASE("A hidden loss gains what it makes of the density of all other reading
   const UnknownSettings settings{GENERATE(Epochs::change, Epochs::both)};
   const SceneTable& table = readings.library.table;
   const Observation observation = observe(readings.comparison, {NoiseShape::gaussian, 0.0}, {});
-  UnknownBridge bridge = unknown_bridge(readings.comparison, observation, kTwoCases.front(), settings);
+  const UnknownBridge bridge = unknown_bridge(readings.comparison, observation, settings);
   const auto found = hidden_losses(bridge, observation, readings.comparison.library, readings.eligible,
                                    intact_gaussians(bridge, observation, kTwoCases));
 

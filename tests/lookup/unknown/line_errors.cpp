@@ -81,7 +81,7 @@ MatrixXd line_columns(const UnknownBridge& bridge, const Comparison& comparison,
 }
 
 /// Are these columns what explains the readings in one of the cases, and in none better?
-bool explains(UnknownBridge& bridge, const Observation& observation, const MatrixXd& columns,
+bool explains(const UnknownBridge& bridge, const Observation& observation, const MatrixXd& columns,
               const UnstatedCause& cause) {
   const Explained best = explained_by(bridge, observation, columns);
   const VectorXd expected = columns * best.amounts;
@@ -91,7 +91,7 @@ bool explains(UnknownBridge& bridge, const Observation& observation, const Matri
 }
 
 /// How often one of these columns of the line is what it says.
-int columns_that_explain(UnknownBridge& bridge, const ShiftedReadings& readings,
+int columns_that_explain(const UnknownBridge& bridge, const ShiftedReadings& readings,
                          const Observation& observation, const LineError& line, bool shift, bool tilt) {
   int count = 0;
   for (const double size : {0.3e-3, 3e-3}) {
@@ -108,7 +108,7 @@ struct FoundLines {
 };
 FoundLines lines_found(const ShiftedReadings& readings, const Nuisance& nuisance = {}) {
   const Observation observation = readings.observed(nuisance);
-  UnknownBridge bridge = unknown_bridge(readings.comparison, observation, kTwoCases.front(), {});
+  const UnknownBridge bridge = unknown_bridge(readings.comparison, observation, {});
   FoundLines found;
   for (const LineError& line : line_errors(bridge, observation, readings.comparison,
                                            intact_gaussians(bridge, observation, kTwoCases), kAll))
@@ -122,7 +122,7 @@ TEST_CASE("An error that a line shares explains readings as well as its covarian
   const ShiftedReadings readings(GENERATE(ReadingKind::absolute, ReadingKind::change));
   const UnknownSettings settings{GENERATE(Epochs::change, Epochs::both)};
   const Observation observation = readings.observed();
-  UnknownBridge bridge = unknown_bridge(readings.comparison, observation, kTwoCases.front(), settings);
+  const UnknownBridge bridge = unknown_bridge(readings.comparison, observation, settings);
   const auto found = line_errors(bridge, observation, readings.comparison,
                                  intact_gaussians(bridge, observation, kTwoCases), kAll);
 
@@ -146,7 +146,7 @@ TEST_CASE("What is stated of a levelling is no error of it, but what is not stat
   readings.comparison.levelling = {0, 0, 0, 0, 0, 0, 1, 1, 1, 1, 1, 1};
   const auto check = [&](const Nuisance& nuisance, bool shift, bool tilt) {
     const Observation observation = readings.observed(nuisance);
-    UnknownBridge bridge = unknown_bridge(readings.comparison, observation, kTwoCases.front(), {});
+    const UnknownBridge bridge = unknown_bridge(readings.comparison, observation, {});
     for (const LineError& line : line_errors(bridge, observation, readings.comparison,
                                              intact_gaussians(bridge, observation, kTwoCases), kAll))
       if (line.chance == 1e-3)

@@ -10,11 +10,11 @@
 
 namespace voussoir::test {
 
-/// log p(readings | scene, kappa) of these rows in the bridge's own case.
-inline std::vector<ScatterLogs> scatter_logs(const UnknownBridge& bridge, const Observation& observation,
-                                             const SceneTable& table, std::span<const std::size_t> rows,
-                                             int threads) {
-  const std::array<CaseTerms, 1> cases = {case_terms(bridge)};
+/// log p(readings | scene, kappa) of these rows in one case.
+inline std::vector<ScatterLogs> scatter_logs(const UnknownBridge& bridge, const CaseNoise& noise,
+                                             const Observation& observation, const SceneTable& table,
+                                             std::span<const std::size_t> rows, int threads) {
+  const std::array<CaseTerms, 1> cases = {case_terms(noise)};
   return SceneLikelihoods(bridge, observation, table)(cases, rows, {}, threads);
 }
 

@@ -246,10 +246,10 @@ TEST_CASE("The evidence of an unknown bridge is that of the dense Gaussian of bo
   const Question question(kind);
   const SceneTable& table = question.library.table;
   const Observation observation = question.observation({0.0, datum, 0.0});
-  const UnknownBridge bridge =
-      unknown_bridge(question.comparison, observation, {0.0, conditions}, {.epochs = epochs});
+  const UnknownBridge bridge = unknown_bridge(question.comparison, observation, {.epochs = epochs});
+  const CaseNoise noise = case_noise(bridge, observation, {0.0, conditions});
   const auto rows = all_rows(table);
-  const auto logs = scatter_logs(bridge, observation, table, rows, 2);
+  const auto logs = scatter_logs(bridge, noise, observation, table, rows, 2);
   std::size_t compared = 0;
   for (const std::size_t row : rows) {
     const auto predicted = table.row(row);
@@ -272,14 +272,15 @@ TEST_CASE(
   const Question question(ReadingKind::change, kLeadingColumns + 20);
   const SceneTable& table = question.library.table;
   const Observation observation = question.observation();
-  const UnknownBridge bridge = unknown_bridge(question.comparison, observation, {}, {});
+  const UnknownBridge bridge = unknown_bridge(question.comparison, observation, {});
+  const CaseNoise noise = case_noise(bridge, observation, {});
   std::size_t compared = 0;
   for (std::size_t row = 0; row < table.rows && table.scene(row).missing() < 2; ++row) {
     const auto predicted = table.row(row);
     if (std::any_of(predicted.begin(), predicted.end(), [](double value) { return std::isnan(value); }))
       continue;
     const std::array<std::size_t, 1> rows = {row};
-    const auto logs = scatter_logs(bridge, observation, table, rows, 1);
+    const auto logs = scatter_logs(bridge, noise, observation, table, rows, 1);
     for (std::size_t k = 0; k < kScatterFactors.size(); ++k)
       REQUIRE(logs[0][k] ==
               Approx(oracle(question, row, kScatterFactors[k], 0.0, Epochs::change, 1.0)).epsilon(1e-8));

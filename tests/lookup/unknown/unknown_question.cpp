@@ -82,12 +82,12 @@ std::vector<double> brute_force(const Trial& trial, const Observation& observati
                                 const Eligible& eligible) {
   const SceneTable& table = trial.library.table;
   const std::vector<UnknownCase> cases = all_cases(observation, asked.settings.conditions);
-  UnknownBridge bridge = unknown_bridge(trial.comparison, observation, cases.front(), asked.settings);
+  const UnknownBridge bridge = unknown_bridge(trial.comparison, observation, asked.settings);
   const auto silence = log_chance_of_silence(observation, table, eligible.rows);
   std::vector<double> logs(table.rows, -std::numeric_limits<double>::infinity());
   for (const UnknownCase& one : cases) {
-    set_case(observation, one, bridge);
-    const auto of_case = scatter_logs(bridge, observation, table, eligible.rows, 2);
+    const CaseNoise noise = case_noise(bridge, observation, one);
+    const auto of_case = scatter_logs(bridge, noise, observation, table, eligible.rows, 2);
     for (std::size_t i = 0; i < eligible.rows.size(); ++i)
       logs[eligible.rows[i]] = log_sum(logs[eligible.rows[i]], over_scatter(of_case[i]) + silence[i]);
   }

@@ -44,15 +44,15 @@ int compare_estimates(const AskedBridge& asked, const UnknownSettings& settings,
   const SceneTable& table = asked.library.table;
   const Observation observation = observe(asked.comparison, {NoiseShape::gaussian, 0.0}, {});
   const std::vector<UnknownCase> cases = {{0.0, 3.0}, {0.0, 1.0}, {0.0, 0.2}};
-  UnknownBridge bridge = unknown_bridge(asked.comparison, observation, cases.front(), settings);
+  const UnknownBridge bridge = unknown_bridge(asked.comparison, observation, settings);
   REQUIRE(bridge.rows.size() <= kDirections);
   const UnknownScreen screen(bridge, observation, table, cases, {}, 2);
   int compared = 0;
   for (std::size_t k = 0; k < cases.size(); ++k) {
-    set_case(observation, cases[k], bridge);
+    const CaseNoise noise = case_noise(bridge, observation, cases[k]);
     for (std::size_t row = 0; row < table.rows && table.scene(row).missing() < 2; ++row) {
       const std::array<std::size_t, 1> rows = {row};
-      const double evidence = over_scatter(scatter_logs(bridge, observation, table, rows, 1)[0]);
+      const double evidence = over_scatter(scatter_logs(bridge, noise, observation, table, rows, 1)[0]);
       if (evidence == -kInfinity || !counts(row, bridge)) continue;
       std::vector<float> logs(cases.size(), static_cast<float>(kInfinity));
       screen.refine(std::array{ScreenedRow{row, -kInfinity, logs.data()}}, ScreenDirections::all);

@@ -62,7 +62,7 @@ TEST_CASE("A cause explains readings in its likeliest case as well as its covari
   const ReadWithCauses read;
   const UnknownSettings settings{GENERATE(Epochs::change, Epochs::both)};
   const Observation observation = observe(read.comparison, {NoiseShape::gaussian, 0.0}, {});
-  UnknownBridge bridge = unknown_bridge(read.comparison, observation, kTwoCases.front(), settings);
+  const UnknownBridge bridge = unknown_bridge(read.comparison, observation, settings);
   const std::vector<CauseFit> fits =
       cause_fits(bridge, intact_gaussians(bridge, observation, kTwoCases), read.possible);
   REQUIRE(fits.size() == (bridge.has_first_epoch() ? 4 : 2));
@@ -75,8 +75,8 @@ TEST_CASE("A cause explains readings in its likeliest case as well as its covari
 
     const UnstatedCause cause = unstated_cause(bridge, read.possible, fit);
     CHECK((cause.covariance - columns * columns.transpose()).norm() < 1e-12 * cause.covariance.norm());
-    set_case(observation, fit.best, bridge);
-    const MatrixXd intact = intact_covariance_of(bridge), with = intact + cause.covariance;
+    const MatrixXd intact = intact_covariance_of(bridge, case_noise(bridge, observation, fit.best)),
+                   with = intact + cause.covariance;
     const VectorXd mean = columns * expected.amounts;
     CHECK((cause.expected - mean).norm() < 1e-9 * mean.norm());
 

@@ -92,7 +92,7 @@ TEST_CASE("A load on a stretch explains readings as well as its covariance makes
   const LoadedReadings readings(GENERATE(ReadingKind::absolute, ReadingKind::change));
   const UnknownSettings settings{GENERATE(Epochs::change, Epochs::both)};
   const Observation observation = observe(readings.comparison, {NoiseShape::gaussian, 0.0}, {});
-  UnknownBridge bridge = unknown_bridge(readings.comparison, observation, kTwoCases.front(), settings);
+  const UnknownBridge bridge = unknown_bridge(readings.comparison, observation, settings);
   const auto found = unstated_loads(bridge, intact_gaussians(bridge, observation, kTwoCases), 1000);
 
   const bool both = bridge.has_first_epoch();
@@ -124,6 +124,6 @@ TEST_CASE("Without what loads do nothing is said of them") {
   LoadedReadings readings(ReadingKind::absolute);
   readings.sensitivities.load = {};
   const Observation observation = observe(readings.comparison, {NoiseShape::gaussian, 0.0}, {});
-  UnknownBridge bridge = unknown_bridge(readings.comparison, observation, kTwoCases.front(), {});
+  const UnknownBridge bridge = unknown_bridge(readings.comparison, observation, {});
   CHECK(unstated_loads(bridge, intact_gaussians(bridge, observation, kTwoCases), 3).empty());
 }
