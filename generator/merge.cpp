@@ -92,6 +92,7 @@ BuildRequest request_of(const MergeRequest& request, const Database& part) {
   whole.rules = rules_in(part.provenance().solver_settings);
   whole.known_bridge = statement.known_bridge;
   whole.force = request.force;
+  whole.drop = request.drop;
   return whole;
 }
 

@@ -10,6 +10,7 @@ struct MergeRequest {
   std::filesystem::path output = "bridge.h5";
   int threads = 0;     ///< 0: one for each core
   bool force = false;  ///< build anew even if the file is up to date
+  bool drop = false;   ///< BuildRequest::drop
 };
 
 /// A solver as a database states its settings.

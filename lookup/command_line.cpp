@@ -15,6 +15,7 @@
 #include "core/heap.h"
 #include "core/program_failure.h"
 #include "core/text.h"
+#include "lookup/readings/millimetres.h"
 
 namespace voussoir {
 namespace {
@@ -75,6 +76,17 @@ CLI::Validator number_in_range(double least, double most, const std::string& nam
               fmt::format("{} given, expected a number from {:g} to {:g}", in_quotes(text), least, most));
       },
       name);
+}
+
+CLI::Option* add_millimetres(CLI::App& app, const std::string& names, double& metres,
+                             const std::string& description, const std::string& unit) {
+  constexpr double kMost = 1e6;  // beyond it nothing is known at all
+  const auto parse = [](std::string_view text) { return parse_millimetres(text, 0.0, kMost); };
+  return app
+      .add_option_function<std::string>(
+          names, [&metres, parse](const std::string& text) { metres = parse(text); }, description)
+      ->check(checked_by(parse, unit))
+      ->option_text(unit);
 }
 
 void share_heap() {

@@ -4,7 +4,6 @@
 
 #include "core/error.h"
 #include "core/random.h"
-#include "core/units.h"
 #include "lookup/command_line.h"
 #include "lookup/readings/stated_sigmas.h"
 
@@ -14,7 +13,6 @@ namespace {
 constexpr std::size_t kMostCandidates = 100000;
 constexpr int kMostMissing = 3;
 constexpr double kLargestWeight = 1e12;
-constexpr double kLargestError = 1e6;  // [mm], and [mm per m]: beyond it nothing is known at all
 
 void add_search_options(CLI::App& app, LocateDamageOptions& options) {
   LookupSettings& settings = options.settings;
@@ -112,10 +110,10 @@ void add_noise_options(CLI::App& app, LocateDamageOptions& options) {
                  "bridge that is not exactly known all count as Gaussian of the same variance")
       ->check(checked_by(parse_noise_shape, "NAME"))
       ->option_text("NAME");
-  app.add_option("--floor", options.floor_mm,
-                 "absolute part of the errors [mm] of rows without sigma_mm, default 0")
-      ->check(number_in_range(0.0, kLargestError, "MM"))
-      ->option_text("MM");
+  add_millimetres(
+      app, "--floor", options.settings.noise.floor,
+      "absolute part of the errors of rows without sigma_mm, such as 0.02mm, default 0; beside --noise or "
+      "what is estimated as a share");
   app.add_option(
          "--model-error", options.model_error,
          "the model's own error as a share of the change that a missing block makes; default: what the "
@@ -140,16 +138,12 @@ void add_nuisance_options(CLI::App& app, LocateDamageOptions& options) {
                  "noise only")
       ->check(checked_by(parse_noise_level, "LEVEL"))
       ->option_text("LEVEL");
-  app.add_option(
-         "--unknown-datum", options.unknown_datum_mm,
-         "standard deviation of a shift of all heights of one levelling (those of one load, or of one name "
-         "in a column levelling) [mm]; gaussian only")
-      ->check(number_in_range(0.0, kLargestError, "MM"))
-      ->option_text("MM");
-  app.add_option("--unknown-tilt", options.unknown_tilt_mm_per_m,
-                 "standard deviation of a rotation of the same [mm per m]; gaussian only")
-      ->check(number_in_range(0.0, kLargestError, "MM/M"))
-      ->option_text("MM/M");
+  add_millimetres(
+      app, "--unknown-datum", options.settings.nuisance.datum,
+      "standard deviation of a shift of all heights of one levelling (those of one load, or of one "
+      "name in a column levelling), such as 0.3mm; gaussian only");
+  add_millimetres(app, "--unknown-tilt", options.settings.nuisance.tilt,
+                  "standard deviation of a rotation of the same, such as 0.03mm/m; gaussian only", "MM/M");
 }
 
 void add_genetic_options(CLI::App& app, GeneticSettings& genetic) {
@@ -208,11 +202,8 @@ LookupSettings finish(const LocateDamageOptions& options) {
                     settings.known_bridge ? "--known-bridge" : "--objective paper"));
   settings.noise.shape = parse_noise_shape(options.noise_model);
   if (!options.noise_level.empty()) settings.noise.relative = parse_noise_level(options.noise_level);
-  settings.noise.floor = kMetresPerMillimetre * options.floor_mm;
   settings.noise.silence = parse_chance(options.silence);
-  settings.nuisance = {parse_noise_level(options.unknown_scale),
-                       kMetresPerMillimetre * options.unknown_datum_mm,
-                       kMetresPerMillimetre * options.unknown_tilt_mm_per_m};
+  settings.nuisance.scale = parse_noise_level(options.unknown_scale);
   return settings;
 }
 

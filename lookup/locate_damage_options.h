@@ -26,12 +26,9 @@ struct LocateDamageOptions {
   std::string sigma;
   std::string noise_level;
   std::string noise_model = "auto";
-  double floor_mm = 0.0;
   std::string model_error;
   std::string silence = "10%";
   std::string unknown_scale = "0";
-  double unknown_datum_mm = 0.0;
-  double unknown_tilt_mm_per_m = 0.0;
 };
 
 /// Adds the options to the program.

@@ -13,6 +13,7 @@
 #include "lookup/search/exhaustive_search.h"
 #include "lookup/search/misfit.h"
 #include "lookup/search/nearest_search.h"
+#include "lookup/turned_readings.h"
 
 namespace voussoir {
 namespace {
@@ -22,24 +23,16 @@ constexpr std::size_t kMostMixed = 3;          // scenes that say together what 
 constexpr std::size_t kMostComparisons = 500;  // rows looked at for scenes that cannot be told apart:
 constexpr std::size_t kBestCompared = 10;      // the credible ones and so many of the best
 
-Eligible eligible_or_failure(const SceneTable& table, const Prior& prior) {
-  Eligible eligible = eligible_rows(table, prior.missing);
-  std::vector<int> lacking;
-  for (const int missing : prior.missing) {
-    const auto number = static_cast<std::size_t>(missing);
-    if (number >= eligible.scenes.size() || eligible.scenes[number] == 0) lacking.push_back(missing);
-  }
-  if (!lacking.empty())
-    throw Failure(
-        fmt::format("the database has no solved scene with {} missing blocks", fmt::join(lacking, ", ")));
-  return eligible;
-}
-
 std::vector<ScoredRow> run_genetic(const Library& library, const Observation& observation,
                                    const LookupSettings& settings, Answer& answer) {
   const GeneSpace space(library.layout, library.table);
   std::vector<ScoredRow> found;
   for (const int missing : answer.prior.missing) {
+    if (missing > kMostGenetic)
+      throw InputError(
+          fmt::format("--search genetic among scenes with {} missing blocks, expected at most {}: "
+                      "--missing 0,1,2",
+                      missing, kMostGenetic));
     if (missing == 0) {
       found.push_back({0, sum_of_differences(observation.displacement, library.table.row(0))});
       continue;
@@ -129,13 +122,14 @@ void add_same_readings(const Library& library, const Observation& observation,
 }
 
 /// The noise, the fit and the residuals if the best candidate is the truth.
-void judge_known_bridge(const Library& library, const Observation& observation, std::size_t best,
-                        Answer& answer) {
-  const std::span<const double> prediction = library.table.row(best);
+void judge_known_bridge(const Comparison& comparison, const Observation& observation,
+                        const Preparation& preparation, std::size_t best, Answer& answer) {
+  const std::span<const double> prediction = comparison.library.table.row(best);
   answer.noise = estimate_noise(observation, prediction);
   answer.residuals = sensor_residuals(
       observation, scales_at(observation, std::max(answer.noise->level, kSmallestLevel)), prediction);
-  answer.fit = fit_of(library, observation, answer);
+  answer.fit = fit_of(comparison.library, observation, answer);
+  if (const auto doubt = check_signs(comparison, observation, preparation, answer)) answer.fit = doubt;
 }
 
 /// A fit that explains nothing names the reading that is farthest from all others, if one disagrees, or
@@ -154,7 +148,7 @@ void name_suspect(const QuestionContext& asked, Answer& answer) {
 /// The same, and what the readings say of the bridge, averaged over the likeliest scenes.
 void judge_unknown_bridge(const QuestionContext& asked, Answer& answer) {
   const auto& [question, settings, comparison, observation, preparation] = asked;
-  answer.noise = {NoiseShape::gaussian, question.level(), observation.unknown_level};
+  answer.noise = {NoiseShape::gaussian, question.level(), observation.unknown_level, observation.noise.floor};
   answer.fit = {false, 0.0, "no scene can show them: each lacks a block that has a reading, or fell"};
   std::vector<WeightedScene> scenes;
   for (const std::size_t row : answer.posterior->credible)
@@ -230,11 +224,13 @@ void require_stated_errors(const Comparison& comparison, const Observation& obse
   const auto has_error = [&](std::size_t i) {
     return std::isnan(observation.reading[i]) || observation.floor[i] > 0.0;
   };
-  if (std::ranges::all_of(std::views::iota(std::size_t{0}, observation.reading.size()), has_error)) return;
-  throw InputError(
-      "changes without an error, expected a column sigma_mm, --sigma 0.02mm, or --floor 0.02 (mm): a share "
-      "of "
-      "what has not changed is none");
+  const auto channels = std::views::iota(std::size_t{0}, observation.reading.size());
+  const auto without = std::ranges::find_if_not(channels, has_error);
+  if (without == channels.end()) return;
+  throw InputError(fmt::format(
+      "a change without an error (at {}), expected a column sigma_mm or --sigma 0.02mm: a share of what "
+      "has not changed is none",
+      comparison.library.points[*without].name));
 }
 
 /// The first of two epochs teaches what a bridge is like that is not exactly known.
@@ -256,34 +252,6 @@ void require_answerable(const Comparison& comparison, const LookupSettings& sett
 }
 
 }  // namespace
-
-bool counts_as_known(const Comparison& comparison, const LookupSettings& settings) {
-  return settings.known_bridge || comparison.factors == nullptr || settings.objective == Objective::paper;
-}
-
-Preparation::Preparation(const Library& library, const LookupSettings& settings, bool known)
-    : table_(library.table),
-      points_(library.points),
-      prior_(stated_prior(settings.prior, table_, known)),
-      eligible_(eligible_or_failure(table_, prior_)),
-      index_(library.index) {}
-
-const EvidenceScreen& Preparation::screen() const {
-  const std::scoped_lock lock(making_);
-  if (!screen_) screen_.emplace(table_, index_, eligible_, prior_);
-  return *screen_;
-}
-
-std::vector<ScoredRow> Preparation::smallest_misfits(const Observation& observation,
-                                                     std::size_t count) const {
-  if (index_.clusters() == 0)
-    return exhaustive_search(observation.displacement, table_, eligible_.rows, count);
-  {
-    const std::scoped_lock lock(making_);
-    if (!indexed_) indexed_.emplace(table_, index_, points_, eligible_);
-  }
-  return indexed_->search(observation.displacement, count).best;
-}
 
 Answer locate_damage(const Comparison& comparison, const LookupSettings& settings) {
   return locate_damage(comparison, settings,
@@ -322,7 +290,7 @@ Answer locate_damage(const Comparison& comparison, const LookupSettings& setting
   if (question)
     judge_unknown_bridge({*question, unknown, comparison, observation, preparation}, answer);
   else
-    judge_known_bridge(library, observation, found.front().row, answer);
+    judge_known_bridge(comparison, observation, preparation, found.front().row, answer);
   if (const auto doubt = check_readings(comparison, observation)) answer.fit = doubt;
   add_same_readings(library, observation, found, answer);
   return answer;

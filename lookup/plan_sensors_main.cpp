@@ -4,7 +4,6 @@
 #include "core/structure/sensor_description.h"
 #include "core/text.h"
 #include "core/text_file.h"
-#include "core/units.h"
 #include "lookup/command_line.h"
 #include "lookup/readings/stated_sigmas.h"
 #include "lookup/report/plan_report.h"
@@ -17,8 +16,6 @@ struct Options {
   std::optional<std::string> picture;
   voussoir::ReportFormat format = voussoir::ReportFormat::text;
 };
-
-constexpr double kLargestDatum = 1e6;  // [mm]
 
 std::string plan(const Options& options) {
   const auto database = voussoir::Database::open(voussoir::find_database(options.database));
@@ -83,12 +80,8 @@ void add_reading_options(CLI::App& app, Options& options) {
       {{"uncertain", voussoir::Conditions::uncertain}, {"known", voussoir::Conditions::known}},
       "temperature, movements of the supports and what all joints soften by alike between two times: "
       "uncertain (default) as the bridge file states, or known: readings will be corrected for them");
-  app.add_option_function<double>(
-         "--unknown-datum",
-         [&](double millimetres) { settings.datum = voussoir::kMetresPerMillimetre * millimetres; },
-         "how far all readings of a levelling may be shifted [mm]")
-      ->check(voussoir::number_in_range(0.0, kLargestDatum, "MM"))
-      ->option_text("MM");
+  voussoir::add_millimetres(app, "--unknown-datum", settings.datum,
+                            "how far all readings of a levelling may be shifted, such as 0.3mm");
 }
 
 void add_options(CLI::App& app, Options& options) {

@@ -5,7 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "lookup/lookup.h"
+#include "lookup/answer.h"
+#include "lookup/preparation.h"
 #include "lookup/unknown/unknown_question.h"
 
 namespace voussoir {

@@ -17,6 +17,8 @@ namespace {
 
 using namespace voussoir;
 
+constexpr const char* kUsualNoise = "5%";
+
 enum class Kind { absolute, change, epochs };
 
 struct Options {
@@ -26,17 +28,30 @@ struct Options {
   std::string history;
   std::vector<std::string> loads;
   std::optional<std::string> sensors;
-  std::string noise_level = "5%";
+  std::string noise_level;  // empty: kUsualNoise
   NoiseShape noise_model = NoiseShape::uniform;
-  double floor_mm = 0.0;
+  double floor = 0.0;  // [m]
   std::string sigma;
-  double datum_mm = 0.0;
-  double tilt_mm_per_m = 0.0;
+  Nuisance levelling;
   std::string silence = "0%";
   std::uint64_t seed = 1;
   bool hide = false;
   std::string output;
 };
+
+std::string noise_level_of(const Options& options) {
+  return options.noise_level.empty() ? kUsualNoise : options.noise_level;
+}
+
+/// Readings of two times are nothing to locate-damage unless their errors are stated: a share of what has not
+/// changed is none.
+void require_errors(const Options& options) {
+  const bool stated = !options.sigma.empty() || !options.noise_level.empty() || options.floor > 0.0;
+  if (options.kind == Kind::absolute || stated) return;
+  throw InputError(fmt::format(
+      "--kind {} without an error of what has not changed, expected --sigma 0.02mm, or --floor 0.02mm",
+      options.kind == Kind::change ? "change" : "epochs"));
+}
 
 NoiseModel noise_of(const Options& options) {
   NoiseModel noise;
@@ -48,8 +63,8 @@ NoiseModel noise_of(const Options& options) {
     return noise;
   }
   noise.shape = options.noise_model;
-  noise.relative = parse_noise_level(options.noise_level);
-  noise.floor = kMetresPerMillimetre * options.floor_mm;
+  noise.relative = parse_noise_level(noise_level_of(options));
+  noise.floor = options.floor;
   return noise;
 }
 
@@ -85,12 +100,14 @@ std::string_view what_is_read(ReadingKind kind) {
 }
 
 std::string errors_in_words(const Options& options) {
-  std::string text = options.sigma.empty() ? fmt::format("{} of the value and {} mm, {}", options.noise_level,
-                                                         options.floor_mm, to_string(options.noise_model))
-                                           : fmt::format("gaussian, standard deviation {} mm",
-                                                         kMillimetres * parse_sigma(options.sigma));
-  if (options.datum_mm > 0.0) text += fmt::format(", datum {} mm", options.datum_mm);
-  if (options.tilt_mm_per_m > 0.0) text += fmt::format(", tilt {} mm per m", options.tilt_mm_per_m);
+  std::string text =
+      options.sigma.empty()
+          ? fmt::format("{} of the value and {:g} mm, {}", noise_level_of(options),
+                        kMillimetres * options.floor, to_string(options.noise_model))
+          : fmt::format("gaussian, standard deviation {} mm", kMillimetres * parse_sigma(options.sigma));
+  const Nuisance& levelling = options.levelling;
+  if (levelling.datum > 0.0) text += fmt::format(", datum {:g} mm", kMillimetres * levelling.datum);
+  if (levelling.tilt > 0.0) text += fmt::format(", tilt {:g} mm per m", kMillimetres * levelling.tilt);
   return text;
 }
 
@@ -106,6 +123,7 @@ std::string heading(const Options& options, const Comparison& comparison, const 
 
 std::string make_measurements(const Options& options) {
   if (!options.output.empty()) check_output("--output", options.output, {});
+  require_errors(options);
   const NoiseModel noise = noise_of(options);
   const auto database = Database::open(find_database(options.database));
   SensorList list = control_point_sensors(database.control_points());
@@ -119,14 +137,12 @@ std::string make_measurements(const Options& options) {
   const Comparison comparison = compare(blank, list, database, settings);
   require_loads(options.loads);
   Random random(options.seed);
-  const Nuisance levelling{.datum = kMetresPerMillimetre * options.datum_mm,
-                           .tilt = kMetresPerMillimetre * options.tilt_mm_per_m};
   const std::size_t row = find_row(database, options.scene);
   const auto outcome = static_cast<Outcome>(comparison.library.table.outcome[row]);
   if (outcome == Outcome::unresolved)
     throw Failure(fmt::format("scene {} has no answer in {}, so nobody knows what would be read",
                               options.scene, database.path().string()));
-  const ReadingsFile file = simulate_file(blank, comparison, row, noise, levelling, random);
+  const ReadingsFile file = simulate_file(blank, comparison, row, noise, options.levelling, random);
   const std::string text = heading(options, comparison, database, outcome) + to_csv(file, list, &noise);
   if (options.output.empty()) return text;
   write_file(options.output, text);
@@ -160,8 +176,8 @@ void add_error_options(CLI::App& app, Options& options) {
                                                      {"laplace", NoiseShape::laplace},
                                                      {"student", NoiseShape::student}},
                                                     "default uniform");
-  CLI::Option* const floor = app.add_option("--floor", options.floor_mm, "absolute part [mm], default 0")
-                                 ->check(number_in_range(0.0, 1e6, "MM"));
+  CLI::Option* const floor =
+      add_millimetres(app, "--floor", options.floor, "absolute part, such as 0.02mm, default 0");
   app.add_option("--sigma", options.sigma,
                  "instead of these: standard deviation of every value, such as 0.02mm; written as sigma_mm")
       ->check(checked_by(parse_sigma, "MM"))
@@ -169,12 +185,12 @@ void add_error_options(CLI::App& app, Options& options) {
       ->excludes(model)
       ->excludes(floor)
       ->option_text("MM");
-  app.add_option("--datum", options.datum_mm,
-                 "standard deviation of a shift of all heights of one levelling [mm], default 0")
-      ->check(number_in_range(0.0, 1e6, "MM"));
-  app.add_option("--tilt", options.tilt_mm_per_m,
-                 "standard deviation of a rotation of all heights of one levelling [mm per m], default 0")
-      ->check(number_in_range(0.0, 1e6, "MM/M"));
+  add_millimetres(app, "--datum", options.levelling.datum,
+                  "standard deviation of a shift of all heights of one levelling, such as 0.3mm, default 0");
+  add_millimetres(
+      app, "--tilt", options.levelling.tilt,
+      "standard deviation of a rotation of all heights of one levelling, such as 0.03mm/m, default 0",
+      "MM/M");
   app.add_option("--silent-sensors", options.silence, "chance that a sensor gives no reading, default 0%")
       ->check(checked_by(parse_chance, "CHANCE"));
 }

@@ -6,6 +6,26 @@
 
 namespace voussoir {
 
+namespace {
+
+constexpr double kEndOfSoil = 0.01;  // [m] that a surveyed surface may end before the bridge does
+
+/// Of soil whose surface ends before the bridge does.
+void note_soil_that_ends(const std::vector<Point>& surface, const Mesh& mesh,
+                         std::vector<std::string>& notes) {
+  const double left = mesh.nodes.row(0).minCoeff(), right = mesh.nodes.row(0).maxCoeff();
+  const auto note = [&](const char* side, double surface_end, double bridge_end) {
+    notes.push_back(
+        fmt::format("[fill] weighs nothing {} of x = {:g} m, where its surface ends: the bridge goes on "
+                    "to x = {:g} m",
+                    side, surface_end, bridge_end));
+  };
+  if (surface.front().x() > left + kEndOfSoil) note("left", surface.front().x(), left);
+  if (surface.back().x() < right - kEndOfSoil) note("right", surface.back().x(), right);
+}
+
+}  // namespace
+
 Model model_of(const BridgeFile& file) {
   try {
     return make_model(file.description);
@@ -27,7 +47,10 @@ std::vector<std::string> without_effect(const BridgeDescription& description, co
         "[[movements]] changes nothing: tools/reproduce-paper alone follows them, those of the Eindhoven "
         "wall");
   const FillWeight& fill = description.fill;
-  if (fill.unit_weight > 0.0 && description.gravity > 0.0 && model.parameters.laid_mass.sum() <= 0.0)
+  if (fill.unit_weight <= 0.0 || description.gravity <= 0.0) return notes;
+  if (model.parameters.laid_mass.sum() > 0.0)
+    note_soil_that_ends(fill.surface, model.mesh, notes);
+  else
     notes.push_back(fmt::format(
         "[fill] weighs nothing: its surface, at most {:g} m high, lies above no face of the bridge",
         std::ranges::max_element(fill.surface, {}, [](const Point& point) { return point.y(); })->y()));

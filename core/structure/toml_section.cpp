@@ -3,7 +3,22 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/text.h"
+
 namespace voussoir {
+namespace {
+
+/// "is 'oak': ", or nothing of tables and arrays.
+std::string what_is_given(const toml::node* node) {
+  if (node == nullptr) return {};
+  if (const auto* text = node->as_string()) return fmt::format("is {}: ", in_quotes(text->get()));
+  if (const auto* whole = node->as_integer()) return fmt::format("is {}: ", whole->get());
+  if (const auto* number = node->as_floating_point()) return fmt::format("is {}: ", number->get());
+  if (const auto* flag = node->as_boolean()) return fmt::format("is {}: ", flag->get());
+  return {};
+}
+
+}  // namespace
 
 const toml::node* TomlSection::take(const char* key) {
   known_.insert(key);
@@ -11,7 +26,9 @@ const toml::node* TomlSection::take(const char* key) {
 }
 
 void TomlSection::refuse(const char* key, const std::string& expected) const {
-  throw InputError(at_line(file_, line_of(key), fmt::format("{}{}: {}", key, title_, expected)));
+  const toml::node* given = table_ == nullptr ? nullptr : table_->get(key);
+  const std::string value = expected.starts_with("expected") ? what_is_given(given) : std::string();
+  throw InputError(at_line(file_, line_of(key), fmt::format("{}{}: {}{}", key, title_, value, expected)));
 }
 
 void TomlSection::number(const char* key, double& target, double least, double most, bool may_be_least) {
@@ -20,7 +37,7 @@ void TomlSection::number(const char* key, double& target, double least, double m
   const auto number = node->value<double>();
   if (!number || !node->is_number()) refuse(key, "expected a number");
   if (!(*number >= least && *number <= most) || (*number == least && !may_be_least))
-    refuse(key, fmt::format("is {}: expected a number {} {:g} and at most {:g}", *number,
+    refuse(key, fmt::format("expected a number {} {:g} and at most {:g}",
                             may_be_least ? "of at least" : "greater than", least, most));
   target = *number;
 }
@@ -39,7 +56,7 @@ void TomlSection::count(const char* key, int& target, int least, int most) {
   if (!node->is_integer()) refuse(key, "expected a whole number");
   const std::int64_t number = node->as_integer()->get();
   if (number < least || number > most)
-    refuse(key, fmt::format("is {}: expected a whole number from {} to {}", number, least, most));
+    refuse(key, fmt::format("expected a whole number from {} to {}", least, most));
   target = static_cast<int>(number);
 }
 

@@ -135,7 +135,7 @@ NoiseEstimate estimate_noise(const Observation& observation, std::span<const dou
   const SceneTable table = table_of_one_row(prediction);
   constexpr std::array<std::size_t, 1> kRow = {0};
   NoiseEstimate estimate{shapes_of(observation.noise).front(), observation.noise.relative.value_or(0.0),
-                         observation.unknown_level};
+                         observation.unknown_level, observation.noise.floor};
   double best = kImpossible;
   for (const NoiseShape shape : shapes_of(observation.noise)) {
     Observation one = observation;

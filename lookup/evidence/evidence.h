@@ -46,6 +46,7 @@ struct NoiseEstimate {
   NoiseShape shape = NoiseShape::uniform;  ///< the likeliest of the model's shapes
   double level = 0.0;                      ///< [-] as stated, or the likeliest
   bool estimated = false;                  ///< the level was unknown
+  double floor = 0.0;                      ///< [m] as stated beside the level
 };
 NoiseEstimate estimate_noise(const Observation& observation, std::span<const double> prediction);
 

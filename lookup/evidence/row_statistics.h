@@ -23,7 +23,7 @@ struct RowStatistics {
   double largest = 0.0;          ///< max |z_i|
   double sum_log_scale = 0.0;    ///< sum log scale_i [log m]
   double sum_log_student = 0.0;  ///< sum log(1 + z_i^2 / (nu - 2)), nu being the degrees of freedom
-  double scale_square = 0.0;     ///< ScaleFits::square; its log_width is in `sum_log_scale`
+  double scale_square = 0.0;     ///< ScaleFit::square; its log_width is in `sum_log_scale`
 };
 
 /// The statistics of some rows, column by column.

@@ -14,6 +14,7 @@ namespace {
 constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 constexpr char kQuote = '"';
 constexpr char kComment = '#';
+constexpr std::string_view kBrackets = "[]()";
 
 std::string lower_case(std::string text) {
   std::transform(text.begin(), text.end(), text.begin(),
@@ -167,13 +168,21 @@ std::optional<char> stated_separator(std::string_view line, long number, const C
   return sign.front();
 }
 
-CsvLine header_of(std::string_view line, long number, CsvTable& table) {
+/// "Change [mm]" is change_mm.
+CsvLine header_of(std::string_view line, long number, std::string_view columns, const CsvTable& table) {
   CsvLine header{number, Cutter(table, number, line).fields()};
   for (std::string& name : header.fields) {
     name = lower_case(std::move(name));
     std::ranges::replace(name, ' ', '_');
+    std::erase_if(name, [](char c) { return kBrackets.find(c) != std::string_view::npos; });
   }
   while (header.fields.size() > 1 && header.fields.back().empty()) header.fields.pop_back();
+  if (header.fields.size() == 1)
+    table.fail(
+        number,
+        fmt::format(
+            "{} is no header, expected several columns with commas, semicolons or tabs between them ({})",
+            in_quotes(trimmed(line)), columns));
   return header;
 }
 
@@ -223,7 +232,7 @@ CsvTable read_csv(std::string_view text, const std::string& file, std::string_vi
       stated = separator;
     } else {
       table.separator = stated ? *stated : separator_of(line, number, table);
-      table.header = header_of(line, number, table);
+      table.header = header_of(line, number, columns, table);
     }
   }
   if (table.header.fields.empty())

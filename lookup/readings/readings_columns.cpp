@@ -11,16 +11,30 @@ namespace voussoir {
 namespace {
 
 struct ValueColumn {
-  std::string_view name;
-  double factor;
+  std::string_view quantity;
+  double sign;  // of what is up
   bool change;
   bool vertical_only;
 };
-constexpr std::array<ValueColumn, 5> kValueColumns = {{{"uy_mm", kMetresPerMillimetre, false, true},
-                                                       {"uy_m", 1.0, false, true},
-                                                       {"settlement_mm", -kMetresPerMillimetre, false, true},
-                                                       {"value_mm", kMetresPerMillimetre, false, false},
-                                                       {"change_mm", kMetresPerMillimetre, true, false}}};
+constexpr std::array<ValueColumn, 4> kValueColumns = {{{"uy", 1.0, false, true},
+                                                       {"settlement", -1.0, false, true},
+                                                       {"value", 1.0, false, false},
+                                                       {"change", 1.0, true, false}}};
+
+/// "change_mm": a change in units of 0.001 m.
+struct Measured {
+  std::string_view quantity;
+  double unit;  // [m]; 0 without one
+};
+Measured measured_in(std::string_view name) {
+  for (const auto& [ending, unit] :
+       {std::pair<std::string_view, double>{"_mm", kMetresPerMillimetre}, {"_m", 1.0}})
+    if (name.ends_with(ending)) return {name.substr(0, name.size() - ending.size()), unit};
+  return {name, 0.0};
+}
+
+/// Of a column that is not read.
+constexpr std::string_view kRemark = "remark";
 
 class Header {
  public:
@@ -49,25 +63,40 @@ class Header {
 
   void read_column(std::size_t position) {
     const std::string& name = names()[position];
-    const auto value = std::find_if(kValueColumns.begin(), kValueColumns.end(),
-                                    [&](const ValueColumn& column) { return column.name == name; });
-    if (value == kValueColumns.end()) {
+    if (name == kRemark) return;
+    const auto [quantity, unit] = measured_in(name);
+    const auto value = std::ranges::find(kValueColumns, quantity, &ValueColumn::quantity);
+    if (unit > 0.0 && value != kValueColumns.end())
+      read_value_column(position, *value, unit);
+    else if (unit > 0.0 && (quantity == "before" || quantity == "after"))
+      read_epoch_column(position, quantity == "before" ? columns_.before : columns_.after, unit);
+    else if (unit > 0.0 && quantity == "sigma")
+      claim(columns_.sigma, position), columns_.sigma_factor = unit;
+    else
       claim(other_column(name), position);
-      return;
-    }
+  }
+
+  void read_value_column(std::size_t position, const ValueColumn& value, double unit) {
     claim(columns_.value, position);
-    columns_.factor = value->factor;
-    columns_.change = value->change;
-    columns_.vertical_only = value->vertical_only;
+    columns_.factor = value.sign * unit;
+    columns_.change = value.change;
+    columns_.vertical_only = value.vertical_only;
+  }
+
+  void read_epoch_column(std::size_t position, std::size_t& column, double unit) {
+    const std::size_t other = &column == &columns_.before ? columns_.after : columns_.before;
+    claim(column, position);
+    if (other != kAbsent && columns_.factor != unit)
+      fail(fmt::format("column {} beside {}, expected the same unit", in_quotes(names()[position]),
+                       in_quotes(names()[other])));
+    columns_.factor = unit;
+    columns_.change = true;
   }
 
   std::size_t& other_column(const std::string& name) {
     if (name == "point") return columns_.point;
     if (name == "x_m") return columns_.x;
     if (name == "y_m") return columns_.y;
-    if (name == "before_mm") return columns_.before;
-    if (name == "after_mm") return columns_.after;
-    if (name == "sigma_mm") return columns_.sigma;
     if (name == "load") return columns_.load;
     if (name == "levelling") return columns_.levelling;
     fail(fmt::format("unknown column {}", in_quotes(name)));
@@ -77,19 +106,16 @@ class Header {
     const bool named = columns_.point != kAbsent;
     const bool placed = columns_.x != kAbsent && columns_.y != kAbsent;
     const bool half_placed = (columns_.x != kAbsent) != (columns_.y != kAbsent);
-    if (named == placed || half_placed) fail("no single way to name a point");
+    if (half_placed || !(named || placed)) fail("nothing that names points");
   }
 
-  void check_value() {
+  void check_value() const {
     const bool before = columns_.before != kAbsent, after = columns_.after != kAbsent;
     if (before != after)
-      fail(before ? "column 'before_mm' without 'after_mm'" : "column 'after_mm' without 'before_mm'");
+      fail(before ? "values before without values after" : "values after without values before");
     if (before && columns_.value != kAbsent)
-      fail(fmt::format("column {} beside 'before_mm' and 'after_mm'", in_quotes(names()[columns_.value])));
+      fail(fmt::format("column {} beside values before and after", in_quotes(names()[columns_.value])));
     if (!before && columns_.value == kAbsent) fail("no value column");
-    if (!before) return;
-    columns_.factor = kMetresPerMillimetre;
-    columns_.change = true;
   }
 
   const CsvTable& table_;
@@ -99,8 +125,9 @@ class Header {
 }  // namespace
 
 const std::string_view kReadingsColumns =
-    "point or x_m,y_m; one of uy_mm, uy_m, settlement_mm, value_mm, change_mm, or before_mm,after_mm; "
-    "optionally sigma_mm, load, levelling";
+    "point, or x_m,y_m; one of uy_mm, settlement_mm, value_mm, change_mm, or before_mm,after_mm (_m: in "
+    "metres); "
+    "optionally sigma_mm, load, levelling, remark";
 
 /// Beside a load a change is the load's own: what it adds. How that changed needs two epochs.
 ReadingKind ReadingsColumns::kind() const {

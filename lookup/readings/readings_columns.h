@@ -23,6 +23,7 @@ struct ReadingsColumns {
   std::size_t load = kAbsent;
   std::size_t levelling = kAbsent;
   double factor = 1.0;         ///< from the value's unit and sign to metres, up positive
+  double sigma_factor = 1.0;   ///< the same of sigma
   bool change = false;         ///< the value is one
   bool vertical_only = false;  ///< the value's name says what is read
   DecimalMark mark = DecimalMark::point;

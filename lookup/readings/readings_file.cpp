@@ -51,6 +51,7 @@ class ReadingsReader {
   Reading read_row(const CsvLine& line) {
     Reading reading{.line = line.number, .load = load(line), .before = kNan, .after = kNan};
     reading.sensor = columns_.point != kAbsent ? named_sensor(line) : placed_point(line, reading.load);
+    if (columns_.point != kAbsent && columns_.x != kAbsent) check_place(line, sensors_[reading.sensor]);
     const auto [first, is_new] = line_of_.try_emplace({reading.sensor, reading.load}, line.number);
     if (!is_new)
       table_.fail(line.number,
@@ -65,13 +66,17 @@ class ReadingsReader {
 
   void read_value(const CsvLine& line, Reading& reading) const {
     if (!columns_.two_epochs()) {
-      reading.value = displacement(line, columns_.value);
+      reading.value = displacement(line, columns_.value, kLargestDisplacement);
       reading.silent = std::isnan(reading.value);
       return;
     }
-    reading.before = displacement(line, columns_.before);
-    reading.after = displacement(line, columns_.after);
+    reading.before = displacement(line, columns_.before, kLargestHeight);
+    reading.after = displacement(line, columns_.after, kLargestHeight);
     reading.value = reading.after - reading.before;
+    check_size(line,
+               fmt::format("from {} to {}", in_quotes(line.fields[columns_.before]),
+                           in_quotes(line.fields[columns_.after])),
+               reading.value, kLargestDisplacement);
     reading.silent = std::isnan(reading.after) && !std::isnan(reading.before);
   }
 
@@ -141,6 +146,17 @@ class ReadingsReader {
     return nearest;
   }
 
+  /// Where rows give a point's coordinates beside its name, neither is taken for another's.
+  void check_place(const CsvLine& line, const Sensor& sensor) const {
+    const Point place(coordinate(line, columns_.x), coordinate(line, columns_.y));
+    if ((sensor.position - place).norm() > kPointTolerance)
+      table_.fail(
+          line.number,
+          fmt::format(
+              "x = {} m, y = {} m is not where {} is, expected x = {:.6g} m, y = {:.6g} m within {} m",
+              place.x(), place.y(), sensor.name, sensor.position.x(), sensor.position.y(), kPointTolerance));
+  }
+
   double coordinate(const CsvLine& line, std::size_t column) const {
     const std::optional<double> number = parse_number(line.fields[column], columns_.mark);
     if (!number)
@@ -149,7 +165,7 @@ class ReadingsReader {
     return *number;
   }
 
-  double displacement(const CsvLine& line, std::size_t column) const {
+  double displacement(const CsvLine& line, std::size_t column, double largest) const {
     const std::string& text = line.fields[column];
     if (says_nothing(text)) return kNan;
     const std::optional<double> number = parse_number(text, columns_.mark);
@@ -157,22 +173,27 @@ class ReadingsReader {
       table_.fail(line.number,
                   fmt::format("{} is no finite number, expected a displacement or nothing", in_quotes(text)));
     const double metres = columns_.factor * *number;
-    if (std::abs(metres) > kLargestDisplacement)
+    check_size(line, in_quotes(text), metres, largest);
+    return metres;
+  }
+
+  void check_size(const CsvLine& line, const std::string& what, double metres, double largest) const {
+    if (std::abs(metres) > largest)
       table_.fail(line.number,
                   fmt::format("{} is a displacement of {:.3g} m, expected at most {} m (check the units)",
-                              in_quotes(text), std::abs(metres), kLargestDisplacement));
-    return metres;
+                              what, std::abs(metres), largest));
   }
 
   double sigma(const CsvLine& line) const {
     const std::string& text = line.fields[columns_.sigma];
     if (says_nothing(text)) return kNan;
     const std::optional<double> number = parse_number(text, columns_.mark);
-    if (!number || !is_sigma(*number))
+    const double metres = number ? columns_.sigma_factor * *number : kNan;
+    if (!is_sigma(kMillimetres * metres))
       table_.fail(line.number,
                   fmt::format("{} is no sigma, expected millimetres from {:g} to {:g}, or nothing",
                               in_quotes(text), kSmallestSigma, kLargestSigma));
-    return kMetresPerMillimetre * *number;
+    return metres;
   }
 
   const CsvTable& table_;

@@ -46,8 +46,9 @@ struct ReadingsFile {
 /// Coordinates of a control point may be off by this much [m].
 inline constexpr double kPointTolerance = 0.05;
 
-/// Larger displacements [m] are taken for a mistake in the units.
-inline constexpr double kLargestDisplacement = 100.0;
+/// Larger displacements [m] are taken for a mistake in the units, and so are larger heights, as values before
+/// and after may be.
+inline constexpr double kLargestDisplacement = 100.0, kLargestHeight = 1e4;
 
 /// Reads a text (`name` is used in messages). Where two control points share a place (neighbouring blocks'
 /// corners), the first row with its coordinates is the left block's, the second the right block's. Throws

@@ -175,7 +175,7 @@ void require_enough(const Database& database, std::size_t usable, bool alone) {
   const std::string held =
       usable == 0 ? "no sampled bridge" : fmt::format("{} sampled bridge{}", usable, usable == 1 ? "" : "s");
   throw Failure(
-      fmt::format("{}: holds {} that stand when intact, evidence from variants takes at least {}{}: "
+      fmt::format("{}: holds {} standing when intact, evidence from variants takes at least {}{}: "
                   "see build-database --variants",
                   database.path().string(), held, least,
                   alone ? fmt::format(" ({} beside sensitivities)", kFewestBridges) : ""));

@@ -2,9 +2,7 @@
 
 #include <cmath>
 
-#include "core/error.h"
-#include "core/text.h"
-#include "core/units.h"
+#include "lookup/readings/millimetres.h"
 
 namespace voussoir {
 namespace {
@@ -18,13 +16,7 @@ bool all_state_sigmas(const Measurements& measured) {
 }  // namespace
 
 double parse_sigma(std::string_view text) {
-  std::string_view digits = text;
-  if (digits.ends_with("mm")) digits.remove_suffix(2);
-  const std::optional<double> number = parse_number(trimmed(digits));
-  if (!number || !is_sigma(*number))
-    throw InputError(fmt::format("{} given, expected millimetres from {:g} to {:g}, such as 0.02mm",
-                                 in_quotes(text), kSmallestSigma, kLargestSigma));
-  return kMetresPerMillimetre * *number;
+  return parse_millimetres(text, kSmallestSigma, kLargestSigma);
 }
 
 NoiseModel noise_of(const Measurements& measured, NoiseModel wanted) {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "lookup/lookup.h"
+#include "lookup/answer.h"
 
 namespace voussoir {
 

@@ -98,6 +98,12 @@ std::vector<PlaceDisplacement> at_place(const Database& database, std::size_t ro
   return result;
 }
 
+/// "--history lost --load truck@2"
+std::string as_options(std::string_view state) {
+  const std::string_view load = load_stage_of(state);
+  return fmt::format("--history {}{}{}", history_of(state), load.empty() ? "" : " --load ", load);
+}
+
 std::optional<Point> parse_place(const std::vector<std::string_view>& parts) {
   if (parts.size() != 2) return std::nullopt;
   const std::optional<double> x = parse_number(parts[0]);
@@ -113,19 +119,22 @@ std::size_t find_state(const Database& database, const std::optional<std::string
   const std::string name =
       state_name(history ? *history : history_of(database.states().front()), load.value_or(""));
   const auto state = database.find_state(name);
-  if (!state)
-    throw InputError(fmt::format("{}: has no state {}, expected one of {}", database.path().string(),
-                                 in_quotes(name), fmt::join(database.states(), ", ")));
-  return *state;
+  if (state) return *state;
+  std::vector<std::string> states;
+  for (const std::string& one : database.states()) states.push_back(as_options(one));
+  throw InputError(fmt::format("{}: nothing is solved for {}, expected one of: {}", database.path().string(),
+                               as_options(name), fmt::join(states, "; ")));
 }
 
 std::size_t find_row(const Database& database, std::string_view text) {
   const Scene scene = parse_scene(text, database.layout());
   const std::optional<std::size_t> row = database.find(scene);
   if (!row)
-    throw Failure(fmt::format(
-        "{}: has no scene {}{}", database.path().string(), to_string(scene, database.layout()),
-        database.shard() ? fmt::format(", as it is part {}", to_string(database.shard()->shard)) : ""));
+    throw Failure(
+        fmt::format("{}: has no scene {}{}", database.path().string(), to_string(scene, database.layout()),
+                    database.shard() ? fmt::format(", as it is part {}", to_string(database.shard()->shard))
+                                     : fmt::format(", expected intact scenes of at most {} missing blocks",
+                                                   database.table(kNominalVariant, 0).most_missing)));
   return *row;
 }
 

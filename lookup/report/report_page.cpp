@@ -31,10 +31,8 @@ std::string verdict_html(const Answer& answer, const Comparison& comparison) {
         fmt::format("Number of missing blocks{}: {}. {:.0f} % of the probability is held by {} scene{}.",
                     if_true(answer), missing_in_words(answer), 100.0 * kCredibleShare,
                     answer.posterior->credible.size(), answer.posterior->credible.size() == 1 ? "" : "s"));
-  std::string same;
-  for (const Scene& scene : answer.candidates.front().same_readings)
-    same += (same.empty() ? "" : "; ") + to_string(scene, library.layout);
-  if (!same.empty()) html += paragraph("These sensors cannot tell it from: " + same);
+  if (const std::string same = same_in_words(answer.candidates.front(), library); !same.empty())
+    html += paragraph("These sensors cannot tell it from: " + same);
   for (const std::string& sensor : odd_sensors(answer, comparison)) html += paragraph(sensor);
   return "<div class=\"verdict\">" + html + "</div>\n";
 }
@@ -105,7 +103,7 @@ Figure parameters_figure(const Answer& answer, const ReadingFactors& factors) {
 }
 
 std::string bridge_html(const Answer& answer, const Comparison& comparison) {
-  if (!answer.bridge) return "";
+  if (!answer.bridge || !has_probabilities(answer)) return "";
   return section_html("causes-and-bridge", "Other causes, and the bridge itself",
                       figures_html({causes_figure(answer, *comparison.factors),
                                     parameters_figure(answer, *comparison.factors)}));

@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "lookup/lookup.h"
+#include "lookup/answer.h"
 #include "lookup/report/reading_words.h"
 
 namespace voussoir {

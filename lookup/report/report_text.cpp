@@ -73,10 +73,8 @@ void write_table(Text& text, const Answer& answer, const Library& library) {
 
 void write_groups(Text& text, const Answer& answer, const Library& library) {
   const Candidate& best = answer.candidates.front();
-  if (best.same_readings.empty()) return;
-  std::string names;
-  for (const Scene& scene : best.same_readings)
-    names += (names.empty() ? "" : "; ") + to_string(scene, library.layout);
+  const std::string names = same_in_words(best, library);
+  if (names.empty()) return;
   text.line("These sensors cannot tell {} from: {}", to_string(best.scene, library.layout), names);
 }
 
@@ -134,9 +132,10 @@ void write_sensors(Text& text, const Answer& answer, const Comparison& compariso
   for (const std::string& sentence : odd) text.line("{}", sentence);
 }
 
-/// What else moved the sensors, and what the readings say of the bridge.
+/// What else moved the sensors, and what the readings say of the bridge. Nothing if no scene explains them:
+/// what is likeliest then may be any number.
 void write_bridge(Text& text, const Answer& answer, const Comparison& comparison) {
-  if (!answer.bridge) return;
+  if (!answer.bridge || !has_probabilities(answer)) return;
   const ReadingFactors& factors = *comparison.factors;
   const std::vector<Cause> causes = causes_of(*answer.bridge, factors);
   const bool some_against = std::ranges::any_of(causes, [](const Cause& one) { return one.share < -0.005; });

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <functional>
 #include <iterator>
+#include <span>
 
 #include "core/units.h"
 #include "lookup/report/reading_words.h"
@@ -76,8 +77,7 @@ std::string in_words(const Scene& scene, const Library& library) {
 }  // namespace
 
 Verdict verdict_of(const Answer& answer) {
-  const Verdict alone =
-      verdict_of(*answer.posterior, answer.fit && answer.fit->explained, answer.known_bridge);
+  const Verdict alone = verdict_of(*answer.posterior, answer.fit && answer.fit->explained);
   if (alone == Verdict::unexplained) return alone;
   const bool as_supposed = supposed_by(answer.prior) != Supposed::nothing && alone != Verdict::located;
   return answer.contested || as_supposed ? Verdict::cannot_tell : alone;
@@ -199,10 +199,13 @@ std::string_view errors_are_shares_of(ReadingKind kind) {
 std::string noise_in_words(const NoiseEstimate& noise, ReadingKind kind) {
   if (!noise.estimated && noise.level <= kSmallestLevel)
     return fmt::format("absolute, as stated for each reading ({} noise)", to_string(noise.shape));
-  if (noise.estimated && noise.level <= 2.0 * kSmallestLevel) return "none that could be seen";
+  const std::string floor = noise.floor > 0.0 ? fmt::format("{:.3g} mm", kMillimetres * noise.floor) : "";
+  if (noise.estimated && noise.level <= 2.0 * kSmallestLevel)
+    return floor.empty() ? "none that could be seen"
+                         : floor + " as stated, and none besides that could be seen";
   const std::string_view meaning = noise.shape == NoiseShape::uniform ? "at most" : "a standard deviation of";
-  return fmt::format("{} {:.2g} % of the {} ({} noise, {})", meaning, 100.0 * noise.level,
-                     errors_are_shares_of(kind), to_string(noise.shape),
+  return fmt::format("{} {:.2g} % of the {}{} ({} noise, {})", meaning, 100.0 * noise.level,
+                     errors_are_shares_of(kind), floor.empty() ? "" : " and " + floor, to_string(noise.shape),
                      noise.estimated ? "estimated" : "as stated");
 }
 
@@ -211,6 +214,15 @@ std::string behind(const Candidate& candidate, const Candidate& best) {
   if (*candidate.posterior == 0.0) return "negligible";
   const double odds = *best.posterior / *candidate.posterior;
   return odds < 1e6 ? fmt::format("1 : {:.4g}", odds) : "1 : > 10^6";
+}
+
+std::string same_in_words(const Candidate& candidate, const Library& library) {
+  constexpr std::size_t kMostNamed = 20;
+  const std::vector<Scene>& same = candidate.same_readings;
+  std::string names;
+  for (const Scene& scene : std::span(same).first(std::min(same.size(), kMostNamed)))
+    names += (names.empty() ? "" : "; ") + to_string(scene, library.layout);
+  return same.size() > kMostNamed ? fmt::format("{}; and {} others", names, same.size() - kMostNamed) : names;
 }
 
 std::string missing_in_words(const Answer& answer) {

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "lookup/lookup.h"
+#include "lookup/answer.h"
 #include "lookup/report/verdict.h"
 
 namespace voussoir {
@@ -43,6 +43,10 @@ std::string noise_in_words(const NoiseEstimate& noise, ReadingKind kind);
 /// How far a candidate is behind the best: the ratio of probabilities or, without them, of misfits their
 /// difference.
 std::string behind(const Candidate& candidate, const Candidate& best);
+
+/// The scenes that the sensors cannot tell from a candidate, the likeliest ones by name; empty if there are
+/// none.
+std::string same_in_words(const Candidate& candidate, const Library& library);
 
 /// "0: < 0.1 %, 1: 91.5 %, 2: 8.5 %"
 std::string missing_in_words(const Answer& answer);

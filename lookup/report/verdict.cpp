@@ -4,11 +4,11 @@
 
 namespace voussoir {
 
-Verdict verdict_of(const Posterior& posterior, bool explained, bool known_bridge) {
+Verdict verdict_of(const Posterior& posterior, bool explained) {
   if (!explained || posterior.credible.empty()) return Verdict::unexplained;
   const double intact = intact_probability(posterior);
   if (intact >= kCertain)
-    return known_bridge || posterior.intact_if_even >= kCertain ? Verdict::intact : Verdict::cannot_tell;
+    return posterior.intact_if_even >= kCertain ? Verdict::intact : Verdict::cannot_tell;
   const auto& blocks = posterior.block_probability;
   if (std::any_of(blocks.begin(), blocks.end(), [](double share) { return share >= kCertain; }))
     return Verdict::located;

@@ -19,6 +19,7 @@
 #include <span>
 #include <vector>
 
+#include "lookup/unknown/case_noise.h"
 #include "lookup/unknown/reduced_density.h"
 
 namespace voussoir {

@@ -172,9 +172,13 @@ TEST_CASE("Numbers on the command line that make no sense are refused with what 
   CHECK_THAT(message({"--prior", "0,0,0"}), Contains("prior weights 0, 0, 0 for 0, 1, 2 missing blocks") &&
                                                 Contains("expected a positive weight"));
   CHECK_THAT(message({"--prior", "1,1"}), Contains("2 prior weights, expected 3"));
-  for (const char* option : {"--prior", "--floor", "--unknown-datum", "--unknown-tilt", "--mutation"})
-    for (const char* number : {"nan", "-1", "1e400"})
+  for (const char* number : {"nan", "-1", "1e400"}) {
+    for (const char* option : {"--prior", "--mutation"})
       CHECK_THAT(message({option, number}), Contains(option) && Contains("expected a number from 0 to"));
+    for (const char* option : {"--floor", "--unknown-datum", "--unknown-tilt"})
+      CHECK_THAT(message({option, number}), Contains(option) && Contains("expected millimetres from 0 to"));
+  }
+  CHECK_THAT(message({"--floor", "0.02cm"}), Contains("'0.02cm' given, expected millimetres from 0 to"));
 }
 
 TEST_CASE("A missing, foreign or truncated database gives one line that says so") {

@@ -58,7 +58,7 @@ struct Site {
     const std::string path = (folder / "readings.csv").string();
     std::ofstream(path) << text;
     std::vector<std::string> arguments = {path, "-d", database, "--format", "json"};
-    if (levelling) arguments.insert(arguments.end(), {"--unknown-datum", "0.3"});
+    if (levelling) arguments.insert(arguments.end(), {"--unknown-datum", "0.3mm"});
     const ProgramResult result = test::run("locate-damage", arguments);
     INFO(result.err);
     REQUIRE(result.exit_code == 0);

@@ -247,7 +247,7 @@ TEST_CASE("A library without the wanted numbers of missing blocks is a failure w
   CHECK_THROWS_WITH(locate_damage(absolute_readings(library.library(),
                                                     library.measure(0, 0.1, NoiseShape::uniform, random)),
                                   settings),
-                    "the database has no solved scene with 3 missing blocks");
+                    "--missing: the database has no solved scene with 3 missing blocks, expected of 0, 1, 2");
 }
 
 TEST_CASE("If every scene lacks a measured block there is no candidate, and the report says so") {

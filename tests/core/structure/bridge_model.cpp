@@ -33,6 +33,12 @@ TEST_CASE("Soil below every face and regions of roles that no block has are note
   const auto soil = idle_of("[fill]\nlevel_m = 0.5\nunit_weight_N_m3 = 18000\n");
   REQUIRE(soil.size() == 1);
   CHECK_THAT(soil[0], Contains("[fill] weighs nothing") && Contains("0.5 m high"));
+  const std::string surveyed = "[fill]\nunit_weight_N_m3 = 18000\nsurface_m = ";
+  CHECK(idle_of(surveyed + "[[0, 6.5], [10, 6.8], [20, 6.5]]\n").empty());
+  const auto half = idle_of(surveyed + "[[2, 6.5], [10, 6.8]]\n");
+  REQUIRE(half.size() == 2);
+  CHECK_THAT(half[0], Contains("nothing left of x = 2 m") && Contains("goes on to x = 0 m"));
+  CHECK_THAT(half[1], Contains("nothing right of x = 10 m") && Contains("goes on to x = 20 m"));
   const auto region = idle_of("[[regions]]\nof = [\"ring\", \"fill\"]\ndensity_kg_m3 = 2000\n");
   REQUIRE(region.size() == 1);
   CHECK_THAT(region[0], Contains("[[regions]] of 'fill' changes nothing"));

@@ -128,9 +128,9 @@ TEST_CASE("Movements are read, and what they cannot be is refused", "[mortar][br
   CHECK(wall.movements[0] == MovementDescription{.support = "top", .pressure = 0.3e6});
   CHECK(wall.movements[1] == MovementDescription{.support = "top", .pressure = {}, .x = 0.004, .steps = 80});
   CHECK(refusal("[[movements]]\nsupport = \"top\"\n") ==
-        "b.toml:2: support in [[movements]]: expected pressure_Pa, x_m or y_m beside it");
+        "b.toml:2: support in [[movements]]: is 'top': expected pressure_Pa, x_m or y_m beside it");
   CHECK(refusal("[[movements]]\nsupport = \"top\"\npressure_Pa = 1\nx_m = 1\n") ==
-        "b.toml:4: x_m in [[movements]]: expected either pressure_Pa or a way x_m, y_m");
+        "b.toml:4: x_m in [[movements]]: is 1: expected either pressure_Pa or a way x_m, y_m");
 }
 
 TEST_CASE("Mortar that states no stiffness leaves a joint that of its region (the file's numbers)",

@@ -45,6 +45,20 @@ TEST_CASE("Displacements are read in metres with up positive, whatever the colum
   CHECK(value_in("point,uy_m\nT2,-3.5e-3\n") == -3.5e-3);
   CHECK(value_in("point,settlement_mm\nT2,3.5\n") == Approx(-3.5e-3).epsilon(1e-15));
   CHECK(value_in("point,value_mm\nT2,+3.5\n") == Approx(3.5e-3).epsilon(1e-15));
+  CHECK(value_in("point,settlement_m\nT2,3.5e-3\n") == -3.5e-3);
+  CHECK(value_in("point,change_m\nT2,3.5e-3\n") == 3.5e-3);
+  CHECK(value_in("Point;Change [mm]\nT2;3,5\n") == Approx(3.5e-3).epsilon(1e-15));
+}
+
+TEST_CASE("Heights above a datum are read as such, and only their difference has to be a displacement") {
+  CHECK(value_in("point,before_m,after_m\nT2,412.3456,412.3421\n") == Approx(-3.5e-3).epsilon(1e-9));
+  CHECK(value_in("point,before_mm,after_mm\nT2,412345.6,412342.1\n") == Approx(-3.5e-3).epsilon(1e-9));
+}
+
+TEST_CASE("A remark is not read, and coordinates beside a name say where it is") {
+  const ReadingsFile read = parse("point,x_m,y_m,change_mm,remark\nT3,1.02,6,0.5,\"wet, 4 C\"\n");
+  REQUIRE(read.readings.size() == 1);
+  CHECK(read.readings.front().sensor == 2);
 }
 
 TEST_CASE("Any subset of points in any order is a valid file, and sensors without reading are silent") {
@@ -139,7 +153,8 @@ TEST_CASE("Coordinates mean the nearest control point, and twins at one place ar
         "0.05 m");
 }
 
-TEST_CASE("A sensor's own sigma is read in millimetres") {
+TEST_CASE("A sensor's own sigma is read in its column's unit") {
+  CHECK(parse("point,uy_mm,sigma_m\nT1,-1,0.0002\n").readings.front().sigma == 2e-4);
   const ReadingsFile read = parse("point,uy_mm,sigma_mm\nT1,-1,0.2\nT2,-1,\n");
   CHECK(read.readings[0].sigma == Approx(2e-4));
   CHECK(std::isnan(read.readings[1].sigma));

@@ -34,28 +34,31 @@ struct Wrong {
 };
 
 const std::string kExpected =
-    ", expected point or x_m,y_m; one of uy_mm, uy_m, settlement_mm, value_mm, change_mm, or "
-    "before_mm,after_mm; "
-    "optionally sigma_mm, load, levelling";
+    ", expected point, or x_m,y_m; one of uy_mm, settlement_mm, value_mm, change_mm, or "
+    "before_mm,after_mm (_m: in metres); optionally sigma_mm, load, levelling, remark";
+const std::string kOneColumn =
+    " is no header, expected several columns with commas, semicolons or tabs between them (" +
+    kExpected.substr(11) + ")";
 
 const std::vector<Wrong> kHeaders = {
     {"point,uy_cm\nT1,1\n", "unknown column 'uy_cm'"},
     {"point,uy_mm,note\nT1,1,x\n", "unknown column 'note'"},
     {"T1,-3.2\n", "unknown column 't1'"},
-    {"point\nT1\n", "no value column"},
+    {"point,x_m,y_m\nT1,1,1\n", "no value column"},
     {"point,sigma_mm\nT1,1\n", "no value column"},
-    {"uy_mm\n1\n", "no single way to name a point"},
-    {"point,x_m,y_m,uy_mm\n", "no single way to name a point"},
-    {"x_m,uy_mm\n1,1\n", "no single way to name a point"},
+    {"uy_mm,sigma_mm\n1,1\n", "nothing that names points"},
+    {"point,x_m,uy_mm\n", "nothing that names points"},
+    {"x_m,uy_mm\n1,1\n", "nothing that names points"},
     {"point,uy_mm,uy_m\nT1,1,1\n", "column 'uy_m' is given twice or beside another value column"},
     {"point,uy_mm,uy_mm\nT1,1,1\n", "column 'uy_mm' is given twice or beside another value column"},
     {"point,uy_mm,change_mm\nT1,1,1\n", "column 'change_mm' is given twice or beside another value column"},
     {"point,point,uy_mm\n", "column 'point' is given twice or beside another value column"},
-    {"point,before_mm\nT1,1\n", "column 'before_mm' without 'after_mm'"},
-    {"point,after_mm\nT1,1\n", "column 'after_mm' without 'before_mm'"},
-    {"point,before_mm,after_mm,uy_mm\nT1,1,1,1\n", "column 'uy_mm' beside 'before_mm' and 'after_mm'"},
-    {"point,before_mm,after_mm,change_mm\nT1,1,1,1\n",
-     "column 'change_mm' beside 'before_mm' and 'after_mm'"}};
+    {"point,before_mm\nT1,1\n", "values before without values after"},
+    {"point,after_mm\nT1,1\n", "values after without values before"},
+    {"point,before_mm,after_m\nT1,1,1\n", "column 'after_m' beside 'before_mm', expected the same unit"},
+    {"point,before_mm,after_mm,uy_mm\nT1,1,1,1\n", "column 'uy_mm' beside values before and after"},
+    {"point,before_mm,after_mm,change_mm\nT1,1,1,1\n", "column 'change_mm' beside values before and after"},
+    {"point,uy (cm)\nT1,1\n", "unknown column 'uy_cm'"}};
 
 const std::string kNumber = " is no finite number, expected a displacement or nothing";
 const std::string kNoSigma = " is no sigma, expected millimetres from 5e-05 to 10000, or nothing";
@@ -73,6 +76,14 @@ const std::vector<Wrong> kRows = {
     {"point,before_mm,after_mm\nT1,1,later\n", "m.csv:2: 'later'" + kNumber},
     {"point,uy_m\nT1,-350\n",
      "m.csv:2: '-350' is a displacement of 350 m, expected at most 100 m (check the units)"},
+    {"point,before_m,after_m\nT1,112.3456,12.3456\nT2,112.3456,12.2\n",
+     "m.csv:3: from '112.3456' to '12.2' is a displacement of 100 m, expected at most 100 m (check the "
+     "units)"},
+    {"point,before_mm,after_mm\nT1,20000000,20000000\n",
+     "m.csv:2: '20000000' is a displacement of 2e+04 m, expected at most 10000 m (check the units)"},
+    {"point,x_m,y_m,uy_mm\nT2,0.04,6,1\n",
+     "m.csv:2: x = 0.04 m, y = 6 m is not where T2 is, expected x = 1 m, y = 6 m within 0.05 m"},
+    {"point,uy_mm,sigma_m\nT1,-1,0.00000002\n", "m.csv:2: '0.00000002'" + kNoSigma},
     {"point,uy_mm\nT1,-3,5\n",
      "m.csv:2: 3 values, expected 2 as in the header (a number with a decimal comma needs quotation marks, "
      "or a file "
@@ -108,6 +119,11 @@ const std::vector<Wrong> kFiles = {
 TEST_CASE("Headers that leave open what was read are refused with what a header may have") {
   for (const Wrong& wrong : kHeaders)
     CHECK(refusal_of(wrong.text) == "m.csv:1: " + wrong.message + kExpected);
+}
+
+TEST_CASE("What has one column only is taken for a title, not a header") {
+  for (const std::string title : {"Bridge 7;;", "point change_mm sigma_mm", "point"})
+    CHECK(refusal_of(title + "\npoint;change_mm\nT1;1\n") == "m.csv:1: '" + title + "'" + kOneColumn);
 }
 
 TEST_CASE("Wrong rows are refused with the file, the line, the value and what was expected") {

@@ -23,7 +23,8 @@ Answer explained(const std::vector<double>& missing, double block) {
   answer.posterior = {.probability = {0.0, {}, {}},
                       .block_probability = {block},
                       .missing_probability = missing,
-                      .credible = {0}};
+                      .credible = {0},
+                      .intact_if_even = missing.front()};
   answer.fit = {.explained = true, .chance = 0.5, .reason = {}};
   return answer;
 }

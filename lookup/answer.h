@@ -1,0 +1,48 @@
+#pragma once
+/// @file What locate-damage answers, before it is put into words.
+
+#include <optional>
+#include <vector>
+
+#include "lookup/evidence/evidence.h"
+#include "lookup/evidence/posterior.h"
+#include "lookup/fit.h"
+#include "lookup/search/genetic_search.h"
+#include "lookup/unknown/bridge_posterior.h"
+
+namespace voussoir {
+
+/// A scene that may explain the readings.
+struct Candidate {
+  std::size_t row = 0;
+  Scene scene;
+  Outcome outcome = Outcome::standing;
+  double misfit = 0.0;               ///< Eq. 1
+  std::optional<double> posterior;   ///< with Objective::posterior
+  std::vector<Scene> same_readings;  ///< scenes that these sensors cannot tell from this one under this noise
+};
+
+/// What the readings say of a bridge that is not exactly known, beside the scenes.
+struct BridgeAnswer {
+  UnknownBridge model;  ///< of the readings
+  BridgePosterior posterior;
+};
+
+struct Answer {
+  std::vector<Candidate> candidates;      ///< best first
+  std::optional<Posterior> posterior;     ///< with Objective::posterior
+  std::optional<NoiseEstimate> noise;     ///< if the best candidate is the truth; with Objective::posterior
+  std::optional<Fit> fit;                 ///< of the best candidate; with Objective::posterior
+  std::vector<SensorResidual> residuals;  ///< of the best candidate, a value for each reading
+  std::optional<BridgeAnswer> bridge;     ///< unless the bridge counts as known, or no scene is possible
+  bool known_bridge = true;               ///< counts_as_known
+  bool contested = false;  ///< another database that may as well be right comes to another answer
+  Prior prior;             ///< as it was used (stated_prior)
+  std::size_t readings = 0;
+  std::vector<std::size_t> counted;    ///< channels whose readings say something (Observation::reading)
+  std::size_t searched = 0;            ///< scenes
+  std::size_t unresolved = 0;          ///< scenes left out because the solver gave no answer
+  std::vector<GeneticResult> genetic;  ///< with Search::genetic: for each number of missing blocks but 0
+};
+
+}  // namespace voussoir
