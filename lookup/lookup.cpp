@@ -28,11 +28,6 @@ std::vector<ScoredRow> run_genetic(const Library& library, const Observation& ob
   const GeneSpace space(library.layout, library.table);
   std::vector<ScoredRow> found;
   for (const int missing : answer.prior.missing) {
-    if (missing > kMostGenetic)
-      throw InputError(
-          fmt::format("--search genetic among scenes with {} missing blocks, expected at most {}: "
-                      "--missing 0,1,2",
-                      missing, kMostGenetic));
     if (missing == 0) {
       found.push_back({0, sum_of_differences(observation.displacement, library.table.row(0))});
       continue;

@@ -5,6 +5,7 @@
 #include <limits>
 #include <ranges>
 
+#include "core/error.h"
 #include "lookup/search/eligible_rows.h"
 #include "lookup/search/misfit.h"
 
@@ -221,6 +222,11 @@ void mutate_block(std::span<int, 2> block, const GeneSpace& space, Random& rando
 GeneticResult genetic_search(std::span<const double> readings, const SceneTable& table,
                              const GeneSpace& space, int missing, const GeneticSettings& settings,
                              std::size_t count) {
+  if (static_cast<std::size_t>(missing) > kMostBlocks)
+    throw InputError(
+        fmt::format("--search genetic among scenes with {} missing blocks, expected at most {}: give "
+                    "--missing 0,1,2",
+                    missing, kMostBlocks));
   return Evolution(readings, table, space, missing, settings).run(count);
 }
 

@@ -58,13 +58,10 @@ struct GeneticResult {
   std::size_t evaluations = 0;  ///< misfits computed (each scene once)
 };
 
-/// Missing blocks that a member has genes for.
-inline constexpr int kMostGenetic = 3;
-
 /// Minimises the paper's Eq. 1 over integer genes (x1, x2[, x3, x4[, x5, x6]]). Each generation keeps its
 /// best member, chooses parents by tournaments of two, exchanges whole blocks between them, and moves a block
-/// to a neighbouring or to any position. Reproducible for a seed. Precondition: 1 to
-/// kMostGenetic missing blocks.
+/// to a neighbouring or to any position. Reproducible for a seed. Throws
+/// InputError for more than three missing blocks; precondition: at least one.
 GeneticResult genetic_search(std::span<const double> readings, const SceneTable& table,
                              const GeneSpace& space, int missing, const GeneticSettings& settings,
                              std::size_t count);

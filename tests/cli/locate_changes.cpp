@@ -149,7 +149,8 @@ TEST_CASE("Outputs do not take the place of inputs or databases, and say what th
 
 TEST_CASE("Wrong questions about readings give one line with what was expected") {
   const std::string change = "point,change_mm\nT1,1\n";
-  CHECK_THAT(workshop().error("point,before_mm\nT1,1\n"), Contains(":1:") && Contains("values before without values after"));
+  CHECK_THAT(workshop().error("point,before_mm\nT1,1\n"),
+             Contains(":1:") && Contains("values before without values after"));
   CHECK_THAT(workshop().error("point,load,uy_mm\nT1,axle,1\n"),
              Contains(":2:") && Contains("no load 'axle'"));
   CHECK_THAT(workshop().error(change, {"--history", "lost"}), Contains("has no history 'lost'"));

@@ -196,6 +196,17 @@ TEST_CASE("Merging leaves the scenes of an interrupted build of the same file al
   }
 }
 
+TEST_CASE("Merging drops valid scenes of the file that the parts do not have only if it may") {
+  MergeSite site;
+  site.request.scenes = "singles;4,*+5,1..2";
+  site.build("merged.h5");
+  site.request.scenes = "singles";
+  site.build_parts(2);
+  CHECK_THROWS_WITH(site.merge(), Contains("would be lost") && Contains("--drop"));
+  site.merging.drop = true;
+  CHECK(site.merge().digest == site.build("whole.h5").digest);
+}
+
 TEST_CASE("A part whose list of scenes was given with blanks and lines is up to date, and merges") {
   MergeSite site;
   site.request.scenes = "  singles ;\n4,*+5,1..2 ";

@@ -236,3 +236,12 @@ TEST_CASE("Uniform numbers are even and Gaussian numbers have mean zero and vari
   CHECK(square / kDraws == Approx(1.0).margin(4.0 * std::sqrt(2.0 / kDraws)));
   for (const int count : counts) CHECK(count == Approx(kDraws / 7.0).margin(4.0 * std::sqrt(kDraws / 7.0)));
 }
+
+TEST_CASE("The genetic search refuses scenes with more missing blocks than it has genes for") {
+  const SyntheticLibrary library(2, 3, 4);
+  const GeneSpace space(library.layout, library.table);
+  CHECK_NOTHROW(genetic_search(library.intact(), library.table, space, 3, {}, 1));
+  CHECK_THROWS_WITH(
+      genetic_search(library.intact(), library.table, space, 4, {}, 1),
+      "--search genetic among scenes with 4 missing blocks, expected at most 3: give --missing 0,1,2");
+}
