@@ -2,10 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
-#include <numeric>
 
 #include "core/units.h"
+#include "lookup/evidence/largest_places.h"
 #include "lookup/readings/sensor.h"
 
 namespace voussoir {
@@ -55,12 +54,9 @@ std::vector<std::vector<GrossError>> suspects_of(const QuestionContext& asked, s
   const BridgePosterior believed = asked.question.posterior({{row, 1.0}});
   const UnknownBridge& bridge = asked.question.bridge();
   const std::vector<StoredPoint>& points = asked.comparison.library.points;
-  std::vector<std::size_t> order(bridge.rows.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::ranges::stable_sort(order, std::ranges::greater{},
-                           [&](std::size_t k) { return std::abs(believed.others[static_cast<Index>(k)]); });
+  const VectorXd sizes = believed.others.cwiseAbs();
   std::vector<std::size_t> channels;  // a channel that counts in two epochs has two rows
-  for (const std::size_t k : order)
+  for (const std::size_t k : largest_places({sizes.data(), bridge.rows.size()}, bridge.rows.size()))
     if (std::ranges::find(channels, bridge.rows[k].channel) == channels.end())
       channels.push_back(bridge.rows[k].channel);
   std::vector<std::vector<GrossError>> suspects;

@@ -4,6 +4,8 @@
 
 #include "core/text.h"
 #include "core/units.h"
+#include "lookup/unknown/line_errors.h"
+#include "lookup/unknown/unstated_loads.h"
 
 namespace voussoir {
 namespace {
@@ -13,6 +15,14 @@ constexpr std::size_t kMostLoads = 3;  // stretches of the top that a load may s
 constexpr double kNewtonsPerKilonewton = 1e3;
 constexpr double kLeastForce = 10e3;  // [N/m] of a load that is spoken of where nothing explains readings
 constexpr double kLoadChance = 1e-3;  // beforehand that one stood there and is not stated
+
+std::vector<LineError> lines_of(const QuestionContext& asked) {
+  return line_errors(asked.question.bridge(), asked.observation, asked.comparison, asked.gaussians,
+                     kMostLines);
+}
+std::vector<UnstatedLoad> loads_of(const QuestionContext& asked, std::size_t count) {
+  return unstated_loads(asked.question.bridge(), asked.gaussians, count);
+}
 
 /// The readings without what a cause most likely adds to them with no block missing.
 Observation without(const UnknownBridge& bridge, Observation observation, const UnstatedCause& cause) {
@@ -77,10 +87,10 @@ std::optional<Fit> check_cause(const QuestionContext& asked, const Answer& answe
 
 std::optional<Fit> check_lines_and_loads(const QuestionContext& asked, const Answer& answer,
                                          const Alarm& alarm) {
-  for (const LineError& line : asked.question.line_errors(kMostLines))
+  for (const LineError& line : lines_of(asked))
     if (const auto fit = check_cause(asked, answer, alarm, line.cause, line.chance, in_words(line, asked)))
       return fit;
-  for (const UnstatedLoad& load : asked.question.unstated_loads(kMostLoads))
+  for (const UnstatedLoad& load : loads_of(asked, kMostLoads))
     if (const auto fit =
             check_cause(asked, answer, alarm, load.cause, kLoadChance, in_words(load, asked.comparison.kind)))
       return fit;
@@ -90,15 +100,15 @@ std::optional<Fit> check_lines_and_loads(const QuestionContext& asked, const Ans
 /// The line, if one alone may be off, else the load, if it is not a small one.
 std::optional<std::string> line_or_load_that_explains(const QuestionContext& asked) {
   const auto explains = [&](const UnstatedCause& cause) {
-    const CauseChances chances = asked.question.chances(cause);
+    const CauseChances chances = cause_chances(asked.question.bridge(), asked.observation, cause);
     return chances.without < kSmallestChance && chances.with >= kSmallestChance;
   };
   const auto on_intact = [](const std::string& cause) {
     return cause + " on an intact bridge would explain them";
   };
-  for (const LineError& line : asked.question.line_errors(kMostLines))
+  for (const LineError& line : lines_of(asked))
     if (explains(line.cause)) return on_intact(in_words(line, asked));
-  for (const UnstatedLoad& load : asked.question.unstated_loads(1))
+  for (const UnstatedLoad& load : loads_of(asked, 1))
     if (load.force >= kLeastForce && explains(load.cause))
       return on_intact(in_words(load, asked.comparison.kind));
   return std::nullopt;

@@ -142,21 +142,22 @@ void name_suspect(const QuestionContext& asked, Answer& answer) {
 
 /// The same, and what the readings say of the bridge, averaged over the likeliest scenes.
 void judge_unknown_bridge(const QuestionContext& asked, Answer& answer) {
-  const auto& [question, settings, comparison, observation, preparation] = asked;
-  answer.noise = {NoiseShape::gaussian, question.level(), observation.unknown_level, observation.noise.floor};
+  const Observation& observation = asked.observation;
+  answer.noise = {NoiseShape::gaussian, asked.likeliest.level, observation.unknown_level,
+                  observation.noise.floor};
   answer.fit = {false, 0.0, "no scene can show them: each lacks a block that has a reading, or fell"};
   std::vector<WeightedScene> scenes;
   for (const std::size_t row : answer.posterior->credible)
     if (scenes.size() < kMostMixed) scenes.push_back({row, answer.posterior->probability[row]});
   if (scenes.empty()) return;
-  BridgePosterior posterior = question.posterior(scenes);
-  answer.bridge = {question.bridge(), std::move(posterior)};
+  const UnknownBridge& bridge = asked.question.bridge();
+  answer.bridge = {bridge, asked.question.posterior(scenes)};
   answer.fit = check_fit(answer.bridge->posterior);
-  answer.residuals =
-      sensor_residuals(observation, answer.bridge->model, question.noise(), answer.bridge->posterior);
+  answer.residuals = sensor_residuals(observation, bridge, case_noise(bridge, observation, asked.likeliest),
+                                      answer.bridge->posterior);
   if (!answer.fit->explained) name_suspect(asked, answer);
   if (answer.fit->explained)
-    if (const auto doubt = check_scatter(answer.bridge->model, answer.bridge->posterior)) answer.fit = doubt;
+    if (const auto doubt = check_scatter(bridge, answer.bridge->posterior)) answer.fit = doubt;
   if (answer.fit->explained)
     if (const auto doubt = find_other(asked, answer)) answer.fit = doubt;
 }
@@ -228,6 +229,13 @@ void require_stated_errors(const Comparison& comparison, const Observation& obse
       comparison.library.points[*without].name));
 }
 
+std::vector<std::size_t> counted_channels(const Observation& observation) {
+  std::vector<std::size_t> channels;
+  for (std::size_t i = 0; i < observation.reading.size(); ++i)
+    if (!std::isnan(observation.reading[i])) channels.push_back(i);
+  return channels;
+}
+
 /// The first of two epochs teaches what a bridge is like that is not exactly known.
 void require_two_epochs(const Comparison& comparison, bool known) {
   if (comparison.before.empty())
@@ -264,26 +272,29 @@ Answer locate_damage(const Comparison& comparison, const LookupSettings& setting
   const Observation observation =
       observe(comparison, known ? settings.noise : gaussian_noise(settings.noise), settings.nuisance);
   answer.readings = comparison.measured.count();
-  for (std::size_t i = 0; i < observation.reading.size(); ++i)
-    if (!std::isnan(observation.reading[i])) answer.counted.push_back(i);
+  answer.counted = counted_channels(observation);
   answer.searched = eligible.rows.size();
   answer.unresolved = eligible.unresolved;
   require_answerable(comparison, settings, observation);
   const UnknownSettings unknown{settings.epochs, settings.conditions, settings.nuisance.scale};
   std::optional<UnknownBridgeQuestion> question;
   if (!known) question.emplace(comparison, observation, unknown);
+  UnknownCase likeliest;
   if (settings.objective == Objective::posterior) {
     const std::size_t count = with_compared(settings).top;
-    const RowValues evidence = question ? question->log_evidence(eligible, answer.prior, count)
-                                        : preparation.screen()(observation, count);
-    answer.posterior = posterior(library.table, eligible, evidence, answer.prior, library.layout.size());
+    const UnknownEvidence evidence = question ? question->evidence(eligible, answer.prior, count)
+                                              : UnknownEvidence{preparation.screen()(observation, count), {}};
+    answer.posterior = posterior(library.table, eligible, evidence.logs, answer.prior, library.layout.size());
+    likeliest = evidence.likeliest;
   }
   std::vector<ScoredRow> found = found_rows(library, observation, preparation, settings, answer);
   for (const ScoredRow& row : listed(found, settings))
     answer.candidates.push_back(candidate_of(library, row, answer.posterior));
   if (!answer.posterior || found.empty()) return answer;
   if (question)
-    judge_unknown_bridge({*question, unknown, comparison, observation, preparation}, answer);
+    judge_unknown_bridge({*question, likeliest, question->gaussians_at(likeliest.level), unknown, comparison,
+                          observation, preparation},
+                         answer);
   else
     judge_known_bridge(comparison, observation, preparation, found.front().row, answer);
   if (const auto doubt = check_readings(comparison, observation)) answer.fit = doubt;

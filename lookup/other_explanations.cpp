@@ -7,6 +7,7 @@
 #include "lookup/evidence/scene_evidence.h"
 #include "lookup/gross_errors.h"
 #include "lookup/lines_and_loads.h"
+#include "lookup/unknown/hidden_losses.h"
 
 namespace voussoir {
 namespace {
@@ -82,7 +83,7 @@ bool would_be_lost(const QuestionContext& asked, const Answer& answer, const Hid
   const BlockId block = table.scene(hidden.row).removed.front();
   const Observation others = without(asked.observation, hidden.channels);
   const std::vector<std::size_t> rows = rows_with_hidden(asked, answer, others, block);
-  UnknownBridgeQuestion question(asked.comparison, others, asked.settings);
+  const UnknownBridgeQuestion question(asked.comparison, others, asked.settings);
   const std::vector<double> logs =
       question.log_parts_of(rows, asked.preparation.eligible(), answer.prior, {});
   double lost = kImpossible, there = kImpossible;
@@ -97,7 +98,9 @@ std::optional<Fit> check_hidden_losses(const QuestionContext& asked, const Answe
   const Library& library = asked.comparison.library;
   const std::vector<double> prior =
       log_prior_by_missing(library.table, asked.preparation.eligible(), answer.prior);
-  std::vector<HiddenLoss> hidden = asked.question.hidden_losses(asked.preparation.eligible());
+  std::vector<HiddenLoss> hidden =
+      hidden_losses(asked.question.bridge(), asked.observation, asked.comparison.library,
+                    asked.preparation.eligible(), asked.gaussians);
   hidden.resize(std::min(hidden.size(), kMostHidden));
   for (const HiddenLoss& one : hidden) {
     if (!is_likely_beside(prior[0], one.gain + prior[1] + std::log(kKeptChance))) break;

@@ -2,6 +2,7 @@
 /// @file A question about a bridge that is not exactly known, and what its answer competes with.
 
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -13,7 +14,9 @@ namespace voussoir {
 
 /// The question, and what it is asked of.
 struct QuestionContext {
-  UnknownBridgeQuestion& question;
+  const UnknownBridgeQuestion& question;
+  UnknownCase likeliest;                  ///< UnknownEvidence::likeliest
+  std::vector<IntactGaussian> gaussians;  ///< at its level
   const UnknownSettings& settings;
   const Comparison& comparison;
   const Observation& observation;

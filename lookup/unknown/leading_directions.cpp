@@ -2,9 +2,8 @@
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/QR>
-#include <algorithm>
-#include <numeric>
-#include <vector>
+
+#include "lookup/evidence/largest_places.h"
 
 namespace voussoir {
 
@@ -20,11 +19,9 @@ constexpr int kIterations = 2;  // the directions need not be exact
 
 MatrixXd leading_directions(const MatrixXd& covariance, Index count) {
   const VectorXd sizes = covariance.diagonal();
-  std::vector<Index> order(static_cast<std::size_t>(sizes.size()));
-  std::iota(order.begin(), order.end(), Index{0});
-  std::stable_sort(order.begin(), order.end(), [&](Index a, Index b) { return sizes[a] > sizes[b]; });
-  MatrixXd basis(covariance.rows(), count);
-  for (Index k = 0; k < count; ++k) basis.col(k) = covariance.col(order[static_cast<std::size_t>(k)]);
+  MatrixXd basis =
+      covariance(Eigen::all, largest_places({sizes.data(), static_cast<std::size_t>(sizes.size())},
+                                            static_cast<std::size_t>(count)));
   const MatrixXd identity = MatrixXd::Identity(covariance.rows(), count);
   for (int i = 0; i < kIterations; ++i)
     basis = covariance * (Eigen::HouseholderQR<MatrixXd>(basis).householderQ() * identity);

@@ -168,6 +168,17 @@ MatrixXd in_rows(const std::vector<ReadingRow>& rows, const MatrixXd& before, co
   return result;
 }
 
+MatrixXd product_in_rows(const std::vector<ReadingRow>& rows, const MatrixXd& by_channel,
+                         double (*weight)(const ReadingRow&)) {
+  VectorXd weights(static_cast<Index>(rows.size()));
+  std::vector<Index> channels;
+  for (const ReadingRow& row : rows) {
+    weights[static_cast<Index>(channels.size())] = weight(row);
+    channels.push_back(static_cast<Index>(row.channel));
+  }
+  return (weights * weights.transpose()).cwiseProduct(by_channel(channels, channels));
+}
+
 std::optional<std::size_t> place_of_several(const UnknownBridge& bridge, const Scene& scene) {
   const auto own = std::lower_bound(bridge.several.begin(), bridge.several.end(), scene);
   if (own == bridge.several.end() || *own != scene) return std::nullopt;
@@ -186,6 +197,11 @@ std::optional<SceneLoss> scene_loss(const UnknownBridge& bridge, const Observati
   const Index changed = bridge.has_first_epoch() ? loss.signal.size() / 2 : loss.signal.size();
   if (!known.all) loss.square_at_points = loss.beyond.squaredNorm() / static_cast<double>(changed);
   return loss;
+}
+
+MatrixXd intact_product(const UnknownBridge& bridge) {
+  return product_in_rows(bridge.rows, bridge.factors->intact_product,
+                         [](const ReadingRow& row) { return row.of_bridge(); });
 }
 
 MatrixXd bridge_columns(const UnknownBridge& bridge, const Scene& scene) {

@@ -58,6 +58,10 @@ struct UnknownSettings {
 Eigen::MatrixXd in_rows(const std::vector<ReadingRow>& rows, const Eigen::MatrixXd& before,
                         const Eigen::MatrixXd& after);
 
+/// In rows of y a product by channel, each row with its weight.
+Eigen::MatrixXd product_in_rows(const std::vector<ReadingRow>& rows, const Eigen::MatrixXd& by_channel,
+                                double (*weight)(const ReadingRow&));
+
 /// The loss of a block, or of several with factors of their own, in rows of y.
 struct Loss {
   const LossFactors* factors = nullptr;  ///< none if they are not known
@@ -129,6 +133,9 @@ struct SceneLoss {
 /// Nothing if the scene is impossible: a block with a reading is missing.
 std::optional<SceneLoss> scene_loss(const UnknownBridge& bridge, const Observation& observation,
                                     const SceneTable& table, std::size_t row);
+
+/// A A^T of the intact bridge.
+Eigen::MatrixXd intact_product(const UnknownBridge& bridge);
 
 /// A of a scene: a column for each column of the basis of the bridge's parameters.
 Eigen::MatrixXd bridge_columns(const UnknownBridge& bridge, const Scene& scene);

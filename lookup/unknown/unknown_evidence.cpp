@@ -42,22 +42,6 @@ double weight_of_bridge(const ReadingRow& row) {
   return row.of_bridge();
 }
 
-LowerTriangle intact_triangle(const UnknownBridge& bridge) {
-  LowerTriangle lower(lower_size(bridge.rows.size()));
-  double* to = lower.data();
-  for (std::size_t i = 0; i < bridge.rows.size(); ++i) {
-    const auto at = static_cast<Index>(bridge.rows[i].channel);
-    const double c = bridge.rows[i].of_bridge();
-    for (std::size_t j = 0; j <= i; ++j, ++to) {
-      const double other = bridge.rows[j].of_bridge();
-      *to = c == 0.0 || other == 0.0
-                ? 0.0
-                : c * other * bridge.factors->intact_product(static_cast<Index>(bridge.rows[j].channel), at);
-    }
-  }
-  return lower;
-}
-
 void add_to(LowerTriangle& sum, const LowerTriangle& more) {
   for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += more[i];
 }
@@ -146,7 +130,7 @@ SceneLikelihoods::SceneLikelihoods(const UnknownBridge& bridge, const Observatio
     : bridge_(bridge),
       observation_(observation),
       table_(table),
-      intact_(intact_triangle(bridge)),
+      intact_(lower_of(intact_product(bridge))),
       losses_(bridge.losses.size()) {}
 
 /// A is c A_intact + a D in rows of y, c of what is the same in both epochs and a of what is after; so what a

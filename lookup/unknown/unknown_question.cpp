@@ -54,8 +54,8 @@ UnknownBridgeQuestion::UnknownBridgeQuestion(const Comparison& comparison, const
 
 /// Rows that are impossible beforehand, as no such number of blocks can be missing or a sensor would not be
 /// silent, are not asked about.
-RowValues UnknownBridgeQuestion::log_evidence(const Eligible& eligible, const Prior& prior,
-                                              std::size_t count) {
+UnknownEvidence UnknownBridgeQuestion::evidence(const Eligible& eligible, const Prior& prior,
+                                                std::size_t count) const {
   const SceneTable& table = comparison_.library.table;
   const std::vector<double> by_missing = log_prior_by_missing(table, eligible, prior);
   const std::vector<double> silence = log_chance_of_silence(observation_, table, eligible.rows);
@@ -77,9 +77,7 @@ RowValues UnknownBridgeQuestion::log_evidence(const Eligible& eligible, const Pr
     result.rows.push_back(rows[place]);
     result.values.push_back(log + of_silence[place]);
   }
-  likeliest_ = screened.likeliest();
-  gaussians_.clear();
-  return result;
+  return {std::move(result), cases_[screened.likeliest()]};
 }
 
 std::vector<double> UnknownBridgeQuestion::log_parts_of(std::span<const std::size_t> rows,
@@ -110,32 +108,10 @@ std::vector<double> UnknownBridgeQuestion::log_parts_of(std::span<const std::siz
   return parts;
 }
 
-const std::vector<IntactGaussian>& UnknownBridgeQuestion::gaussians_of_level() {
-  if (!gaussians_.empty()) return gaussians_;
+std::vector<IntactGaussian> UnknownBridgeQuestion::gaussians_at(double level) const {
   std::vector<UnknownCase> cases = cases_;
-  std::erase_if(cases, [&](const UnknownCase& one) { return one.level != level(); });
-  gaussians_ = intact_gaussians(bridge_, observation_, cases);
-  return gaussians_;
-}
-
-std::vector<HiddenLoss> UnknownBridgeQuestion::hidden_losses(const Eligible& eligible) {
-  return voussoir::hidden_losses(bridge_, observation_, comparison_.library, eligible, gaussians_of_level());
-}
-
-std::vector<UnstatedLoad> UnknownBridgeQuestion::unstated_loads(std::size_t count) {
-  return voussoir::unstated_loads(bridge_, gaussians_of_level(), count);
-}
-
-std::vector<LineError> UnknownBridgeQuestion::line_errors(std::size_t count) {
-  return voussoir::line_errors(bridge_, observation_, comparison_, gaussians_of_level(), count);
-}
-
-CauseChances UnknownBridgeQuestion::chances(const UnstatedCause& cause) const {
-  return cause_chances(bridge_, observation_, cause);
-}
-
-CaseNoise UnknownBridgeQuestion::noise() const {
-  return case_noise(bridge_, observation_, cases_[likeliest_]);
+  std::erase_if(cases, [&](const UnknownCase& one) { return one.level != level; });
+  return intact_gaussians(bridge_, observation_, cases);
 }
 
 BridgePosterior UnknownBridgeQuestion::posterior(const std::vector<WeightedScene>& scenes) const {

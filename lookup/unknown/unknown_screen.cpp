@@ -27,27 +27,6 @@ constexpr auto kEpochs = static_cast<Index>(kEpochColumns);
 constexpr double kTooSmall = 1e-3;
 constexpr std::size_t kFetchedAhead = 2 * kFloatLanes;  // rows
 
-/// A product by channel in rows of y, each with its weight.
-template <class Weight>
-MatrixXd weighted_product(const UnknownBridge& bridge, const MatrixXd& by_channel, Weight weight) {
-  const auto n = static_cast<Index>(bridge.rows.size());
-  MatrixXd product(n, n);
-  for (Index i = 0; i < n; ++i)
-    for (Index j = 0; j < n; ++j) {
-      const ReadingRow &row = bridge.rows[static_cast<std::size_t>(i)],
-                       &other = bridge.rows[static_cast<std::size_t>(j)];
-      product(i, j) = weight(row) * weight(other) *
-                      by_channel(static_cast<Index>(row.channel), static_cast<Index>(other.channel));
-    }
-  return product;
-}
-
-/// A A^T of the intact bridge in rows of y.
-MatrixXd intact_product(const UnknownBridge& bridge) {
-  return weighted_product(bridge, bridge.factors->intact_product,
-                          [](const ReadingRow& row) { return row.of_bridge(); });
-}
-
 /// What all losses change, their signals and their scatter, in rows of y.
 MatrixXd losses_product(const UnknownBridge& bridge) {
   const auto n = static_cast<Index>(bridge.rows.size());
@@ -57,8 +36,8 @@ MatrixXd losses_product(const UnknownBridge& bridge) {
     const bool counts = signal.size() > 0 && !signal.hasNaN();
     signals.col(static_cast<Index>(block)) = counts ? signal : VectorXd::Zero(n);
   }
-  return signals * signals.transpose() + weighted_product(bridge, bridge.factors->signal_product,
-                                                          [](const ReadingRow& row) { return row.after; });
+  return signals * signals.transpose() + product_in_rows(bridge.rows, bridge.factors->signal_product,
+                                                         [](const ReadingRow& row) { return row.after; });
 }
 
 void store(const VectorXd& vector, DirectionVector& to) {

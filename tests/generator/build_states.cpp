@@ -142,7 +142,7 @@ TEST_CASE("The digest of histories and loads does not depend on interruptions") 
 TEST_CASE("Real histories and loads come out the same on one thread and, interrupted, on three",
           "[threads]") {
   StatesSite once, often;
-  for (StatesSite* site : {&once, &often}) site->request.scenes = "4,*;4,1..2+5,1..2";
+  for (StatesSite* site : {&once, &often}) site->request.scenes = "4,1..2;4,1..2+5,1";
   once.request.threads = 1;
   often.request.threads = 3;
   const std::string expected = once.build(quasi_static()).digest;

@@ -27,7 +27,7 @@ std::vector<StageTask> tasks_of(const std::vector<Scene>& scenes, const Field& s
 }  // namespace
 
 TEST_CASE("What falls near the missing blocks falls in the whole bridge, to the same extent (its motions)",
-          "[combined][patch]") {
+          "[combined][patch][many-solutions]") {
   const Model bridge = test::reference_bridge();
   std::vector<Scene> scenes;
   for (const char* name : {"0,1", "0,4", "0,7", "0,10", "0,15", "11,10", "9,8", "12,10", "10,1", "6,4+8,1",
@@ -55,7 +55,7 @@ TEST_CASE("What falls near the missing blocks falls in the whole bridge, to the 
 
 TEST_CASE(
     "Where a start has moved so far that only what is far away falls, the whole bridge says so (its motions)",
-    "[combined][patch]") {
+    "[combined][patch][many-solutions]") {
   const Model bridge = test::reference_bridge();
   const std::vector<Scene> scenes = {parse_scene("0,10", bridge.layout), parse_scene("0,4", bridge.layout)};
   const Field sagging = 10.0 * QuasiStaticSolver(bridge).solve(Scene{}).displacement;

@@ -150,7 +150,8 @@ TEST_CASE("Whatever is asked of an unknown level, brute force over levels and sc
   CHECK(worked_out < asked / 2);  // the screen does screen
 }
 
-TEST_CASE("Scenes in the order of estimates, until the rest holds a millionth, give all scenes' answer") {
+TEST_CASE("Scenes in the order of estimates, until the rest holds a millionth, give all scenes' answer",
+          "[many-solutions]") {
   const SyntheticLibrary library(3, 9);
   const auto rows = eligible_rows(library.table, {0, 1, 2}).rows;
   Random random(8);

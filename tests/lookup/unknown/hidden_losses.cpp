@@ -40,14 +40,21 @@ struct KeptReadings {
   }
 };
 
-/// log density of the rows that a scene has values in, at most over sizes from none to ten times its signal.
+/// log density of the rows that a scene has values in, at most over sizes from none to `most` times its
+/// signal: in large steps, then (it is concave) in small ones about the best.
 double largest_density(const UnknownBridge& bridge, const CaseNoise& noise, const std::vector<Index>& kept,
                        const VectorXd& signal, double most) {
   const MatrixXd covariance = intact_covariance_of(bridge, noise);
-  double best = kImpossible;
-  for (double size = 0.0; size <= most; size += 1e-3)
-    best = std::max(
-        best, log_normal(VectorXd((bridge.reading - size * signal)(kept)), MatrixXd(covariance(kept, kept))));
+  double best = kImpossible, best_size = 0.0;
+  const auto look = [&](double from, double to, double step) {
+    for (double size = std::max(0.0, from); size <= std::min(most, to); size += step) {
+      const VectorXd left = (bridge.reading - size * signal)(kept);
+      const double log = log_normal(left, MatrixXd(covariance(kept, kept)));
+      if (log > best) best = log, best_size = size;
+    }
+  };
+  look(0.0, most, 0.05);
+  look(best_size - 0.05, best_size + 0.05, 1e-3);
   return best;
 }
 

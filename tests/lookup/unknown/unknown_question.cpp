@@ -101,11 +101,11 @@ double largest_difference(const Trial& trial, Asked asked) {
   asked.prior = stated_prior(asked.prior, table, false);
   const Eligible eligible = eligible_rows(table, asked.prior.missing);
   const Observation observation = observe(trial.comparison, asked.noise, asked.nuisance);
-  UnknownBridgeQuestion question(trial.comparison, observation, asked.settings);
+  const UnknownBridgeQuestion question(trial.comparison, observation, asked.settings);
   const auto posterior_of = [&](const RowValues& logs) {
     return posterior(table, eligible, logs, asked.prior, trial.library.blocks);
   };
-  const Posterior found = posterior_of(question.log_evidence(eligible, asked.prior, 10));
+  const Posterior found = posterior_of(question.evidence(eligible, asked.prior, 10).logs);
   const Posterior wanted =
       posterior_of({kImpossible, all_rows(table), brute_force(trial, observation, asked, eligible)});
   double worst = 0.0;
@@ -272,7 +272,7 @@ TwoEvidences evidences(const Trial& trial, const Supposition& supposed, const Pr
   const Asked asked{.prior = stated_prior(stated, table, false)};
   const Eligible eligible = eligible_rows(table, asked.prior.missing);
   const Observation observation = observe(trial.comparison, asked.noise, asked.nuisance);
-  UnknownBridgeQuestion question(trial.comparison, observation, asked.settings);
+  const UnknownBridgeQuestion question(trial.comparison, observation, asked.settings);
   const RowValues logs{kImpossible, all_rows(table), brute_force(trial, observation, asked, eligible)};
   const std::vector<double> parts = question.log_parts_of(eligible.rows, eligible, asked.prior, supposed);
   return {posterior(table, eligible, logs, asked.prior, trial.library.blocks).log_evidence,
