@@ -79,14 +79,15 @@ CLI::Validator number_in_range(double least, double most, const std::string& nam
 }
 
 CLI::Option* add_millimetres(CLI::App& app, const std::string& names, double& metres,
-                             const std::string& description, const std::string& unit) {
+                             const std::string& description, std::string_view unit) {
   constexpr double kMost = 1e6;  // beyond it nothing is known at all
-  const auto parse = [](std::string_view text) { return parse_millimetres(text, 0.0, kMost); };
+  const auto parse = [unit](std::string_view text) { return parse_millimetres(text, 0.0, kMost, unit); };
+  const std::string shown = unit == "mm" ? "MM" : "MM/M";
   return app
       .add_option_function<std::string>(
           names, [&metres, parse](const std::string& text) { metres = parse(text); }, description)
-      ->check(checked_by(parse, unit))
-      ->option_text(unit);
+      ->check(checked_by(parse, shown))
+      ->option_text(shown);
 }
 
 void share_heap() {

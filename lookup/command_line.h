@@ -64,7 +64,7 @@ CLI::Validator checked_by(Parse parse, const std::string& name) {
 /// An option whose value is a length in millimetres, or a tilt in millimetres per metre (parse_millimetres),
 /// from 0 on; `metres` gets it in metres.
 CLI::Option* add_millimetres(CLI::App& app, const std::string& names, double& metres,
-                             const std::string& description, const std::string& unit = "MM");
+                             const std::string& description, std::string_view unit = "mm");
 
 /// An option's check: a number of at least `least` and at most `most`. Other than CLI11's own it refuses NaN.
 CLI::Validator number_in_range(double least, double most, const std::string& name);

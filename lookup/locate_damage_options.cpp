@@ -45,9 +45,10 @@ void add_search_options(CLI::App& app, LocateDamageOptions& options) {
 void add_reading_options(CLI::App& app, LocateDamageOptions& options) {
   app.add_option(
          "MEASUREMENTS", options.measurements,
-         "CSV with a header: point (or x_m,y_m), and uy_mm, uy_m, settlement_mm (positive downwards, all "
-         "others upwards) or value_mm, or change_mm, or before_mm and after_mm; optionally sigma_mm, "
-         "load, levelling (a name of what was levelled at once); - reads the standard input. Several files: "
+         "CSV with a header: point or x_m,y_m (or both), and uy_mm, settlement_mm (positive downwards, all "
+         "others upwards) or value_mm, or change_mm, or before_mm and after_mm (_m: in metres); optionally "
+         "sigma_mm, load, levelling (a name of what was levelled at once), remark; - reads the standard "
+         "input. Several files: "
          "a row each, from all cores")
       ->required()
       ->option_text("FILE...");
@@ -143,7 +144,7 @@ void add_nuisance_options(CLI::App& app, LocateDamageOptions& options) {
       "standard deviation of a shift of all heights of one levelling (those of one load, or of one "
       "name in a column levelling), such as 0.3mm; gaussian only");
   add_millimetres(app, "--unknown-tilt", options.settings.nuisance.tilt,
-                  "standard deviation of a rotation of the same, such as 0.03mm/m; gaussian only", "MM/M");
+                  "standard deviation of a rotation of the same, such as 0.03mm/m; gaussian only", "mm/m");
 }
 
 void add_genetic_options(CLI::App& app, GeneticSettings& genetic) {

@@ -240,6 +240,12 @@ std::vector<std::size_t> counted_channels(const Observation& observation) {
 void require_two_epochs(const Comparison& comparison, bool known) {
   if (comparison.before.empty())
     throw InputError("both epochs are to count, expected readings with before_mm and after_mm");
+  for (std::size_t i = 0; i < comparison.before.size(); ++i)
+    if (std::abs(comparison.before[i]) > kLargestDisplacement)
+      throw InputError(
+          fmt::format("both epochs are to count, expected displacements since the bridge carried nothing, "
+                      "{} was at {:.6g} m before: heights above a datum show changes only",
+                      comparison.library.points[i].name, comparison.before[i]));
   if (known)
     throw InputError(
         "both epochs are to count, expected a bridge that is not exactly known: a database with "

@@ -9,18 +9,27 @@
 namespace voussoir {
 namespace {
 
-Eligible eligible_or_failure(const SceneTable& table, const Prior& prior) {
-  Eligible eligible = eligible_rows(table, prior.missing);
-  std::vector<int> lacking;
-  for (const int missing : prior.missing) {
+/// Of these numbers of missing blocks those of which there is a scene with an answer, or none.
+std::vector<int> numbers_with(const SceneTable& table, const std::vector<int>& numbers, bool solved) {
+  const Eligible eligible = eligible_rows(table, numbers);
+  std::vector<int> found;
+  for (const int missing : numbers) {
     const auto number = static_cast<std::size_t>(missing);
-    if (number >= eligible.scenes.size() || eligible.scenes[number] == 0) lacking.push_back(missing);
+    if ((number < eligible.scenes.size() && eligible.scenes[number] > 0) == solved) found.push_back(missing);
   }
-  if (!lacking.empty())
-    throw InputError(
-        fmt::format("--missing: the database has no solved scene with {} missing blocks, expected of {}",
-                    fmt::join(lacking, ", "), fmt::join(numbers_of_missing(table), ", ")));
-  return eligible;
+  return found;
+}
+
+/// `stated`: the numbers of missing blocks that somebody asks for, empty for all that there are.
+Eligible eligible_or_failure(const SceneTable& table, const Prior& prior, const std::vector<int>& stated) {
+  const std::vector<int> lacking = numbers_with(table, prior.missing, false);
+  if (lacking.empty()) return eligible_rows(table, prior.missing);
+  if (stated.empty())
+    throw Failure(fmt::format("the database has no answer for any scene with {} missing blocks",
+                              fmt::join(lacking, ", ")));
+  throw InputError(fmt::format(
+      "--missing: the database has no solved scene with {} missing blocks, expected of {}",
+      fmt::join(lacking, ", "), fmt::join(numbers_with(table, numbers_of_missing(table), true), ", ")));
 }
 
 }  // namespace
@@ -29,7 +38,7 @@ Preparation::Preparation(const Library& library, const LookupSettings& settings,
     : table_(library.table),
       points_(library.points),
       prior_(stated_prior(settings.prior, table_, known)),
-      eligible_(eligible_or_failure(table_, prior_)),
+      eligible_(eligible_or_failure(table_, prior_, settings.prior.missing)),
       index_(library.index) {}
 
 const EvidenceScreen& Preparation::screen() const {

@@ -16,7 +16,8 @@ namespace voussoir {
 class Preparation {
  public:
   /// `known`: counts_as_known. What the library looks into outlives this. Throws InputError if it has no
-  /// scene with the wanted numbers of missing blocks, and for a prior that leaves none possible.
+  /// scene with the stated numbers of missing blocks, and for a prior that leaves none possible; Failure if
+  /// it has no answer for all scenes of a number.
   Preparation(const Library& library, const LookupSettings& settings, bool known);
   Preparation(const Preparation&) = delete;  // its parts look into each other
   Preparation& operator=(const Preparation&) = delete;

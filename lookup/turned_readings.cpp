@@ -33,7 +33,8 @@ std::optional<Fit> check_signs(const Comparison& comparison, const Observation& 
   if (turned.credible.empty() ||
       turned.log_evidence + std::log(kTurnedChance) < answer.posterior->log_evidence)
     return std::nullopt;
-  if (!check_fit(readings, *answer.noise, table.row(turned.credible.front())).explained) return std::nullopt;
+  const std::span<const double> likeliest = table.row(turned.credible.front());
+  if (!check_fit(readings, estimate_noise(readings, likeliest), likeliest).explained) return std::nullopt;
   return Fit{
       false, answer.fit->chance,
       fmt::format("with the opposite sign they would be far likelier ({}): are the two times taken for "

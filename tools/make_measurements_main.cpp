@@ -48,9 +48,8 @@ std::string noise_level_of(const Options& options) {
 void require_errors(const Options& options) {
   const bool stated = !options.sigma.empty() || !options.noise_level.empty() || options.floor > 0.0;
   if (options.kind == Kind::absolute || stated) return;
-  throw InputError(fmt::format(
-      "--kind {} without an error of what has not changed, expected --sigma 0.02mm, or --floor 0.02mm",
-      options.kind == Kind::change ? "change" : "epochs"));
+  throw InputError(fmt::format("--kind {} without an error of what has not changed, expected --sigma 0.02mm",
+                               options.kind == Kind::change ? "change" : "epochs"));
 }
 
 NoiseModel noise_of(const Options& options) {
@@ -190,7 +189,7 @@ void add_error_options(CLI::App& app, Options& options) {
   add_millimetres(
       app, "--tilt", options.levelling.tilt,
       "standard deviation of a rotation of all heights of one levelling, such as 0.03mm/m, default 0",
-      "MM/M");
+      "mm/m");
   app.add_option("--silent-sensors", options.silence, "chance that a sensor gives no reading, default 0%")
       ->check(checked_by(parse_chance, "CHANCE"));
 }

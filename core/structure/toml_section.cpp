@@ -13,7 +13,7 @@ std::string what_is_given(const toml::node* node) {
   if (node == nullptr) return {};
   if (const auto* text = node->as_string()) return fmt::format("is {}: ", in_quotes(text->get()));
   if (const auto* whole = node->as_integer()) return fmt::format("is {}: ", whole->get());
-  if (const auto* number = node->as_floating_point()) return fmt::format("is {}: ", number->get());
+  if (const auto* number = node->as_floating_point()) return fmt::format("is {:#}: ", number->get());
   if (const auto* flag = node->as_boolean()) return fmt::format("is {}: ", flag->get());
   return {};
 }

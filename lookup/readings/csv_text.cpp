@@ -14,7 +14,7 @@ namespace {
 constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 constexpr char kQuote = '"';
 constexpr char kComment = '#';
-constexpr std::string_view kBrackets = "[]()";
+constexpr std::string_view kBetweenWords = " _[]()";  // of a column's name
 
 std::string lower_case(std::string text) {
   std::transform(text.begin(), text.end(), text.begin(),
@@ -172,9 +172,14 @@ std::optional<char> stated_separator(std::string_view line, long number, const C
 CsvLine header_of(std::string_view line, long number, std::string_view columns, const CsvTable& table) {
   CsvLine header{number, Cutter(table, number, line).fields()};
   for (std::string& name : header.fields) {
-    name = lower_case(std::move(name));
-    std::ranges::replace(name, ' ', '_');
-    std::erase_if(name, [](char c) { return kBrackets.find(c) != std::string_view::npos; });
+    std::string words;
+    for (const char c : lower_case(std::move(name)))
+      if (kBetweenWords.find(c) == std::string_view::npos)
+        words += c;
+      else if (!words.empty() && words.back() != '_')
+        words += '_';
+    if (words.ends_with('_')) words.pop_back();
+    name = std::move(words);
   }
   while (header.fields.size() > 1 && header.fields.back().empty()) header.fields.pop_back();
   if (header.fields.size() == 1)

@@ -6,14 +6,13 @@
 
 namespace voussoir {
 
-double parse_millimetres(std::string_view text, double least, double most) {
+double parse_millimetres(std::string_view text, double least, double most, std::string_view unit) {
   std::string_view digits = text;
-  for (const std::string_view unit : {"mm", "mm/m"})
-    if (text.ends_with(unit)) digits = text.substr(0, text.size() - unit.size());
+  if (text.ends_with(unit)) digits.remove_suffix(unit.size());
   const std::optional<double> number = parse_number(trimmed(digits));
   if (!number || *number < least || *number > most)
-    throw InputError(fmt::format("{} given, expected millimetres from {:g} to {:g}, such as 0.02mm",
-                                 in_quotes(text), least, most));
+    throw InputError(fmt::format("{} given, expected millimetres{} from {:g} to {:g}, such as 0.02{}",
+                                 in_quotes(text), unit == "mm" ? "" : " per metre", least, most, unit));
   return kMetresPerMillimetre * *number;
 }
 

@@ -86,11 +86,10 @@ class Header {
   void read_epoch_column(std::size_t position, std::size_t& column, double unit) {
     const std::size_t other = &column == &columns_.before ? columns_.after : columns_.before;
     claim(column, position);
-    if (other != kAbsent && columns_.factor != unit)
-      fail(fmt::format("column {} beside {}, expected the same unit", in_quotes(names()[position]),
-                       in_quotes(names()[other])));
-    columns_.factor = unit;
-    columns_.change = true;
+    if (other != kAbsent && epoch_unit_ != unit)
+      fail(fmt::format("columns {} and {} have different units", in_quotes(names()[other]),
+                       in_quotes(names()[position])));
+    epoch_unit_ = unit;
   }
 
   std::size_t& other_column(const std::string& name) {
@@ -109,17 +108,21 @@ class Header {
     if (half_placed || !(named || placed)) fail("nothing that names points");
   }
 
-  void check_value() const {
+  void check_value() {
     const bool before = columns_.before != kAbsent, after = columns_.after != kAbsent;
     if (before != after)
       fail(before ? "values before without values after" : "values after without values before");
     if (before && columns_.value != kAbsent)
       fail(fmt::format("column {} beside values before and after", in_quotes(names()[columns_.value])));
     if (!before && columns_.value == kAbsent) fail("no value column");
+    if (!before) return;
+    columns_.factor = epoch_unit_;
+    columns_.change = true;
   }
 
   const CsvTable& table_;
   ReadingsColumns columns_;
+  double epoch_unit_ = 0.0;  // [m] of values before and after
 };
 
 }  // namespace

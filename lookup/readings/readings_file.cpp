@@ -51,7 +51,7 @@ class ReadingsReader {
   Reading read_row(const CsvLine& line) {
     Reading reading{.line = line.number, .load = load(line), .before = kNan, .after = kNan};
     reading.sensor = columns_.point != kAbsent ? named_sensor(line) : placed_point(line, reading.load);
-    if (columns_.point != kAbsent && columns_.x != kAbsent) check_place(line, sensors_[reading.sensor]);
+    if (has_place_beside_name(line)) check_place(line, sensors_[reading.sensor]);
     const auto [first, is_new] = line_of_.try_emplace({reading.sensor, reading.load}, line.number);
     if (!is_new)
       table_.fail(line.number,
@@ -146,8 +146,15 @@ class ReadingsReader {
     return nearest;
   }
 
-  /// Where rows give a point's coordinates beside its name, neither is taken for another's.
+  bool has_place_beside_name(const CsvLine& line) const {
+    return columns_.point != kAbsent && columns_.x != kAbsent &&
+           !(line.fields[columns_.x].empty() && line.fields[columns_.y].empty());
+  }
+
+  /// Where rows give a point's coordinates beside its name, neither is taken for another's. Tilts and
+  /// distances are of whole blocks: their places may be said to be anywhere.
   void check_place(const CsvLine& line, const Sensor& sensor) const {
+    if (sensor.quantity != Quantity::uy && sensor.quantity != Quantity::ux) return;
     const Point place(coordinate(line, columns_.x), coordinate(line, columns_.y));
     if ((sensor.position - place).norm() > kPointTolerance)
       table_.fail(
@@ -179,21 +186,22 @@ class ReadingsReader {
 
   void check_size(const CsvLine& line, const std::string& what, double metres, double largest) const {
     if (std::abs(metres) > largest)
-      table_.fail(line.number,
-                  fmt::format("{} is a displacement of {:.3g} m, expected at most {} m (check the units)",
-                              what, std::abs(metres), largest));
+      table_.fail(line.number, fmt::format("{} is a {} of {:.3g} m, expected at most {} m (check the units)",
+                                           what, largest == kLargestHeight ? "height" : "displacement",
+                                           std::abs(metres), largest));
   }
 
   double sigma(const CsvLine& line) const {
     const std::string& text = line.fields[columns_.sigma];
     if (says_nothing(text)) return kNan;
     const std::optional<double> number = parse_number(text, columns_.mark);
-    const double metres = number ? columns_.sigma_factor * *number : kNan;
-    if (!is_sigma(kMillimetres * metres))
-      table_.fail(line.number,
-                  fmt::format("{} is no sigma, expected millimetres from {:g} to {:g}, or nothing",
-                              in_quotes(text), kSmallestSigma, kLargestSigma));
-    return metres;
+    const bool in_metres = columns_.sigma_factor == 1.0;
+    const double unit = in_metres ? kMillimetres : 1.0;  // [mm]
+    if (!number || !(*number >= kSmallestSigma / unit && *number <= kLargestSigma / unit))
+      table_.fail(line.number, fmt::format("{} is no sigma, expected {} from {:g} to {:g}, or nothing",
+                                           in_quotes(text), in_metres ? "metres" : "millimetres",
+                                           kSmallestSigma / unit, kLargestSigma / unit));
+    return columns_.sigma_factor * *number;
   }
 
   const CsvTable& table_;

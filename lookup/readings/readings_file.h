@@ -2,12 +2,13 @@
 /// @file Files of readings.
 ///
 /// A CSV table (csv_text.h, decimal_mark.h). A column `point`, naming control points and sensors, or the pair
-/// `x_m,y_m` of control points. One value: `uy_mm`, `uy_m` (up is positive), `settlement_mm` (down is
-/// positive), `value_mm` (whatever the sensor reads), `change_mm` (second epoch minus first), or the pair
-/// `before_mm,after_mm`. Tilts are in mm per m in all columns of mm. Optionally `sigma_mm`, the standard
-/// deviation of the row's value (of the change, where it is one), `load`, the load case under which the
-/// reading was taken: the value is then what the load adds, and `levelling`, a name of what was levelled at
-/// once: heights of one share its datum and tilt. There are at most 50.
+/// `x_m,y_m` of control points; beside a name it is checked. One value: `uy_mm` (up is positive),
+/// `settlement_mm` (down is positive), `value_mm` (whatever the sensor reads), `change_mm` (second epoch
+/// minus first), or the pair `before_mm,after_mm`, which may be heights above any datum. `_m` in the place of
+/// `_mm` is metres; a column `remark` is not read. Tilts are in mm per m in all columns of mm. Optionally
+/// `sigma_mm`, the standard deviation of the row's value (of the change, where it is one), `load`, the load
+/// case under which the reading was taken: the value is then what the load adds, and `levelling`, a name of
+/// what was levelled at once: heights of one share its datum and tilt. There are at most 50.
 ///
 /// An empty value or NaN is a sensor that gave no reading. Of two epochs: a sensor that fell silent after the
 /// first; without a reading in the first it is as if there were no sensor, since it does not tell what the

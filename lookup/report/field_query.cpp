@@ -101,7 +101,8 @@ std::vector<PlaceDisplacement> at_place(const Database& database, std::size_t ro
 /// "--history lost --load truck@2"
 std::string as_options(std::string_view state) {
   const std::string_view load = load_stage_of(state);
-  return fmt::format("--history {}{}{}", history_of(state), load.empty() ? "" : " --load ", load);
+  return fmt::format("--history {}{}{}", history_of(state), load.empty() ? "" : " --load ",
+                     load.empty() ? "" : in_quotes(load));
 }
 
 std::optional<Point> parse_place(const std::vector<std::string_view>& parts) {
@@ -129,13 +130,14 @@ std::size_t find_state(const Database& database, const std::optional<std::string
 std::size_t find_row(const Database& database, std::string_view text) {
   const Scene scene = parse_scene(text, database.layout());
   const std::optional<std::size_t> row = database.find(scene);
-  if (!row)
-    throw Failure(
-        fmt::format("{}: has no scene {}{}", database.path().string(), to_string(scene, database.layout()),
-                    database.shard() ? fmt::format(", as it is part {}", to_string(database.shard()->shard))
-                                     : fmt::format(", expected intact scenes of at most {} missing blocks",
-                                                   database.table(kNominalVariant, 0).most_missing)));
-  return *row;
+  if (row) return *row;
+  const std::size_t most = database.table(kNominalVariant, 0).most_missing;
+  const std::string why = database.shard() ? fmt::format("it is part {}", to_string(database.shard()->shard))
+                          : static_cast<std::size_t>(scene.missing()) > most
+                              ? fmt::format("its scenes have at most {} missing blocks", most)
+                              : "it was built with others (--scenes)";
+  throw Failure(fmt::format("{}: has no scene {}, as {}", database.path().string(),
+                            to_string(scene, database.layout()), why));
 }
 
 void expect_displacements(const Database& database, std::size_t row, std::size_t state) {

@@ -206,7 +206,9 @@ std::string noise_in_words(const NoiseEstimate& noise, ReadingKind kind) {
   const std::string_view meaning = noise.shape == NoiseShape::uniform ? "at most" : "a standard deviation of";
   return fmt::format("{} {:.2g} % of the {}{} ({} noise, {})", meaning, 100.0 * noise.level,
                      errors_are_shares_of(kind), floor.empty() ? "" : " and " + floor, to_string(noise.shape),
-                     noise.estimated ? "estimated" : "as stated");
+                     !noise.estimated ? "as stated"
+                     : floor.empty()  ? "estimated"
+                                      : "the share estimated");
 }
 
 std::string behind(const Candidate& candidate, const Candidate& best) {
@@ -222,7 +224,7 @@ std::string same_in_words(const Candidate& candidate, const Library& library) {
   std::string names;
   for (const Scene& scene : std::span(same).first(std::min(same.size(), kMostNamed)))
     names += (names.empty() ? "" : "; ") + to_string(scene, library.layout);
-  return same.size() > kMostNamed ? fmt::format("{}; and {} others", names, same.size() - kMostNamed) : names;
+  return same.size() > kMostNamed ? fmt::format("{}; .. ({} in all)", names, same.size()) : names;
 }
 
 std::string missing_in_words(const Answer& answer) {

@@ -224,8 +224,8 @@ GeneticResult genetic_search(std::span<const double> readings, const SceneTable&
                              std::size_t count) {
   if (static_cast<std::size_t>(missing) > kMostBlocks)
     throw InputError(
-        fmt::format("--search genetic among scenes with {} missing blocks, expected at most {}: give "
-                    "--missing 0,1,2",
+        fmt::format("--search genetic among scenes with {} missing blocks, expected at most {} "
+                    "(--missing)",
                     missing, kMostBlocks));
   return Evolution(readings, table, space, missing, settings).run(count);
 }

@@ -176,9 +176,11 @@ TEST_CASE("Numbers on the command line that make no sense are refused with what 
     for (const char* option : {"--prior", "--mutation"})
       CHECK_THAT(message({option, number}), Contains(option) && Contains("expected a number from 0 to"));
     for (const char* option : {"--floor", "--unknown-datum", "--unknown-tilt"})
-      CHECK_THAT(message({option, number}), Contains(option) && Contains("expected millimetres from 0 to"));
+      CHECK_THAT(message({option, number}), Contains(option) && Contains("expected millimetres"));
   }
   CHECK_THAT(message({"--floor", "0.02cm"}), Contains("'0.02cm' given, expected millimetres from 0 to"));
+  CHECK_THAT(message({"--floor", "0.02mm/m"}), Contains("such as 0.02mm"));
+  CHECK_THAT(message({"--unknown-tilt", "0.02mm"}), Contains("expected millimetres per metre from 0 to"));
 }
 
 TEST_CASE("A missing, foreign or truncated database gives one line that says so") {

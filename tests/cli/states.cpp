@@ -84,8 +84,8 @@ TEST_CASE("query-field shows the field of the state that is asked for (compared 
   const test::ProgramResult unknown =
       test::run("query-field", {"4,2", "-d", site.database, "--load", "lorry"});
   CHECK(unknown.exit_code == 2);
-  CHECK_THAT(unknown.err, Catch::Contains("for --history built --load lorry,") &&
-                              Catch::Contains("--history built --load lorry@1"));
+  CHECK_THAT(unknown.err, Catch::Contains("for --history built --load 'lorry',") &&
+                              Catch::Contains("--history built --load 'lorry@1'"));
 }
 
 TEST_CASE("query-field shows joints as the solver leaves them that remembers every step") {

@@ -1,4 +1,5 @@
 #include <catch2/catch.hpp>
+#include <cmath>
 
 #include "lookup/lookup.h"
 #include "tests/lookup/synthetic_library.h"
@@ -9,13 +10,13 @@ namespace {
 
 constexpr double kSigma = 1e-5;  // [m]
 
-/// Changes that a block's loss makes, times a sign, with errors of one standard deviation to and fro.
-Comparison changes(const SyntheticLibrary& library, const Scene& scene, double sign) {
+/// Changes that a block's loss makes, times a sign, with errors of so many standard deviations to and fro.
+Comparison changes(const SyntheticLibrary& library, const Scene& scene, double sign, double size = 1.0) {
   Comparison comparison = absolute_readings(library.library(), no_measurements(library.points.size()));
   comparison.kind = ReadingKind::change;
   const std::span<const double> lost = library.table.row(library.row_of(scene));
   for (std::size_t i = 0; i < library.points.size(); ++i) {
-    const double error = i % 2 == 0 ? kSigma : -kSigma;
+    const double error = i % 2 == 0 ? size * kSigma : -size * kSigma;
     comparison.measured.displacement[i] =
         library.intact()[i] + sign * (lost[i] - library.intact()[i]) + error;
     comparison.measured.sigma[i] = kSigma;
@@ -50,7 +51,25 @@ TEST_CASE(
   CHECK(turned >= 6);  // of others a collapse is nearer
 }
 
-TEST_CASE("Changes of an intact bridge have no sign to doubt") {
+TEST_CASE("Changes that are shown badly, but no better with the opposite sign, have no sign to doubt") {
   const SyntheticLibrary library(3, 4, 2);
-  CHECK(answer_to(changes(library, {}, 1.0)).fit->explained);
+  for (const Scene& scene : {Scene{}, Scene{{BlockId{0}}}, Scene{{BlockId{5}}}}) {
+    CAPTURE(to_string(scene, library.layout));
+    const Answer answer = answer_to(changes(library, scene, 1.0, 1.6));
+    CHECK(answer.fit->chance < 0.05);  // or nothing would be asked
+    CHECK(answer.fit->explained);
+  }
+}
+
+TEST_CASE("What the opposite sign would show counts at the level of noise that it needs") {
+  const SyntheticLibrary library(3, 4, 2);
+  Comparison comparison = changes(library, {{BlockId{5}}}, -1.0);
+  comparison.measured.sigma.assign(comparison.measured.sigma.size(), std::nan(""));
+  LookupSettings settings;
+  settings.known_bridge = true;
+  settings.noise.floor = kSigma;
+  settings.noise.shape = NoiseShape::gaussian;
+  const Answer answer = locate_damage(comparison, settings);
+  CHECK_FALSE(answer.fit->explained);
+  CHECK_THAT(answer.fit->reason, Catch::Contains("opposite sign"));
 }

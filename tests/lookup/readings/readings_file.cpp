@@ -47,7 +47,9 @@ TEST_CASE("Displacements are read in metres with up positive, whatever the colum
   CHECK(value_in("point,value_mm\nT2,+3.5\n") == Approx(3.5e-3).epsilon(1e-15));
   CHECK(value_in("point,settlement_m\nT2,3.5e-3\n") == -3.5e-3);
   CHECK(value_in("point,change_m\nT2,3.5e-3\n") == 3.5e-3);
-  CHECK(value_in("Point;Change [mm]\nT2;3,5\n") == Approx(3.5e-3).epsilon(1e-15));
+  for (const char* header : {"Change [mm]", "change(mm)", "CHANGE  mm", " Change_ [ mm ]"})
+    CHECK(value_in(std::string("Point;") + header + "\nT2;3,5\n") == Approx(3.5e-3).epsilon(1e-15));
+  CHECK(parse("point,uy_mm,sigma_m\nT1,-1,0.00000006\n").readings.front().sigma == 6e-8);
 }
 
 TEST_CASE("Heights above a datum are read as such, and only their difference has to be a displacement") {
@@ -59,6 +61,11 @@ TEST_CASE("A remark is not read, and coordinates beside a name say where it is")
   const ReadingsFile read = parse("point,x_m,y_m,change_mm,remark\nT3,1.02,6,0.5,\"wet, 4 C\"\n");
   REQUIRE(read.readings.size() == 1);
   CHECK(read.readings.front().sensor == 2);
+  CHECK(parse("point,x_m,y_m,change_mm\nT3,,,0.5\n").readings.front().sensor == 2);
+  SensorList list = control_point_sensors(kPoints);
+  list.sensors.push_back({"N1", Quantity::tilt, Point(1, 1), {BlockId{1}}, {{NodeId{0}, Point(0, 1)}}});
+  CHECK(parse_readings("point,x_m,y_m,change_mm\nN1,1.4,0.8,0.5\n", "m.csv", list).readings.front().sensor ==
+        5);
 }
 
 TEST_CASE("Any subset of points in any order is a valid file, and sensors without reading are silent") {

@@ -55,7 +55,9 @@ const std::vector<Wrong> kHeaders = {
     {"point,point,uy_mm\n", "column 'point' is given twice or beside another value column"},
     {"point,before_mm\nT1,1\n", "values before without values after"},
     {"point,after_mm\nT1,1\n", "values after without values before"},
-    {"point,before_mm,after_m\nT1,1,1\n", "column 'after_m' beside 'before_mm', expected the same unit"},
+    {"point,before_mm,after_m\nT1,1,1\n", "columns 'before_mm' and 'after_m' have different units"},
+    {"point,before_mm,settlement_mm,after_mm\nT1,1,1,1\n",
+     "column 'settlement_mm' beside values before and after"},
     {"point,before_mm,after_mm,uy_mm\nT1,1,1,1\n", "column 'uy_mm' beside values before and after"},
     {"point,before_mm,after_mm,change_mm\nT1,1,1,1\n", "column 'change_mm' beside values before and after"},
     {"point,uy (cm)\nT1,1\n", "unknown column 'uy_cm'"}};
@@ -80,10 +82,11 @@ const std::vector<Wrong> kRows = {
      "m.csv:3: from '112.3456' to '12.2' is a displacement of 100 m, expected at most 100 m (check the "
      "units)"},
     {"point,before_mm,after_mm\nT1,20000000,20000000\n",
-     "m.csv:2: '20000000' is a displacement of 2e+04 m, expected at most 10000 m (check the units)"},
+     "m.csv:2: '20000000' is a height of 2e+04 m, expected at most 10000 m (check the units)"},
     {"point,x_m,y_m,uy_mm\nT2,0.04,6,1\n",
      "m.csv:2: x = 0.04 m, y = 6 m is not where T2 is, expected x = 1 m, y = 6 m within 0.05 m"},
-    {"point,uy_mm,sigma_m\nT1,-1,0.00000002\n", "m.csv:2: '0.00000002'" + kNoSigma},
+    {"point,uy_mm,sigma_m\nT1,-1,0.00000002\n",
+     "m.csv:2: '0.00000002' is no sigma, expected metres from 5e-08 to 10, or nothing"},
     {"point,uy_mm\nT1,-3,5\n",
      "m.csv:2: 3 values, expected 2 as in the header (a number with a decimal comma needs quotation marks, "
      "or a file "
@@ -122,7 +125,7 @@ TEST_CASE("Headers that leave open what was read are refused with what a header 
 }
 
 TEST_CASE("What has one column only is taken for a title, not a header") {
-  for (const std::string title : {"Bridge 7;;", "point change_mm sigma_mm", "point"})
+  for (const std::string title : {"Bridge 7;;", "point change_mm sigma_mm", "point", "[ ];( );[]"})
     CHECK(refusal_of(title + "\npoint;change_mm\nT1;1\n") == "m.csv:1: '" + title + "'" + kOneColumn);
 }
 
