@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ranges>
 
 #include "core/error.h"
 #include "lookup/evidence/largest_places.h"
@@ -217,23 +216,14 @@ void require_known_scatter(const Comparison& comparison, const LookupSettings& s
 /// Where nothing changed a share of the change is an error of zero, and any scatter would be damage.
 void require_stated_errors(const Comparison& comparison, const Observation& observation) {
   if (!is_change(comparison.kind) || !observation.unknown_level) return;
-  const auto has_error = [&](std::size_t i) {
-    return std::isnan(observation.reading[i]) || observation.floor[i] > 0.0;
-  };
-  const auto channels = std::views::iota(std::size_t{0}, observation.reading.size());
-  const auto without = std::ranges::find_if_not(channels, has_error);
+  const std::vector<std::size_t> channels = observation.channels_read();
+  const auto without =
+      std::ranges::find_if_not(channels, [&](std::size_t i) { return observation.floor[i] > 0.0; });
   if (without == channels.end()) return;
   throw InputError(fmt::format(
       "a change without an error (at {}), expected a column sigma_mm or --sigma 0.02mm: a share of what "
       "has not changed is none",
       comparison.library.points[*without].name));
-}
-
-std::vector<std::size_t> counted_channels(const Observation& observation) {
-  std::vector<std::size_t> channels;
-  for (std::size_t i = 0; i < observation.reading.size(); ++i)
-    if (!std::isnan(observation.reading[i])) channels.push_back(i);
-  return channels;
 }
 
 /// The first of two epochs teaches what a bridge is like that is not exactly known.
@@ -278,7 +268,7 @@ Answer locate_damage(const Comparison& comparison, const LookupSettings& setting
   const Observation observation =
       observe(comparison, known ? settings.noise : gaussian_noise(settings.noise), settings.nuisance);
   answer.readings = comparison.measured.count();
-  answer.counted = counted_channels(observation);
+  answer.counted = observation.channels_read();
   answer.searched = eligible.rows.size();
   answer.unresolved = eligible.unresolved;
   require_answerable(comparison, settings, observation);

@@ -9,27 +9,31 @@
 namespace voussoir {
 namespace {
 
-/// Of these numbers of missing blocks those of which there is a scene with an answer, or none.
-std::vector<int> numbers_with(const SceneTable& table, const std::vector<int>& numbers, bool solved) {
-  const Eligible eligible = eligible_rows(table, numbers);
-  std::vector<int> found;
-  for (const int missing : numbers) {
-    const auto number = static_cast<std::size_t>(missing);
-    if ((number < eligible.scenes.size() && eligible.scenes[number] > 0) == solved) found.push_back(missing);
-  }
-  return found;
+bool has_scenes(const Eligible& eligible, int missing) {
+  const auto number = static_cast<std::size_t>(missing);
+  return number < eligible.scenes.size() && eligible.scenes[number] > 0;
+}
+
+/// Numbers of missing blocks of which some scene has an answer.
+std::vector<int> solved_numbers(const SceneTable& table) {
+  std::vector<int> numbers = numbers_of_missing(table);
+  const Eligible all = eligible_rows(table, numbers);
+  std::erase_if(numbers, [&](int missing) { return !has_scenes(all, missing); });
+  return numbers;
 }
 
 /// `stated`: the numbers of missing blocks that somebody asks for, empty for all that there are.
 Eligible eligible_or_failure(const SceneTable& table, const Prior& prior, const std::vector<int>& stated) {
-  const std::vector<int> lacking = numbers_with(table, prior.missing, false);
-  if (lacking.empty()) return eligible_rows(table, prior.missing);
+  Eligible eligible = eligible_rows(table, prior.missing);
+  std::vector<int> lacking = prior.missing;
+  std::erase_if(lacking, [&](int missing) { return has_scenes(eligible, missing); });
+  if (lacking.empty()) return eligible;
   if (stated.empty())
     throw Failure(fmt::format("the database has no answer for any scene with {} missing blocks",
                               fmt::join(lacking, ", ")));
-  throw InputError(fmt::format(
-      "--missing: the database has no solved scene with {} missing blocks, expected of {}",
-      fmt::join(lacking, ", "), fmt::join(numbers_with(table, numbers_of_missing(table), true), ", ")));
+  throw InputError(
+      fmt::format("--missing: the database has no solved scene with {} missing blocks, expected of {}",
+                  fmt::join(lacking, ", "), fmt::join(solved_numbers(table), ", ")));
 }
 
 }  // namespace

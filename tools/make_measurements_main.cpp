@@ -28,7 +28,7 @@ struct Options {
   std::string history;
   std::vector<std::string> loads;
   std::optional<std::string> sensors;
-  std::string noise_level;  // empty: kUsualNoise
+  std::optional<std::string> noise_level;  // default kUsualNoise
   NoiseShape noise_model = NoiseShape::uniform;
   double floor = 0.0;  // [m]
   std::string sigma;
@@ -39,14 +39,10 @@ struct Options {
   std::string output;
 };
 
-std::string noise_level_of(const Options& options) {
-  return options.noise_level.empty() ? kUsualNoise : options.noise_level;
-}
-
 /// Readings of two times are nothing to locate-damage unless their errors are stated: a share of what has not
 /// changed is none.
 void require_errors(const Options& options) {
-  const bool stated = !options.sigma.empty() || !options.noise_level.empty() || options.floor > 0.0;
+  const bool stated = !options.sigma.empty() || options.noise_level || options.floor > 0.0;
   if (options.kind == Kind::absolute || stated) return;
   throw InputError(fmt::format("--kind {} without an error of what has not changed, expected --sigma 0.02mm",
                                options.kind == Kind::change ? "change" : "epochs"));
@@ -62,7 +58,7 @@ NoiseModel noise_of(const Options& options) {
     return noise;
   }
   noise.shape = options.noise_model;
-  noise.relative = parse_noise_level(noise_level_of(options));
+  noise.relative = parse_noise_level(options.noise_level.value_or(kUsualNoise));
   noise.floor = options.floor;
   return noise;
 }
@@ -101,7 +97,7 @@ std::string_view what_is_read(ReadingKind kind) {
 std::string errors_in_words(const Options& options) {
   std::string text =
       options.sigma.empty()
-          ? fmt::format("{} of the value and {:g} mm, {}", noise_level_of(options),
+          ? fmt::format("{} of the value and {:g} mm, {}", options.noise_level.value_or(kUsualNoise),
                         kMillimetres * options.floor, to_string(options.noise_model))
           : fmt::format("gaussian, standard deviation {} mm", kMillimetres * parse_sigma(options.sigma));
   const Nuisance& levelling = options.levelling;

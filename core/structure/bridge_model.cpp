@@ -5,7 +5,6 @@
 #include "core/error.h"
 
 namespace voussoir {
-
 namespace {
 
 constexpr double kEndOfSoil = 0.01;  // [m] that a surveyed surface may end before the bridge does

@@ -21,10 +21,9 @@ double sum_of_logarithms(const Eigen::ArrayXd& values) {
 }  // namespace
 
 NuisanceStatistics::NuisanceStatistics(const Observation& observation)
-    : share_square_(observation.error_share * observation.error_share),
+    : point_(observation.channels_read()),
+      share_square_(observation.error_share * observation.error_share),
       unknown_scale_(observation.unknown_scale) {
-  for (std::size_t i = 0; i < observation.reading.size(); ++i)
-    if (!std::isnan(observation.reading[i])) point_.push_back(i);
   const auto readings = static_cast<Eigen::Index>(point_.size());
   const auto gathered = [&](const std::vector<double>& values) {
     Eigen::ArrayXd result(readings);

@@ -6,9 +6,8 @@
 
 namespace voussoir {
 
-RowAtLevels::RowAtLevels(const Observation& observation, double scale) : observation_(observation) {
-  for (std::size_t i = 0; i < observation.reading.size(); ++i)
-    if (!std::isnan(observation.reading[i])) points_.push_back(i);
+RowAtLevels::RowAtLevels(const Observation& observation, double scale)
+    : observation_(observation), points_(observation.channels_read()) {
   const std::size_t places = (points_.size() + kLanes - 1) / kLanes * kLanes;
   reading_ = movement_ = slope_ = variance_ = std::vector<double>(places, 0.0);
   floor_.assign(places, scale);

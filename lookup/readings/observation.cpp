@@ -51,6 +51,13 @@ void add_model_error(const Comparison& comparison, Observation& observation) {
 
 }  // namespace
 
+std::vector<std::size_t> Observation::channels_read() const {
+  std::vector<std::size_t> channels;
+  for (std::size_t i = 0; i < reading.size(); ++i)
+    if (!std::isnan(reading[i])) channels.push_back(i);
+  return channels;
+}
+
 bool Observation::has_model_error() const {
   return error_share > 0.0 || error_common > 0.0 ||
          std::any_of(own_variance.begin(), own_variance.end(), [](double v) { return v > 0.0; });

@@ -35,6 +35,7 @@ struct Observation {
   bool own_sigmas = false;     ///< some sensor states its own sigma
   bool unknown_level = false;  ///< some sensor does not, and nothing states the noise level
 
+  std::vector<std::size_t> channels_read() const;  ///< those with a `reading`, ascending
   bool has_model_error() const;
   /// A reading beyond the bound of uniform noise is unlikely, not impossible.
   bool softens_bounds() const { return has_model_error() || unknown_scale > 0.0; }

@@ -68,8 +68,10 @@ class Header {
     const auto value = std::ranges::find(kValueColumns, quantity, &ValueColumn::quantity);
     if (unit > 0.0 && value != kValueColumns.end())
       read_value_column(position, *value, unit);
-    else if (unit > 0.0 && (quantity == "before" || quantity == "after"))
-      read_epoch_column(position, quantity == "before" ? columns_.before : columns_.after, unit);
+    else if (unit > 0.0 && quantity == "before")
+      read_epoch_column(position, columns_.before, columns_.after, unit);
+    else if (unit > 0.0 && quantity == "after")
+      read_epoch_column(position, columns_.after, columns_.before, unit);
     else if (unit > 0.0 && quantity == "sigma")
       claim(columns_.sigma, position), columns_.sigma_factor = unit;
     else
@@ -83,8 +85,7 @@ class Header {
     columns_.vertical_only = value.vertical_only;
   }
 
-  void read_epoch_column(std::size_t position, std::size_t& column, double unit) {
-    const std::size_t other = &column == &columns_.before ? columns_.after : columns_.before;
+  void read_epoch_column(std::size_t position, std::size_t& column, std::size_t other, double unit) {
     claim(column, position);
     if (other != kAbsent && epoch_unit_ != unit)
       fail(fmt::format("columns {} and {} have different units", in_quotes(names()[other]),

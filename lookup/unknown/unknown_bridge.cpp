@@ -16,9 +16,7 @@ using Eigen::VectorXd;
 /// The readings that there are. Of two epochs, where both count, first those of the first.
 std::vector<ReadingRow> rows_of(const Comparison& comparison, const Observation& observation, Epochs epochs) {
   const bool change = is_change(comparison.kind);
-  std::vector<std::size_t> channels;
-  for (std::size_t i = 0; i < observation.reading.size(); ++i)
-    if (!std::isnan(observation.reading[i])) channels.push_back(i);
+  const std::vector<std::size_t> channels = observation.channels_read();
   std::vector<ReadingRow> rows;
   if (change && epochs == Epochs::both && !comparison.before.empty())
     for (const std::size_t i : channels) rows.push_back({i, 1.0, 0.0});
