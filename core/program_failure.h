@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "core/error.h"
+#include "core/process.h"
 
 namespace voussoir {
 
@@ -37,9 +38,11 @@ inline int fail(const std::string& name, const std::string& message, bool json, 
   return exit_code;
 }
 
-/// The program's own exit code, or that of what it throws, which becomes a message.
+/// The program's own exit code, or that of what it throws, which becomes a message for people on the standard
+/// error and, with `json`, a line for schedulers on the standard output.
 template <class Program>
 int exit_code_of(const std::string& name, bool json, const Program& program) {
+  prepare_process();
   try {
     return program();
   } catch (const InputError& error) {

@@ -1,7 +1,11 @@
 #include "core/text_file.h"
 
+#include <sys/stat.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <cerrno>
+#include <cstdlib>
 #include <cstring>
 #include <fstream>
 
@@ -14,7 +18,27 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view kHdf5 = "\x89HDF\r\n\x1a\n";  // begins every HDF5 file
 
+/// Of a name that nothing has, in the same folder, for whom the file is for.
+fs::path new_file_like(const fs::path& file) {
+  std::string name = file.string() + ".XXXXXX";
+  const int descriptor = ::mkstemp(name.data());
+  if (descriptor < 0)
+    throw Failure(fmt::format("{}: cannot be written: {}", file.string(), std::strerror(errno)));
+  ::close(descriptor);
+  take_over_access(file, name);
+  return name;
+}
+
 }  // namespace
+
+void take_over_access(const fs::path& from, const fs::path& to) {
+  struct stat status {};
+  if (::stat(from.c_str(), &status) != 0) return;
+  // Who may not give files away keeps this one.
+  const bool is_given = ::chown(to.c_str(), status.st_uid, status.st_gid) == 0;
+  const mode_t others = is_given ? 07777 : 0707;
+  static_cast<void>(::chmod(to.c_str(), status.st_mode & others));
+}
 
 std::string read_text(const std::filesystem::path& file, std::size_t largest, const std::string& expected) {
   std::ifstream stream(file, std::ios::binary);
@@ -49,13 +73,14 @@ void check_output(const std::string& option, const fs::path& file, const std::ve
   if (file.extension() == ".toml") refuse("is a bridge file");
 }
 
-/// Beside a file that is there first. What is begun and not finished goes, but for a terminal or a pipe.
+/// Beside a file that is there first. What is begun and not finished goes, but for a terminal, a pipe or a
+/// link.
 void write_file(const fs::path& file, const std::string& text) {
   std::error_code none;
-  const bool is_there = fs::exists(file, none);
+  const bool is_there = fs::exists(file, none), is_new = !fs::exists(fs::symlink_status(file, none));
   const fs::path target = is_there ? fs::canonical(file) : file;
   const bool replaces = fs::is_regular_file(target, none);
-  const fs::path written = replaces ? fs::path(target.string() + ".new") : target;
+  const fs::path written = replaces ? new_file_like(target) : target;
   errno = 0;
   std::ofstream stream(written, std::ios::binary);
   const bool done = static_cast<bool>(stream << text && stream.flush());
@@ -63,7 +88,7 @@ void write_file(const fs::path& file, const std::string& text) {
   stream.close();
   if (done && replaces) fs::rename(written, target);
   if (done) return;
-  if (replaces || !is_there) fs::remove(written, none);
+  if (replaces || is_new) fs::remove(written, none);
   throw Failure(fmt::format("{}: cannot be written{}", file.string(), reason));
 }
 

@@ -6,8 +6,10 @@
 
 #include "core/error.h"
 #include "core/structure/bridge_model.h"
+#include "core/structure/uncertain_parameters.h"
 #include "database/format/durable_file.h"
 #include "database/records/writer.h"
+#include "database/records/xdmf.h"
 #include "generator/records/build_settings.h"
 #include "generator/records/existing_database.h"
 #include "generator/scenes/results_key.h"
@@ -65,14 +67,15 @@ std::vector<RecordKey> wanted_keys(const BuildRequest& request, std::size_t vari
   return wanted;
 }
 
-bool wants_sensitivities(const BuildRequest& request) {
-  return !request.known_bridge && is_uncertain(request.bridge.description.uncertainty);
+/// Is anything that is uncertain a parameter of this bridge? Sides that are free have no movement.
+bool wants_sensitivities(const BuildRequest& request, const Model& bridge) {
+  return !request.known_bridge && has_uncertain_parameters(bridge, request.bridge.description.uncertainty);
 }
 
 /// Derivatives of the joints' law are those of dry joints. A database without them would be asked as if the
 /// bridge were exactly known, which nobody shall do unknowingly.
 void expect_dry_joints_or_known(const BuildRequest& request, const Model& bridge) {
-  if (wants_sensitivities(request) && has_mortar(bridge.parameters))
+  if (wants_sensitivities(request, bridge) && has_mortar(bridge.parameters))
     throw InputError(
         fmt::format("{}: has [[mortar]], and how displacements change with what is uncertain of a bridge is "
                     "known of dry joints only: expected --known-bridge, with which locate-damage takes the "
@@ -172,19 +175,28 @@ std::size_t reuse(const Build& build, Database old, KnownRecords& known) {
 
 /// Of the nominal variant, unless the bridge is said to be known.
 std::optional<Sensitivities> sensitivities_of(const Build& build, const KnownRecords& known) {
-  if (!wants_sensitivities(build.request) || build.request.shard) return std::nullopt;
+  if (!wants_sensitivities(build.request, build.bridge()) || build.request.shard) return std::nullopt;
   std::vector<Scene> scenes;
   for (const RecordKey& key : build.wanted)
     if (key.variant == kNominalVariant) scenes.push_back(key.scene);
-  return find_sensitivities({build.bridge(), build.request.bridge.description.uncertainty, build.states,
-                             build.solver, build.provenance.solver_settings, build.request.threads},
+  return find_sensitivities({build.request.bridge.description, build.bridge(), build.states, build.solver,
+                             build.provenance.solver_settings, build.request.threads},
                             scenes, known, build.progress);
 }
 
-std::vector<ModelError> model_errors_of(const Build& build) {
+std::vector<ModelError> model_errors_of(const Build& build, const KnownRecords& known) {
   if (build.request.shard) return std::vector<ModelError>(kept_states(build.states).size());
-  return estimate_model_errors({build.request.bridge.description, build.bridge(), build.states, build.solver},
-                               build.progress);
+  ErrorProbes probes{build.request.bridge.description, build.bridge(), build.states, build.solver};
+  const RecordKey intact{kNominalVariant, {}};
+  if (known.has_record(intact))
+    for (const RecordedState& state : known.kept_record(intact, build.fields).states)
+      probes.intact_stands.push_back(state.outcome == Outcome::standing);
+  const std::vector<std::string> names = kept_names(build.states);
+  for (std::size_t i = 0; i < probes.intact_stands.size(); ++i)
+    if (!probes.intact_stands[i])
+      build.progress.say(fmt::format(
+          "the intact bridge does not stand as {}: readings of this state say nothing of losses", names[i]));
+  return estimate_model_errors(probes, build.progress);
 }
 
 void write(const Build& build, const KnownRecords& known, BuildSummary& summary) {
@@ -194,10 +206,11 @@ void write(const Build& build, const KnownRecords& known, BuildSummary& summary)
                                 build.wanted,
                                 kept_names(build.states),
                                 build.fields,
-                                model_errors_of(build),
+                                model_errors_of(build, known),
                                 sensitivities_of(build, known),
                                 shard_statement(build.request)};
   summary.outcomes = OutcomeCounts(content.states);
+  drop_index(build.request.output, !build.request.xdmf_scenes.empty(), build.progress);
   const WrittenDatabase written = write_database(build.request.output, content, [&](std::size_t row) {
     Record record = known.kept_record(build.wanted[row], build.fields);
     summary.outcomes.add(record, build.bridge().layout);
@@ -226,8 +239,7 @@ void finish(const Build& build, KnownRecords& known, BuildSummary& summary) {
 }
 
 /// Computes what is not known and writes the file.
-void run(const Build& build, std::optional<Database> old, BuildSummary& summary) {
-  KnownRecords known = open_records(build, OtherRecords::drop);
+void run(const Build& build, KnownRecords known, std::optional<Database> old, BuildSummary& summary) {
   summary.resumed = known.journal().size();
   if (const std::size_t done = summary.resumed; done > 0)
     build.progress.say(fmt::format("going on with an interrupted build: {} scenes are done", done));
@@ -245,8 +257,7 @@ void run(const Build& build, std::optional<Database> old, BuildSummary& summary)
 }
 
 /// Takes all records from the parts, all of which are there, and writes the file.
-void gather(const Build& build, std::vector<Database> parts, BuildSummary& summary) {
-  KnownRecords known = open_records(build, OtherRecords::refuse);
+void gather(const Build& build, KnownRecords known, std::vector<Database> parts, BuildSummary& summary) {
   const int count = static_cast<int>(parts.size());
   for (Database& part : parts) known.add(records_in(build, std::move(part), known));
   for (const RecordKey& key : build.wanted)
@@ -263,17 +274,34 @@ void gather(const Build& build, std::vector<Database> parts, BuildSummary& summa
 
 ExistingDatabase examine(const Build& build) {
   const BuildRequest& request = build.request;
-  return examine_existing(
-      request.output,
-      {build.provenance, build.variants, build.wanted, kept_names(build.states), build.fields,
-       wants_sensitivities(request) && !request.shard, shard_statement(request), request.drop},
-      request.force);
+  return examine_existing(request.output,
+                          {build.provenance, build.variants, build.wanted, kept_names(build.states),
+                           build.fields, wants_sensitivities(request, build.bridge()) && !request.shard,
+                           shard_statement(request), request.drop},
+                          request.force);
+}
+
+/// Writes a file that is not up to date. Its journal keeps other builds away, so what stands there is
+/// examined again: another one may have ended in between.
+void renew(const Build& build, std::vector<Database> parts, ExistingDatabase& existing,
+           BuildSummary& summary) {
+  KnownRecords known = open_records(build, parts.empty() ? OtherRecords::drop : OtherRecords::refuse);
+  existing = examine(build);
+  summary.changes = existing.changes;
+  if (existing.up_to_date) return known.journal().remove();
+  for (const std::string& change : existing.changes)
+    build.progress.say(fmt::format("{} is built anew: {}", build.request.output.string(), change));
+  if (parts.empty())
+    run(build, std::move(known), existing.reusable ? std::move(existing.database) : std::nullopt, summary);
+  else
+    gather(build, std::move(known), std::move(parts), summary);
 }
 
 /// From the parts, if there are any.
 BuildSummary build(BuildRequest request, const SolverChoice& solver, Progress& progress,
                    std::vector<Database> parts) {
   const auto started = std::chrono::steady_clock::now();
+  expect_file(request.output, request.bridge.name);
   request.output = behind_links(request.output);
   const Build build = prepare(request, solver, progress);
   const std::vector<Scene> shown =
@@ -284,21 +312,14 @@ BuildSummary build(BuildRequest request, const SolverChoice& solver, Progress& p
   summary.small_pieces = build.bridge().layout.small_pieces;
   summary.collapse_fields = request.rules.collapse_fields;
   ExistingDatabase existing = examine(build);
-  summary.changes = existing.changes;
+  if (!existing.up_to_date) renew(build, std::move(parts), existing, summary);
   if (existing.up_to_date) {
     summary.up_to_date = true;
     summary.outcomes = count_outcomes(*existing.database);
     summary.bytes = std::filesystem::file_size(existing.database->path());
     summary.digest = existing.database->digest();
-  } else {
-    for (const std::string& change : existing.changes)
-      progress.say(fmt::format("{} is built anew: {}", request.output.string(), change));
-    if (parts.empty())
-      run(build, existing.reusable ? std::move(existing.database) : std::nullopt, summary);
-    else
-      gather(build, std::move(parts), summary);
   }
-  renew_index(request.output, shown, !summary.up_to_date, progress);
+  if (!shown.empty()) write_index(Database::open(request.output), shown);
   summary.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
   return summary;
 }

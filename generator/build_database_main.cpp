@@ -54,7 +54,7 @@ int run(BuildOptions& options) {
 int main(int argc, char** argv) {
   keep_freed_memory();
   BuildOptions options;
-  return run_writer("build-database", asks_for_json(argc, argv), [&] {
+  return exit_code_of("build-database", asks_for_json(argc, argv), [&] {
     parse_build_options(argc, argv, options);
     return options.exit_code ? *options.exit_code : run(options);
   });

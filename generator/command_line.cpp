@@ -1,8 +1,8 @@
 #include "generator/command_line.h"
 
-#include <csignal>
 #include <iostream>
 
+#include "core/decimal_options.h"
 #include "core/error.h"
 #include "core/program_failure.h"
 
@@ -14,6 +14,7 @@ constexpr int kMostThreads = 4096;
 }  // namespace
 
 std::optional<int> parse_command_line(CLI::App& app, int argc, char** argv) {
+  expect_decimal_numbers(app);
   try {
     app.parse(argc, argv);
     return std::nullopt;
@@ -41,11 +42,6 @@ void add_format_option(CLI::App& app, bool& json, const std::string& of_what) {
 void say(const std::string& answer) {
   if (!(std::cout << answer << std::flush))
     throw Failure("the answer cannot be written to the standard output");
-}
-
-int run_writer(const std::string& name, bool json, const std::function<int()>& program) {
-  std::signal(SIGXFSZ, SIG_IGN);
-  return exit_code_of(name, json, program);
 }
 
 }  // namespace voussoir

@@ -2,7 +2,6 @@
 /// @file What the generator programs' command lines have in common.
 
 #include <CLI/CLI.hpp>
-#include <functional>
 #include <optional>
 #include <string>
 
@@ -20,11 +19,5 @@ void add_format_option(CLI::App& app, bool& json, const std::string& of_what);
 
 /// Writes an answer to the standard output. Throws Failure if it cannot be written.
 void say(const std::string& answer);
-
-/// Runs a program that writes a database. What it throws becomes a message for people on the standard error
-/// and, with `json`, a line for schedulers on the standard output. Exit codes: the program's own, 1 could not
-/// be done, 2 bad input. That the file may not grow further shows as an error of writing, as
-/// a full disk does.
-int run_writer(const std::string& name, bool json, const std::function<int()>& program);
 
 }  // namespace voussoir

@@ -22,7 +22,7 @@ int run(const MergeOptions& options) {
 
 int main(int argc, char** argv) {
   MergeOptions options;
-  return run_writer("merge-databases", asks_for_json(argc, argv), [&] {
+  return exit_code_of("merge-databases", asks_for_json(argc, argv), [&] {
     parse_merge_options(argc, argv, options);
     return options.exit_code ? *options.exit_code : run(options);
   });

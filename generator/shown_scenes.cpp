@@ -18,6 +18,11 @@ std::vector<Scene> shown_scenes(const std::string& list, const DatabaseToShow& d
                     output.string()));
   if (database.fields == KeepField::no)
     throw InputError("--xdmf shows fields of scenes: expected no --fields none beside it");
+  if (const auto other = in_the_way_of_index(output))
+    throw InputError(
+        fmt::format("--xdmf: {} is there, which the index of {} would replace: expected it to be moved away, "
+                    "or another file with -o",
+                    other->string(), output.string()));
   std::vector<Scene> scenes = parse_scene_list(list, database.layout);
   for (const Scene& scene : scenes)
     if (!std::ranges::binary_search(database.keys, RecordKey{kNominalVariant, scene}))
@@ -26,14 +31,11 @@ std::vector<Scene> shown_scenes(const std::string& list, const DatabaseToShow& d
   return scenes;
 }
 
-void renew_index(const std::filesystem::path& output, const std::vector<Scene>& shown, bool replaced,
-                 Progress& progress) {
-  if (!shown.empty())
-    write_index(Database::open(output), shown);
-  else if (replaced && remove_index(output))
+void drop_index(const std::filesystem::path& output, bool will_be_written, Progress& progress) {
+  if (remove_index(output) && !will_be_written)
     progress.say(
-        fmt::format("{} and {} showed scenes of the file that was replaced and are removed: --xdmf writes "
-                    "them anew",
+        fmt::format("{} and {} show scenes of the file that is replaced and are removed: --xdmf writes them "
+                    "anew",
                     index_paths(output).xdmf.string(), index_paths(output).views.string()));
 }
 

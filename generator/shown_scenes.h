@@ -22,8 +22,8 @@ struct DatabaseToShow {
 /// will not hold: before the build, which may take hours.
 std::vector<Scene> shown_scenes(const std::string& list, const DatabaseToShow& database);
 
-/// The index of the scenes that are shown, if any; that of a file that was `replaced` goes.
-void renew_index(const std::filesystem::path& output, const std::vector<Scene>& shown, bool replaced,
-                 Progress& progress);
+/// Removes the index of a file that is about to be replaced, whose rows will be others; says so unless there
+/// will be one of the new file.
+void drop_index(const std::filesystem::path& output, bool will_be_written, Progress& progress);
 
 }  // namespace voussoir

@@ -1,5 +1,6 @@
 /// @file verify-database: is a database whole and right?
 
+#include "core/process.h"
 #include "core/program_failure.h"
 #include "generator/command_line.h"
 #include "generator/verify_options.h"
@@ -17,6 +18,7 @@ int run(const VerifyOptions& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  prepare_process();
   try {
     const VerifyOptions options = parse_verify_options(argc, argv);
     return options.exit_code ? *options.exit_code : run(options);

@@ -42,6 +42,7 @@ struct Answer {
   std::vector<std::size_t> counted;    ///< channels whose readings say something (Observation::reading)
   std::size_t searched = 0;            ///< scenes
   std::size_t unresolved = 0;          ///< scenes left out because the solver gave no answer
+  std::size_t fallen = 0;              ///< and because they fall, so that there is nothing to read
   std::vector<GeneticResult> genetic;  ///< with Search::genetic: for each number of missing blocks but 0
 };
 

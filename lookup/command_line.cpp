@@ -11,6 +11,7 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include "core/decimal_options.h"
 #include "core/error.h"
 #include "core/heap.h"
 #include "core/program_failure.h"
@@ -100,6 +101,7 @@ int run_program(CLI::App& app, int argc, char** argv, const std::function<Progra
   prepare_heap();
   const std::string& name = app.get_name();
   const bool json = asks_for_json(argc, argv);
+  expect_decimal_numbers(app);
   return exit_code_of(name, json, [&] {
     try {
       app.parse(argc, argv);

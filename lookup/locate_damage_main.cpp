@@ -17,13 +17,15 @@ std::string report_one(voussoir::OpenedDatabases& opened, const voussoir::Locate
   if (options.page)
     voussoir::check_output("--report", *options.page, {".html", ".htm", ".svg"},
                            std::array{std::filesystem::path(file)});
-  const auto [one, comparison, settings, answer, databases] = ask(opened, voussoir::read_readings(file));
+  const auto [one, comparison, settings, answer, databases, notes] =
+      ask(opened, voussoir::read_readings(file));
   const voussoir::Source source{file,
                                 one->database.path().string(),
                                 one->database.bridge_name(),
                                 one->database.digest(),
                                 one->database.stands_by_slip(),
-                                databases};
+                                databases,
+                                notes};
   if (const auto& page = options.page)
     voussoir::write_file(*page, page->extension() == ".svg"
                                     ? voussoir::picture_report(answer, comparison)

@@ -250,6 +250,20 @@ void require_answerable(const Comparison& comparison, const LookupSettings& sett
   if (settings.objective == Objective::posterior) require_stated_errors(comparison, observation);
 }
 
+/// What it is an answer to.
+Answer answer_without_candidates(const Comparison& comparison, const Observation& observation,
+                                 const Preparation& preparation, bool known) {
+  Answer answer;
+  answer.known_bridge = known;
+  answer.prior = preparation.prior();
+  answer.readings = comparison.measured.count();
+  answer.counted = observation.channels_read();
+  answer.searched = preparation.eligible().rows.size();
+  answer.unresolved = preparation.eligible().unresolved;
+  answer.fallen = preparation.eligible().fallen;
+  return answer;
+}
+
 }  // namespace
 
 Answer locate_damage(const Comparison& comparison, const LookupSettings& settings) {
@@ -261,16 +275,10 @@ Answer locate_damage(const Comparison& comparison, const LookupSettings& setting
                      const Preparation& preparation) {
   const Library& library = comparison.library;
   const bool known = counts_as_known(comparison, settings);
-  Answer answer;
-  answer.known_bridge = known;
-  answer.prior = preparation.prior();
   const Eligible& eligible = preparation.eligible();
   const Observation observation =
       observe(comparison, known ? settings.noise : gaussian_noise(settings.noise), settings.nuisance);
-  answer.readings = comparison.measured.count();
-  answer.counted = observation.channels_read();
-  answer.searched = eligible.rows.size();
-  answer.unresolved = eligible.unresolved;
+  Answer answer = answer_without_candidates(comparison, observation, preparation, known);
   require_answerable(comparison, settings, observation);
   const UnknownSettings unknown{settings.epochs, settings.conditions, settings.nuisance.scale};
   std::optional<UnknownBridgeQuestion> question;

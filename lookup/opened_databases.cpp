@@ -1,6 +1,7 @@
 #include "lookup/opened_databases.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/error.h"
 #include "lookup/command_line.h"
@@ -40,14 +41,32 @@ void open_database(const LocateDamageOptions& options, const std::optional<std::
   one.sampled = sampled_bridges(one.database, options.evidence);
 }
 
+/// What was asked for and cannot have an effect on these readings is said: who tries other errors must not
+/// believe the answer that does not change.
+std::vector<std::string> notes_of(const ReadingsFile& file, const LocateDamageOptions& options) {
+  std::vector<std::string> notes;
+  const bool states_all = std::ranges::none_of(
+      file.readings, [](const Reading& one) { return !one.silent && std::isnan(one.sigma); });
+  if (!options.sigma.empty() && states_all)
+    notes.push_back("--sigma has no effect: every reading states its own error (sigma_mm)");
+  if (!options.noise_level.empty() && (states_all || !options.sigma.empty()))
+    notes.push_back("--noise has no effect: every reading has a standard deviation of its own");
+  const bool names_levellings =
+      std::ranges::any_of(file.readings, [](const Reading& one) { return !one.levelling.empty(); });
+  if (names_levellings && !options.settings.nuisance.any())
+    notes.push_back(
+        "levellings are named, but the datum of each is taken as known: --unknown-datum 0.3mm and "
+        "--unknown-tilt 0.03mm/m let each have its own");
+  return notes;
+}
+
 Answered ask_one(OpenedDatabase& one, const ReadingsText& readings) {
   ComparisonSettings settings = comparison_settings(one.options);
   settings.sampled = one.sampled;
-  Answered asked{
-      &one,
-      compare(parse_readings(readings.text, readings.name, one.sensors), one.sensors, one.database, settings),
-      one.settings,
-      {}};
+  const ReadingsFile file = parse_readings(readings.text, readings.name, one.sensors);
+  Answered asked{&one,         compare(file, one.sensors, one.database, settings),
+                 one.settings, {},
+                 {},           notes_of(file, one.options)};
   asked.settings.noise = noise_of(asked.comparison.measured, asked.settings.noise);
   asked.answer = one.preparations.ask(asked.comparison, asked.settings);
   return asked;
@@ -68,9 +87,16 @@ AskedDatabase summary_of(const Answered& asked) {
 
 void require_comparable(const std::vector<Answered>& all) {
   std::vector<DatabaseReadings> readings;
-  for (const auto& [one, comparison, settings, answer, databases] : all)
+  for (const Answered& one : all) {
+    const Database& database = one.opened->database;
     readings.push_back(
-        database_readings(one->database.path().string(), one->database.control_points(), comparison, answer));
+        database_readings(database.path().string(), database.control_points(), one.comparison, one.answer));
+    if (one.answer.known_bridge != all.front().answer.known_bridge)
+      throw InputError(fmt::format(
+          "one of {} and {} is a database of a bridge that is exactly known, the other is not: expected both "
+          "to be built alike, or --known-bridge",
+          all.front().opened->database.path().string(), database.path().string()));
+  }
   require_one_bridge(readings);
   require_same_readings(readings);
 }

@@ -37,6 +37,7 @@ struct Answered {
   LookupSettings settings;
   Answer answer;
   std::vector<AskedDatabase> databases{};  ///< as in Source: of several all, this one's first
+  std::vector<std::string> notes{};        ///< as in Source
 };
 
 /// Puts a question to all databases. Throws InputError for readings that one of them cannot be asked about,

@@ -49,9 +49,11 @@ void add_options(CLI::App& app, Options& options) {
       ->option_text("SCENE");
   app.add_option("-d,--database", options.database, "default: $VOUSSOIR_DATABASE, else ./bridge.h5")
       ->option_text("FILE");
-  app.add_option("--at", options.at,
-                 "control points, or sensors of the bridge file that move, such as T12,A3, coordinates X,Y "
-                 "in metres (where blocks meet of each of them), or control for all")
+  app.add_option(
+         "--at", options.at,
+         "control points, or sensors of the bridge file that move, such as T12,A3, coordinates X,Y "
+         "in metres (where blocks meet of each of them), or control for all: with x_m and y_m, as a list "
+         "for setting out")
       ->option_text("PLACES");
   app.add_option(
          "--history", options.history,

@@ -117,7 +117,9 @@ std::string heading(const Options& options, const Comparison& comparison, const 
 }
 
 std::string make_measurements(const Options& options) {
-  if (!options.output.empty()) check_output("--output", options.output, {});
+  std::vector<std::filesystem::path> read;
+  if (options.sensors) read.emplace_back(*options.sensors);
+  if (!options.output.empty()) check_output("--output", options.output, {}, read);
   require_errors(options);
   const NoiseModel noise = noise_of(options);
   const auto database = Database::open(find_database(options.database));

@@ -117,8 +117,9 @@ long FollowedBridge::early_steps() const {
   const bool adds_up = settings.skips.early_motions && model.bonds.empty() &&
                        settings.integrator == Integrator::implicit_blocks &&
                        memory_of_early_motions(model) <= kMostEarlyMemory;
-  const double end = kEarlyShare * settings.ramp;
-  return adds_up && end <= settings.moment ? static_cast<long>(end / model.step()) : 0;
+  const auto steps = static_cast<long>(kEarlyShare * settings.ramp / model.step());
+  const bool is_early = 2 * steps <= steps_until(settings.moment);  // as much is followed as is left out
+  return adds_up && is_early ? steps : 0;
 }
 
 double FollowedBridge::moved_away(const DecisionRules& rules) const {

@@ -31,15 +31,20 @@ Point force_of(std::size_t support, const Model& model, const Field& forces) {
   return sum;
 }
 
-/// Of the structure under the support, cut across [m2].
+/// Of the blocks under the support, each cut across between its nodes there [m2].
 double area_under(const Support& support, const Model& model) {
-  double left = std::numeric_limits<double>::infinity();
-  double right = -left;
-  for (const NodeId node : support.nodes) {
-    left = std::min(left, model.mesh.position(node).x());
-    right = std::max(right, model.mesh.position(node).x());
+  double area = 0.0;
+  for (std::size_t b = 0; b < model.mesh.block_nodes.size(); ++b) {
+    double left = std::numeric_limits<double>::infinity();
+    double right = -left;
+    for (const NodeId node : support.nodes) {
+      if (!model.mesh.block_nodes[b].contains(value(node))) continue;
+      left = std::min(left, model.mesh.position(node).x());
+      right = std::max(right, model.mesh.position(node).x());
+    }
+    if (right > left) area += (right - left) * model.parameters.blocks[b].thickness;
   }
-  return (right - left) * model.parameters.blocks.front().thickness;
+  return area;
 }
 
 class Mover {

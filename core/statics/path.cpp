@@ -160,10 +160,11 @@ class PathFollower {
     std::vector<double> recent;
     Field unbalanced = unbalance(equations, place, drag);
     recent.push_back(unbalanced.norm());
-    for (int iteration = 0; iteration < settings_.most_iterations; ++iteration) {
+    for (int iteration = 0;; ++iteration) {
       if (!std::isfinite(recent.back())) return std::nullopt;
       if (unbalanced.cwiseAbs().maxCoeff() <= settings_.tolerance * force_unit(equations, place))
         return place;
+      if (iteration == settings_.most_iterations) return std::nullopt;
       const auto change = solve(unbalanced);
       if (!change) return std::nullopt;
       const auto begin = recent.size() > kRecent ? recent.end() - kRecent : recent.begin();
@@ -177,7 +178,6 @@ class PathFollower {
       }
       recent.push_back(unbalanced.norm());
     }
-    return std::nullopt;
   }
 
   /// Lets the structure go from where it is, held back less and less.

@@ -75,9 +75,14 @@ WithBlocks with_blocks_of_file(const std::string& text, const std::filesystem::p
   }
   const toml::node* node = root.get("blocks");
   if (node == nullptr || !node->is_string()) return {text, std::move(root), {}};
+  const toml::source_region& place = node->source();
+  if (place.begin.line != place.end.line)
+    throw InputError(
+        at_line(path.string(), place.begin.line,
+                "blocks: stands on several lines: expected the name of a file in quotes on one"));
   const std::filesystem::path file = path.parent_path() / node->as_string()->get();
   BlockFile read = read_block_file(file);
-  // A basic string stands on one line; what follows its value there, a comment, goes with it.
+  // What follows the value on its line, a comment, goes with it.
   const std::size_t start = start_of_line(text, node->source().begin.line);
   const std::size_t end = std::min(text.find('\n', start), text.size());
   const std::string blocks = fmt::format("blocks = {}", to_toml(read.blocks));

@@ -27,6 +27,7 @@ namespace {
 
 constexpr std::uintmax_t kLongestText = 1 << 20;  ///< [bytes] a bridge file is a page or two
 constexpr std::size_t kLongestLine = 4096;        ///< [bytes] bounds how deep dotted keys nest
+constexpr std::size_t kLongestName = 200;         ///< [bytes] of a bridge, a title and a file's attribute
 constexpr double kMostPieces = 300000;            ///< blocks, each counted four times a level of refinement
 
 void read_supports(TomlSection section, SupportDescription& supports) {
@@ -68,11 +69,10 @@ void read_mesh(TomlSection section, MeshDescription& mesh) {
 
 /// The bridge must not have absurdly many blocks or triangles.
 void check_size(const BridgeDescription& description, const std::string& file, long wall_line) {
-  const WallDescription& wall = description.wall;
   const auto laid = [](const WallDescription& courses) {
-    return courses.courses * (courses.length / courses.block_length + 1.0);
+    return courses.courses * (courses.length / courses.block_length + 1.0) * (courses.halved ? 2.0 : 1.0);
   };
-  double blocks = laid(wall);
+  double blocks = static_cast<double>(description.blocks.size()) + laid(description.wall);
   for (const WallPart& part : description.parts) blocks += laid(part.courses);
   for (const SpanDescription& span : description.spans) {
     blocks += span.voussoirs + 2;
@@ -180,6 +180,13 @@ void read_regions(TomlSection& top, BridgeDescription& description) {
                                                 description.material, description.joints));
 }
 
+void read_name(TomlSection& top, std::string& name) {
+  top.text("name", name);
+  if (name.size() > kLongestName)
+    top.refuse("name",
+               fmt::format("has {} bytes: expected at most {}", name.size(), kLongestName));
+}
+
 BridgeDescription interpret(const toml::table& root, const std::string& file,
                             std::vector<std::string>& notes) {
   BridgeDescription description;
@@ -188,7 +195,7 @@ BridgeDescription interpret(const toml::table& root, const std::string& file,
   const auto section = [&](const char* key) {
     return TomlSection(file, top.table(key), fmt::format(" in [{}]", key));
   };
-  top.text("name", description.name);
+  read_name(top, description.name);
   description.collapse_fields = false;
   top.choice("collapses", description.collapse_fields, {{"outcome", false}, {"field", true}});
   top.not_negative("gravity_m_s2", description.gravity);
@@ -215,7 +222,7 @@ BridgeDescription interpret(const toml::table& root, const std::string& file,
     description.movements = read_movements(*movements, file);
   const toml::array* loads = top.tables("loads", "[[loads]]");
   top.refuse_unknown_keys();
-  check_size(description, file, top.line_of("wall"));
+  check_size(description, file, top.line_of(description.blocks.empty() ? "wall" : "blocks"));
   check_geometry(description, span_lines, file);
   if (loads != nullptr) description.loads = read_loads(*loads, file, extent_along_x(description));
   return description;

@@ -1,6 +1,7 @@
 #include "core/structure/bridge_model.h"
 
 #include <algorithm>
+#include <optional>
 
 #include "core/error.h"
 
@@ -8,6 +9,7 @@ namespace voussoir {
 namespace {
 
 constexpr double kEndOfSoil = 0.01;  // [m] that a surveyed surface may end before the bridge does
+constexpr double kBuried = 0.05;     // [m] of soil, more than is wiped away
 
 /// Of soil whose surface ends before the bridge does.
 void note_soil_that_ends(const std::vector<Point>& surface, const Mesh& mesh,
@@ -21,6 +23,34 @@ void note_soil_that_ends(const std::vector<Point>& surface, const Mesh& mesh,
   };
   if (surface.front().x() > left + kEndOfSoil) note("left", surface.front().x(), left);
   if (surface.back().x() < right - kEndOfSoil) note("right", surface.back().x(), right);
+}
+
+/// Height of a surface [m] at x; nothing beside it.
+std::optional<double> height_at(const std::vector<Point>& surface, double x) {
+  for (std::size_t i = 1; i < surface.size(); ++i) {
+    const Point &left = surface[i - 1], &right = surface[i];
+    if (x < left.x() || x > right.x() || left.x() == right.x()) continue;
+    return left.y() + (right.y() - left.y()) * (x - left.x()) / (right.x() - left.x());
+  }
+  return std::nullopt;
+}
+
+/// Of points on the top of the masonry that soil covers.
+void note_buried_points(const std::vector<Point>& surface, const Model& model,
+                        std::vector<std::string>& notes) {
+  std::vector<std::string> buried;
+  for (const ControlPoint& point : model.control_points) {
+    const auto height = height_at(surface, point.position.x());
+    if (height && model.layout[point.block].top_course && *height > point.position.y() + kBuried)
+      buried.push_back(point.name);
+  }
+  if (buried.empty()) return;
+  const std::size_t shown = std::min<std::size_t>(buried.size(), 3);
+  notes.push_back(fmt::format(
+      "{} control points on top of the masonry lie under the soil of [fill], where nobody can measure "
+      "({}{}): top = false in [control_points] leaves them out, [[sensors]] adds what can be seen",
+      buried.size(), fmt::join(buried.begin(), buried.begin() + static_cast<std::ptrdiff_t>(shown), ", "),
+      buried.size() > shown ? ", .." : ""));
 }
 
 }  // namespace
@@ -48,7 +78,7 @@ std::vector<std::string> without_effect(const BridgeDescription& description, co
   const FillWeight& fill = description.fill;
   if (fill.unit_weight <= 0.0 || description.gravity <= 0.0) return notes;
   if (model.parameters.laid_mass.sum() > 0.0)
-    note_soil_that_ends(fill.surface, model.mesh, notes);
+    note_soil_that_ends(fill.surface, model.mesh, notes), note_buried_points(fill.surface, model, notes);
   else
     notes.push_back(fmt::format(
         "[fill] weighs nothing: its surface, at most {:g} m high, lies above no face of the bridge",

@@ -71,8 +71,8 @@ ControlPoint point_at(const std::string& name, const Mesh& mesh, BlockId block, 
 }
 
 std::vector<ControlPoint> find_control_points(const BlockLayout& layout, const Mesh& mesh,
-                                              const BridgeDescription& description) {
-  const auto& [top, arch, face] = description.control_points;
+                                              const ControlPointDescription& kinds) {
+  const auto& [top, arch, face] = kinds;
   Family upper{'T'}, intrados{'A'}, middle{'F'};
   auto gone = layout.gone.begin();
   for (std::size_t b = 0; b < layout.size(); ++b) {
@@ -90,6 +90,12 @@ std::vector<ControlPoint> find_control_points(const BlockLayout& layout, const M
   std::vector<ControlPoint> points = std::move(upper.points);
   std::ranges::move(intrados.points, std::back_inserter(points));
   std::ranges::move(middle.points, std::back_inserter(points));
+  return points;
+}
+
+std::vector<ControlPoint> find_control_points(const BlockLayout& layout, const Mesh& mesh,
+                                              const BridgeDescription& description) {
+  std::vector<ControlPoint> points = find_control_points(layout, mesh, description.control_points);
   for (const SensorDescription& sensor : description.sensors) {
     if (std::ranges::find(points, sensor.name, &ControlPoint::name) != points.end())
       throw InputError(fmt::format("sensor {} in [[sensors]] is there already, expected another name",

@@ -25,10 +25,14 @@ struct ControlPoint {
 /// The point of a block at a place: at the node that is nearest to it.
 ControlPoint point_at(const std::string& name, const Mesh& mesh, BlockId block, const Point& place);
 
-/// T1..: upper corners of each block of the top course; A1..: intrados corners of each arch block that
-/// reaches the intrados; left to right; F1..: if asked for, the middles of all blocks whose face is seen.
-/// Then the sensors of the description, in its order. Throws InputError, naming the sensor, for one that
-/// cannot be placed and for names that are there already.
+/// Of the kinds that are asked for: T1..: upper corners of each block of the top course; A1..: intrados
+/// corners of each arch block that reaches the intrados; left to right; F1..: the middles of all blocks whose
+/// face is seen.
+std::vector<ControlPoint> find_control_points(const BlockLayout& layout, const Mesh& mesh,
+                                              const ControlPointDescription& kinds);
+
+/// Those of the description, then its sensors, in its order. Throws InputError, naming the sensor, for one
+/// that cannot be placed and for names that are there already.
 std::vector<ControlPoint> find_control_points(const BlockLayout& layout, const Mesh& mesh,
                                               const BridgeDescription& description);
 

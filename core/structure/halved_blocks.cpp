@@ -10,10 +10,14 @@ namespace {
 
 constexpr double kSame = 1e-6;  ///< [-] of a block's length
 
+/// Courses of [[walls]] come after the wall's own.
+bool is_of_wall(const Block& block, const WallDescription& wall) {
+  return block.kind == BlockKind::plain && block.index.course > 0 && block.index.course <= wall.courses;
+}
+
 bool is_whole(const Block& block, const WallDescription& wall) {
   const double length = box_of(block.polygon).sizes().x();
-  return block.kind == BlockKind::plain && block.index.course > 0 &&
-         std::abs(length - wall.block_length) < kSame * wall.block_length;
+  return is_of_wall(block, wall) && std::abs(length - wall.block_length) < kSame * wall.block_length;
 }
 
 Block half(const Block& block, double left, double right) {
@@ -42,8 +46,8 @@ std::vector<Block> halved(std::vector<Block> blocks, const WallDescription& wall
 }
 
 bool are_halves(const Block& first, const Block& second, const WallDescription& wall) {
-  if (!wall.halved || first.index.course != second.index.course || first.kind != BlockKind::plain ||
-      second.kind != BlockKind::plain)
+  if (!wall.halved || first.index.course != second.index.course || !is_of_wall(first, wall) ||
+      !is_of_wall(second, wall))
     return false;
   const Box both = box_of(first.polygon).merged(box_of(second.polygon));
   const bool shifted = wall.bond == Bond::running && first.index.course % 2 == 1;

@@ -8,8 +8,8 @@
 
 namespace voussoir {
 
-/// Whole blocks of the wall's courses cut in two by a vertical, if the wall says so; the courses are numbered
-/// anew.
+/// Whole blocks of the wall's own courses (not of [[walls]]) cut in two by a vertical, if the wall says so;
+/// the courses are numbered anew.
 std::vector<Block> halved(std::vector<Block> blocks, const WallDescription& wall);
 
 /// Are they the halves of one block?

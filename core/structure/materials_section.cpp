@@ -38,9 +38,7 @@ Region read_region(TomlSection section, const Material& material, const JointMat
   section.require("of");
   region.of = section.texts("of");
   read_material_keys(section, region.material);
-  const JointMaterial bridge = region.joints;
   read_joint_keys(section, region.joints);
-  if (!section.has("friction_angle_deg")) region.joints.friction_angle = bridge.friction_angle;
   section.refuse_unknown_keys();
   return region;
 }

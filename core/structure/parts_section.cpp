@@ -39,6 +39,7 @@ void read_role(TomlSection& section, const char* key, BlockRole& role) {
 
 WallPart read_part(TomlSection section, const WallDescription& wall) {
   WallPart part{.courses = wall};
+  part.courses.halved = false;
   std::string role;
   section.text("role", role);
   if (role == name_of(BlockRole::ring))

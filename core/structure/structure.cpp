@@ -42,10 +42,19 @@ void check_carried(const Structure& structure) {
   if (!loose) return;
   const Block& block = structure.layout.blocks[*loose];
   const Point place = centroid(block.polygon);
-  throw InputError(
-      fmt::format("block '{}' at ({:.4g}, {:.4g}) is loose: expected blocks that touch others, down to the "
-                  "supports",
-                  block.label, place.x(), place.y()));
+  throw InputError(fmt::format(
+      "block '{}' at ({:.4g}, {:.4g}) is loose: expected blocks that touch others, down to the supports{}",
+      block.label, place.x(), place.y(),
+      block.role == BlockRole::ring ? " (a ring stands on courses that reach above its springing, or on "
+                                      "stones of its own: skewback_m in [[spans]])"
+                                    : ""));
+}
+
+/// Something can move.
+void expect_free(const Structure& structure) {
+  const std::vector<bool> held = held_components(structure.supports, structure.mesh);
+  if (std::ranges::find(held, false) == held.end())
+    throw InputError("supports hold every corner of every block: expected a structure that can move");
 }
 
 }  // namespace
@@ -78,6 +87,7 @@ Structure make_structure(const BridgeDescription& description) {
   structure.layout.gone = std::move(gone);
   structure.supports = supports_of(description, structure.layout, structure.mesh);
   if (!structure.supports.empty()) check_carried(structure);
+  expect_free(structure);
   structure.control_points = find_control_points(structure.layout, structure.mesh, description);
   if (structure.control_points.empty())
     throw InputError("the bridge has no control points: switch on top or arch");

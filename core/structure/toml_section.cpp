@@ -45,9 +45,12 @@ void TomlSection::number(const char* key, double& target, double least, double m
 void TomlSection::friction_angle(double& radians, double least) {
   constexpr double kDegree = std::numbers::pi / 180.0;
   constexpr double kMostDegrees = 89.0;
-  double degrees = radians / kDegree;
-  number("friction_angle_deg", degrees, least / kDegree, kMostDegrees);
-  radians = degrees * kDegree;
+  know("friction_angle_deg");
+  if (!has("friction_angle_deg")) return;
+  double degrees = 0.0;
+  // Of an angle in degrees again: what was the same there may have been rounded up on the way.
+  number("friction_angle_deg", degrees, least / kDegree * (1.0 - 1e-12), kMostDegrees);
+  radians = std::max(degrees * kDegree, least);
 }
 
 void TomlSection::count(const char* key, int& target, int least, int most) {

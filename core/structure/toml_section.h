@@ -31,7 +31,7 @@ class TomlSection {
     number(key, target, 0.0, most, false);
   }
   void length(const char* key, double& target) { number(key, target, kSmallestLength, kLargestLength); }
-  /// "friction_angle_deg", into radians of at least `least`.
+  /// "friction_angle_deg", into radians of at least `least`; what is there, to the bit, if the key is not.
   void friction_angle(double& radians, double least);
   void not_negative(const char* key, double& target) { number(key, target, 0.0, kMostOfAnySetting); }
   void count(const char* key, int& target, int least, int most);

@@ -162,6 +162,12 @@ UncertainParameters uncertain_parameters(const Structure& structure, const Uncer
   return result;
 }
 
+bool has_uncertain_parameters(const Structure& structure, const Uncertainty& uncertainty) {
+  const bool has_own = uncertainty.joint_stiffness > 0.0 || uncertainty.regional_stiffness > 0.0;
+  if (has_own && !structure.joints.empty()) return true;
+  return !uncertain_parameters(structure, uncertainty).all().empty();
+}
+
 Parameters parameters_at(const Model& bridge, const UncertainParameters& uncertain,
                          const Eigen::VectorXd& theta) {
   Parameters parameters = bridge.parameters;

@@ -57,6 +57,9 @@ struct UncertainParameters {
 
 UncertainParameters uncertain_parameters(const Structure& structure, const Uncertainty& uncertainty);
 
+/// Are there any? The same as asking uncertain_parameters, without correlating those of all joints.
+bool has_uncertain_parameters(const Structure& structure, const Uncertainty& uncertainty);
+
 /// Standard deviation of the logarithm of a lognormal factor with this coefficient of variation.
 double log_deviation(double variation);
 

@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "core/error.h"
+#include "core/text_file.h"
 #include "database/format/file_descriptor.h"
 
 namespace voussoir {
@@ -21,6 +22,7 @@ void synchronise(const std::filesystem::path& path, int flags) {
 }  // namespace
 
 void put_in_place(const std::filesystem::path& finished, const std::filesystem::path& target) {
+  take_over_access(target, finished);
   synchronise(finished, O_RDWR);
   std::error_code error;
   std::filesystem::rename(finished, target, error);

@@ -4,6 +4,7 @@
 #include <sys/file.h>
 #include <sys/stat.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 
@@ -16,6 +17,7 @@ namespace voussoir {
 namespace {
 
 constexpr std::string_view kMagic = "VOUSSOIR JOURNAL 4\n";
+constexpr std::string_view kMagicOfAll = kMagic.substr(0, sizeof("VOUSSOIR JOURNAL") - 1);  // of any version
 constexpr std::size_t kFrameHead = 2 * sizeof(std::uint32_t);
 
 /// A whole frame's content at the front of the reader, or nothing.
@@ -63,10 +65,13 @@ FileDescriptor open_locked(const std::filesystem::path& path) {
       throw Failure(fmt::format("{}: cannot be written: {} (building needs a folder that can be written to)",
                                 path.string(), std::strerror(errno)));
     if (::flock(file.get(), LOCK_EX | LOCK_NB) != 0)
-      throw Failure(
-          fmt::format("{}: another build-database is working on this database; wait for it or give another "
-                      "file with -o",
-                      path.string()));
+      throw Failure(errno == EWOULDBLOCK
+                        ? fmt::format("{}: another build-database is working on this database; wait for it "
+                                      "or give another file with -o",
+                                      path.string())
+                        : fmt::format("{}: cannot be locked against another build-database: {} (give a "
+                                      "file in a folder of this machine with -o)",
+                                      path.string(), std::strerror(errno)));
     if (is_current(file, path)) return file;
   }
 }
@@ -103,6 +108,12 @@ void Journal::load(const Provenance& provenance, const std::string& key, OtherRe
   const bool known = magic && std::memcmp(magic->data(), kMagic.data(), kMagic.size()) == 0;
   const auto header_frame = known ? next_frame(reader) : std::nullopt;
   const auto header = header_frame ? parse_header(*header_frame) : std::nullopt;
+  const ByteView beginning = mapped.bytes().first(std::min(kMagicOfAll.size(), mapped.bytes().size()));
+  if (!std::ranges::equal(beginning, view_bytes(kMagicOfAll.substr(0, beginning.size()))))
+    throw Failure(
+        fmt::format("{}: is there and holds no scenes of a build, which go there: move it away or "
+                    "give another file with -o",
+                    path_.string()));
   if (!header || header->key != key) {
     if (others == OtherRecords::refuse && next_frame(reader))
       throw Failure(fmt::format(

@@ -77,6 +77,13 @@ void write_views(const Database& database, const std::vector<IndexedScene>& scen
   output.close();
 }
 
+/// Is there one that write_index has written?
+bool has_index(const std::filesystem::path& database) {
+  std::ifstream stream(index_paths(database).xdmf, std::ios::binary);
+  const std::string text{std::istreambuf_iterator<char>(stream), {}};
+  return text.find(">" + name_of_views(database) + ":/") != std::string::npos;
+}
+
 }  // namespace
 
 IndexPaths index_paths(const std::filesystem::path& database) {
@@ -84,11 +91,17 @@ IndexPaths index_paths(const std::filesystem::path& database) {
           std::filesystem::path(database).replace_extension(".views.h5")};
 }
 
-bool remove_index(const std::filesystem::path& database) {
+std::optional<std::filesystem::path> in_the_way_of_index(const std::filesystem::path& database) {
+  if (has_index(database)) return std::nullopt;
   const IndexPaths paths = index_paths(database);
-  std::ifstream stream(paths.xdmf, std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(stream), {}};
-  if (text.find(">" + name_of_views(database) + ":/") == std::string::npos) return false;
+  for (const std::filesystem::path& path : {paths.xdmf, paths.views})
+    if (std::filesystem::exists(path)) return path;
+  return std::nullopt;
+}
+
+bool remove_index(const std::filesystem::path& database) {
+  if (!has_index(database)) return false;
+  const IndexPaths paths = index_paths(database);
   for (const std::filesystem::path& path : {paths.xdmf, paths.views}) {
     std::error_code error;
     std::filesystem::remove(path, error);

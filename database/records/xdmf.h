@@ -26,6 +26,9 @@ IndexPaths index_paths(const std::filesystem::path& database);
 /// Failure if it has no fields or a file cannot be written.
 void write_index(const Database& database, const std::vector<Scene>& scenes);
 
+/// A file that has a name of the database's index and is none, if there is one: write_index would replace it.
+std::optional<std::filesystem::path> in_the_way_of_index(const std::filesystem::path& database);
+
 /// Removes the index of a database of this name, if there is one: of another file's rows it would show other
 /// scenes than it names. True if there was one; files that write_index has not written stay. Throws Failure
 /// if they cannot be removed.

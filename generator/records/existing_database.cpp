@@ -64,11 +64,27 @@ std::vector<std::string> find_changes(const Database& database, const WantedData
   return changes;
 }
 
+/// Of each variant that was found the wanted one with the same parameters; kNone where there is none.
+constexpr std::int32_t kNone = -1;
+std::vector<std::int32_t> wanted_numbers(const std::vector<VariantParameters>& found,
+                                         const std::vector<VariantParameters>& wanted) {
+  std::vector<std::int32_t> numbers;
+  for (const VariantParameters& parameters : found) {
+    const auto same = std::ranges::find(wanted, parameters);
+    numbers.push_back(same == wanted.end() ? kNone : static_cast<std::int32_t>(same - wanted.begin()));
+  }
+  return numbers;
+}
+
 /// What of a file whose records are valid is not wanted is not thrown away unasked.
 void check_nothing_is_lost(const Database& database, const WantedDatabase& wanted) {
   std::size_t scenes = 0;
-  for (std::size_t row = 0; row < database.rows(); ++row)
-    if (!std::ranges::binary_search(wanted.keys, database.key(row))) ++scenes;
+  const std::vector<std::int32_t> numbers = wanted_numbers(database.variants(), wanted.variants);
+  for (std::size_t row = 0; row < database.rows(); ++row) {
+    RecordKey key = database.key(row);
+    key.variant = numbers[static_cast<std::size_t>(key.variant)];
+    if (!std::ranges::binary_search(wanted.keys, key)) ++scenes;
+  }
   std::vector<std::string> states;
   for (const std::string& state : database.states())
     if (std::ranges::find(wanted.states, state) == wanted.states.end()) states.push_back(state);
@@ -81,6 +97,16 @@ void check_nothing_is_lost(const Database& database, const WantedDatabase& wante
 }
 
 }  // namespace
+
+void expect_file(const std::filesystem::path& output, const std::filesystem::path& bridge_file) {
+  std::error_code none;
+  if (output.empty()) throw InputError("-o: '' given, expected the name of a file");
+  if (std::filesystem::exists(output, none) && !std::filesystem::is_regular_file(output, none))
+    throw InputError(fmt::format("-o: {} is no file: expected the name of one", output.string()));
+  if (std::filesystem::equivalent(output, bridge_file, none))
+    throw InputError(fmt::format("-o: {} is the bridge file, which would be lost: expected another file",
+                                 output.string()));
+}
 
 ExistingDatabase examine_existing(const std::filesystem::path& output, const WantedDatabase& wanted,
                                   bool force) {
@@ -98,9 +124,10 @@ ExistingDatabase examine_existing(const std::filesystem::path& output, const Wan
     existing.database = Database::open(output);
     existing.changes = find_changes(*existing.database, wanted);
     existing.up_to_date = existing.changes.empty();
-    existing.reusable = existing.database->has_fields() &&
-                        existing.database->provenance().results_key == wanted.provenance.results_key;
-    if (existing.reusable && !wanted.shard && !wanted.drop) check_nothing_is_lost(*existing.database, wanted);
+    const bool is_valid = existing.database->provenance().results_key == wanted.provenance.results_key;
+    const bool is_part_of_part = wanted.shard && existing.database->shard();
+    existing.reusable = is_valid && existing.database->has_fields();
+    if (is_valid && !is_part_of_part && !wanted.drop) check_nothing_is_lost(*existing.database, wanted);
   } catch (const InputError& error) {
     existing = {};
     existing.changes = {fmt::format("the old file cannot be used ({})", error.what())};

@@ -26,6 +26,10 @@ struct WantedDatabase {
   bool drop;  ///< BuildRequest::drop
 };
 
+/// Throws InputError if a database of this name would take the place of what is no file, or of the bridge
+/// file that it is built from, whatever is forced.
+void expect_file(const std::filesystem::path& output, const std::filesystem::path& bridge_file);
+
 /// Looks at the file; `force` makes any file out of date and its records worthless. Throws Failure (unless
 /// forced) for a file that is no database, as a build should not replace what is none of its own, and for one
 /// whose valid records would be dropped, as scenes or states are no longer wanted.

@@ -12,7 +12,7 @@
 
 namespace voussoir {
 
-/// A composed signal (L1, difference from the intact bridge at the control points) is off by at most this
+/// A composed signal (L1, difference from the intact bridge at the points of a family) is off by at most this
 /// share of it, or by this much on average over the points [m].
 inline constexpr double kComposedShare = 0.01;
 inline constexpr double kComposedError = 1e-7;
@@ -25,7 +25,7 @@ inline constexpr double kComposedError = 1e-7;
 inline constexpr double kComposedMargin = 6.0;
 
 /// How far vertical displacements of the control points [m] are off in L1, over what a composed signal may be
-/// off. Points that are gone (NaN) do not count.
+/// off; 0 where they are not off. Points that are gone (NaN) do not count.
 double composed_error(std::span<const double> composed, std::span<const double> solved,
                       std::span<const double> intact);
 
@@ -33,6 +33,10 @@ class Composition {
  public:
   Composition() = default;
   /// With the intact bridge's field and equations as built. Composes nothing if its tangent is singular.
+  ///
+  /// A scene is composed only if the signal at each family of points allows it: at the upper corners of the
+  /// top course and the intrados corners, whatever is measured (an equilibrium that few sensors see is none);
+  /// at the control points; and, as a scene answers for its mirror image, at those of the image.
   Composition(const StageEquations& intact, const Field& displacement);
 
   /// Does the scene lack three blocks, and do all singles and pairs within it stand?
@@ -44,8 +48,14 @@ class Composition {
                              const StageEquations& equations) const;
 
  private:
-  Eigen::MatrixXd
-      influence_;  ///< Z: displacement components x control points [m/N]; empty: nothing is composed
+  struct Family {
+    std::vector<ControlPoint> points;
+    Eigen::MatrixXd influence;  ///< Z: displacement components x points [m/N]
+
+    bool allows(const Scene& scene, const Field& signal, const Field& unbalanced) const;
+  };
+
+  std::vector<Family> families_;  ///< none: nothing is composed
 };
 
 }  // namespace voussoir

@@ -119,6 +119,7 @@ std::vector<Scene> parse_scene_list(std::string_view text, const BlockLayout& la
     const auto more = scenes_of_item(item, layout);
     scenes.insert(scenes.end(), more.begin(), more.end());
   }
+  if (scenes.empty()) throw InputError(fmt::format("--scenes: '{}' names no scene of this bridge", text));
   return in_order(std::move(scenes));
 }
 

@@ -101,7 +101,8 @@ std::vector<std::pair<Scene, std::vector<BlockId>>> StartingFields::falling(std:
 
 bool StartingFields::has_pairs() const {
   const auto is_pair = [](const auto& entry) { return entry.first.first.missing() == 2; };
-  return std::ranges::any_of(standing_, is_pair) || std::ranges::any_of(falling_, is_pair);
+  return std::ranges::any_of(standing_, is_pair) || std::ranges::any_of(falling_, is_pair) ||
+         std::ranges::any_of(open_, [](const Place& place) { return place.first.missing() == 2; });
 }
 
 std::optional<Field> StartingFields::start_for(const Scene& scene, std::size_t state) const {

@@ -20,8 +20,8 @@ std::vector<Scene> starting_subsets(const Scene& scene);
 /// numbers whatever was computed before it. They are zero wherever a field has no displacement.
 class StartingFields {
  public:
-  /// Takes in a state of the intact bridge, a single or a pair if it stands or falls; anything else is
-  /// ignored. Not thread-safe.
+  /// Takes in a state of the intact bridge, a single or a pair; scenes with more missing blocks are ignored.
+  /// Not thread-safe.
   void add(const Scene& scene, std::size_t state, const Solution& solution);
 
   /// The start for a state of a scene of which nothing is known: nothing (zero) for the intact bridge, the

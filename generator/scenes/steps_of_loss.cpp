@@ -15,9 +15,12 @@ int StepsOfLoss::of(const Scene& scene) const {
 }
 
 std::vector<ControlPoint> deciding_points(const Structure& structure) {
-  BridgeDescription top;
-  top.control_points = {.top = true, .arch = false, .face = false};
-  return find_control_points(structure.layout, structure.mesh, top);
+  const auto points_of = [&](const ControlPointDescription& kinds) {
+    return find_control_points(structure.layout, structure.mesh, kinds);
+  };
+  std::vector<ControlPoint> points = points_of({.top = true, .arch = false, .face = false});
+  if (points.empty()) points = points_of({.top = false, .arch = true, .face = true});
+  return points;
 }
 
 bool differ_in_signal(const Field& one_step, const Field& many_steps, const Field& intact,

@@ -32,7 +32,7 @@ class StepsOfLoss {
   std::set<BlockId> needing_many_;
 };
 
-/// The upper corners of the top course's blocks: signals there decide.
+/// The upper corners of the top course's blocks, without one all other usual points: signals there decide.
 std::vector<ControlPoint> deciding_points(const Structure& structure);
 
 /// Do the signals of these fields, less that of the intact bridge, differ by more than kSameSignal?

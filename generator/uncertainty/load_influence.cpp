@@ -45,7 +45,7 @@ LoadInfluence find_load_influence(const SensitivityStudy& study, const Sensitivi
   ComponentRows adjoints = equations.readings;
   if (!TransposedSolver(equations.system).solve(end.equations, end.displacement, adjoints)) return {};
   const TopSurface top(study.bridge.mesh);
-  const double width = *std::ranges::max_element(equations.coefficients.thickness);
+  const double width = study.description.material.thickness;
   LoadInfluence influence{places_on_top(study.bridge, top), {}};
   influence.readings =
       adjoints.transpose() * forces_at(influence.places, top, width, study.bridge.mesh.node_count());

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "core/solve/state_name.h"
 #include "core/structure/block_layout.h"
@@ -36,12 +37,20 @@ StageSolver probe_solver(const ErrorProbes& probes, const Model& bridge) {
   return stands(of_all({&intact, 1}).front()) ? of_all : of_equilibria;
 }
 
-/// Control displacements of the intact bridge and the singles, on one mesh.
+/// Places, among the kept states, of those in which the intact bridge stands.
+std::vector<std::size_t> compared_states(const ErrorProbes& probes) {
+  std::vector<std::size_t> places(kept_states(probes.states).size());
+  std::iota(places.begin(), places.end(), std::size_t{0});
+  if (!probes.intact_stands.empty())
+    std::erase_if(places, [&](std::size_t place) { return !probes.intact_stands[place]; });
+  return places;
+}
+
+/// Control displacements in the states of these names of the intact bridge and the singles, on one mesh.
 std::vector<Settlements> solve_probes(const ErrorProbes& probes, const Model& bridge,
                                       const BridgeDescription& description,
+                                      const std::vector<std::string>& names,
                                       const std::vector<Scene>& singles) {
-  std::vector<std::string> names;
-  for (const std::size_t state : kept_states(probes.states)) names.push_back(probes.states[state].name);
   const StatePlan plan = plan_states(names, bridge, description);
   const StateSolving solving(bridge, plan);
   std::vector<SceneGroup> groups = {{.solved = {}, .states = {}, .image = {}}};
@@ -82,15 +91,19 @@ std::vector<ModelError> errors_of_mesh(const ErrorProbes& probes, Progress& prog
   BridgeDescription finer = probes.description;
   ++finer.mesh.refinement;
   const std::vector<Scene> singles = probed_singles(probes.bridge.layout);
+  const std::vector<std::size_t> kept = kept_states(probes.states), compared = compared_states(probes);
+  std::vector<ModelError> errors(kept.size());
+  if (compared.empty()) return errors;
+  std::vector<std::string> names;
+  for (const std::size_t place : compared) names.push_back(probes.states[kept[place]].name);
   progress.start(2, 0, "meshes for the model's error");
-  const auto coarse = solve_probes(probes, probes.bridge, probes.description, singles);
+  const auto coarse = solve_probes(probes, probes.bridge, probes.description, names, singles);
   progress.advance(1);
-  const auto fine = solve_probes(probes, make_model(finer), finer, singles);
+  const auto fine = solve_probes(probes, make_model(finer), finer, names, singles);
   progress.advance(1);
   progress.finish();
-  std::vector<ModelError> errors;
-  for (std::size_t state = 0; state < coarse.front().size(); ++state)
-    errors.push_back(error_of_state(coarse, fine, state));
+  for (std::size_t state = 0; state < compared.size(); ++state)
+    errors[compared[state]] = error_of_state(coarse, fine, state);
   return errors;
 }
 

@@ -12,7 +12,7 @@ namespace voussoir {
 
 /// What a mesh one level finer changes is this part of the whole error. Measured on the reference bridge, 41
 /// singles: the first two levels change a signal by 0.43 and 0.46 % (median) each, and an independent
-/// program's finest mesh by 1.45 % (docs/numerics.md).
+/// program's finest mesh by 1.45 %.
 inline constexpr double kErrorPerLevel = 3.0;
 
 /// What losing a block suddenly instead of slowly changes of its signal [-], as in ModelError. Measured on 23
@@ -29,12 +29,13 @@ struct ErrorProbes {
   const Model& bridge;      ///< of that description
   const StatePlan& states;  ///< those that are kept are estimated
   const SolverChoice& solver;
+  std::vector<bool> intact_stands{};  ///< in each kept state, as far as is known; empty: nothing is known
 };
 
 /// Solves the intact bridge and some standing singles, evenly spread, on a mesh one level finer and compares
 /// their signals with those of this mesh; for states that blocks were lost before, adds the squares of what a
 /// sudden release changes. One value for each kept state; the mesh's is zero where nothing can be compared
-/// because the bridge does not stand or is large.
+/// because the intact bridge does not stand (a load may be too much for it) or is large.
 std::vector<ModelError> estimate_model_errors(const ErrorProbes& probes, Progress& progress);
 
 }  // namespace voussoir

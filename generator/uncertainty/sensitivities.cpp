@@ -80,7 +80,8 @@ std::optional<Sensitivities> find_sensitivities(const SensitivityStudy& study,
                                                 const std::vector<Scene>& scenes, const KnownRecords& known,
                                                 Progress& progress) {
   fix_order_of_sums();
-  const SensitivityEquations equations(study.bridge, uncertain_parameters(study.bridge, study.uncertainty));
+  const SensitivityEquations equations(study.bridge,
+                                       uncertain_parameters(study.bridge, study.description.uncertainty));
   Sensitivities result;
   result.parameters = equations.uncertain.all();
   if (result.parameters.empty()) return std::nullopt;

@@ -13,8 +13,8 @@ namespace voussoir {
 
 /// What is found for which bridge with what.
 struct SensitivityStudy {
-  const Model& bridge;  ///< the nominal variant
-  const Uncertainty& uncertainty;
+  const BridgeDescription& description;
+  const Model& bridge;      ///< of that description, the nominal variant
   const StatePlan& states;  ///< those that are kept are looked at
   const SolverChoice& solver;
   const std::string& settings;  ///< of the solver

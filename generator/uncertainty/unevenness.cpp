@@ -31,7 +31,7 @@ Eigen::MatrixXd covariance_of(const Eigen::MatrixXd& derivatives, const Eigen::M
 }  // namespace
 
 std::vector<Eigen::MatrixXd> find_unevenness(const SensitivityStudy& study, const SceneStates& intact) {
-  const Unevenness uneven = unevenness_of(study.bridge, study.uncertainty);
+  const Unevenness uneven = unevenness_of(study.bridge, study.description.uncertainty);
   if (uneven.is_none()) return {};
   std::vector<UncertainAction> actions = uneven.stiffness.actions;
   actions.insert(actions.end(), uneven.temperature.actions.begin(), uneven.temperature.actions.end());

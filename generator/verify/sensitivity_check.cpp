@@ -48,7 +48,7 @@ std::vector<std::string> problems_of_intact(const Sensitivities& stored, const S
 }  // namespace
 
 SensitivityCheck check_sensitivities(const Database& database, const Model& bridge,
-                                     const Uncertainty& uncertainty, const StatePlan& plan) {
+                                     const BridgeDescription& description, const StatePlan& plan) {
   SensitivityCheck check;
   const Sensitivities* stored = database.sensitivities();
   const auto intact_row = database.find(Scene{});
@@ -56,8 +56,8 @@ SensitivityCheck check_sensitivities(const Database& database, const Model& brid
     return check;
   const std::string settings = database.provenance().solver_settings;
   const SolverChoice solver{.settings = {}, .make_solver = stated_solver};
-  const SensitivityStudy study{bridge, uncertainty, plan, solver, settings};
-  const SensitivityEquations equations(bridge, uncertain_parameters(bridge, uncertainty));
+  const SensitivityStudy study{description, bridge, plan, solver, settings};
+  const SensitivityEquations equations(bridge, uncertain_parameters(bridge, description.uncertainty));
   SceneDerivatives derivatives(study, equations);
   const SceneStates intact = stored_states(database, *intact_row, plan);
   check.problems = problems_of_intact(*stored, study, equations, intact);

@@ -20,6 +20,6 @@ struct SensitivityCheck {
 /// Finds the factors of some scenes anew from the stored fields. A database without sensitivities or without
 /// fields has none to check, nor has one that does not keep the state `built`.
 SensitivityCheck check_sensitivities(const Database& database, const Model& bridge,
-                                     const Uncertainty& uncertainty, const StatePlan& plan);
+                                     const BridgeDescription& description, const StatePlan& plan);
 
 }  // namespace voussoir

@@ -293,7 +293,7 @@ void check_content(const VerifyRequest& request, VerifyReport& report) {
     check_variant(request, database, variant_in(database, *nominal, variant), variant, plan, report);
   if (!report.ok()) return;  // of damaged fields nothing can be said
   const SensitivityCheck sensitivities =
-      check_sensitivities(database, *nominal, description_of(database).uncertainty, plan);
+      check_sensitivities(database, *nominal, description_of(database), plan);
   std::ranges::copy(sensitivities.problems, std::back_inserter(report.problems));
 }
 

@@ -39,6 +39,15 @@ inline constexpr double kIntactWeight = 8.0;
 /// as many weights as numbers.
 std::vector<double> weights_of(const Prior& prior);
 
+/// How many times as likely readings have to be without any loss as with one to speak against it.
+inline constexpr double kSpokenAgainst = 10.0;
+
+/// A single that leaves the bridge standing and that the readings do not speak against.
+struct OpenLoss {
+  std::size_t row = 0;
+  double times_as_likely = 0.0;  ///< the readings' density beside that of the intact bridge
+};
+
 struct Posterior {
   RowValues probability;                    ///< of each row of the table; all zero if no scene is possible
   std::vector<double> block_probability;    ///< that a block is missing: sum over the scenes that lack it
@@ -47,9 +56,10 @@ struct Posterior {
   double log_evidence = kImpossible;  ///< log of the readings' density on average over the scenes,
                                       ///< as likely as they are beforehand, but for a constant
                                       ///< that only the sensors and their errors make
-  double intact_if_even =
-      0.0;  ///< what the probability that no block is missing would be, if that had been as
-            ///< likely beforehand as that some are: what the readings themselves say of it
+  double intact_if_even = 0.0;  ///< what the probability that no block is missing would be, if that had been
+                                ///< as likely beforehand as a loss that leaves the bridge standing: what the
+                                ///< readings themselves say of it
+  std::vector<OpenLoss> open_losses;  ///< in the order of rows; empty if the intact bridge is impossible
 };
 
 /// Probability that no block is missing.

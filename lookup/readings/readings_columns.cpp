@@ -36,6 +36,18 @@ Measured measured_in(std::string_view name) {
 /// Of a column that is not read.
 constexpr std::string_view kRemark = "remark";
 
+/// What surveys have beside readings, and what to do about it.
+std::string_view advice_on(std::string_view name) {
+  if (name.starts_with("temp"))
+    return " (readings that are corrected for temperature are asked with --conditions known; else it is "
+           "uncertain "
+           "as the bridge file states, and the column may be called remark)";
+  if (name.ends_with("_mrad") || name.ends_with("_rad"))
+    return " (tilts are read in mm per m, which is mrad, in a column such as change_mm)";
+  if (name.starts_with("date") || name.starts_with("time")) return " (what is not read may be called remark)";
+  return "";
+}
+
 class Header {
  public:
   explicit Header(const CsvTable& table) : table_(table) {}
@@ -99,7 +111,7 @@ class Header {
     if (name == "y_m") return columns_.y;
     if (name == "load") return columns_.load;
     if (name == "levelling") return columns_.levelling;
-    fail(fmt::format("unknown column {}", in_quotes(name)));
+    fail(fmt::format("unknown column {}{}", in_quotes(name), advice_on(name)));
   }
 
   void check_point() const {

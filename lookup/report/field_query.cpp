@@ -40,8 +40,10 @@ std::vector<PlaceDisplacement> at_points(const Database& database, std::size_t r
   std::vector<PlaceDisplacement> result;
   for (const std::size_t i : points) {
     const StoredPoint& point = database.control_points()[i];
-    result.push_back({point.name, has_fields ? displacement_of(point, database.mesh(), field)
-                                             : read_displacement(point, table.row(row)[i])});
+    result.push_back({point.name,
+                      has_fields ? displacement_of(point, database.mesh(), field)
+                                 : read_displacement(point, table.row(row)[i]),
+                      point.position});
   }
   return result;
 }
@@ -73,7 +75,7 @@ std::vector<std::pair<BlockId, Point>> displacements_of_place(const Database& da
     for (int t = mesh.block_triangles[b].begin; t < mesh.block_triangles[b].end; ++t) {
       const Triangle& triangle = mesh.triangles[static_cast<std::size_t>(t)];
       const Eigen::Vector3d weights = barycentric_coordinates(mesh, triangle, place);
-      if (weights.minCoeff() < -kInside) continue;
+      if (!(weights.minCoeff() >= -kInside)) continue;  // nor if it is no number
       Point result = Point::Zero();
       for (int corner = 0; corner < 3; ++corner)
         result += weights[corner] * field.col(value(triangle.nodes.at(static_cast<std::size_t>(corner))));
@@ -94,7 +96,7 @@ std::vector<PlaceDisplacement> at_place(const Database& database, std::size_t ro
   for (const auto& [block, displacement] : blocks)
     result.push_back({fmt::format("{},{}{}", place.x(), place.y(),
                                   blocks.size() > 1 ? " of block " + database.layout()[block].label : ""),
-                      displacement});
+                      displacement, place});
   return result;
 }
 

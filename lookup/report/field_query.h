@@ -14,6 +14,7 @@ namespace voussoir {
 struct PlaceDisplacement {
   std::string name;    ///< of the control point, or "x,y" as it was asked for
   Point displacement;  ///< [m] (u_x, u_y); NaN where the block is gone, and u_x in a database without fields
+  Point position;      ///< [m] on the drawing
 };
 
 /// The number of the state of a history ("built", "lost"; nothing: that of the first state) without or with a

@@ -49,7 +49,7 @@ std::string field_json(const SceneField& scene) {
                       {"ux_m", scene.field(0, node)},
                       {"uy_m", scene.field(1, node)}});
   });
-  return list.dump(1) + "\n";
+  return list.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace
@@ -93,9 +93,10 @@ VtkGrid field_grid(const Mesh& mesh, const BlockLayout& layout, const Scene& sce
 }
 
 std::string places_report(const std::vector<PlaceDisplacement>& places, FieldFormat format) {
-  Table table{{"point", "ux_m", "uy_m"}, {}};
+  Table table{{"point", "ux_m", "uy_m", "x_m", "y_m"}, {}};
   for (const PlaceDisplacement& place : places)
-    table.rows.push_back({place.name, place.displacement.x(), place.displacement.y()});
+    table.rows.push_back(
+        {place.name, place.displacement.x(), place.displacement.y(), place.position.x(), place.position.y()});
   return format == FieldFormat::json ? to_json(table) : to_csv(table);
 }
 

@@ -96,7 +96,7 @@ std::string plan_json(const SensorPlan& plan, const PlannedBridge& bridge) {
                                    {"falls", plan.falls.size()}};
   result["chosen"] = plan.chosen;
   result["blocks"] = nlohmann::ordered_json::parse(to_json(block_table(plan, bridge.database)));
-  return result.dump(1) + "\n";
+  return result.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
 using Text = std::back_insert_iterator<std::string>;

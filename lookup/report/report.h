@@ -17,6 +17,7 @@ struct Source {
   std::string digest;                      ///< of the database's content
   bool stands_by_slip;                     ///< as the database says of it
   std::vector<AskedDatabase> databases{};  ///< if several were asked: all, this one, the likeliest, first
+  std::vector<std::string> notes{};        ///< sentences about what has no effect on this answer
 };
 
 enum class ReportFormat { text, json, csv };

@@ -103,6 +103,11 @@ void add_judgement(const Answer& answer, const Comparison& comparison, ordered_j
   if (!answer.posterior) return;
   result["intact_probability"] = intact_probability(*answer.posterior);
   result["intact_if_even"] = answer.posterior->intact_if_even;
+  result["open_losses"] = ordered_json::array();
+  for (const OpenLoss& loss : answer.posterior->open_losses)
+    result["open_losses"].push_back(
+        {{"scene", to_string(comparison.library.table.scene(loss.row), comparison.library.layout)},
+         {"times_as_likely", loss.times_as_likely}});
   result["verdict"] = to_string(verdict_of(answer));
 }
 
@@ -179,7 +184,9 @@ std::string json_report(const Answer& answer, const LookupSettings& settings, co
         {"digest", source.digest},
         {"stands_by_slip", source.stands_by_slip},
         {"scenes_searched", answer.searched},
-        {"scenes_unresolved", answer.unresolved}}}};
+        {"scenes_unresolved", answer.unresolved},
+        {"scenes_fallen", answer.fallen}}}};
+  result["notes"] = source.notes;
   if (!source.databases.empty()) result["databases"] = databases_json(source.databases);
   if (!answer.candidates.empty()) result["first_candidate"] = standing(answer);
   add_judgement(answer, comparison, result);

@@ -164,8 +164,7 @@ std::string assumptions_html(const Answer& answer, const LookupSettings& setting
       {"History", history_in_words(comparison.history)},
       {"Database", fmt::format("{} (bridge '{}')", source.database, source.bridge)},
       {"Database digest", source.digest},
-      {"Scenes searched",
-       fmt::format("{}; left out because they have no solution: {}", answer.searched, answer.unresolved)},
+      {"Searched", searched_in_words(answer)},
       {"Objective", settings.objective == Objective::paper
                         ? "the misfit log(sum |measured - scene|) alone, which gives no probabilities"
                         : "posterior probability of each scene"},
@@ -175,6 +174,7 @@ std::string assumptions_html(const Answer& answer, const LookupSettings& setting
        fmt::format("{:.2g} % of the change that a scene makes at a point, and {:.2g} % of "
                    "that change's root mean square",
                    100.0 * comparison.model_error.share, 100.0 * comparison.model_error.common)}};
+  for (const std::string& note : source.notes) terms.emplace_back("Note", note);
   for (const AskedDatabase& asked : source.databases) terms.emplace_back("Asked", in_words(asked));
   if (answer.bridge) terms.emplace_back("How much bridges scatter", evidence_in_words(comparison));
   if (settings.objective == Objective::posterior) add_noise_terms(answer, settings, comparison, terms);

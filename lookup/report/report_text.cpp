@@ -40,14 +40,12 @@ void write_heading(Text& text, const Answer& answer, const Comparison& compariso
             source.digest.substr(0, kDigestShown));
   for (std::size_t i = 0; i < source.databases.size(); ++i)
     text.line("{:<13} {}", i == 0 ? "Asked:" : "", in_words(source.databases[i]));
-  text.line("Searched:     {} scenes{}", answer.searched,
-            answer.unresolved == 0
-                ? ""
-                : fmt::format("; {} more have no solution and were left out", answer.unresolved));
+  text.line("Searched:     {}", searched_in_words(answer));
   text.line("History:      {}", history_in_words(comparison.history));
   text.line("Bridge:       {}", bridge_in_words(answer));
   if (source.stands_by_slip) text.line("              {}", kStandsBySlip);
   if (answer.bridge) text.line("Evidence:     {}", evidence_in_words(comparison));
+  for (const std::string& note : source.notes) text.line("Note:         {}", note);
 }
 
 void write_verdict(Text& text, const Answer& answer, const Library& library) {
@@ -97,7 +95,7 @@ std::string in_millimetres(double metres) {
 }
 
 /// The largest readings of what is a difference, beside what the answer lets expect there; of a bridge that
-/// is not exactly known with what the first candidate's blocks alone would change.
+/// is not exactly known with what the first candidate would show were it as the bridge file says.
 void write_movements(Text& text, const Answer& answer, const Comparison& comparison) {
   if (comparison.kind == ReadingKind::absolute) return;
   const ShownReadings shown = shown_readings(comparison, answer.candidates.front().row);
@@ -115,7 +113,7 @@ void write_movements(Text& text, const Answer& answer, const Comparison& compari
   const bool epochs = !comparison.before.empty();
   text.line("Moved most: {} [mm, tilts mm per m]", value_in_words(comparison.kind));
   text.line("      {:<20}{}  {:>9}  {:>9}{}", "point", epochs ? "     before       after" : "", "reading",
-            "expected", answer.bridge ? "  by losses alone" : "");
+            "expected", answer.bridge ? "      by the file" : "");
   for (const std::size_t i : channels)
     text.line("      {:<20}{}  {:>9}  {:>9}{}", comparison.library.points[i].name,
               epochs ? fmt::format("{:>11} {:>11}", in_millimetres(comparison.before[i]),

@@ -19,6 +19,7 @@ namespace voussoir {
 namespace {
 
 constexpr std::size_t kMostSensorsListed = 5;
+constexpr std::size_t kMostLossesNamed = 20;
 constexpr std::string_view kOneOfMany = "likeliest of many";
 
 /// The likeliest scene's row if it is none of the candidates, which a search by misfit may miss.
@@ -125,6 +126,29 @@ std::string headline(const Answer& answer, const Comparison& comparison) {
   }
 }
 
+std::string searched_in_words(const Answer& answer) {
+  std::string text = fmt::format("{} scenes", answer.searched);
+  if (answer.unresolved > 0)
+    text += fmt::format("; {} more have no solution and were left out", answer.unresolved);
+  if (answer.fallen > 0)
+    text += fmt::format("; {} in which something falls, and of which no field is kept, were left out",
+                        answer.fallen);
+  return text;
+}
+
+std::string open_losses_in_words(const Answer& answer, const Library& library) {
+  std::vector<OpenLoss> open = answer.posterior->open_losses;
+  if (verdict_of(answer) != Verdict::intact || open.empty()) return "";
+  std::ranges::stable_sort(open, std::ranges::greater{}, &OpenLoss::times_as_likely);
+  std::string names;
+  for (const OpenLoss& loss : std::span(open).first(std::min(open.size(), kMostLossesNamed)))
+    names += (names.empty() ? "" : ", ") + to_string(library.table.scene(loss.row), library.layout);
+  return fmt::format(
+      "These readings hardly speak against the loss of {}{}: with it they would be more than a "
+      "tenth as likely. plan-sensors says which sensors would show it.",
+      names, open.size() > kMostLossesNamed ? fmt::format(", .. ({} in all)", open.size()) : "");
+}
+
 std::vector<std::string> verdict(const Answer& answer, const Library& library) {
   const Candidate& best = answer.candidates.front();
   const std::optional<std::size_t> missed = missed_row(answer);
@@ -143,6 +167,8 @@ std::vector<std::string> verdict(const Answer& answer, const Library& library) {
     sentences.push_back(
         fmt::format("Probability:  {}{}", percent(*best.posterior),
                     answer.fit && !answer.fit->explained ? ", if one of the scenes were the truth" : ""));
+  if (const std::string open = answer.posterior ? open_losses_in_words(answer, library) : ""; !open.empty())
+    sentences.push_back(open);
   if (missed)
     sentences.push_back(fmt::format("More likely, {}, but not found by this search: {}",
                                     percent(answer.posterior->probability[*missed]),

@@ -31,6 +31,13 @@ std::string_view standing(const Answer& answer);
 inline constexpr std::string_view kStandsBySlip =
     "it stands intact only by what its joints have slid, which depends on how it was loaded";
 
+/// "22579 scenes", and how many were left out for which reason.
+std::string searched_in_words(const Answer& answer);
+
+/// Of a bridge that is said to be intact: which losses the readings would have let slip. Empty if there are
+/// none, and with any other verdict.
+std::string open_losses_in_words(const Answer& answer, const Library& library);
+
 /// What is taken to be known and uncertain of the bridge.
 std::string bridge_in_words(const Answer& answer);
 

@@ -26,6 +26,7 @@ std::vector<int> numbers_of_missing(const SceneTable& table) {
 Eligible eligible_rows(const SceneTable& table, const std::vector<int>& missing) {
   Eligible result;
   result.scenes.assign(table.most_missing + 1, 0);
+  result.standing = result.scenes;
   std::vector<bool> wanted(table.most_missing + 1, false);
   for (const int number : missing)
     if (number >= 0 && static_cast<std::size_t>(number) < wanted.size())
@@ -37,9 +38,14 @@ Eligible eligible_rows(const SceneTable& table, const std::vector<int>& missing)
       ++result.unresolved;
       continue;
     }
+    if (!table.stands(row) && !table.has_displacements(row)) {
+      ++result.fallen;
+      continue;
+    }
     result.rows.push_back(row);
     result.missing.push_back(static_cast<std::uint8_t>(lost));
     ++result.scenes[static_cast<std::size_t>(lost)];
+    if (table.stands(row)) ++result.standing[static_cast<std::size_t>(lost)];
   }
   return result;
 }

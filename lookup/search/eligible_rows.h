@@ -7,12 +7,15 @@
 
 namespace voussoir {
 
-/// Rows that a search may look at: their number of missing blocks is allowed, and their outcome is known.
+/// Rows that a search may look at: their number of missing blocks is allowed, their outcome is known, and
+/// what a reading would be. A scene that falls, of which no field is kept, is not what anybody reads.
 struct Eligible {
   std::vector<std::size_t> rows;
   std::vector<std::uint8_t> missing;  ///< of each of them, how many blocks
   std::vector<std::size_t> scenes;    ///< how many of them lack 0, 1, 2... blocks
+  std::vector<std::size_t> standing;  ///< and how many of these stand
   std::size_t unresolved = 0;         ///< rows left out only because the solver gave no answer
+  std::size_t fallen = 0;             ///< rows left out only because they fall and say nothing of readings
 };
 Eligible eligible_rows(const SceneTable& table, const std::vector<int>& missing);
 

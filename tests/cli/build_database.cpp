@@ -106,6 +106,52 @@ TEST_CASE("Scenes and states that are still valid are not dropped unasked") {
   CHECK(build("intact", "built", "--drop").exit_code == 0);
 }
 
+TEST_CASE("Nothing that is no result of this build is replaced, whatever is forced") {
+  const test::TemporaryFolder folder;
+  const std::string bridge = (folder / "small.toml").string();
+  std::filesystem::copy_file(test::example_bridge("small"), bridge);
+  const auto build = [&](const std::string& output, std::vector<std::string> more) {
+    more.insert(more.begin(), {bridge, "-o", output, "--known-bridge", "--quiet"});
+    return test::run("build-database", more);
+  };
+  const auto refused = [&](const std::string& output, const std::vector<std::string>& more,
+                           const std::string& words) {
+    const ProgramResult result = build(output, more);
+    CHECK(result.exit_code != 0);
+    CHECK_THAT(result.err, Catch::Contains(words));
+  };
+  const std::vector<std::string> intact = {"--scenes", "intact"};
+  refused(bridge, {"--scenes", "intact", "--force"}, "is the bridge file, which would be lost");
+  refused(folder.path().string(), {"--scenes", "intact", "--force"}, "is no file");
+  refused("", {"--scenes", "intact", "--force"}, "'' given, expected the name of a file");
+  const std::string whole = (folder / "whole.h5").string();
+  REQUIRE(build(whole, {"--scenes", "intact;2,4;3,6"}).exit_code == 0);
+  refused(whole, {"--scenes", "singles", "--shard", "1/4"}, "of its 3 scenes would be lost");
+  const std::string views = (folder / "other.views.h5").string();
+  REQUIRE(build(views, intact).exit_code == 0);
+  refused((folder / "other.h5").string(), {"--scenes", "intact", "--xdmf", "intact"},
+          "other.views.h5 is there");
+  CHECK(build(views, intact).exit_code == 0);
+  std::filesystem::copy_file(whole, folder / "new.h5.partial");
+  refused((folder / "new.h5").string(), intact, "new.h5.partial: is there and holds no scenes of a build");
+  const std::string points = (folder / "points.h5").string();
+  REQUIRE(build(points, {"--scenes", "intact;2,4", "--fields", "none"}).exit_code == 0);
+  refused(points, {"--scenes", "intact", "--fields", "none"}, "1 of its 2 scenes would be lost");
+}
+
+TEST_CASE("Sampled bridges are not replaced by others of the same number unasked") {
+  const test::TemporaryFolder folder;
+  const auto build = [&](const std::string& seed) {
+    return test::run("build-database",
+                     {test::example_bridge("small").string(), "-o", (folder / "v.h5").string(), "--scenes",
+                      "intact", "--variants", "1", "--variant-seed", seed, "--known-bridge", "--quiet"});
+  };
+  REQUIRE(build("1").exit_code == 0);
+  const ProgramResult other = build("2");
+  CHECK(other.exit_code == 1);
+  CHECK_THAT(other.err, Catch::Contains("1 of its 2 scenes would be lost"));
+}
+
 TEST_CASE("The digest of real scenes is the same for 1, 2 and 5 threads", "[whole-build]") {
   for (const char* threads : {"1", "2", "5"})
     CHECK(test::json_of(Site().build_with({"--threads", threads})).at("digest") == undisturbed_digest());
@@ -223,6 +269,8 @@ TEST_CASE("Bad usage of build-database is told in words and ends with 2") {
   refused({"--scenes", "9,1"}, "no course 9");
   refused({"--scenes", "5,1..x"}, "cannot read '5,1..x'");
   refused({"--tolerance", "1"}, "--tolerance");
+  refused({"--threads", "010"}, "'010' given, expected a decimal number");
+  refused({"--threads", "0x2"}, "'0x2' given, expected a decimal number");
 }
 
 TEST_CASE("A bridge file that is missing or bad is named") {

@@ -145,6 +145,25 @@ TEST_CASE("Outputs do not take the place of inputs or databases, and say what th
   const std::string page = shop.file("page.html", "point,change_mm,sigma_mm\nT1,0,0.02\n");
   CHECK_THAT(refusal("locate-damage", {page, "-d", shop.database, "--report", page}),
              Contains("is read by this very command"));
+  const std::string sensors = shop.file("own.csv", "name,quantity,x_m,y_m\nS,uy,2.9,2.4\n");
+  CHECK_THAT(refusal("make-measurements", {"intact", "-d", shop.database, "--kind", "change", "--sigma",
+                                           "0.02mm", "--sensors", sensors, "-o", sensors}),
+             Contains("is read by this very command"));
+}
+
+TEST_CASE("What has no effect on an answer is said (written out)") {
+  const Workshop& shop = workshop();
+  const std::string file =
+      shop.file("own-errors.csv", "point,change_mm,sigma_mm,levelling\nT1,0,0.02,a\nA1,0,0.02,b\n");
+  const auto answer = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> arguments = {file, "-d", shop.database};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return test::run("locate-damage", arguments).out;
+  };
+  CHECK_THAT(answer({}), !Contains("--sigma has no effect") && Contains("levellings are named"));
+  CHECK_THAT(answer({"--sigma", "0.5mm"}), Contains("--sigma has no effect"));
+  CHECK_THAT(answer({"--noise", "5%"}), Contains("--noise has no effect"));
+  CHECK_THAT(answer({"--unknown-datum", "0.3mm"}), !Contains("levellings are named"));
 }
 
 TEST_CASE("Wrong questions about readings give one line with what was expected") {

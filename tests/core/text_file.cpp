@@ -31,13 +31,27 @@ TEST_CASE("A file that cannot be written is named with the reason, and keeps wha
   CHECK_THROWS_WITH(write_file("/nowhere/page.html", "x"),
                     Contains("/nowhere/page.html: cannot be written: No such file"));
   CHECK_THROWS_WITH(write_file("/dev/full", "x"), Contains("No space left"));
-  const std::filesystem::path page = folder / "page.html";
+  const std::filesystem::path page = folder / (std::string(250, 'p') + ".html");
+  write_file(page, "old");  // what would be written beside it has too long a name
+  CHECK_THROWS_WITH(write_file(page, "new"), Contains("cannot be written: File name too long"));
+  CHECK(read_text(page, 100, "a page") == "old");
+}
+
+TEST_CASE("A file that is written anew keeps its mode, links stay, and other files are not touched") {
+  namespace fs = std::filesystem;
+  const test::TemporaryFolder folder;
+  const fs::path page = folder / "page.html", beside = folder / "page.html.new", link = folder / "link.html";
   write_file(page, "old");
+  write_file(beside, "somebody's");
+  fs::permissions(page, fs::perms::owner_read | fs::perms::owner_write);
   write_file(page, "new");
   CHECK(read_text(page, 100, "a page") == "new");
-  std::filesystem::create_directory(page.string() + ".new");  // what is written first has no place
-  CHECK_THROWS_AS(write_file(page, "newer"), Failure);
-  CHECK(read_text(page, 100, "a page") == "new");
+  CHECK(fs::status(page).permissions() == (fs::perms::owner_read | fs::perms::owner_write));
+  CHECK(read_text(beside, 100, "a page") == "somebody's");
+  fs::create_symlink(folder / "nowhere" / "page.html", link);
+  CHECK_THROWS_AS(write_file(link, "x"), Failure);
+  CHECK(fs::is_symlink(link));
+  CHECK(std::distance(fs::directory_iterator(folder.path()), {}) == 3);
 }
 
 }  // namespace voussoir

@@ -123,6 +123,8 @@ TEST_CASE("Of as many variants it is said which of their values are others (one 
   VariantsSite site({1.2});
   site.build();
   site.request.other_variants = {stiffer(0.5)};
+  CHECK_THROWS_WITH(site.build(), Catch::Contains("742 of its 1484 scenes would be lost"));
+  site.request.drop = true;
   const std::vector<std::string> changes = site.build().changes;
   REQUIRE(!changes.empty());
   CHECK_THAT(changes[0], Catch::Contains("other values of blocks or joints are wanted (") &&

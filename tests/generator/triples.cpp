@@ -86,6 +86,22 @@ TEST_CASE("What triples inherit and compose is verified by solving them in full"
   CHECK_THAT(to_text(report, quick.path()), Catch::Contains("inherited"));
 }
 
+TEST_CASE("Triples that few sensors see, on one side, are composed only where all is right (solved in full)",
+          "[many-solutions]") {
+  Bridge bridge;
+  bridge.file = parse_bridge_file(bridge.file.text +
+                                      "[control_points]\ntop = false\narch = false\n"
+                                      "[[sensors]]\nname = \"S\"\nx_m = 0.9\ny_m = 2.3\nblock = \"5,2\"\n",
+                                  "sensor");
+  BuildRequest request = bridge.request("sensor.h5");
+  request.histories = "built";
+  request.scenes = std::string(kScenes) + ";5,6+4,*+5,*;5,6+5,*+5,*;5,6+3,*+4,*;5,6+4,*+4,*";
+  const Database database = bridge.build(request);
+  CHECK(count(database, 0, Origin::composed) > 0);
+  const VerifyReport report = verify_database({.database = database.path(), .recompute = 300});
+  CHECK(report.problems == std::vector<std::string>{});
+}
+
 TEST_CASE("Parts of a database of triples give the digest of one build, with fields and without",
           "[many-solutions]") {
   const Bridge bridge;

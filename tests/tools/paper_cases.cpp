@@ -56,4 +56,9 @@ TEST_CASE("A file of cases that is not there, is no JSON or lacks a part is refu
   CHECK_THAT(message("{\"source\": \"s\"}"), Contains("example"));
   CHECK_THAT(message("{\"source\": 5}"), Contains("cases.json"));
   CHECK_THROWS_AS(read_paper_cases(folder / "none.json"), InputError);
+  const auto of_example = [&](const std::string& noise) {
+    return message("{\"source\": \"s\", \"example\": {\"scene\": \"10,4\", \"noise\": " + noise + "}}");
+  };
+  CHECK_THAT(of_example("-0.14"), Contains("noise is -0.14, expected a number from 0 to 1"));
+  CHECK_THAT(of_example("\"much\""), Contains("noise is \"much\", expected a number"));
 }

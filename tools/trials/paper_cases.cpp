@@ -10,9 +10,26 @@ namespace {
 
 using nlohmann::json;
 
+constexpr double kMostNoise = 1.0;  // [-] of a displacement
+constexpr double kMostShown = 1e6;  // [mm], [m], triangles: what a paper may state of a bridge
+constexpr std::size_t kMostLevels = 1000;
+
+double number_in(const json& value, const char* key, double least, double most) {
+  if (!value.is_number() || !(value.get<double>() >= least && value.get<double>() <= most))
+    throw InputError(
+        fmt::format("{} is {}, expected a number from {:g} to {:g}", key, value.dump(), least, most));
+  return value.get<double>();
+}
+
+std::string text_in(const json& object, const char* key) {
+  const json& value = object.at(key);
+  if (!value.is_string()) throw InputError(fmt::format("{} is {}, expected a text", key, value.dump()));
+  return value.get<std::string>();
+}
+
 PaperCase case_of(const json& entry) {
-  return {entry.at("scene").get<std::string>(), entry.at("noise").get<double>(),
-          entry.value("generations", std::string())};
+  return {text_in(entry, "scene"), number_in(entry.at("noise"), "noise", 0.0, kMostNoise),
+          entry.contains("generations") ? text_in(entry, "generations") : std::string()};
 }
 
 std::vector<PaperCase> cases_of(const json& list) {
@@ -21,32 +38,48 @@ std::vector<PaperCase> cases_of(const json& list) {
   return cases;
 }
 
-template <typename Value>
-std::optional<Value> if_there(const json& file, const char* key) {
-  return file.contains(key) ? std::optional(file.at(key).get<Value>()) : std::nullopt;
+std::vector<double> numbers_in(const json& list, const char* key, double least, double most) {
+  if (!list.is_array() || list.size() > kMostLevels)
+    throw InputError(fmt::format("{} is no list of at most {} numbers", key, kMostLevels));
+  std::vector<double> numbers;
+  for (const json& value : list) numbers.push_back(number_in(value, key, least, most));
+  return numbers;
+}
+
+std::optional<double> if_there(const json& file, const char* key) {
+  return file.contains(key) ? std::optional(number_in(file.at(key), key, 0.0, kMostShown)) : std::nullopt;
+}
+
+/// Smallest and largest.
+std::optional<std::array<double, 2>> two_if_there(const json& file, const char* key) {
+  if (!file.contains(key)) return std::nullopt;
+  const std::vector<double> numbers = numbers_in(file.at(key), key, -kMostShown, kMostShown);
+  if (numbers.size() != 2)
+    throw InputError(fmt::format("{} has {} numbers, expected two", key, numbers.size()));
+  return std::array{numbers[0], numbers[1]};
 }
 
 PaperCases cases_of_file(const json& file) {
   PaperCases cases;
-  cases.source = file.at("source").get<std::string>();
+  cases.source = text_in(file, "source");
   cases.example = case_of(file.at("example"));
   for (const json& field : file.at("fields"))
-    cases.fields.push_back({field.at("scene").get<std::string>(), field.at("figure").get<std::string>()});
+    cases.fields.push_back({text_in(field, "scene"), text_in(field, "figure")});
   cases.one_block = cases_of(file.at("one_block"));
   cases.two_blocks = cases_of(file.at("two_blocks"));
   if (file.contains("hard_pair")) cases.hard_pair = case_of(file.at("hard_pair"));
   if (file.contains("local_collapse")) {
-    cases.collapse_in_paper = file.at("local_collapse").at("paper").get<std::string>();
+    cases.collapse_in_paper = text_in(file.at("local_collapse"), "paper");
     cases.local_collapse = file.at("local_collapse").at("scenes").get<std::vector<std::string>>();
   }
   if (file.contains("noise_limit")) {
-    cases.noise_limit_in_paper = file.at("noise_limit").at("paper").get<std::string>();
-    cases.noise_limit_levels = file.at("noise_limit").at("levels").get<std::vector<double>>();
+    cases.noise_limit_in_paper = text_in(file.at("noise_limit"), "paper");
+    cases.noise_limit_levels = numbers_in(file.at("noise_limit").at("levels"), "levels", 0.0, kMostNoise);
   }
-  cases.triangles = if_there<int>(file, "triangles");
-  cases.top_mm = if_there<std::array<double, 2>>(file, "top_mm");
-  cases.arch_mm = if_there<std::array<double, 2>>(file, "arch_mm");
-  cases.radius_m = if_there<double>(file, "radius_m");
+  if (const auto triangles = if_there(file, "triangles")) cases.triangles = static_cast<int>(*triangles);
+  cases.top_mm = two_if_there(file, "top_mm");
+  cases.arch_mm = two_if_there(file, "arch_mm");
+  cases.radius_m = if_there(file, "radius_m");
   return cases;
 }
 
@@ -57,6 +90,8 @@ PaperCases read_paper_cases(const std::filesystem::path& path) {
   if (!stream) throw InputError(fmt::format("{}: cannot be read, expected a file of cases", path.string()));
   try {
     return cases_of_file(json::parse(stream));
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}: {}", path.string(), error.what()));
   } catch (const json::exception& error) {
     throw InputError(
         fmt::format("{}: {}, expected a file like examples/cases/paper.json", path.string(), error.what()));

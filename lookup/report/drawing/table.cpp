@@ -65,7 +65,7 @@ std::string to_json(const Table& table) {
             std::isnan(*number) ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(*number);
     }
   }
-  return list.dump(1) + "\n";
+  return list.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
 std::string to_html(const Table& table, int digits) {

@@ -92,6 +92,15 @@ TEST_CASE(
   CHECK(((found.array() == expected.array()) || (found.array().isNaN() && expected.array().isNaN())).all());
 }
 
+TEST_CASE("A motion that would begin at the moment of its field begins at rest (the motion from rest)") {
+  DynamicSettings slow;
+  slow.ramp = 3.0 * slow.moment;  // a third of it is the moment
+  slow.step = 1.25e-4;
+  const std::vector<Scene> scenes = {parse_scene("0,3+1,1", moving_bridge().layout)};
+  check_alike(scenes, motions(scenes, MotionStart::from_singles, slow),
+              motions(scenes, MotionStart::at_rest, slow), 1e-12);
+}
+
 TEST_CASE("Number by number, what two blocks change adds up (written out)") {
   const MotionSnapshot intact{{1.0, 2.0}, {3.0}, {{{1, 2}, {0.5, 0.25}}}};
   const MotionSnapshot first{{1.5, 2.0}, {4.0}, {{{1, 2}, {1.0, 0.25}}, {{3, 4}, {2.0, 0.0}}}};

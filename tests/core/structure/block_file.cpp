@@ -244,6 +244,13 @@ TEST_CASE("Messages name the lines of the bridge file, however many its file of 
   CHECK_THAT(refusal("\nblocks = \"b.json\"\n"), Contains("b.json: block 1: 2 vertices: expected 3 to 200"));
 }
 
+TEST_CASE("The name of a file of blocks stands on one line", "[block-file]") {
+  const test::TemporaryFolder folder;
+  std::ofstream(folder / "b.toml") << "name = \"x\"\nblocks = \"\"\"\nb.json\"\"\"\n";
+  CHECK_THROWS_WITH(read_bridge_file(folder / "b.toml"),
+                    Catch::Matchers::Contains("b.toml:2: blocks: stands on several lines"));
+}
+
 TEST_CASE("A text that names a file of blocks opens none: it may come out of a stranger's database",
           "[block-file]") {
   CHECK_THROWS_WITH(parse_bridge_file("blocks = \"/etc/passwd\"\n", "stored"), Contains("stored:1:"));

@@ -206,6 +206,20 @@ TEST_CASE("Bad bridge files are refused with file, line and what was expected", 
   CHECK_THAT(message("= 3"), Contains("b.toml:1:"));
 }
 
+TEST_CASE("Blocks that are given count as those that are laid do, and names have a limit", "[bridge-file]") {
+  std::string blocks = "blocks = [\n";
+  for (int i = 0; i < 400; ++i)
+    blocks +=
+        fmt::format("{{label = \"{0}\", vertices = [[{0}, 0], [{1}, 0], [{1}, 1], [{0}, 1]]}},\n", i, i + 1);
+  blocks += "]\n[mesh]\nrefinement = ";
+  CHECK_NOTHROW(parse_bridge_file(blocks + "4\n", "b.toml"));
+  CHECK_THROWS_WITH(parse_bridge_file(blocks + "5\n", "b.toml"),
+                    "b.toml:1: 400 blocks are too many for a refinement of 5: expected at most 293");
+  CHECK_NOTHROW(parse_bridge_file("name = \"" + std::string(200, 'n') + "\"\n", "b.toml"));
+  CHECK_THROWS_WITH(parse_bridge_file("name = \"" + std::string(201, 'n') + "\"\n", "b.toml"),
+                    "b.toml:1: name: has 201 bytes: expected at most 200");
+}
+
 TEST_CASE("A missing bridge file is named", "[bridge-file]") {
   CHECK_THROWS_WITH(read_bridge_file("/nowhere/bridge.toml"), Contains("/nowhere/bridge.toml"));
 }

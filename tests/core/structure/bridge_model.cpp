@@ -29,11 +29,12 @@ std::string refusal_of(const std::string& text) {
 }  // namespace
 
 TEST_CASE("Soil below every face and regions of roles that no block has are noted", "[bridge-model]") {
-  CHECK(idle_of("[fill]\nlevel_m = 6.5\nunit_weight_N_m3 = 18000\n").empty());
+  const std::string no_top = "[control_points]\ntop = false\n";
+  CHECK(idle_of(no_top + "[fill]\nlevel_m = 6.5\nunit_weight_N_m3 = 18000\n").empty());
   const auto soil = idle_of("[fill]\nlevel_m = 0.5\nunit_weight_N_m3 = 18000\n");
   REQUIRE(soil.size() == 1);
   CHECK_THAT(soil[0], Contains("[fill] weighs nothing") && Contains("0.5 m high"));
-  const std::string surveyed = "[fill]\nunit_weight_N_m3 = 18000\nsurface_m = ";
+  const std::string surveyed = no_top + "[fill]\nunit_weight_N_m3 = 18000\nsurface_m = ";
   CHECK(idle_of(surveyed + "[[0, 6.5], [10, 6.8], [20, 6.5]]\n").empty());
   const auto half = idle_of(surveyed + "[[2, 6.5], [10, 6.8]]\n");
   REQUIRE(half.size() == 2);
@@ -42,6 +43,16 @@ TEST_CASE("Soil below every face and regions of roles that no block has are note
   const auto region = idle_of("[[regions]]\nof = [\"ring\", \"fill\"]\ndensity_kg_m3 = 2000\n");
   REQUIRE(region.size() == 1);
   CHECK_THAT(region[0], Contains("[[regions]] of 'fill' changes nothing"));
+}
+
+TEST_CASE("Control points that soil covers are noted (counted by hand)", "[bridge-model]") {
+  // The wall is 6 m high; soil covers its left half, where corners are at x = 0, 1, 1, .. 9, 9 and,
+  // twice, 10.
+  const auto notes = idle_of(
+      "[fill]\nunit_weight_N_m3 = 18000\nsurface_m = [[0, 6.5], [10, 6.5], [10.1, 6.0], [20, 6.0]]\n");
+  REQUIRE(notes.size() == 1);
+  CHECK_THAT(notes[0], Contains("lie under the soil of [fill]") && Contains("(T1, T2, T3, ..)"));
+  CHECK(idle_of("[fill]\nlevel_m = 6.04\nunit_weight_N_m3 = 18000\n").empty());
 }
 
 TEST_CASE("Movements, which no scene of a database is solved under, are noted", "[bridge-model]") {

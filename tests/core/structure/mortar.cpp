@@ -108,6 +108,40 @@ TEST_CASE("Halved blocks meet where the bond says, in the middle of whole ones (
   for (const NodeId node : wall.supports.front().nodes) CHECK(wall.mesh.position(node).y() < 0.0625 + 1e-9);
 }
 
+TEST_CASE("Mortar as rough as the joints is taken whatever the angle (all half degrees)",
+          "[mortar][bridge-file]") {
+  const std::string stiffness = kStiffJoints.substr(0, kStiffJoints.find("friction"));
+  for (double angle = 10.0; angle <= 54.0; angle += 0.5) {
+    const std::string degrees = fmt::format("friction_angle_deg = {:.1f}\n", angle);
+    CHECK(refusal(stiffness + degrees + "[[mortar]]\n" + kMortar + degrees) == "");
+  }
+}
+
+TEST_CASE("Blocks of other walls are not halved, and no joint between them is one of halves (by hand)",
+          "[mortar][bridge-file]") {
+  BridgeDescription description;
+  description.spans.clear();
+  description.wall = {.length = 4.0, .courses = 2, .halved = true};
+  WallPart parapet;
+  parapet.courses = {.length = 3.0, .courses = 1};
+  parapet.role = BlockRole::parapet;
+  parapet.from_x = 0.25;
+  parapet.base_y = 1.0;
+  description.parts = {parapet};
+  MortarRegion within;
+  within.within_blocks = true;
+  within.normal_stiffness = 1e13;
+  description.mortar = {within};
+  const Model bridge = make_model(description);
+  // Courses of four blocks, and of three between two halves, all whole ones cut; on top two between two
+  // halves.
+  CHECK(bridge.block_count() == 8 + 8 + 4);
+  int halves = 0;
+  for (std::size_t j = 0; j < bridge.joints.size(); ++j)
+    if (bridge.parameters.joints[j].normal_stiffness == 1e13) ++halves;
+  CHECK(halves == 4 + 3);
+}
+
 TEST_CASE("A bridge whose mortar is said to be none is the dry bridge to the last bit", "[mortar]") {
   const BridgeDescription plain = test::small_description();
   BridgeDescription dry = plain;

@@ -127,3 +127,13 @@ TEST_CASE("Held tops and courses of blocks that have none are refused", "[struct
   CHECK_THROWS_WITH(read("[wall]\ncourses = 0\n[supports]\ntop = \"roller\"\n"),
                     "b.toml:4: top in [supports]: is held: expected courses in [wall], whose top it is");
 }
+
+TEST_CASE("A structure in which nothing can move is refused", "[structure]") {
+  BridgeDescription wall;
+  wall.spans.clear();
+  wall.wall.courses = 1;
+  wall.supports = {.base = SupportKind::clamped, .sides = SupportKind::clamped, .embedded_courses = 1};
+  CHECK_THROWS_WITH(make_structure(wall), Catch::Matchers::Contains("expected a structure that can move"));
+  wall.wall.courses = 2;
+  CHECK_NOTHROW(make_structure(wall));
+}

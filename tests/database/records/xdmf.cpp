@@ -33,11 +33,14 @@ TEST_CASE("An index is removed with its views, and a file of another program tha
   test::write_made_up_database(folder / "small.h5", test::small_bridge_file(), all_scenes(38, 1),
                                KeepField::yes);
   write_index(Database::open(folder / "small.h5"), all_scenes(38, 1));
+  CHECK_FALSE(in_the_way_of_index(folder / "small.h5"));
   CHECK(remove_index(folder / "small.h5"));
   CHECK_FALSE(std::filesystem::exists(folder / "small.xdmf"));
   CHECK_FALSE(std::filesystem::exists(folder / "small.views.h5"));
   CHECK_FALSE(remove_index(folder / "small.h5"));
+  CHECK_FALSE(in_the_way_of_index(folder / "small.h5"));
   std::ofstream(folder / "small.xdmf") << "<Xdmf Version=\"3.0\"/>";
+  CHECK(in_the_way_of_index(folder / "small.h5") == folder / "small.xdmf");
   CHECK_FALSE(remove_index(folder / "small.h5"));
   CHECK(std::filesystem::exists(folder / "small.xdmf"));
 }

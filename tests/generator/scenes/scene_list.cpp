@@ -48,6 +48,15 @@ TEST_CASE("A range with itself gives each pair once and no block twice") {
   CHECK(names("10,1..3+10,1..3") == Names{"10,1+10,2", "10,1+10,3", "10,2+10,3"});
 }
 
+TEST_CASE("A list without any scene is refused") {
+  BlockLayout one;
+  one.blocks.resize(1);
+  one.blocks.front().label = "a";
+  CHECK(parse_scene_list("all", one).size() == 2);
+  CHECK_THROWS_WITH(parse_scene_list("pairs", one),
+                    Catch::Matchers::Contains("'pairs' names no scene of this bridge"));
+}
+
 TEST_CASE("A bad list is refused with the item and what was expected") {
   for (const char* bad : {"", ";", "intact;;10,4", "many", "10", "10,4,2", "10,x", "10,1..", "10,..3",
                           "10,1...3", "-1,2..3", "10,1..3+", "10,9999999999999..3", "*"})

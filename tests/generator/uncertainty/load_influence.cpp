@@ -32,6 +32,9 @@ TEST_CASE("The influence of a load is what a little of it adds to the intact bri
   BuildRequest request;
   request.bridge = test::small_bridge_file();
   request.bridge.description.material.thickness = kWidth;
+  Region deeper{{"1,1"}, request.bridge.description.material, request.bridge.description.joints};
+  deeper.material.thickness = 2.0 * kWidth;  // one stone does not make the bridge wider
+  request.bridge.description.regions = {deeper};
   request.output = folder / "small.h5";
   request.scenes = "intact;4,1";
   Progress quiet(Progress::Mode::quiet);

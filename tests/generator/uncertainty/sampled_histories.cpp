@@ -14,9 +14,10 @@ namespace {
 
 /// A study of a bridge, with the answers of the nominal one.
 struct Sampling {
-  Sampling(const BridgeDescription& description, const std::vector<Scene>& few_scenes,
+  Sampling(const BridgeDescription& one, const std::vector<Scene>& few_scenes,
            std::initializer_list<std::uint64_t> seeds)
-      : bridge(make_model(description)),
+      : description(one),
+        bridge(make_model(description)),
         plan(plan_states({"built", "lost"}, bridge, description)),
         settings(solver.settings(bridge)),
         scenes(few_scenes) {
@@ -25,18 +26,18 @@ struct Sampling {
     StateSolving(bridge, plan).solve_from_intact(solver.make_solver(bridge, settings), groups);
     for (SceneGroup& group : groups) states.push_back(std::move(group.states));
     for (const std::uint64_t seed : seeds)
-      drawn.push_back(draw_bridge(bridge, uncertain_parameters(bridge, uncertainty), seed));
+      drawn.push_back(draw_bridge(bridge, uncertain_parameters(bridge, description.uncertainty), seed));
   }
 
   std::vector<SampledScene> solve() const {
     std::vector<std::size_t> all;
     for (std::size_t i = 0; i < scenes.size(); ++i) all.push_back(i);
-    const SensitivityStudy study{bridge, uncertainty, plan, solver, settings, 1};
+    const SensitivityStudy study{description, bridge, plan, solver, settings, 1};
     return SampledHistories(study, scenes).solve(drawn, all);
   }
 
   SolverChoice solver = quasi_static();
-  Uncertainty uncertainty;
+  BridgeDescription description;
   Model bridge;
   StatePlan plan;
   std::string settings;

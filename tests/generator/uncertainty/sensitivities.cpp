@@ -279,12 +279,12 @@ TEST_CASE("Stored sensitivities are those of the fields, and changed ones are fo
   const Database database = Database::open(folder / "small.h5");
   const Model bridge = bridge_of(database);
   const StatePlan plan = plan_states(database.states(), bridge, description_of(database));
-  const SensitivityCheck right = check_sensitivities(database, bridge, {}, plan);
+  BridgeDescription description = description_of(database);
+  const SensitivityCheck right = check_sensitivities(database, bridge, description, plan);
   CHECK(right.scenes == kCheckedSensitivities);
   CHECK(right.problems.empty());
-  Uncertainty other;
-  other.young_modulus = 0.3;
-  CHECK(check_sensitivities(database, bridge, other, plan).problems.size() >= 4);
+  description.uncertainty.young_modulus = 0.3;
+  CHECK(check_sensitivities(database, bridge, description, plan).problems.size() >= 4);
 }
 
 TEST_CASE(

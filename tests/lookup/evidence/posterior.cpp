@@ -4,6 +4,7 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "core/error.h"
@@ -109,6 +110,41 @@ TEST_CASE(
   CHECK(result.probability[0] == 0.0);
   const std::vector<double>& values = result.probability.values;
   CHECK(std::accumulate(values.begin(), values.end(), 0.0) == Approx(1.0));
+}
+
+TEST_CASE("Scenes that fall and keep no field are nobody's readings, and no prior is theirs (counted)") {
+  SyntheticLibrary library(3, 5);  // without the second block it falls, and fields are there
+  const std::size_t single = 2;
+  const std::size_t pair = library.row_of(Scene{{BlockId{1}, BlockId{7}}});
+  for (const std::size_t row : {single, pair}) {
+    REQUIRE(library.outcome[row] == static_cast<std::uint8_t>(Outcome::collapsed));
+    std::fill_n(library.vertical.begin() + static_cast<std::ptrdiff_t>(row * library.table.points),
+                library.table.points, std::numeric_limits<double>::quiet_NaN());
+  }
+  const Eligible eligible = eligible_rows(library.table, {0, 1, 2});
+  CHECK(eligible.fallen == 2);
+  CHECK(eligible.scenes == std::vector<std::size_t>{1, 14, 104});
+  CHECK(eligible.standing == std::vector<std::size_t>{1, 14, 91});  // of 14 blocks: 14, 14 * 13 / 2
+  const Prior prior{{0, 1, 2}, {8.0, 1.0, 1.0}};
+  CHECK(std::exp(log_prior_by_missing(library.table, eligible, prior)[1]) == Approx(0.1 / 14.0));
+}
+
+TEST_CASE("Readings that say nothing leave even odds even, and no loss is ruled out (closed form)") {
+  const SyntheticLibrary library(3, 5);
+  const Eligible eligible = eligible_rows(library.table, {0, 1});
+  RowValues logs{kImpossible, eligible.rows, std::vector<double>(eligible.rows.size(), 0.0)};
+  logs.values[2] = kImpossible;  // what falls shows
+  logs.values[8] = std::log(0.09);
+  logs.values[9] = std::log(0.11);
+  const Posterior result = posterior(library.table, eligible, logs, {{0, 1}, {1000.0, 10.0}}, library.blocks);
+  const double damaged = (12.0 + 0.09 + 0.11) / 14.0;  // of the losses that leave the bridge standing
+  CHECK(result.intact_if_even == Approx(1.0 / (1.0 + damaged)));
+  REQUIRE(result.open_losses.size() == 13);  // all that stand but the one below a tenth
+  for (const OpenLoss& loss : result.open_losses) {
+    CHECK(loss.row != 2);
+    CHECK(loss.row != 8);
+    CHECK(loss.times_as_likely == Approx(loss.row == 9 ? 0.11 : 1.0));
+  }
 }
 
 TEST_CASE("If every scene is impossible there is no probability at all") {
