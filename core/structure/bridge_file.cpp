@@ -183,8 +183,7 @@ void read_regions(TomlSection& top, BridgeDescription& description) {
 void read_name(TomlSection& top, std::string& name) {
   top.text("name", name);
   if (name.size() > kLongestName)
-    top.refuse("name",
-               fmt::format("has {} bytes: expected at most {}", name.size(), kLongestName));
+    top.refuse("name", fmt::format("has {} bytes: expected at most {}", name.size(), kLongestName));
 }
 
 BridgeDescription interpret(const toml::table& root, const std::string& file,

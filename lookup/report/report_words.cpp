@@ -71,6 +71,10 @@ std::string belief_in_words(const Answer& answer) {
                      percent(answer.posterior->intact_if_even));
 }
 
+std::string blocks_in_words(std::size_t count) {
+  return fmt::format("{} block{}", count, count == 1 ? "" : "s");
+}
+
 std::string in_words(const Scene& scene, const Library& library) {
   return fmt::format("{} ({})", to_string(scene, library.layout), place_in_words(scene, library.layout));
 }
@@ -112,9 +116,12 @@ std::string headline(const Answer& answer, const Comparison& comparison) {
                          percent_of_others(intact));
     case Verdict::intact:
       return fmt::format(
-          "{} ({}).",
+          "{} ({}){}.",
           is_change(comparison.kind) ? "No block has gone between the two times" : "No block is missing",
-          percent(intact));
+          percent(intact),
+          posterior.open_losses.empty() ? ""
+                                        : fmt::format(", but of {} the loss would hardly show",
+                                                      blocks_in_words(posterior.open_losses.size())));
     case Verdict::cannot_tell:
       if (answer.contested) return "The databases that may be right come to different answers.";
       if (supposed != Supposed::nothing)

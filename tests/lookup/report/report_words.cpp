@@ -56,6 +56,13 @@ TEST_CASE("An answer that another database contests is none, unless nothing expl
   CHECK(verdict_of(answer) == Verdict::unexplained);
 }
 
+TEST_CASE("What is said to be intact is said with the losses that would hardly show (written out)") {
+  Answer answer = explained({0.995, 0.005}, 0.005);
+  CHECK(headline(answer, {}) == "No block is missing (99.5 %).");
+  answer.posterior->open_losses = {{1, 0.5}, {2, 0.2}};
+  CHECK(headline(answer, {}) == "No block is missing (99.5 %), but of 2 blocks the loss would hardly show.");
+}
+
 TEST_CASE("What a prior supposes is no verdict (written out)") {
   Answer answer = explained({0.0, 1.0}, 0.4);
   answer.prior = {{0, 1}, {8.0, 1.0}};
