@@ -1,7 +1,9 @@
 #include "lookup/report/report_words.h"
 
 #include <catch2/catch.hpp>
+
 #include <cmath>
+#include "tests/lookup/synthetic_library.h"
 
 #include "lookup/report/bridge_report.h"
 
@@ -58,9 +60,12 @@ TEST_CASE("An answer that another database contests is none, unless nothing expl
 
 TEST_CASE("What is said to be intact is said with the losses that would hardly show (written out)") {
   Answer answer = explained({0.995, 0.005}, 0.005);
-  CHECK(headline(answer, {}) == "No block is missing (99.5 %).");
+  const test::SyntheticLibrary library(2, 3);
+  const Comparison readings = absolute_readings(library.library(), no_measurements(library.points.size()));
+  CHECK(headline(answer, readings) == "No block is missing (99.5 %).");
   answer.posterior->open_losses = {{1, 0.5}, {2, 0.2}};
-  CHECK(headline(answer, {}) == "No block is missing (99.5 %), but of 2 blocks the loss would hardly show.");
+  CHECK(headline(answer, readings) ==
+        "No block is missing (99.5 %), but of 2 blocks the loss would hardly show.");
 }
 
 TEST_CASE("What a prior supposes is no verdict (written out)") {
