@@ -18,26 +18,27 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view kHdf5 = "\x89HDF\r\n\x1a\n";  // begins every HDF5 file
 
-/// Of a name that nothing has, in the same folder, for whom the file is for.
-fs::path new_file_like(const fs::path& file) {
+/// Of a name that nothing has, in the same folder.
+fs::path new_file_beside(const fs::path& file) {
   std::string name = file.string() + ".XXXXXX";
   const int descriptor = ::mkstemp(name.data());
   if (descriptor < 0)
     throw Failure(fmt::format("{}: cannot be written: {}", file.string(), std::strerror(errno)));
   ::close(descriptor);
-  take_over_access(file, name);
   return name;
 }
 
 }  // namespace
 
+/// Who may not give files away keeps this one, but for others of the same group.
 void take_over_access(const fs::path& from, const fs::path& to) {
-  struct stat status {};
-  if (::stat(from.c_str(), &status) != 0) return;
-  // Who may not give files away keeps this one.
-  const bool is_given = ::chown(to.c_str(), status.st_uid, status.st_gid) == 0;
-  const mode_t others = is_given ? 07777 : 0707;
-  static_cast<void>(::chmod(to.c_str(), status.st_mode & others));
+  struct stat old {
+  }, now{};
+  if (::stat(from.c_str(), &old) != 0) return;
+  const bool is_given = ::chown(to.c_str(), old.st_uid, old.st_gid) == 0;
+  const bool has_group = is_given || ::chown(to.c_str(), static_cast<uid_t>(-1), old.st_gid) == 0 ||
+                         (::stat(to.c_str(), &now) == 0 && now.st_gid == old.st_gid);
+  static_cast<void>(::chmod(to.c_str(), old.st_mode & (has_group ? 0777 : 0707)));
 }
 
 std::string read_text(const std::filesystem::path& file, std::size_t largest, const std::string& expected) {
@@ -80,13 +81,13 @@ void write_file(const fs::path& file, const std::string& text) {
   const bool is_there = fs::exists(file, none), is_new = !fs::exists(fs::symlink_status(file, none));
   const fs::path target = is_there ? fs::canonical(file) : file;
   const bool replaces = fs::is_regular_file(target, none);
-  const fs::path written = replaces ? new_file_like(target) : target;
+  const fs::path written = replaces ? new_file_beside(target) : target;
   errno = 0;
   std::ofstream stream(written, std::ios::binary);
   const bool done = static_cast<bool>(stream << text && stream.flush());
   const std::string reason = errno != 0 ? fmt::format(": {}", std::strerror(errno)) : "";
   stream.close();
-  if (done && replaces) fs::rename(written, target);
+  if (done && replaces) take_over_access(target, written), fs::rename(written, target);
   if (done) return;
   if (replaces || is_new) fs::remove(written, none);
   throw Failure(fmt::format("{}: cannot be written{}", file.string(), reason));

@@ -17,12 +17,14 @@ namespace {
 
 constexpr double kLeastWidth = 1200.0;  ///< [px] of the picture; wider where labels need it
 constexpr double kMostWidth = 4800.0;
-constexpr double kLoadRow = 30.0;     ///< [px] above the bridge, of each load case
-constexpr double kMargin = 50.0;      ///< [px] on all sides, with the scale
-constexpr double kLabelHeight = 9.0;  ///< [px]
+constexpr double kLoadRow = 30.0;          ///< [px] above the bridge, of each load case
+constexpr double kMargin = 50.0;           ///< [px] on all sides, with the scale
+constexpr double kLabelHeight = 9.0;       ///< [px]
+constexpr double kSmallLabel = 2.0 / 3.0;  ///< [-] of the others' size, as in the style
 
 constexpr const char* kStyle =
-    "text{font:9px sans-serif;fill:#222;text-anchor:middle}.big{font-size:13px}.key{font-size:11px}\n"
+    "text{font:9px "
+    "sans-serif;fill:#222;text-anchor:middle}.big{font-size:13px}.small{font-size:6px}.key{font-size:11px}\n"
     "path{stroke:#666;stroke-width:.5}.wall{fill:#e4d9c4}.ring{fill:#d6a77a}.pier{fill:#cbbfa6}"
     ".abutment{fill:#bfb49c}.parapet{fill:#efe7d6}.backing{fill:#c9c9c0}.fill{fill:#d9cdb0;fill-opacity:.6}\n"
     ".soil{fill:#e9e2d2;stroke:none}.gauge{stroke:#c00;stroke-width:1}\n"
@@ -102,12 +104,14 @@ std::string soil(const std::vector<Soil>& pieces, double unit_weight, const Fram
       1e-3 * unit_weight);
 }
 
-/// Labels of the blocks in which they have room.
+/// Labels of the blocks in which they have room, small ones where that helps.
 std::string labels(const BlockLayout& layout, const Frame& frame) {
   std::string elements;
   for (const Block& block : layout.blocks) {
-    if (frame.scale * std::sqrt(area(block.polygon)) < label_width(block)) continue;
-    elements += text_at(frame(centroid(block.polygon)) + Point(0.0, 3.0), "", block.label);
+    const double room = frame.scale * std::sqrt(area(block.polygon)) / label_width(block);
+    if (room < kSmallLabel) continue;
+    elements +=
+        text_at(frame(centroid(block.polygon)) + Point(0.0, 3.0), room < 1.0 ? "small" : "", block.label);
   }
   return elements;
 }
@@ -144,8 +148,9 @@ std::string control_points(const Structure& bridge, const Frame& frame) {
   for (const ControlPoint& point : bridge.control_points) {
     const Point p = frame(point.position);
     elements += fmt::format(
-        "<circle class=\"point\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"2\"><title>{}</title></circle>\n", p.x(),
-        p.y(), escaped(point.name));
+        "<circle class=\"point\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"2\"><title>{} ({:.4g}, "
+        "{:.4g})</title></circle>\n",
+        p.x(), p.y(), escaped(point.name), point.position.x(), point.position.y());
   }
   return elements;
 }

@@ -210,12 +210,13 @@ void write(const Build& build, const KnownRecords& known, BuildSummary& summary)
                                 sensitivities_of(build, known),
                                 shard_statement(build.request)};
   summary.outcomes = OutcomeCounts(content.states);
-  drop_index(build.request.output, !build.request.xdmf_scenes.empty(), build.progress);
   const WrittenDatabase written = write_database(build.request.output, content, [&](std::size_t row) {
     Record record = known.kept_record(build.wanted[row], build.fields);
     summary.outcomes.add(record, build.bridge().layout);
     return record;
   });
+  if (written.had_index && build.request.xdmf_scenes.empty())
+    build.progress.say(index_removed_in_words(build.request.output));
   summary.digest = written.digest;
   summary.bytes = written.bytes;
 }

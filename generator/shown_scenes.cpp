@@ -31,12 +31,11 @@ std::vector<Scene> shown_scenes(const std::string& list, const DatabaseToShow& d
   return scenes;
 }
 
-void drop_index(const std::filesystem::path& output, bool will_be_written, Progress& progress) {
-  if (remove_index(output) && !will_be_written)
-    progress.say(
-        fmt::format("{} and {} show scenes of the file that is replaced and are removed: --xdmf writes them "
-                    "anew",
-                    index_paths(output).xdmf.string(), index_paths(output).views.string()));
+std::string index_removed_in_words(const std::filesystem::path& output) {
+  const IndexPaths paths = index_paths(output);
+  return fmt::format(
+      "{} and {} showed scenes of the file that was replaced and are removed: --xdmf writes them anew",
+      paths.xdmf.string(), paths.views.string());
 }
 
 }  // namespace voussoir

@@ -22,8 +22,7 @@ struct DatabaseToShow {
 /// will not hold: before the build, which may take hours.
 std::vector<Scene> shown_scenes(const std::string& list, const DatabaseToShow& database);
 
-/// Removes the index of a file that is about to be replaced, whose rows will be others; says so unless there
-/// will be one of the new file.
-void drop_index(const std::filesystem::path& output, bool will_be_written, Progress& progress);
+/// Why a file's index is gone that has been replaced.
+std::string index_removed_in_words(const std::filesystem::path& output);
 
 }  // namespace voussoir

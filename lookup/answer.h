@@ -1,6 +1,7 @@
 #pragma once
 /// @file What locate-damage answers, before it is put into words.
 
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -28,6 +29,14 @@ struct BridgeAnswer {
   BridgePosterior posterior;
 };
 
+struct Answer;
+
+/// What the answer is without readings that may be wrong.
+struct AnswerWithout {
+  std::vector<std::size_t> channels;
+  std::shared_ptr<const Answer> answer;
+};
+
 struct Answer {
   std::vector<Candidate> candidates;      ///< best first
   std::optional<Posterior> posterior;     ///< with Objective::posterior
@@ -35,6 +44,7 @@ struct Answer {
   std::optional<Fit> fit;                 ///< of the best candidate; with Objective::posterior
   std::vector<SensorResidual> residuals;  ///< of the best candidate, a value for each reading
   std::optional<BridgeAnswer> bridge;     ///< unless the bridge counts as known, or no scene is possible
+  std::optional<AnswerWithout> without;   ///< the readings that suspects_of names, if there are some
   bool known_bridge = true;               ///< counts_as_known
   bool contested = false;  ///< another database that may as well be right comes to another answer
   Prior prior;             ///< as it was used (stated_prior)

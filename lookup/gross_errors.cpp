@@ -70,11 +70,11 @@ std::vector<std::vector<GrossError>> suspects_of(const QuestionContext& asked, s
   return suspects;
 }
 
-/// "only the reading at T2 says that these blocks are missing; were it wrong by 0.1 mm".
+/// "only the reading at T2 says that these blocks are missing; it may be wrong by 0.1 mm".
 std::string in_words(const std::vector<GrossError>& gross, bool named, const Library& library) {
   const GrossError& largest = *std::ranges::max_element(gross, {}, &GrossError::size);
   const bool alone = gross.size() == 1;
-  return fmt::format("only the reading{} at {} say{} that {} missing; were {} wrong by {:.2g} {}",
+  return fmt::format("only the reading{} at {} say{} that {} missing; {} may be wrong by {:.2g} {}",
                      alone ? "" : "s", places_in_words(library, channels_of(gross)), alone ? "s" : "",
                      named ? "these blocks are" : "blocks are", alone ? "it" : "they",
                      kMillimetres * largest.size, unit_of(library.points[largest.channel].quantity));
@@ -87,13 +87,10 @@ std::optional<Fit> check_gross_errors(const QuestionContext& asked, const Answer
   for (const std::size_t row : rows_otherwise(asked, alarm.rows, alarm.named))
     for (const std::vector<GrossError>& gross : suspects_of(asked, row)) {
       const double chance = gross.size() > 1 ? kOfOneBlock * kGrossChance : kGrossChance;
-      const auto scene = explained_by(
-          asked, answer, alarm, {{.gross = gross}, chance, without(asked.observation, channels_of(gross))});
-      if (scene)
-        return Fit{false, answer.fit->chance,
-                   fmt::format("{}, {} would be likely, too",
-                               in_words(gross, !alarm.named.empty(), asked.comparison.library),
-                               scene_in_words(asked, *scene))};
+      if (explained_by(asked, answer, alarm,
+                       {{.gross = gross}, chance, without(asked.observation, channels_of(gross))}))
+        return Fit{false, answer.fit->chance, in_words(gross, !alarm.named.empty(), asked.comparison.library),
+                   channels_of(gross)};
     }
   return std::nullopt;
 }

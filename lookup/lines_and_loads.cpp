@@ -13,6 +13,7 @@ namespace {
 constexpr std::size_t kMostLines = 4;  // of levelling that may be off alike
 constexpr std::size_t kMostLoads = 3;  // stretches of the top that a load may stand on
 constexpr double kNewtonsPerKilonewton = 1e3;
+constexpr double kMostForce = 500e3;  // [N/m] of any load: a crane on two supports, 300 t on six metres
 constexpr double kLeastForce = 10e3;  // [N/m] of a load that is spoken of where nothing explains readings
 constexpr double kLoadChance = 1e-3;  // beforehand that one stood there and is not stated
 
@@ -21,7 +22,9 @@ std::vector<LineError> lines_of(const QuestionContext& asked) {
                      kMostLines);
 }
 std::vector<UnstatedLoad> loads_of(const QuestionContext& asked, std::size_t count) {
-  return unstated_loads(asked.question.bridge(), asked.gaussians, count);
+  std::vector<UnstatedLoad> loads = unstated_loads(asked.question.bridge(), asked.gaussians, count);
+  std::erase_if(loads, [](const UnstatedLoad& load) { return load.force > kMostForce; });
+  return loads;
 }
 
 /// The readings without what a cause most likely adds to them with no block missing.

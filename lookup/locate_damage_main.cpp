@@ -1,6 +1,8 @@
 /// @file locate-damage: which blocks are missing, from measured displacements.
 
 #include <array>
+#include <cstdio>
+#include <set>
 
 #include "core/text_file.h"
 #include "core/threads.h"
@@ -11,6 +13,11 @@
 #include "lookup/report/survey_report.h"
 
 namespace {
+
+/// Beside answers that have no place for them.
+void say_notes(const std::vector<std::string>& notes) {
+  for (const std::string& note : notes) fmt::print(stderr, "locate-damage: note: {}\n", note);
+}
 
 std::string report_one(voussoir::OpenedDatabases& opened, const voussoir::LocateDamageOptions& options) {
   const std::string& file = options.measurements.front();
@@ -26,6 +33,7 @@ std::string report_one(voussoir::OpenedDatabases& opened, const voussoir::Locate
                                 one->database.stands_by_slip(),
                                 databases,
                                 notes};
+  if (options.format == voussoir::ReportFormat::csv) say_notes(notes);
   if (const auto& page = options.page)
     voussoir::write_file(*page, page->extension() == ".svg"
                                     ? voussoir::picture_report(answer, comparison)
@@ -34,9 +42,11 @@ std::string report_one(voussoir::OpenedDatabases& opened, const voussoir::Locate
 }
 
 /// A file that cannot be answered has a row, too, and does not stop the others.
-voussoir::SurveyRow row_of(voussoir::OpenedDatabases& opened, const std::string& file) {
+voussoir::SurveyRow row_of(voussoir::OpenedDatabases& opened, const std::string& file,
+                           std::vector<std::string>& notes) {
   try {
     const voussoir::Answered asked = ask(opened, voussoir::read_readings(file));
+    notes = asked.notes;
     return voussoir::survey_row(file, asked.answer, asked.comparison,
                                 asked.databases.empty() ? "" : asked.databases.front().file);
   } catch (const std::exception& error) {
@@ -48,8 +58,12 @@ voussoir::ProgramOutput report_all(voussoir::OpenedDatabases& opened,
                                    const voussoir::LocateDamageOptions& options) {
   const std::vector<std::string>& files = options.measurements;
   std::vector<voussoir::SurveyRow> rows(files.size());
+  std::vector<std::vector<std::string>> notes(files.size());
   voussoir::for_each_index_on_threads(files.size(), voussoir::hardware_threads(),
-                                      [&](std::size_t i) { rows[i] = row_of(opened, files[i]); });
+                                      [&](std::size_t i) { rows[i] = row_of(opened, files[i], notes[i]); });
+  std::set<std::string> each;
+  for (const std::vector<std::string>& of_file : notes) each.insert(of_file.begin(), of_file.end());
+  say_notes({each.begin(), each.end()});
   const auto failed = std::ranges::count_if(rows, [](const auto& row) { return !row.error.empty(); });
   return {voussoir::survey_report(rows, options.format),
           failed == 0 ? std::string() : fmt::format("{} of {} files have no answer", failed, rows.size())};

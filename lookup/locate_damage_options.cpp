@@ -58,6 +58,11 @@ void add_reading_options(CLI::App& app, LocateDamageOptions& options) {
                  "answers, and says how likely the others are")
       ->allow_extra_args(false)
       ->option_text("FILE");
+  app.add_option(
+         "--without", options.without,
+         "leaves readings out, as if these points or sensors were not in the file: F64,N-west. (An empty "
+         "value is a sensor that fell silent, which speaks for the loss of its block.)")
+      ->option_text("NAMES");
   app.add_option("--sensors", options.sensors,
                  "CSV of sensors that readings may name beside control points and those of the bridge file, "
                  "with --known-bridge: name, "

@@ -28,6 +28,7 @@ struct LocateDamageOptions {
   std::string noise_model = "auto";
   std::string model_error;
   std::string silence = "10%";
+  std::string without;
   std::string unknown_scale = "0";
 };
 

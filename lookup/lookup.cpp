@@ -5,6 +5,7 @@
 
 #include "core/error.h"
 #include "lookup/evidence/largest_places.h"
+#include "lookup/fewer_readings.h"
 #include "lookup/lines_and_loads.h"
 #include "lookup/other_explanations.h"
 #include "lookup/plausible_readings.h"
@@ -126,17 +127,12 @@ void judge_known_bridge(const Comparison& comparison, const Observation& observa
   if (const auto doubt = check_signs(comparison, observation, preparation, answer)) answer.fit = doubt;
 }
 
-/// A fit that explains nothing names the reading that is farthest from all others, if one disagrees, or
-/// what nobody stated and would explain them.
-void name_suspect(const QuestionContext& asked, Answer& answer) {
-  const auto farthest = std::ranges::max_element(answer.residuals, {}, [](const SensorResidual& sensor) {
-    return sensor.disagrees ? std::abs(sensor.error) : 0.0;
-  });
-  if (farthest != answer.residuals.end() && farthest->disagrees)
-    answer.fit->reason +=
-        fmt::format(", at {} most of all", asked.comparison.library.points[farthest->point].name);
-  else if (const auto cause = line_or_load_that_explains(asked))
-    answer.fit->reason += "; " + *cause;
+/// A fit that explains nothing names what nobody stated and would explain the readings, unless one of them
+/// disagrees with all others (ask_without).
+void name_cause(const QuestionContext& asked, Answer& answer) {
+  const bool one_disagrees = std::ranges::any_of(answer.residuals, &SensorResidual::disagrees);
+  if (one_disagrees) return;
+  if (const auto cause = line_or_load_that_explains(asked)) answer.fit->reason += "; " + *cause;
 }
 
 /// The same, and what the readings say of the bridge, averaged over the likeliest scenes.
@@ -154,7 +150,7 @@ void judge_unknown_bridge(const QuestionContext& asked, Answer& answer) {
   answer.fit = check_fit(answer.bridge->posterior);
   answer.residuals = sensor_residuals(observation, bridge, case_noise(bridge, observation, asked.likeliest),
                                       answer.bridge->posterior);
-  if (!answer.fit->explained) name_suspect(asked, answer);
+  if (!answer.fit->explained) name_cause(asked, answer);
   if (answer.fit->explained)
     if (const auto doubt = check_scatter(bridge, answer.bridge->posterior)) answer.fit = doubt;
   if (answer.fit->explained)
@@ -260,19 +256,14 @@ Answer answer_without_candidates(const Comparison& comparison, const Observation
   answer.counted = observation.channels_read();
   answer.searched = preparation.eligible().rows.size();
   answer.unresolved = preparation.eligible().unresolved;
-  answer.fallen = preparation.eligible().fallen;
+  const std::vector<std::size_t>& fallen = preparation.eligible().fallen;
+  answer.fallen = std::reduce(fallen.begin(), fallen.end());
   return answer;
 }
 
-}  // namespace
-
-Answer locate_damage(const Comparison& comparison, const LookupSettings& settings) {
-  return locate_damage(comparison, settings,
-                       Preparation(comparison.library, settings, counts_as_known(comparison, settings)));
-}
-
-Answer locate_damage(const Comparison& comparison, const LookupSettings& settings,
-                     const Preparation& preparation) {
+/// By the readings as they are.
+Answer answer_to(const Comparison& comparison, const LookupSettings& settings,
+                 const Preparation& preparation) {
   const Library& library = comparison.library;
   const bool known = counts_as_known(comparison, settings);
   const Eligible& eligible = preparation.eligible();
@@ -303,6 +294,40 @@ Answer locate_damage(const Comparison& comparison, const LookupSettings& setting
     judge_known_bridge(comparison, observation, preparation, found.front().row, answer);
   if (const auto doubt = check_readings(comparison, observation)) answer.fit = doubt;
   add_same_readings(library, observation, found, answer);
+  return answer;
+}
+
+/// Asks again without readings that may be wrong; of several such the ones without which the others fit best.
+void ask_without(const Comparison& comparison, const LookupSettings& settings, const Preparation& preparation,
+                 Answer& answer) {
+  for (std::vector<std::size_t>& suspects : suspects_of(answer)) {
+    if (suspects.size() >= answer.readings) continue;
+    auto other =
+        std::make_shared<Answer>(answer_to(without_readings(comparison, suspects), settings, preparation));
+    if (!other->fit) continue;
+    const auto better = [](const Fit& one, const Fit& than) {
+      return one.explained != than.explained ? one.explained : one.chance > than.chance;
+    };
+    if (!answer.without || better(*other->fit, *answer.without->answer->fit))
+      answer.without = {std::move(suspects), std::move(other)};
+  }
+  const bool fits_badly = answer.fit && answer.fit->chance < kSmallestChance;
+  if (answer.without && fits_badly && answer.fit->suspects.empty())
+    answer.fit->reason +=
+        fmt::format(", at {} most of all", comparison.library.points[answer.without->channels.front()].name);
+}
+
+}  // namespace
+
+Answer locate_damage(const Comparison& comparison, const LookupSettings& settings) {
+  return locate_damage(comparison, settings,
+                       Preparation(comparison.library, settings, counts_as_known(comparison, settings)));
+}
+
+Answer locate_damage(const Comparison& comparison, const LookupSettings& settings,
+                     const Preparation& preparation) {
+  Answer answer = answer_to(comparison, settings, preparation);
+  ask_without(comparison, settings, preparation, answer);
   return answer;
 }
 

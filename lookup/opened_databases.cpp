@@ -5,6 +5,7 @@
 
 #include "core/error.h"
 #include "lookup/command_line.h"
+#include "lookup/fewer_readings.h"
 #include "lookup/readings/sensors_file.h"
 #include "lookup/readings/stated_sigmas.h"
 #include "lookup/report/report_words.h"
@@ -50,7 +51,9 @@ std::vector<std::string> notes_of(const ReadingsFile& file, const LocateDamageOp
   if (!options.sigma.empty() && states_all)
     notes.push_back("--sigma has no effect: every reading states its own error (sigma_mm)");
   if (!options.noise_level.empty() && (states_all || !options.sigma.empty()))
-    notes.push_back("--noise has no effect: every reading has a standard deviation of its own");
+    notes.push_back("--noise has no effect: the standard deviation of every reading is stated");
+  if (options.settings.noise.floor > 0.0 && (states_all || !options.sigma.empty()))
+    notes.push_back("--floor has no effect: the standard deviation of every reading is stated");
   const bool names_levellings =
       std::ranges::any_of(file.readings, [](const Reading& one) { return !one.levelling.empty(); });
   if (names_levellings && !options.settings.nuisance.any())
@@ -64,7 +67,9 @@ Answered ask_one(OpenedDatabase& one, const ReadingsText& readings) {
   ComparisonSettings settings = comparison_settings(one.options);
   settings.sampled = one.sampled;
   const ReadingsFile file = parse_readings(readings.text, readings.name, one.sensors);
-  Answered asked{&one,         compare(file, one.sensors, one.database, settings),
+  const Comparison all = compare(file, one.sensors, one.database, settings);
+  const std::string& left_out = one.options.without;
+  Answered asked{&one,         left_out.empty() ? all : without_readings(all, channels_at(all, left_out)),
                  one.settings, {},
                  {},           notes_of(file, one.options)};
   asked.settings.noise = noise_of(asked.comparison.measured, asked.settings.noise);

@@ -9,16 +9,17 @@
 namespace voussoir {
 namespace {
 
-bool has_scenes(const Eligible& eligible, int missing) {
+/// Is it known of some scene how it ends?
+bool has_answers(const Eligible& eligible, int missing) {
   const auto number = static_cast<std::size_t>(missing);
-  return number < eligible.scenes.size() && eligible.scenes[number] > 0;
+  return number < eligible.scenes.size() && eligible.scenes[number] + eligible.fallen[number] > 0;
 }
 
 /// Numbers of missing blocks of which some scene has an answer.
 std::vector<int> solved_numbers(const SceneTable& table) {
   std::vector<int> numbers = numbers_of_missing(table);
   const Eligible all = eligible_rows(table, numbers);
-  std::erase_if(numbers, [&](int missing) { return !has_scenes(all, missing); });
+  std::erase_if(numbers, [&](int missing) { return !has_answers(all, missing); });
   return numbers;
 }
 
@@ -26,8 +27,13 @@ std::vector<int> solved_numbers(const SceneTable& table) {
 Eligible eligible_or_failure(const SceneTable& table, const Prior& prior, const std::vector<int>& stated) {
   Eligible eligible = eligible_rows(table, prior.missing);
   std::vector<int> lacking = prior.missing;
-  std::erase_if(lacking, [&](int missing) { return has_scenes(eligible, missing); });
-  if (lacking.empty()) return eligible;
+  std::erase_if(lacking, [&](int missing) { return has_answers(eligible, missing); });
+  if (lacking.empty() && !eligible.rows.empty()) return eligible;
+  if (lacking.empty())
+    throw Failure(fmt::format(
+        "in all scenes with {} missing blocks something falls, and the database keeps only that: expected "
+        "scenes that readings may be of",
+        fmt::join(prior.missing, ", ")));
   if (stated.empty())
     throw Failure(fmt::format("the database has no answer for any scene with {} missing blocks",
                               fmt::join(lacking, ", ")));

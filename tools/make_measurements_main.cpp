@@ -195,8 +195,11 @@ void add_error_options(CLI::App& app, Options& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("Writes a measurements file: what sensors would read in a scene, with simulated errors.",
-               "make-measurements");
+  CLI::App app(
+      "Writes a measurements file: what sensors would read in a scene, with simulated errors of "
+      "the instruments. Joints, temperature and supports are the model's in all epochs, so such "
+      "files are easier than a real bridge's.",
+      "make-measurements");
   app.footer("Example: make-measurements 10,4 -d bridge.h5 --kind change --sigma 0.02mm -o readings.csv");
   app.set_version_flag("--version", version_text("make-measurements"));
   Options options;

@@ -36,13 +36,14 @@ std::optional<double> height_at(const std::vector<Point>& surface, double x) {
 }
 
 /// Of points on the top of the masonry that soil covers.
-void note_buried_points(const std::vector<Point>& surface, const Model& model,
+void note_buried_points(const BridgeDescription& description, const Model& model,
                         std::vector<std::string>& notes) {
+  if (!description.control_points.top) return;
   std::vector<std::string> buried;
-  for (const ControlPoint& point : model.control_points) {
-    const auto height = height_at(surface, point.position.x());
-    if (height && model.layout[point.block].top_course && *height > point.position.y() + kBuried)
-      buried.push_back(point.name);
+  for (const ControlPoint& point :
+       find_control_points(model.layout, model.mesh, {.top = true, .arch = false, .face = false})) {
+    const auto height = height_at(description.fill.surface, point.position.x());
+    if (height && *height > point.position.y() + kBuried) buried.push_back(point.name);
   }
   if (buried.empty()) return;
   const std::size_t shown = std::min<std::size_t>(buried.size(), 3);
@@ -77,12 +78,14 @@ std::vector<std::string> without_effect(const BridgeDescription& description, co
         "wall");
   const FillWeight& fill = description.fill;
   if (fill.unit_weight <= 0.0 || description.gravity <= 0.0) return notes;
-  if (model.parameters.laid_mass.sum() > 0.0)
-    note_soil_that_ends(fill.surface, model.mesh, notes), note_buried_points(fill.surface, model, notes);
-  else
+  if (model.parameters.laid_mass.sum() > 0.0) {
+    note_soil_that_ends(fill.surface, model.mesh, notes);
+    note_buried_points(description, model, notes);
+  } else {
     notes.push_back(fmt::format(
         "[fill] weighs nothing: its surface, at most {:g} m high, lies above no face of the bridge",
         std::ranges::max_element(fill.surface, {}, [](const Point& point) { return point.y(); })->y()));
+  }
   return notes;
 }
 

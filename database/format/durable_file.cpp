@@ -22,8 +22,8 @@ void synchronise(const std::filesystem::path& path, int flags) {
 }  // namespace
 
 void put_in_place(const std::filesystem::path& finished, const std::filesystem::path& target) {
-  take_over_access(target, finished);
   synchronise(finished, O_RDWR);
+  take_over_access(target, finished);
   std::error_code error;
   std::filesystem::rename(finished, target, error);
   if (error)

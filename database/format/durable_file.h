@@ -6,8 +6,8 @@
 namespace voussoir {
 
 /// Waits until the file's content is on the disk, then gives it the name `target`, replacing a file of that
-/// name, whose owner and mode it keeps. Whoever opens `target` finds the old file or the new one, whole.
-/// Throws Failure.
+/// name, whose owner, group and mode it takes over as far as this process may. Whoever opens `target` finds
+/// the old file or the new one, whole. Throws Failure.
 void put_in_place(const std::filesystem::path& finished, const std::filesystem::path& target);
 
 /// The file that the path leads to through symbolic links, whether it exists or not: replacing that one keeps

@@ -1,5 +1,6 @@
 #include "database/records/variant_parameters.h"
 
+#include <algorithm>
 #include <array>
 
 #include "database/records/schema.h"
@@ -29,6 +30,13 @@ constexpr std::array kColumns = {
                     "tangent of the friction angle of each joint"}};
 
 }  // namespace
+
+std::optional<std::int32_t> find_variant(const std::vector<VariantParameters>& variants,
+                                         const VariantParameters& parameters) {
+  const auto found = std::ranges::find(variants, parameters);
+  if (found == variants.end()) return std::nullopt;
+  return static_cast<std::int32_t>(found - variants.begin());
+}
 
 VariantParameters variant_parameters(const Parameters& parameters) {
   VariantParameters result;

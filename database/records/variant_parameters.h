@@ -1,6 +1,8 @@
 #pragma once
 /// @file The parameters of a bridge's variants as a database file holds them.
 
+#include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "core/structure/parameters.h"
@@ -20,6 +22,10 @@ struct VariantParameters {
 
   friend bool operator==(const VariantParameters&, const VariantParameters&) = default;
 };
+
+/// The number of the variant that has these parameters, if there is one.
+std::optional<std::int32_t> find_variant(const std::vector<VariantParameters>& variants,
+                                         const VariantParameters& parameters);
 
 /// The parameters of every block and every joint as a file holds them.
 VariantParameters variant_parameters(const Parameters& parameters);

@@ -10,6 +10,7 @@
 #include "database/records/columns.h"
 #include "database/records/content_digest.h"
 #include "database/records/schema.h"
+#include "database/records/xdmf.h"
 #include "database/search/stored_index.h"
 
 namespace voussoir {
@@ -183,8 +184,9 @@ WrittenDatabase write_database(const std::filesystem::path& target, const Databa
   try {
     const std::string digest = write_content(unfinished, content, record_of_row);
     const std::uintmax_t bytes = std::filesystem::file_size(unfinished);
+    const bool had_index = remove_index(target);  // it shows rows of the file that is replaced
     put_in_place(unfinished, target);
-    return {digest, bytes};
+    return {digest, bytes, had_index};
   } catch (...) {
     std::error_code ignored;
     std::filesystem::remove(unfinished, ignored);

@@ -31,6 +31,7 @@ struct DatabaseContent {
 struct WrittenDatabase {
   std::string digest;
   std::uintmax_t bytes = 0;
+  bool had_index = false;  ///< the file that was there before had one (xdmf.h), which is removed
 };
 
 /// The record of this row of DatabaseContent::keys; called once for each row, in order.

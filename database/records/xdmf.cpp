@@ -77,6 +77,11 @@ void write_views(const Database& database, const std::vector<IndexedScene>& scen
   output.close();
 }
 
+/// The views of an index are none.
+bool is_database(const std::filesystem::path& file) {
+  return std::filesystem::exists(file) && is_named_database(file);
+}
+
 /// Is there one that write_index has written?
 bool has_index(const std::filesystem::path& database) {
   std::ifstream stream(index_paths(database).xdmf, std::ios::binary);
@@ -92,16 +97,17 @@ IndexPaths index_paths(const std::filesystem::path& database) {
 }
 
 std::optional<std::filesystem::path> in_the_way_of_index(const std::filesystem::path& database) {
-  if (has_index(database)) return std::nullopt;
   const IndexPaths paths = index_paths(database);
+  if (is_database(paths.views)) return paths.views;
+  if (has_index(database)) return std::nullopt;
   for (const std::filesystem::path& path : {paths.xdmf, paths.views})
     if (std::filesystem::exists(path)) return path;
   return std::nullopt;
 }
 
 bool remove_index(const std::filesystem::path& database) {
-  if (!has_index(database)) return false;
   const IndexPaths paths = index_paths(database);
+  if (!has_index(database) || is_database(paths.views)) return false;
   for (const std::filesystem::path& path : {paths.xdmf, paths.views}) {
     std::error_code error;
     std::filesystem::remove(path, error);

@@ -2,6 +2,7 @@
 /// @file Light index files with which ParaView and other readers of XDMF open a database.
 
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include "database/records/database.h"

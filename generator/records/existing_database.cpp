@@ -64,36 +64,32 @@ std::vector<std::string> find_changes(const Database& database, const WantedData
   return changes;
 }
 
-/// Of each variant that was found the wanted one with the same parameters; kNone where there is none.
-constexpr std::int32_t kNone = -1;
-std::vector<std::int32_t> wanted_numbers(const std::vector<VariantParameters>& found,
-                                         const std::vector<VariantParameters>& wanted) {
-  std::vector<std::int32_t> numbers;
-  for (const VariantParameters& parameters : found) {
-    const auto same = std::ranges::find(wanted, parameters);
-    numbers.push_back(same == wanted.end() ? kNone : static_cast<std::int32_t>(same - wanted.begin()));
-  }
-  return numbers;
-}
-
 /// What of a file whose records are valid is not wanted is not thrown away unasked.
 void check_nothing_is_lost(const Database& database, const WantedDatabase& wanted) {
   std::size_t scenes = 0;
-  const std::vector<std::int32_t> numbers = wanted_numbers(database.variants(), wanted.variants);
+  std::vector<std::optional<std::int32_t>> numbers;  // under which the file's variants are wanted
+  for (const VariantParameters& variant : database.variants())
+    numbers.push_back(find_variant(wanted.variants, variant));
   for (std::size_t row = 0; row < database.rows(); ++row) {
-    RecordKey key = database.key(row);
-    key.variant = numbers[static_cast<std::size_t>(key.variant)];
-    if (!std::ranges::binary_search(wanted.keys, key)) ++scenes;
+    const RecordKey key = database.key(row);
+    const auto number = numbers[static_cast<std::size_t>(key.variant)];
+    if (!number || !std::ranges::binary_search(wanted.keys, RecordKey{*number, key.scene})) ++scenes;
   }
   std::vector<std::string> states;
   for (const std::string& state : database.states())
     if (std::ranges::find(wanted.states, state) == wanted.states.end()) states.push_back(state);
-  if (scenes == 0 && states.empty()) return;
-  throw Failure(fmt::format(
-      "{}: {} of its {} scenes{} would be lost, which are still valid: ask for them, too, give another file "
-      "with -o, or --drop to let them go",
-      database.path().string(), states.empty() ? scenes : database.rows(), database.rows(),
-      states.empty() ? "" : fmt::format(" as {}", fmt::join(states, ", "))));
+  std::vector<std::string> lost;
+  if (scenes > 0 || !states.empty())
+    lost.push_back(fmt::format("{} of its {} scenes{}", states.empty() ? scenes : database.rows(),
+                               database.rows(),
+                               states.empty() ? "" : fmt::format(" as {}", fmt::join(states, ", "))));
+  if (database.has_fields() && wanted.fields == KeepField::no) lost.emplace_back("all its fields");
+  if (database.sensitivities() != nullptr && !wanted.sensitivities) lost.emplace_back("its sensitivities");
+  if (lost.empty()) return;
+  throw Failure(
+      fmt::format("{}: {} would be lost, which are still valid: ask for them, too, give another file "
+                  "with -o, or --drop to let them go",
+                  database.path().string(), fmt::join(lost, " and ")));
 }
 
 }  // namespace

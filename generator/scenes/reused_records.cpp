@@ -58,11 +58,9 @@ ReusedRecords::ReusedRecords(Database old, const NewRecords& records, const Reco
   const int most_starting = most_missing_of_starts(records.wanted);
   const auto& old_variants = old_.variants();
   for (const VariantParameters& variant : records.variants) {
-    const auto same = std::ranges::find(old_variants, variant);
-    const auto number = static_cast<std::int32_t>(same - old_variants.begin());
-    old_variant_.push_back(same == old_variants.end() ? std::nullopt : std::optional(number));
+    old_variant_.push_back(find_variant(old_variants, variant));
     if (!old_variant_.back()) continue;
-    const SceneTable table = old_.table(number, 0);
+    const SceneTable table = old_.table(*old_variant_.back(), 0);
     for (std::size_t row = 0; row < table.rows; ++row) {
       const RecordKey key{static_cast<std::int32_t>(old_variant_.size() - 1), table.scene(row)};
       const bool useful = (key.scene.missing() <= most_starting || wanted.contains(key)) &&

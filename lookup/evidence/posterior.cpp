@@ -37,19 +37,21 @@ std::vector<std::size_t> credible_set(const RowValues& probability) {
   return rows;
 }
 
-/// From the probabilities of 0, 1, 2.. missing blocks afterwards and beforehand. A bridge that is read
-/// stands: losses that would let it fall, which any readings rule out, are not what damage is as likely as.
-double intact_if_even(const std::vector<double>& afterwards, const Eligible& eligible,
+/// A bridge that is read stands: losses that would let it fall, which any readings rule out, are not what
+/// damage is as likely as.
+double intact_if_even(const Posterior& posterior, const SceneTable& table, const Eligible& eligible,
                       const std::vector<double>& log_prior) {
   double before = 0.0, after = 0.0;
-  for (std::size_t missing = 1; missing < afterwards.size(); ++missing) {
+  for (std::size_t missing = 1; missing < eligible.standing.size(); ++missing)
     before += static_cast<double>(eligible.standing[missing]) * std::exp(log_prior[missing]);
-    after += afterwards[missing];
-  }
+  const RowValues& probability = posterior.probability;
+  for (std::size_t i = 0; i < probability.rows.size(); ++i)
+    if (missing_blocks(table, probability.rows[i]) > 0 && table.stands(probability.rows[i]))
+      after += probability.values[i];
+  const double intact = intact_probability(posterior);
   const double intact_before = static_cast<double>(eligible.scenes[0]) * std::exp(log_prior[0]);
-  if (before == 0.0 || intact_before == 0.0) return afterwards.front();
-  const double intact = afterwards.front() / intact_before, damaged = after / before;
-  return intact / (intact + damaged);
+  if (before == 0.0 || intact_before == 0.0) return intact;
+  return intact / intact_before / (intact / intact_before + after / before);
 }
 
 std::vector<OpenLoss> open_losses(const SceneTable& table, const RowValues& probability,
@@ -155,7 +157,7 @@ Posterior posterior(const SceneTable& table, const Eligible& eligible, const Row
   }
   for (auto* const sums : {&result.missing_probability, &result.block_probability})
     for (double& sum : *sums) sum = std::min(sum, 1.0);  // but for rounding they are
-  result.intact_if_even = intact_if_even(result.missing_probability, eligible, log_prior);
+  result.intact_if_even = intact_if_even(result, table, eligible, log_prior);
   result.open_losses = open_losses(table, result.probability, log_prior);
   result.credible = credible_set(result.probability);
   return result;

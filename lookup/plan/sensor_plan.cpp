@@ -78,7 +78,8 @@ SightSettings sight_settings(const BlankQuestion& question, const Database& data
   const Prior prior = stated_prior({}, table, false);
   const Eligible eligible = eligible_rows(table, prior.missing);
   if (eligible.scenes.size() < 2 || eligible.scenes[1] == 0)
-    throw Failure(fmt::format("{}: has no scene with one missing block", database.path().string()));
+    throw Failure(fmt::format("{}: has no loss of one block that leaves the bridge standing",
+                              database.path().string()));
   const std::vector<double> beforehand = log_prior_by_missing(table, eligible, prior);
   return {.log_prior_intact = beforehand[0],
           .log_prior_loss = beforehand[1],

@@ -54,14 +54,24 @@ std::string axis_in_words(ReadingKind kind, Quantity quantity) {
   return fmt::format("{}{} [{}]", what, quantity_in_words(quantity), unit_of(quantity));
 }
 
+std::vector<std::string> silent_sensors(const Comparison& comparison) {
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < comparison.measured.silent.size(); ++i)
+    if (comparison.measured.silent[i]) names.push_back(comparison.library.points[i].name);
+  return names;
+}
+
 std::string readings_in_words(const Comparison& comparison, std::size_t readings) {
   const std::string_view what = comparison.library.storage != nullptr ? "rows"
                                 : comparison.quantity.empty()         ? "control points"
                                                                       : "sensors";
   const std::size_t channels = comparison.library.points.size();
-  const auto silent = std::ranges::count(comparison.measured.silent, true);
+  const std::vector<std::string> silent = silent_sensors(comparison);
   std::string text = fmt::format("{} of {} {} have a reading", readings, channels, what);
-  if (silent > 0) text += fmt::format(", {} {} silent", silent, silent == 1 ? "is" : "are");
+  if (!silent.empty())
+    text += fmt::format(", {} {} silent ({}), which speaks for the loss of {}", silent.size(),
+                        silent.size() == 1 ? "is" : "are", names_in_words(silent),
+                        silent.size() == 1 ? "its block" : "their blocks");
   if (comparison.kind == ReadingKind::absolute) return text;
   return fmt::format(
       "{} ({}{})", text, value_in_words(comparison.kind),

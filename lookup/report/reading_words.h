@@ -17,6 +17,9 @@ std::string_view to_string(ReadingKind kind);
 /// "vertical displacement [mm]", "change of tilt [mm per m]"...: the axis of a quantity.
 std::string axis_in_words(ReadingKind kind, Quantity quantity);
 
+/// Names of what gave no reading, which speaks for the loss of its block.
+std::vector<std::string> silent_sensors(const Comparison& comparison);
+
 /// "78 of 78 control points have a reading (change between two times)"
 std::string readings_in_words(const Comparison& comparison, std::size_t readings);
 

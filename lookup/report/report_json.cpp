@@ -77,7 +77,8 @@ ordered_json sensors_json(const Answer& answer, const Comparison& comparison) {
   const std::vector<double> origin = origin_of(comparison);
   ordered_json result = ordered_json::array();
   for (const SensorResidual& sensor : answer.residuals) {
-    ordered_json entry = {{"point", comparison.library.points[sensor.point].name}};
+    ordered_json entry = {{"point", comparison.library.points[sensor.point].name},
+                          {"unit", quantity_of(comparison, sensor.point) == Quantity::tilt ? "rad" : "m"}};
     if (!comparison.before.empty()) {
       entry["before_m"] = comparison.before[sensor.point];
       entry["after_m"] = comparison.after[sensor.point];
@@ -104,7 +105,7 @@ void add_judgement(const Answer& answer, const Comparison& comparison, ordered_j
   result["intact_probability"] = intact_probability(*answer.posterior);
   result["intact_if_even"] = answer.posterior->intact_if_even;
   result["open_losses"] = ordered_json::array();
-  for (const OpenLoss& loss : answer.posterior->open_losses)
+  for (const OpenLoss& loss : open_losses(answer))
     result["open_losses"].push_back(
         {{"scene", to_string(comparison.library.table.scene(loss.row), comparison.library.layout)},
          {"times_as_likely", loss.times_as_likely}});
@@ -124,6 +125,20 @@ ordered_json databases_json(const std::vector<AskedDatabase>& databases) {
                       {"first_scene", asked.first},
                       {"intact_probability", asked.intact}});
   return result;
+}
+
+/// The answer without readings that may be wrong, null if none is suspected.
+ordered_json without_json(const Answer& answer, const Comparison& comparison) {
+  if (!answer.without) return nullptr;
+  const Answer& other = *answer.without->answer;
+  ordered_json named = ordered_json::array();
+  for (const BlockId block : likely_blocks(*other.posterior, kCertain))
+    named.push_back(comparison.library.layout[block].label);
+  return {{"sensors", suspects_in_words(answer, comparison)},
+          {"verdict", to_string(verdict_of(other))},
+          {"named", std::move(named)},
+          {"intact_probability", intact_probability(*other.posterior)},
+          {"reason", other.fit->reason}};
 }
 
 constexpr std::size_t kMostJoints = 50;
@@ -164,6 +179,23 @@ ordered_json bridge_json(const BridgeAnswer& bridge, const Comparison& compariso
           {"epochs", std::move(epochs)}};
 }
 
+ordered_json measurements_json(const Answer& answer, const Comparison& comparison, const Source& source) {
+  return {{"file", source.measurements},
+          {"readings", answer.readings},
+          {"silent", silent_sensors(comparison)},
+          {"kind", to_string(comparison.kind)}};
+}
+
+ordered_json database_json(const Answer& answer, const Source& source) {
+  return {{"file", source.database},
+          {"bridge", source.bridge},
+          {"digest", source.digest},
+          {"stands_by_slip", source.stands_by_slip},
+          {"scenes_searched", answer.searched},
+          {"scenes_unresolved", answer.unresolved},
+          {"scenes_fallen", answer.fallen}};
+}
+
 }  // namespace
 
 std::string json_report(const Answer& answer, const LookupSettings& settings, const Comparison& comparison,
@@ -172,20 +204,11 @@ std::string json_report(const Answer& answer, const LookupSettings& settings, co
   ordered_json candidates = ordered_json::array();
   for (const Candidate& candidate : answer.candidates)
     candidates.push_back(candidate_json(candidate, library.layout));
-  ordered_json result = {
-      {"candidates", std::move(candidates)},
-      {"first_candidate", nullptr},
-      {"settings", settings_json(settings, answer.prior)},
-      {"measurements",
-       {{"file", source.measurements}, {"readings", answer.readings}, {"kind", to_string(comparison.kind)}}},
-      {"database",
-       {{"file", source.database},
-        {"bridge", source.bridge},
-        {"digest", source.digest},
-        {"stands_by_slip", source.stands_by_slip},
-        {"scenes_searched", answer.searched},
-        {"scenes_unresolved", answer.unresolved},
-        {"scenes_fallen", answer.fallen}}}};
+  ordered_json result = {{"candidates", std::move(candidates)},
+                         {"first_candidate", nullptr},
+                         {"settings", settings_json(settings, answer.prior)},
+                         {"measurements", measurements_json(answer, comparison, source)},
+                         {"database", database_json(answer, source)}};
   result["notes"] = source.notes;
   if (!source.databases.empty()) result["databases"] = databases_json(source.databases);
   if (!answer.candidates.empty()) result["first_candidate"] = standing(answer);
@@ -198,6 +221,7 @@ std::string json_report(const Answer& answer, const LookupSettings& settings, co
   if (answer.fit)
     result["fit"] = {
         {"explained", answer.fit->explained}, {"chance", answer.fit->chance}, {"reason", answer.fit->reason}};
+  result["without"] = without_json(answer, comparison);
   if (answer.bridge) result["bridge"] = bridge_json(*answer.bridge, comparison);
   if (!answer.residuals.empty()) result["sensors"] = sensors_json(answer, comparison);
   for (const GeneticResult& run : answer.genetic)

@@ -23,6 +23,8 @@ std::string verdict_html(const Answer& answer, const Comparison& comparison) {
   std::string html;
   if (const std::string first = headline(answer, comparison); !first.empty())
     html += paragraph(first, "lead");
+  if (const std::string other = without_in_words(answer, comparison); !other.empty())
+    html += paragraph(other, "lead");
   for (const std::string& sentence : verdict(answer, library))
     html += paragraph(sentence, html.empty() ? "lead" : "");
   if (answer.posterior) html += paragraph("Verdict: " + verdict_in_words(answer));

@@ -48,7 +48,8 @@ void write_heading(Text& text, const Answer& answer, const Comparison& compariso
   for (const std::string& note : source.notes) text.line("Note:         {}", note);
 }
 
-void write_verdict(Text& text, const Answer& answer, const Library& library) {
+void write_verdict(Text& text, const Answer& answer, const Comparison& comparison) {
+  const Library& library = comparison.library;
   if (answer.posterior) text.line("Verdict:      {}", verdict_in_words(answer));
   for (const std::string& sentence : verdict(answer, library)) text.line("{}", sentence);
 }
@@ -158,7 +159,9 @@ void write_genetic(Text& text, const Answer& answer) {
 std::string text_report(const Answer& answer, const Comparison& comparison, const Source& source) {
   const Library& library = comparison.library;
   Text text;
-  if (const std::string first = headline(answer, comparison); !first.empty()) text.line("{}\n", first);
+  if (const std::string first = headline(answer, comparison); !first.empty()) text.line("{}", first);
+  if (const std::string other = without_in_words(answer, comparison); !other.empty()) text.line("{}", other);
+  if (answer.posterior) text.line("");
   write_heading(text, answer, comparison, source);
   write_genetic(text, answer);
   text.line("");
@@ -168,7 +171,7 @@ std::string text_report(const Answer& answer, const Comparison& comparison, cons
         "reading.");
     return text.take();
   }
-  write_verdict(text, answer, library);
+  write_verdict(text, answer, comparison);
   if (answer.noise) text.line("Noise:        {}", noise_in_words(*answer.noise, comparison.kind));
   text.line("");
   write_table(text, answer, library);

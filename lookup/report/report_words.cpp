@@ -1,6 +1,7 @@
 #include "lookup/report/report_words.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cctype>
@@ -120,7 +121,7 @@ std::string headline(const Answer& answer, const Comparison& comparison) {
           is_change(comparison.kind) ? "No block has gone between the two times" : "No block is missing",
           percent(intact),
           posterior.open_losses.empty() ? ""
-                                        : fmt::format(", but of {} the loss would hardly show",
+                                        : fmt::format(", but the loss of {} is not excluded",
                                                       blocks_in_words(posterior.open_losses.size())));
     case Verdict::cannot_tell:
       if (answer.contested) return "The databases that may be right come to different answers.";
@@ -143,10 +144,16 @@ std::string searched_in_words(const Answer& answer) {
   return text;
 }
 
-std::string open_losses_in_words(const Answer& answer, const Library& library) {
+std::vector<OpenLoss> open_losses(const Answer& answer) {
+  if (!answer.posterior || verdict_of(answer) != Verdict::intact) return {};
   std::vector<OpenLoss> open = answer.posterior->open_losses;
-  if (verdict_of(answer) != Verdict::intact || open.empty()) return "";
   std::ranges::stable_sort(open, std::ranges::greater{}, &OpenLoss::times_as_likely);
+  return open;
+}
+
+std::string open_losses_in_words(const Answer& answer, const Library& library) {
+  const std::vector<OpenLoss> open = open_losses(answer);
+  if (open.empty()) return "";
   std::string names;
   for (const OpenLoss& loss : std::span(open).first(std::min(open.size(), kMostLossesNamed)))
     names += (names.empty() ? "" : ", ") + to_string(library.table.scene(loss.row), library.layout);
@@ -154,6 +161,22 @@ std::string open_losses_in_words(const Answer& answer, const Library& library) {
       "These readings hardly speak against the loss of {}{}: with it they would be more than a "
       "tenth as likely. plan-sensors says which sensors would show it.",
       names, open.size() > kMostLossesNamed ? fmt::format(", .. ({} in all)", open.size()) : "");
+}
+
+std::vector<std::string> suspects_in_words(const Answer& answer, const Comparison& comparison) {
+  std::vector<std::string> names;
+  if (!answer.without) return names;
+  for (const std::size_t channel : answer.without->channels)
+    names.push_back(comparison.library.points[channel].name);
+  return names;
+}
+
+std::string without_in_words(const Answer& answer, const Comparison& comparison) {
+  if (!answer.without) return "";
+  const Answer& other = *answer.without->answer;
+  return fmt::format("Without {}: {}{}", fmt::join(suspects_in_words(answer, comparison), ", "),
+                     headline(other, comparison),
+                     other.fit->explained ? "" : fmt::format(" ({})", other.fit->reason));
 }
 
 std::vector<std::string> verdict(const Answer& answer, const Library& library) {
@@ -174,7 +197,7 @@ std::vector<std::string> verdict(const Answer& answer, const Library& library) {
     sentences.push_back(
         fmt::format("Probability:  {}{}", percent(*best.posterior),
                     answer.fit && !answer.fit->explained ? ", if one of the scenes were the truth" : ""));
-  if (const std::string open = answer.posterior ? open_losses_in_words(answer, library) : ""; !open.empty())
+  if (const std::string open = open_losses_in_words(answer, library); !open.empty())
     sentences.push_back(open);
   if (missed)
     sentences.push_back(fmt::format("More likely, {}, but not found by this search: {}",

@@ -34,9 +34,19 @@ inline constexpr std::string_view kStandsBySlip =
 /// "22579 scenes", and how many were left out for which reason.
 std::string searched_in_words(const Answer& answer);
 
-/// Of a bridge that is said to be intact: which losses the readings would have let slip. Empty if there are
-/// none, and with any other verdict.
+/// Of a bridge that is said to be intact: the losses that the readings do not exclude, the likeliest first.
+/// Nothing with any other verdict.
+std::vector<OpenLoss> open_losses(const Answer& answer);
+
+/// The same as a sentence; empty if there are none.
 std::string open_losses_in_words(const Answer& answer, const Library& library);
+
+/// "Without F64: Block 4,1 (> 99.9 %) is missing.": what the readings say without one that may be wrong;
+/// empty if none is suspected.
+std::string without_in_words(const Answer& answer, const Comparison& comparison);
+
+/// Names of the sensors that AnswerWithout leaves out.
+std::vector<std::string> suspects_in_words(const Answer& answer, const Comparison& comparison);
 
 /// What is taken to be known and uncertain of the bridge.
 std::string bridge_in_words(const Answer& answer);

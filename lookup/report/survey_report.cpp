@@ -1,6 +1,7 @@
 #include "lookup/report/survey_report.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -16,7 +17,7 @@ namespace {
 
 Table table_of(const std::vector<SurveyRow>& rows) {
   Table table{{"file", "verdict", "named", "certainty", "scene", "posterior", "intact_probability", "misfit",
-               "readings", "reason", "error"},
+               "readings", "reason", "error", "suspects", "verdict_without", "named_without"},
               {}};
   const bool several = std::ranges::any_of(rows, [](const SurveyRow& row) { return !row.database.empty(); });
   if (several) table.columns.push_back("database");
@@ -25,7 +26,7 @@ Table table_of(const std::vector<SurveyRow>& rows) {
     table.rows.push_back({row.file, row.verdict, row.named, answered ? row.certainty : kNan, row.scene,
                           answered ? row.posterior : kNan, answered ? row.intact_probability : kNan,
                           answered ? row.misfit : kNan, answered ? static_cast<double>(row.readings) : kNan,
-                          row.reason, row.error});
+                          row.reason, row.error, row.suspects, row.verdict_without, row.named_without});
     if (several) table.rows.back().push_back(row.database);
   }
   return table;
@@ -37,16 +38,30 @@ std::string line_of(const SurveyRow& row) {
   if (std::isnan(row.posterior)) return fmt::format("{}: smallest misfit {}\n", row.file, row.scene);
   const std::string named =
       row.named.empty() ? "" : fmt::format(" {} ({})", row.named, percent(row.certainty));
-  const std::string reason = row.reason.empty() ? "" : fmt::format(" ({})", row.reason);
+  std::string reason = row.reason.empty() ? "" : fmt::format(" ({})", row.reason);
+  if (!row.suspects.empty())
+    reason += fmt::format(", without {} {}{}{}", row.suspects, row.verdict_without,
+                          row.named_without.empty() ? "" : " ", row.named_without);
   return fmt::format("{}: {}{}{}; first {} ({}), intact {}{}\n", row.file, row.verdict, named, reason,
                      row.scene, percent(row.posterior), percent(row.intact_probability),
                      row.database.empty() ? "" : fmt::format("; {}", row.database));
 }
 
-void name_blocks(const Posterior& posterior, const BlockLayout& layout, SurveyRow& row) {
-  const std::vector<BlockId> blocks = likely_blocks(posterior, kCertain);
-  for (const BlockId block : blocks) row.named += (row.named.empty() ? "" : "+") + layout[block].label;
-  row.certainty = posterior.block_probability[static_cast<std::size_t>(value(blocks.back()))];
+/// Of a verdict that names blocks: "4,1+4,2".
+std::string named_blocks(const Answer& answer, const BlockLayout& layout) {
+  std::string named;
+  if (verdict_of(answer) != Verdict::located) return named;
+  for (const BlockId block : likely_blocks(*answer.posterior, kCertain))
+    named += (named.empty() ? "" : "+") + layout[block].label;
+  return named;
+}
+
+void add_without(const Answer& answer, const Comparison& comparison, SurveyRow& row) {
+  if (!answer.without) return;
+  const Answer& other = *answer.without->answer;
+  row.suspects = fmt::format("{}", fmt::join(suspects_in_words(answer, comparison), ", "));
+  row.verdict_without = to_string(verdict_of(other));
+  row.named_without = named_blocks(other, comparison.library.layout);
 }
 
 }  // namespace
@@ -65,8 +80,12 @@ SurveyRow survey_row(const std::string& file, const Answer& answer, const Compar
     row.verdict = to_string(verdict_of(answer));
     row.intact_probability = intact_probability(*answer.posterior);
     if (answer.fit) row.reason = answer.fit->reason;
-    if (verdict_of(answer) == Verdict::located)
-      name_blocks(*answer.posterior, comparison.library.layout, row);
+    row.named = named_blocks(answer, comparison.library.layout);
+    if (!row.named.empty()) {
+      const BlockId last = likely_blocks(*answer.posterior, kCertain).back();
+      row.certainty = answer.posterior->block_probability[static_cast<std::size_t>(value(last))];
+    }
+    add_without(answer, comparison, row);
   }
   if (answer.candidates.empty()) return row;
   const Candidate& first = answer.candidates.front();

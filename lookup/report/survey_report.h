@@ -20,17 +20,20 @@ struct SurveyRow {
   double intact_probability = 0.0;  ///< NaN without a posterior
   double misfit = 0.0;              ///< Eq. 1
   std::size_t readings = 0;
-  std::string reason{};    ///< why nothing explains the readings; empty if something does
-  std::string database{};  ///< that answers, if several were asked
+  std::string reason{};           ///< why nothing explains the readings; empty if something does
+  std::string database{};         ///< that answers, if several were asked
+  std::string suspects{};         ///< sensors that may be wrong (AnswerWithout), "F64, F65"; empty: none
+  std::string verdict_without{};  ///< of the readings without them
+  std::string named_without{};    ///< and blocks that are missing for certain then
 };
 
 /// `database`: as in SurveyRow.
 SurveyRow survey_row(const std::string& file, const Answer& answer, const Comparison& comparison,
                      const std::string& database = {});
 
-/// file,verdict,named,certainty,scene,posterior,intact_probability,misfit,readings,reason,error and, if
-/// several databases were asked, database as CSV, the same as a list of objects in JSON, or a line a file for
-/// people.
+/// file,verdict,named,certainty,scene,posterior,intact_probability,misfit,readings,reason,error,suspects,
+/// verdict_without,named_without and, if several databases were asked, database as CSV, the same as a list of
+/// objects in JSON, or a line a file for people.
 std::string survey_report(const std::vector<SurveyRow>& rows, ReportFormat format);
 
 }  // namespace voussoir

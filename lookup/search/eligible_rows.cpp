@@ -26,7 +26,7 @@ std::vector<int> numbers_of_missing(const SceneTable& table) {
 Eligible eligible_rows(const SceneTable& table, const std::vector<int>& missing) {
   Eligible result;
   result.scenes.assign(table.most_missing + 1, 0);
-  result.standing = result.scenes;
+  result.standing = result.fallen = result.scenes;
   std::vector<bool> wanted(table.most_missing + 1, false);
   for (const int number : missing)
     if (number >= 0 && static_cast<std::size_t>(number) < wanted.size())
@@ -39,7 +39,7 @@ Eligible eligible_rows(const SceneTable& table, const std::vector<int>& missing)
       continue;
     }
     if (!table.stands(row) && !table.has_displacements(row)) {
-      ++result.fallen;
+      ++result.fallen[static_cast<std::size_t>(lost)];
       continue;
     }
     result.rows.push_back(row);

@@ -15,7 +15,8 @@ struct Eligible {
   std::vector<std::size_t> scenes;    ///< how many of them lack 0, 1, 2... blocks
   std::vector<std::size_t> standing;  ///< and how many of these stand
   std::size_t unresolved = 0;         ///< rows left out only because the solver gave no answer
-  std::size_t fallen = 0;             ///< rows left out only because they fall and say nothing of readings
+  std::vector<std::size_t> fallen;  ///< of each number, rows left out only because they fall and say nothing
+                                    ///< of readings
 };
 Eligible eligible_rows(const SceneTable& table, const std::vector<int>& missing);
 

@@ -115,9 +115,9 @@ TEST_CASE("Nothing that is no result of this build is replaced, whatever is forc
     return test::run("build-database", more);
   };
   const auto refused = [&](const std::string& output, const std::vector<std::string>& more,
-                           const std::string& words) {
+                           const std::string& words, int exit_code = 2) {
     const ProgramResult result = build(output, more);
-    CHECK(result.exit_code != 0);
+    CHECK(result.exit_code == exit_code);
     CHECK_THAT(result.err, Catch::Contains(words));
   };
   const std::vector<std::string> intact = {"--scenes", "intact"};
@@ -126,17 +126,30 @@ TEST_CASE("Nothing that is no result of this build is replaced, whatever is forc
   refused("", {"--scenes", "intact", "--force"}, "'' given, expected the name of a file");
   const std::string whole = (folder / "whole.h5").string();
   REQUIRE(build(whole, {"--scenes", "intact;2,4;3,6"}).exit_code == 0);
-  refused(whole, {"--scenes", "singles", "--shard", "1/4"}, "of its 3 scenes would be lost");
+  refused(whole, {"--scenes", "singles", "--shard", "1/4"}, "of its 3 scenes would be lost", 1);
   const std::string views = (folder / "other.views.h5").string();
   REQUIRE(build(views, intact).exit_code == 0);
   refused((folder / "other.h5").string(), {"--scenes", "intact", "--xdmf", "intact"},
           "other.views.h5 is there");
   CHECK(build(views, intact).exit_code == 0);
   std::filesystem::copy_file(whole, folder / "new.h5.partial");
-  refused((folder / "new.h5").string(), intact, "new.h5.partial: is there and holds no scenes of a build");
+  refused((folder / "new.h5").string(), intact, "new.h5.partial: is there and holds no scenes of a build", 1);
   const std::string points = (folder / "points.h5").string();
   REQUIRE(build(points, {"--scenes", "intact;2,4", "--fields", "none"}).exit_code == 0);
-  refused(points, {"--scenes", "intact", "--fields", "none"}, "1 of its 2 scenes would be lost");
+  refused(points, {"--scenes", "intact", "--fields", "none"}, "1 of its 2 scenes would be lost", 1);
+}
+
+TEST_CASE("Fields and sensitivities are not dropped unasked") {
+  const test::TemporaryFolder folder;
+  const auto build = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), {test::example_bridge("small").string(), "-o", (folder / "small.h5").string(),
+                               "--scenes", "intact", "--quiet"});
+    return test::run("build-database", more);
+  };
+  REQUIRE(build({}).exit_code == 0);
+  CHECK_THAT(build({"--fields", "none"}).err, Catch::Contains("all its fields would be lost"));
+  CHECK_THAT(build({"--known-bridge"}).err, Catch::Contains("its sensitivities would be lost"));
+  CHECK(build({"--known-bridge", "--drop"}).exit_code == 0);
 }
 
 TEST_CASE("Sampled bridges are not replaced by others of the same number unasked") {

@@ -133,6 +133,38 @@ TEST_CASE(
     }
 }
 
+TEST_CASE("Without the reading that is grossly wrong a loss is named (the same readings without it)") {
+  const Site site;
+  std::size_t named = 0, asked = 0;
+  for (const std::string wrong : {"T2", "T9", "A3"})
+    for (const double off : {-1.0, 5.0}) {
+      INFO(wrong << " off by " << off << " mm");
+      const auto told = [&](const std::string& point, double change, double sigma) {
+        return std::pair(point == wrong ? change + off : change, sigma);
+      };
+      const auto answer = site.answer("2,4", told);
+      CHECK(answer.at("verdict") != "located");
+      ++asked;
+      if (answer.at("without").is_null()) continue;
+      const auto& without = answer.at("without");
+      CHECK(without.at("sensors") == nlohmann::json::array({wrong}));
+      const ProgramResult left_out =
+          test::run("locate-damage", {(site.folder / "readings.csv").string(), "-d", site.database,
+                                      "--without", wrong, "--format", "json"});
+      REQUIRE(left_out.exit_code == 0);
+      const auto alone = nlohmann::json::parse(left_out.out);
+      CHECK(without.at("verdict") == alone.at("verdict"));
+      CHECK(without.at("intact_probability").get<double>() ==
+            Approx(alone.at("intact_probability").get<double>()).margin(1e-9));
+      if (without.at("named") == nlohmann::json::array({"2,4"})) ++named;
+    }
+  CHECK(named + 2 >= asked);
+  const ProgramResult unknown = test::run(
+      "locate-damage", {(site.folder / "readings.csv").string(), "-d", site.database, "--without", "T99"});
+  CHECK(unknown.exit_code == 2);
+  CHECK_THAT(unknown.err, Contains("--without: 'T99' has no row in the file"));
+}
+
 TEST_CASE("A lorry that stood there at one of the two times and is not stated names no block") {
   const Site site;
   // At the first time or the second. (2, second) is one of those that still name a block

@@ -5,10 +5,11 @@
 #include "tests/lookup/synthetic_library.h"
 
 using namespace voussoir;
+using namespace voussoir::test;
 
 namespace {
 
-constexpr double kSigma = 1e-5;  // [m]
+constexpr double kGaugeSigma = 1e-5;  // [m]
 
 /// Changes that a block's loss makes, times a sign, with errors of so many standard deviations to and fro.
 Comparison changes(const SyntheticLibrary& library, const Scene& scene, double sign, double size = 1.0) {
@@ -16,10 +17,10 @@ Comparison changes(const SyntheticLibrary& library, const Scene& scene, double s
   comparison.kind = ReadingKind::change;
   const std::span<const double> lost = library.table.row(library.row_of(scene));
   for (std::size_t i = 0; i < library.points.size(); ++i) {
-    const double error = i % 2 == 0 ? size * kSigma : -size * kSigma;
+    const double error = i % 2 == 0 ? size * kGaugeSigma : -size * kGaugeSigma;
     comparison.measured.displacement[i] =
         library.intact()[i] + sign * (lost[i] - library.intact()[i]) + error;
-    comparison.measured.sigma[i] = kSigma;
+    comparison.measured.sigma[i] = kGaugeSigma;
   }
   return comparison;
 }
@@ -67,7 +68,7 @@ TEST_CASE("What the opposite sign would show counts at the level of noise that i
   comparison.measured.sigma.assign(comparison.measured.sigma.size(), std::nan(""));
   LookupSettings settings;
   settings.known_bridge = true;
-  settings.noise.floor = kSigma;
+  settings.noise.floor = kGaugeSigma;
   settings.noise.shape = NoiseShape::gaussian;
   const Answer answer = locate_damage(comparison, settings);
   CHECK_FALSE(answer.fit->explained);

@@ -50,7 +50,7 @@ std::vector<Query> make_queries(const SceneTable& table, const LookupQueries& as
   std::vector<Query> queries;
   for (int i = 0; i < asked.count; ++i) {
     const std::size_t truth =
-        random_truth(table, by_missing[static_cast<std::size_t>(i) % by_missing.size()], random);
+        random_truth(by_missing[static_cast<std::size_t>(i) % by_missing.size()], random);
     const double even = kLowestLevel + (kHighestLevel - kLowestLevel) * random.uniform();
     NoiseModel noise{NoiseShape::uniform, asked.level.value_or(even)};
     noise.silence = 0.0;

@@ -93,11 +93,11 @@ QuestionTiming time_question(const Library& library, const ModelError& error, co
   Random random(seed);
   Preparations preparations;
   std::vector<double> milliseconds, of_processors;
-  const std::vector<int> numbers =
-      question.missing.empty() ? numbers_of_missing(library.table) : question.missing;
+  std::vector<int> numbers = question.missing.empty() ? numbers_of_missing(library.table) : question.missing;
+  std::erase_if(numbers, [&](int number) { return eligible_rows(library.table, {number}).rows.empty(); });
   for (std::size_t i = 0; i < static_cast<std::size_t>(queries); ++i) {
     const Eligible rows = eligible_rows(library.table, {numbers[i % numbers.size()]});
-    const std::size_t truth = random_truth(library.table, rows, random);
+    const std::size_t truth = random_truth(rows, random);
     const Comparison comparison = readings_of(library, error, factors, truth, question, random);
     const LookupSettings settings{.prior = {numbers}, .noise = question.told, .nuisance = question.nuisance};
     const double used = processor_seconds();

@@ -43,7 +43,7 @@ double draw_level(Random& random) {
 
 /// A scene with displacements whose number of missing blocks is 0, 1 or 2 with equal chances.
 std::size_t draw_scene(const SceneTable& table, const std::vector<Eligible>& by_missing, Random& random) {
-  return random_truth(table, by_missing[random.below(static_cast<std::uint32_t>(by_missing.size()))], random);
+  return random_truth(by_missing[random.below(static_cast<std::uint32_t>(by_missing.size()))], random);
 }
 
 }  // namespace

@@ -255,3 +255,24 @@ TEST_CASE("Mortar on softer joints stores the same share of what breaks it (the 
     }
   }
 }
+TEST_CASE(
+    "Whether anything is uncertain is said as the list of parameters says (each key alone, free sides)") {
+  const Uncertainty none{0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
+  const Model bridge = make_model(test::small_description());
+  CHECK_FALSE(has_uncertain_parameters(bridge, none));
+  for (double Uncertainty::*const key :
+       {&Uncertainty::joint_stiffness, &Uncertainty::regional_stiffness, &Uncertainty::common_stiffness,
+        &Uncertainty::stiffness_ratio, &Uncertainty::friction, &Uncertainty::young_modulus,
+        &Uncertainty::density, &Uncertainty::temperature, &Uncertainty::foot_movement,
+        &Uncertainty::foot_rotation, &Uncertainty::side_movement, &Uncertainty::epoch_stiffness,
+        &Uncertainty::epoch_unevenness, &Uncertainty::uneven_temperature}) {
+    Uncertainty one = none;
+    one.*key = 0.1;
+    CHECK(has_uncertain_parameters(bridge, one) == !uncertain_parameters(bridge, one).all().empty());
+  }
+  BridgeDescription free = test::small_description();
+  free.supports.sides = SupportKind::free;
+  Uncertainty sides = none;
+  sides.side_movement = 1e-3;
+  CHECK_FALSE(has_uncertain_parameters(make_model(free), sides));
+}

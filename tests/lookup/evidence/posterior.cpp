@@ -122,7 +122,7 @@ TEST_CASE("Scenes that fall and keep no field are nobody's readings, and no prio
                 library.table.points, std::numeric_limits<double>::quiet_NaN());
   }
   const Eligible eligible = eligible_rows(library.table, {0, 1, 2});
-  CHECK(eligible.fallen == 2);
+  CHECK(eligible.fallen == std::vector<std::size_t>{0, 1, 1});
   CHECK(eligible.scenes == std::vector<std::size_t>{1, 14, 104});
   CHECK(eligible.standing == std::vector<std::size_t>{1, 14, 91});  // of 14 blocks: 14, 14 * 13 / 2
   const Prior prior{{0, 1, 2}, {8.0, 1.0, 1.0}};

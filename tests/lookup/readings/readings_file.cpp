@@ -106,6 +106,20 @@ TEST_CASE(
   CHECK_FALSE(read.readings[3].silent);
 }
 
+TEST_CASE("What loggers write where there is no reading is refused, other numbers with nines are read") {
+  const auto read = [](const std::string& columns, const std::string& value) {
+    return [=] { parse(columns + "\nT1," + value + "\n"); };
+  };
+  for (const std::string value : {"-9999", "9999", "-999.9", "99999.0", "-999"})
+    CHECK_THROWS_WITH(read("point,change_mm", value)(),
+                      Catch::Contains("what loggers write where there is no reading"));
+  for (const std::string value : {"9.999", "-0.9999", "99.99", "-990", "909", "0.999"})
+    CHECK_NOTHROW(read("point,change_mm", value)());
+  CHECK_NOTHROW(read("point,before_mm,after_mm", "9999,9999.9")());
+  CHECK_THROWS_WITH(read("point,before_mm,after_mm", "12.5,-9999")(),
+                    Catch::Contains("'-9999' is what loggers write"));
+}
+
 TEST_CASE("A point may come once under each load") {
   const ReadingsFile read = parse("point,load,uy_mm\nT1,axle,-1\nT1,truck@2,-2\nT2,axle,-3\n");
   REQUIRE(read.readings.size() == 3);

@@ -1,7 +1,6 @@
 #include "lookup/report/report_words.h"
 
 #include <catch2/catch.hpp>
-
 #include <cmath>
 #include "tests/lookup/synthetic_library.h"
 
@@ -65,7 +64,7 @@ TEST_CASE("What is said to be intact is said with the losses that would hardly s
   CHECK(headline(answer, readings) == "No block is missing (99.5 %).");
   answer.posterior->open_losses = {{1, 0.5}, {2, 0.2}};
   CHECK(headline(answer, readings) ==
-        "No block is missing (99.5 %), but of 2 blocks the loss would hardly show.");
+        "No block is missing (99.5 %), but the loss of 2 blocks is not excluded.");
 }
 
 TEST_CASE("What a prior supposes is no verdict (written out)") {

@@ -1,0 +1,60 @@
+#include "lookup/fewer_readings.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.h"
+#include "core/not_a_number.h"
+#include "core/text.h"
+#include "lookup/report/verdict.h"
+
+namespace voussoir {
+namespace {
+
+constexpr std::size_t kMostDisagreeing = 2;
+
+}  // namespace
+
+Comparison without_readings(Comparison comparison, std::span<const std::size_t> channels) {
+  for (const std::size_t channel : channels) {
+    comparison.measured.displacement[channel] = comparison.measured.sigma[channel] = kNan;
+    comparison.measured.silent[channel] = false;
+    if (!comparison.before.empty()) comparison.before[channel] = comparison.after[channel] = kNan;
+  }
+  return comparison;
+}
+
+std::vector<std::size_t> channels_at(const Comparison& comparison, std::string_view names) {
+  const Measurements& measured = comparison.measured;
+  std::vector<std::size_t> channels;
+  for (const std::string_view name : split(names, ',')) {
+    const std::size_t before = channels.size();
+    for (std::size_t i = 0; i < comparison.library.points.size(); ++i)
+      if (name_without_load(comparison, i) == name &&
+          (measured.silent[i] || !std::isnan(measured.displacement[i])))
+        channels.push_back(i);
+    if (channels.size() == before)
+      throw InputError(
+          fmt::format("--without: {} has no row in the file, expected names of points or sensors "
+                      "that have",
+                      in_quotes(name)));
+  }
+  return channels;
+}
+
+std::vector<std::vector<std::size_t>> suspects_of(const Answer& answer) {
+  if (!answer.posterior || !answer.fit) return {};
+  if (!answer.fit->suspects.empty()) return {answer.fit->suspects};
+  const Verdict verdict = verdict_of(*answer.posterior, answer.fit->explained);
+  if (verdict != Verdict::unexplained && verdict != Verdict::cannot_tell) return {};
+  std::vector<SensorResidual> odd;
+  std::ranges::copy_if(answer.residuals, std::back_inserter(odd), &SensorResidual::disagrees);
+  std::ranges::stable_sort(odd, std::ranges::greater{},
+                           [](const SensorResidual& sensor) { return std::abs(sensor.error); });
+  std::vector<std::vector<std::size_t>> suspects;
+  for (const SensorResidual& sensor : std::span(odd).first(std::min(odd.size(), kMostDisagreeing)))
+    suspects.push_back({sensor.point});
+  return suspects;
+}
+
+}  // namespace voussoir

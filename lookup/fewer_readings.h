@@ -1,0 +1,25 @@
+#pragma once
+/// @file Readings without those of some sensors, and which ones an answer hangs on.
+
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "lookup/answer.h"
+#include "lookup/readings/comparison.h"
+
+namespace voussoir {
+
+/// As if there were no such sensors: they are not silent, which would speak for the loss of their blocks.
+Comparison without_readings(Comparison comparison, std::span<const std::size_t> channels);
+
+/// The channels at points or sensors of these names, "F64,N-west", under all loads. Throws InputError for a
+/// name without a reading.
+std::vector<std::size_t> channels_at(const Comparison& comparison, std::string_view names);
+
+/// Readings, of one sensor or of one block, that may be wrong: those that a check blames (Fit::suspects), or
+/// the two that disagree most with all others, where nothing explains the readings or they do not tell
+/// whether blocks are missing. The likeliest to be wrong first; none if the answer hangs on no such readings.
+std::vector<std::vector<std::size_t>> suspects_of(const Answer& answer);
+
+}  // namespace voussoir
