@@ -16,7 +16,7 @@ TEST_CASE(
   const std::string example = std::string(VOUSSOIR_SOURCE_DIR) + "/examples/h5py/read_database.py";
   for (const char* fields : {"all", "none"}) {
     REQUIRE(test::run("build-database",
-                      {bridge, "-o", database, "--scenes", "singles;4,1+4,2", "--fields", fields})
+                      {bridge, "-o", database, "--scenes", "singles;4,1+4,2", "--fields", fields, "--drop"})
                 .exit_code == 0);
     const test::ProgramResult result = test::run("/usr/bin/python3", {example, database});
     INFO(result.out << result.err);

@@ -70,10 +70,9 @@ TEST_CASE("A file that is none has a row of a survey that says why, and the othe
   const test::ProgramResult csv = survey.locate(survey.files, "csv");
   CHECK(csv.exit_code == 1);
   CHECK_THAT(csv.err, Catch::Contains("2 of 5 files"));
-  CHECK_THAT(
-      csv.out,
-      Catch::StartsWith(
-          "file,verdict,named,certainty,scene,posterior,intact_probability,misfit,readings,reason,error\n"));
+  CHECK_THAT(csv.out,
+             Catch::StartsWith("file,verdict,named,certainty,scene,posterior,intact_probability,misfit,"
+                               "readings,reason,error,suspects,verdict_without,named_without\n"));
   CHECK(std::ranges::count(csv.out, '\n') == 6);
   CHECK_THAT(csv.out, Catch::Contains("bad.csv:2") && Catch::Contains("absent.csv"));
   const test::ProgramResult text = survey.locate(survey.files, "text");
