@@ -24,10 +24,11 @@ UnevenQuantity temperature_of(const Structure& structure, double deviation) {
   std::vector<Point> places;
   for (std::size_t b = 0; b < structure.layout.size(); ++b) {
     const Block& block = structure.layout.blocks[b];
-    temperature.actions.push_back(
-        {.quantity = UncertainQuantity::temperature,
-         .parameter = {fmt::format("temperature {}", block.label), "K", deviation, true},
-         .blocks = {b}});
+    UncertainAction action;
+    action.quantity = UncertainQuantity::temperature;
+    action.parameter = {fmt::format("temperature {}", block.label), "K", deviation, true};
+    action.blocks = {b};
+    temperature.actions.push_back(std::move(action));
     places.push_back(centroid(block.polygon));
   }
   temperature.correlations = correlations_by_distance(structure, places);

@@ -59,7 +59,7 @@ struct Posterior {
   double intact_if_even = 0.0;  ///< what the probability that no block is missing would be, if that had been
                                 ///< as likely beforehand as a loss that leaves the bridge standing: what the
                                 ///< readings themselves say of it
-  std::vector<OpenLoss> open_losses;  ///< in the order of rows; empty if the intact bridge is impossible
+  std::vector<OpenLoss> open_losses{};  ///< in the order of rows; empty if the intact bridge is impossible
 };
 
 /// Probability that no block is missing.

@@ -22,7 +22,8 @@ ReportPictures::ReportPictures(const Answer& of, const Comparison& with)
     : answer(of),
       comparison(with),
       library(with.library),
-      shown(shown_readings(with, of.candidates.front().row)) {}
+      shown(shown_readings(with, of.candidates.front().row)),
+      expected(expected_readings(of, with)) {}
 
 Site site_of(const ReportPictures& report, std::size_t point) {
   const auto& points = report.library.points;
@@ -55,11 +56,11 @@ std::string_view reading_word(const ReportPictures& report) {
 std::string point_tip(const ReportPictures& report, std::size_t point) {
   const std::string& name = report.library.points[point].name;
   const double reading = report.shown.reading[point];
-  const double expected = report.shown.expected[point];
+  const double expected = report.expected[point];
   const std::string_view unit = unit_of(quantity_of(report.comparison, point));
   if (std::isnan(reading))
     return fmt::format("{}\n{}", name, report.comparison.measured.silent[point] ? "no reading" : "no sensor");
-  return fmt::format("{}\n{}{} {:.4g} {}\nfirst candidate {:.4g} {}{}", name, epochs_in_words(report, point),
+  return fmt::format("{}\n{}{} {:.4g} {}\nexpected {:.4g} {}{}", name, epochs_in_words(report, point),
                      reading_word(report), kMillimetres * reading, unit, kMillimetres * expected, unit,
                      disagrees(report, point) ? "\ndisagrees with the rest" : "");
 }

@@ -16,7 +16,8 @@ struct ReportPictures {
   const Answer& answer;
   const Comparison& comparison;
   const Library& library;
-  ShownReadings shown;  ///< beside what the first candidate lets expect
+  ShownReadings shown;           ///< beside the first candidate as the bridge file states it
+  std::vector<double> expected;  ///< expected_readings
 };
 
 /// Where a sensor is: on a block of the arch, as high as the highest other sensor, or elsewhere. Control

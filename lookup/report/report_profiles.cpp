@@ -23,12 +23,14 @@ double band_of(const ReportPictures& report, const SensorResidual& residual) {
 std::string band_in_words(const ReportPictures& report) {
   if (!report.answer.noise) return "";
   return fmt::format(
-      " The line is the bridge as its file states it, the band the noise, {}{}.{}",
+      " The line is what the answer lets expect{}, the band the noise, {}{}.{}",
+      report.answer.known_bridge ? "" : " by all other readings",
       noise_in_words(*report.answer.noise, report.comparison.kind),
       report.answer.noise->shape == NoiseShape::uniform ? "" : ", two standard deviations each way",
       report.answer.known_bridge
           ? ""
-          : " What joints, stone, temperature and supports may add is not in the band; residuals have it.");
+          : " Dashed is the first candidate as the bridge file states it, without what joints, stone, "
+            "temperature and supports have added.");
 }
 
 /// Sensors of one quantity under one load, with the name of their set and of the figures' ids.
@@ -41,32 +43,45 @@ struct PointSet {
 Chart profile_chart(const ReportPictures& report, const PointSet& set) {
   const std::vector<std::size_t>& points = set.points;
   Series readings{std::string(reading_word(report)), 1, Mark::points, {}, {}};
-  Series fit{"first candidate", 0, Mark::line, {}, {}};
+  Series fit{"expected", 0, Mark::line, {}, {}};
+  Series stated{report.answer.known_bridge ? "" : "first candidate by the file", 3, Mark::dashes, {}, {}};
   Series band{report.answer.noise ? "noise" : "", 0, Mark::band, {}, {}};
   for (std::size_t i = 0; i < points.size(); ++i) {
     const auto number = static_cast<double>(i + 1);
-    const double expected = kMillimetres * report.shown.expected[points[i]];
+    const double expected = kMillimetres * report.expected[points[i]];
     readings.x.push_back(number);
     readings.y.push_back(kMillimetres * report.shown.reading[points[i]]);
     readings.tips.push_back(point_tip(report, points[i]));
-    fit.x.push_back(number);
-    fit.y.push_back(expected);
+    if (!std::isnan(expected)) {  // lines join readings, however many points have none in between
+      fit.x.push_back(number);
+      fit.y.push_back(expected);
+    }
+    if (!report.answer.known_bridge) {
+      stated.x.push_back(number);
+      stated.y.push_back(kMillimetres * report.shown.expected[points[i]]);
+    }
     const SensorResidual* const residual = residual_of(report, points[i]);
     const double half =
         residual != nullptr && report.answer.noise ? kMillimetres * band_of(report, *residual) : kNan;
+    if (std::isnan(expected)) continue;
     band.x.push_back(number);
     band.y.push_back(expected - half);
     band.upper.push_back(expected + half);
   }
-  return {set.title, {kAcross}, {axis_in_words(report.comparison.kind, set.quantity)}, {band, fit, readings}};
+  return {set.title,
+          {kAcross},
+          {axis_in_words(report.comparison.kind, set.quantity)},
+          {band, stated, fit, readings}};
 }
 
 Table profile_table(const ReportPictures& report, const PointSet& set) {
   const std::string_view unit = unit_of(set.quantity);
   const bool epochs = !report.comparison.before.empty();
   Table table{{"point", "x [m]", fmt::format("{} [{}]", reading_word(report), unit),
-               fmt::format("first candidate [{}]", unit), fmt::format("noise, each way [{}]", unit)},
+               fmt::format("expected [{}]", unit), fmt::format("noise, each way [{}]", unit)},
               {}};
+  const bool is_uncertain = !report.answer.known_bridge;
+  if (is_uncertain) table.columns.push_back(fmt::format("first candidate by the file [{}]", unit));
   if (epochs)
     table.columns.insert(table.columns.begin() + 2,
                          {fmt::format("before [{}]", unit), fmt::format("after [{}]", unit)});
@@ -74,8 +89,9 @@ Table profile_table(const ReportPictures& report, const PointSet& set) {
     const SensorResidual* const residual = residual_of(report, point);
     table.rows.push_back(
         {report.library.points[point].name, report.library.points[point].position.x(),
-         kMillimetres * report.shown.reading[point], kMillimetres * report.shown.expected[point],
+         kMillimetres * report.shown.reading[point], kMillimetres * report.expected[point],
          residual != nullptr && report.answer.noise ? kMillimetres * band_of(report, *residual) : kNan});
+    if (is_uncertain) table.rows.back().push_back(kMillimetres * report.shown.expected[point]);
     if (epochs)
       table.rows.back().insert(
           table.rows.back().begin() + 2,

@@ -100,13 +100,10 @@ std::string in_millimetres(double metres) {
 void write_movements(Text& text, const Answer& answer, const Comparison& comparison) {
   if (comparison.kind == ReadingKind::absolute) return;
   const ShownReadings shown = shown_readings(comparison, answer.candidates.front().row);
-  const std::vector<double> origin = origin_of(comparison);
   std::vector<std::size_t> channels;
-  std::vector<double> expected = shown.expected;
+  const std::vector<double> expected = expected_readings(answer, comparison);
   for (std::size_t i = 0; i < shown.reading.size(); ++i)
     if (!std::isnan(shown.reading[i])) channels.push_back(i);
-  for (const SensorResidual& sensor : answer.residuals)  // of a held point nothing else is known
-    if (!std::isnan(sensor.error)) expected[sensor.point] = sensor.predicted - origin[sensor.point];
   std::stable_sort(channels.begin(), channels.end(), [&](std::size_t a, std::size_t b) {
     return std::abs(shown.reading[a]) > std::abs(shown.reading[b]);
   });

@@ -10,6 +10,7 @@
 #include <iterator>
 #include <span>
 
+#include "core/not_a_number.h"
 #include "core/units.h"
 #include "lookup/report/reading_words.h"
 #include "lookup/report/verdict.h"
@@ -298,6 +299,17 @@ bool has_probabilities(const Answer& answer) {
 
 std::string_view if_true(const Answer& answer) {
   return has_probabilities(answer) ? "" : ", if one of the scenes were the truth";
+}
+
+/// Of a held point nothing is known but that.
+std::vector<double> expected_readings(const Answer& answer, const Comparison& comparison) {
+  const std::vector<double> origin = origin_of(comparison);
+  const std::vector<double> stated = shown_readings(comparison, answer.candidates.front().row).expected;
+  std::vector<double> expected = answer.known_bridge ? stated : std::vector<double>(stated.size(), kNan);
+  for (const SensorResidual& sensor : answer.residuals)
+    expected[sensor.point] =
+        std::isnan(sensor.error) ? stated[sensor.point] : sensor.predicted - origin[sensor.point];
+  return expected;
 }
 
 std::vector<std::string> odd_sensors(const Answer& answer, const Comparison& comparison) {

@@ -74,6 +74,10 @@ bool has_probabilities(const Answer& answer);
 /// What goes with such shares: ", if one of the scenes were the truth"; nothing otherwise.
 std::string_view if_true(const Answer& answer);
 
+/// What the answer lets expect of each channel's reading as it is shown [m]: the first candidate's if the
+/// bridge is known, else by all other readings too, NaN where there is no reading.
+std::vector<double> expected_readings(const Answer& answer, const Comparison& comparison);
+
 /// A sentence for each sensor that disagrees with the rest, the farthest first, at most five.
 std::vector<std::string> odd_sensors(const Answer& answer, const Comparison& comparison);
 

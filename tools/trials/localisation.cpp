@@ -42,7 +42,7 @@ double draw_level(Random& random) {
 }
 
 /// A scene with displacements whose number of missing blocks is 0, 1 or 2 with equal chances.
-std::size_t draw_scene(const SceneTable& table, const std::vector<Eligible>& by_missing, Random& random) {
+std::size_t draw_scene(const std::vector<Eligible>& by_missing, Random& random) {
   return random_truth(by_missing[random.below(static_cast<std::uint32_t>(by_missing.size()))], random);
 }
 
@@ -164,7 +164,7 @@ Calibration calibrate(const Library& library, NoiseShape drawn, NoiseShape assum
   Calibration result{{}, 0.0, unfinished_bins()};
   Random random(seed);
   for (int trial = 0; trial < trials; ++trial) {
-    const std::size_t truth = draw_scene(library.table, by_missing, random);
+    const std::size_t truth = draw_scene(by_missing, random);
     NoiseModel noise{drawn, draw_level(random)};
     const Measurements measured = simulate_readings(library.table.row(truth), noise, random);
     noise.shape = assumed;
