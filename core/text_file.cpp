@@ -30,7 +30,6 @@ fs::path new_file_beside(const fs::path& file) {
 
 }  // namespace
 
-/// Who may not give files away keeps this one, but for others of the same group.
 void take_over_access(const fs::path& from, const fs::path& to) {
   struct stat old {
   }, now{};
@@ -87,7 +86,10 @@ void write_file(const fs::path& file, const std::string& text) {
   const bool done = static_cast<bool>(stream << text && stream.flush());
   const std::string reason = errno != 0 ? fmt::format(": {}", std::strerror(errno)) : "";
   stream.close();
-  if (done && replaces) take_over_access(target, written), fs::rename(written, target);
+  if (done && replaces) {
+    take_over_access(target, written);
+    fs::rename(written, target);
+  }
   if (done) return;
   if (replaces || is_new) fs::remove(written, none);
   throw Failure(fmt::format("{}: cannot be written{}", file.string(), reason));

@@ -19,7 +19,8 @@ void check_output(const std::string& option, const std::filesystem::path& file,
                   const std::vector<std::string>& endings, std::span<const std::filesystem::path> read = {});
 
 /// Gives a file owner, group and mode of another one that it is to take the place of, as far as this process
-/// may; nothing if there is no other.
+/// may: who may not give files away keeps this one, but for others of the same group. Nothing if there is no
+/// other.
 void take_over_access(const std::filesystem::path& from, const std::filesystem::path& to);
 
 /// Writes a whole text to a file; what it had is kept until all is written. Throws Failure naming the file

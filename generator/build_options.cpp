@@ -171,7 +171,8 @@ void add_options(CLI::App& app, BuildOptions& options, Words& words) {
       ->check(CLI::IsMember(switch_names()));
   app.add_flag("--force", options.request.force, "build anew even if the file is up to date");
   app.add_flag("--drop", options.request.drop,
-               "let scenes and states of an existing file go that are still valid and not asked for");
+               "let scenes, states, fields and sensitivities of an existing file go that are still valid and "
+               "not asked for");
   app.add_flag("--quiet", options.quiet, "no progress; of messages the summary and errors only");
 }
 

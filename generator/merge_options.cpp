@@ -21,8 +21,9 @@ void parse_merge_options(int argc, char** argv, MergeOptions& options) {
   add_threads_option(app, options.request.threads);
   add_format_option(app, options.json, "of the summary");
   app.add_flag("--force", options.request.force, "build anew even if the file is up to date");
-  app.add_flag("--drop", options.request.drop,
-               "let scenes and states of an existing file go that the parts do not have");
+  app.add_flag(
+      "--drop", options.request.drop,
+      "let scenes, states, fields and sensitivities of an existing file go that the parts do not have");
   app.add_flag("--quiet", options.quiet, "of messages the summary and errors only");
   options.exit_code = parse_command_line(app, argc, argv);
 }

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "database/records/database.h"
-#include "generator/running/progress.h"
 
 namespace voussoir {
 

@@ -1,7 +1,11 @@
 #include "lookup/fewer_readings.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <iterator>
 
 #include "core/error.h"
 #include "core/not_a_number.h"
@@ -42,19 +46,22 @@ std::vector<std::size_t> channels_at(const Comparison& comparison, std::string_v
   return channels;
 }
 
-std::vector<std::vector<std::size_t>> suspects_of(const Answer& answer) {
-  if (!answer.posterior || !answer.fit) return {};
-  if (!answer.fit->suspects.empty()) return {answer.fit->suspects};
-  const Verdict verdict = verdict_of(*answer.posterior, answer.fit->explained);
-  if (verdict != Verdict::unexplained && verdict != Verdict::cannot_tell) return {};
+std::vector<std::vector<std::size_t>> disagreeing(const std::vector<SensorResidual>& residuals) {
   std::vector<SensorResidual> odd;
-  std::ranges::copy_if(answer.residuals, std::back_inserter(odd), &SensorResidual::disagrees);
+  std::ranges::copy_if(residuals, std::back_inserter(odd), &SensorResidual::disagrees);
   std::ranges::stable_sort(odd, std::ranges::greater{},
                            [](const SensorResidual& sensor) { return std::abs(sensor.error); });
   std::vector<std::vector<std::size_t>> suspects;
   for (const SensorResidual& sensor : std::span(odd).first(std::min(odd.size(), kMostDisagreeing)))
     suspects.push_back({sensor.point});
   return suspects;
+}
+
+std::vector<std::vector<std::size_t>> suspects_of(const Answer& answer) {
+  if (!answer.posterior || !answer.fit) return {};
+  const Verdict verdict = verdict_of(*answer.posterior, answer.fit->explained);
+  const bool is_open = verdict == Verdict::unexplained || verdict == Verdict::cannot_tell;
+  return is_open ? answer.fit->suspects : std::vector<std::vector<std::size_t>>();
 }
 
 }  // namespace voussoir

@@ -17,9 +17,11 @@ Comparison without_readings(Comparison comparison, std::span<const std::size_t> 
 /// name without a reading.
 std::vector<std::size_t> channels_at(const Comparison& comparison, std::string_view names);
 
-/// Readings, of one sensor or of one block, that may be wrong: those that a check blames (Fit::suspects), or
-/// the two that disagree most with all others, where nothing explains the readings or they do not tell
-/// whether blocks are missing. The likeliest to be wrong first; none if the answer hangs on no such readings.
+/// The two readings that disagree most with all others, if some do: Fit::suspects.
+std::vector<std::vector<std::size_t>> disagreeing(const std::vector<SensorResidual>& residuals);
+
+/// Fit::suspects of an answer that they may keep from being one: nothing explains the readings, or they do
+/// not tell whether blocks are missing.
 std::vector<std::vector<std::size_t>> suspects_of(const Answer& answer);
 
 }  // namespace voussoir

@@ -19,7 +19,9 @@ struct Fit {
   double chance = 1.0;  ///< of a fit as bad as this or worse if the scene is the truth: even between 0 and 1
                         ///< over many questions if the model and the stated noise are right
   std::string reason;   ///< in words, when the scene does not explain the readings
-  std::vector<std::size_t> suspects{};  ///< channels whose readings alone are the reason, if some are
+  /// Readings, of one sensor or of one block, that may be wrong and decide, the likeliest to be wrong first;
+  /// none where something else is the reason.
+  std::vector<std::vector<std::size_t>> suspects{};
 };
 
 struct SensorResidual {

@@ -89,8 +89,10 @@ std::optional<Fit> check_gross_errors(const QuestionContext& asked, const Answer
       const double chance = gross.size() > 1 ? kOfOneBlock * kGrossChance : kGrossChance;
       if (explained_by(asked, answer, alarm,
                        {{.gross = gross}, chance, without(asked.observation, channels_of(gross))}))
-        return Fit{false, answer.fit->chance, in_words(gross, !alarm.named.empty(), asked.comparison.library),
-                   channels_of(gross)};
+        return Fit{false,
+                   answer.fit->chance,
+                   in_words(gross, !alarm.named.empty(), asked.comparison.library),
+                   {channels_of(gross)}};
     }
   return std::nullopt;
 }

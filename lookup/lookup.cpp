@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <numeric>
 
 #include "core/error.h"
 #include "lookup/evidence/largest_places.h"
@@ -124,6 +126,7 @@ void judge_known_bridge(const Comparison& comparison, const Observation& observa
   answer.residuals = sensor_residuals(
       observation, scales_at(observation, std::max(answer.noise->level, kSmallestLevel)), prediction);
   answer.fit = fit_of(comparison.library, observation, answer);
+  answer.fit->suspects = disagreeing(answer.residuals);
   if (const auto doubt = check_signs(comparison, observation, preparation, answer)) answer.fit = doubt;
 }
 
@@ -150,6 +153,7 @@ void judge_unknown_bridge(const QuestionContext& asked, Answer& answer) {
   answer.fit = check_fit(answer.bridge->posterior);
   answer.residuals = sensor_residuals(observation, bridge, case_noise(bridge, observation, asked.likeliest),
                                       answer.bridge->posterior);
+  answer.fit->suspects = disagreeing(answer.residuals);
   if (!answer.fit->explained) name_cause(asked, answer);
   if (answer.fit->explained)
     if (const auto doubt = check_scatter(bridge, answer.bridge->posterior)) answer.fit = doubt;
@@ -297,24 +301,18 @@ Answer answer_to(const Comparison& comparison, const LookupSettings& settings,
   return answer;
 }
 
-/// Asks again without readings that may be wrong; of several such the ones without which the others fit best.
+/// Asks again without readings that may be wrong, if the others are explained then; of several such the ones
+/// without which they fit best.
 void ask_without(const Comparison& comparison, const LookupSettings& settings, const Preparation& preparation,
                  Answer& answer) {
   for (std::vector<std::size_t>& suspects : suspects_of(answer)) {
     if (suspects.size() >= answer.readings) continue;
     auto other =
         std::make_shared<Answer>(answer_to(without_readings(comparison, suspects), settings, preparation));
-    if (!other->fit) continue;
-    const auto better = [](const Fit& one, const Fit& than) {
-      return one.explained != than.explained ? one.explained : one.chance > than.chance;
-    };
-    if (!answer.without || better(*other->fit, *answer.without->answer->fit))
+    if (!other->fit || !other->fit->explained) continue;
+    if (!answer.without || other->fit->chance > answer.without->answer->fit->chance)
       answer.without = {std::move(suspects), std::move(other)};
   }
-  const bool fits_badly = answer.fit && answer.fit->chance < kSmallestChance;
-  if (answer.without && fits_badly && answer.fit->suspects.empty())
-    answer.fit->reason +=
-        fmt::format(", at {} most of all", comparison.library.points[answer.without->channels.front()].name);
 }
 
 }  // namespace

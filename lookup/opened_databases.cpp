@@ -46,6 +46,7 @@ void open_database(const LocateDamageOptions& options, const std::optional<std::
 /// believe the answer that does not change.
 std::vector<std::string> notes_of(const ReadingsFile& file, const LocateDamageOptions& options) {
   std::vector<std::string> notes;
+  if (!options.without.empty()) notes.push_back(fmt::format("left out by --without: {}", options.without));
   const bool states_all = std::ranges::none_of(
       file.readings, [](const Reading& one) { return !one.silent && std::isnan(one.sigma); });
   if (!options.sigma.empty() && states_all)
@@ -137,6 +138,7 @@ Answered ask(OpenedDatabases& opened, const ReadingsText& readings) {
   const auto likeliest = std::ranges::max_element(
       all, {}, [](const Answered& one) { return one.answer.posterior->log_evidence; });
   likeliest->answer.contested = is_contested(databases);
+  likeliest->answer.without.reset();  // it would have to be weighed among the databases anew
   likeliest->databases = std::move(databases);
   return std::move(*likeliest);
 }

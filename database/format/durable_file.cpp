@@ -12,25 +12,28 @@
 namespace voussoir {
 namespace {
 
-void synchronise(const std::filesystem::path& path, int flags) {
-  const FileDescriptor file(::open(path.c_str(), flags | O_CLOEXEC));
-  if (!file || ::fsync(file.get()) != 0)
-    throw Failure(
-        fmt::format("{}: could not be written to the disk: {}", path.string(), std::strerror(errno)));
+[[noreturn]] void fail(const std::filesystem::path& path) {
+  throw Failure(fmt::format("{}: could not be written to the disk: {}", path.string(), std::strerror(errno)));
+}
+
+void synchronise(const FileDescriptor& file, const std::filesystem::path& path) {
+  if (!file || ::fsync(file.get()) != 0) fail(path);
 }
 
 }  // namespace
 
 void put_in_place(const std::filesystem::path& finished, const std::filesystem::path& target) {
-  synchronise(finished, O_RDWR);
-  take_over_access(target, finished);
+  const FileDescriptor file(::open(finished.c_str(), O_RDWR | O_CLOEXEC));
+  if (!file) fail(finished);
+  take_over_access(target, finished);  // which may be one that nobody may write to
+  synchronise(file, finished);
   std::error_code error;
   std::filesystem::rename(finished, target, error);
   if (error)
     throw Failure(fmt::format("{}: could not be given the name {}: {}", finished.string(), target.string(),
                               error.message()));
   const std::filesystem::path folder = target.has_parent_path() ? target.parent_path() : ".";
-  synchronise(folder, O_RDONLY | O_DIRECTORY);
+  synchronise(FileDescriptor(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)), folder);
 }
 
 std::filesystem::path behind_links(std::filesystem::path path) {

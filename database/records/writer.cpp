@@ -184,9 +184,8 @@ WrittenDatabase write_database(const std::filesystem::path& target, const Databa
   try {
     const std::string digest = write_content(unfinished, content, record_of_row);
     const std::uintmax_t bytes = std::filesystem::file_size(unfinished);
-    const bool had_index = remove_index(target);  // it shows rows of the file that is replaced
     put_in_place(unfinished, target);
-    return {digest, bytes, had_index};
+    return {digest, bytes, remove_index(target)};  // it showed rows of the file that was replaced
   } catch (...) {
     std::error_code ignored;
     std::filesystem::remove(unfinished, ignored);

@@ -28,16 +28,13 @@ bool says_nothing(std::string_view text) {
   return text.empty() || text == "NaN" || text == "nan" || text == "NAN" || text == "-nan";
 }
 
-/// "-9999", "99999.0", "-999.9": nothing but nines, three and more before the decimal mark, and zeros behind
-/// it. A height may be 9999 mm.
-bool is_placeholder(std::string_view text, bool is_height) {
-  const bool is_negative = text.starts_with('-');
-  if (is_negative) text.remove_prefix(1);
-  const std::size_t whole = std::min(text.find_first_of(".,"), text.size());
-  const std::string_view digits = text.substr(0, whole);
-  return digits.size() >= 3 && digits.find_first_not_of('9') == std::string_view::npos &&
-         text.substr(whole).find_first_not_of(".,90") == std::string_view::npos &&
-         (is_negative || !is_height);
+/// -9999, 99999, -999.9: nothing but nines, three and more before the decimal mark; -999.25 and 16 bits. A
+/// height may be 9999 mm.
+bool is_placeholder(double number, bool is_height) {
+  if (number == -999.25 || number == -32768.0) return true;
+  const std::string digits = fmt::format("{}", std::abs(number));
+  const std::size_t whole = std::min(digits.find('.'), digits.size());
+  return whole >= 3 && digits.find_first_not_of("9.") == std::string::npos && (number < 0.0 || !is_height);
 }
 
 class ReadingsReader {
@@ -191,7 +188,7 @@ class ReadingsReader {
     if (!number)
       table_.fail(line.number,
                   fmt::format("{} is no finite number, expected a displacement or nothing", in_quotes(text)));
-    if (is_placeholder(text, largest == kLargestHeight))
+    if (is_placeholder(*number, largest == kLargestHeight))
       table_.fail(line.number, fmt::format("{} is what loggers write where there is no reading, expected a "
                                            "displacement or nothing",
                                            in_quotes(text)));

@@ -57,7 +57,9 @@ std::string axis_in_words(ReadingKind kind, Quantity quantity) {
 std::vector<std::string> silent_sensors(const Comparison& comparison) {
   std::vector<std::string> names;
   for (std::size_t i = 0; i < comparison.measured.silent.size(); ++i)
-    if (comparison.measured.silent[i]) names.push_back(comparison.library.points[i].name);
+    if (comparison.measured.silent[i]) names.push_back(name_without_load(comparison, i));
+  const auto repeated = std::ranges::unique(names);  // under several loads
+  names.erase(repeated.begin(), repeated.end());
   return names;
 }
 
@@ -69,9 +71,8 @@ std::string readings_in_words(const Comparison& comparison, std::size_t readings
   const std::vector<std::string> silent = silent_sensors(comparison);
   std::string text = fmt::format("{} of {} {} have a reading", readings, channels, what);
   if (!silent.empty())
-    text += fmt::format(", {} {} silent ({}), which speaks for the loss of {}", silent.size(),
-                        silent.size() == 1 ? "is" : "are", names_in_words(silent),
-                        silent.size() == 1 ? "its block" : "their blocks");
+    text += fmt::format(", {} {} silent ({})", silent.size(), silent.size() == 1 ? "is" : "are",
+                        names_in_words(silent));
   if (comparison.kind == ReadingKind::absolute) return text;
   return fmt::format(
       "{} ({}{})", text, value_in_words(comparison.kind),

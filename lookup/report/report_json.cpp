@@ -132,8 +132,7 @@ ordered_json without_json(const Answer& answer, const Comparison& comparison) {
   if (!answer.without) return nullptr;
   const Answer& other = *answer.without->answer;
   ordered_json named = ordered_json::array();
-  for (const BlockId block : likely_blocks(*other.posterior, kCertain))
-    named.push_back(comparison.library.layout[block].label);
+  for (const BlockId block : named_blocks(other)) named.push_back(comparison.library.layout[block].label);
   return {{"sensors", suspects_in_words(answer, comparison)},
           {"verdict", to_string(verdict_of(other))},
           {"named", std::move(named)},

@@ -48,8 +48,7 @@ void write_heading(Text& text, const Answer& answer, const Comparison& compariso
   for (const std::string& note : source.notes) text.line("Note:         {}", note);
 }
 
-void write_verdict(Text& text, const Answer& answer, const Comparison& comparison) {
-  const Library& library = comparison.library;
+void write_verdict(Text& text, const Answer& answer, const Library& library) {
   if (answer.posterior) text.line("Verdict:      {}", verdict_in_words(answer));
   for (const std::string& sentence : verdict(answer, library)) text.line("{}", sentence);
 }
@@ -168,7 +167,7 @@ std::string text_report(const Answer& answer, const Comparison& comparison, cons
         "reading.");
     return text.take();
   }
-  write_verdict(text, answer, comparison);
+  write_verdict(text, answer, library);
   if (answer.noise) text.line("Noise:        {}", noise_in_words(*answer.noise, comparison.kind));
   text.line("");
   write_table(text, answer, library);

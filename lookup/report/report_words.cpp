@@ -90,6 +90,11 @@ Verdict verdict_of(const Answer& answer) {
   return answer.contested || as_supposed ? Verdict::cannot_tell : alone;
 }
 
+std::vector<BlockId> named_blocks(const Answer& answer) {
+  if (!answer.posterior || verdict_of(answer) != Verdict::located) return {};
+  return likely_blocks(*answer.posterior, kCertain);
+}
+
 std::string_view standing(const Answer& answer) {
   if (!answer.posterior) return "best match";
   if (missed_row(answer)) return "nearest by misfit";
@@ -174,10 +179,8 @@ std::vector<std::string> suspects_in_words(const Answer& answer, const Compariso
 
 std::string without_in_words(const Answer& answer, const Comparison& comparison) {
   if (!answer.without) return "";
-  const Answer& other = *answer.without->answer;
-  return fmt::format("Without {}: {}{}", fmt::join(suspects_in_words(answer, comparison), ", "),
-                     headline(other, comparison),
-                     other.fit->explained ? "" : fmt::format(" ({})", other.fit->reason));
+  return fmt::format("Without {}: {}", fmt::join(suspects_in_words(answer, comparison), ", "),
+                     headline(*answer.without->answer, comparison));
 }
 
 std::vector<std::string> verdict(const Answer& answer, const Library& library) {

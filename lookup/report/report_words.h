@@ -19,6 +19,9 @@ std::string verdict_in_words(const Answer& answer);
 /// Precondition: there are probabilities.
 Verdict verdict_of(const Answer& answer);
 
+/// The blocks that an answer names: missing for certain, likeliest first; none unless it is `located`.
+std::vector<BlockId> named_blocks(const Answer& answer);
+
 /// The verdict as a sentence: "Block 10,4 is missing (98.2 %)." Without probabilities nothing.
 std::string headline(const Answer& answer, const Comparison& comparison);
 

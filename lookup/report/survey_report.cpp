@@ -47,12 +47,9 @@ std::string line_of(const SurveyRow& row) {
                      row.database.empty() ? "" : fmt::format("; {}", row.database));
 }
 
-/// Of a verdict that names blocks: "4,1+4,2".
-std::string named_blocks(const Answer& answer, const BlockLayout& layout) {
+std::string named_in_words(const Answer& answer, const BlockLayout& layout) {
   std::string named;
-  if (verdict_of(answer) != Verdict::located) return named;
-  for (const BlockId block : likely_blocks(*answer.posterior, kCertain))
-    named += (named.empty() ? "" : "+") + layout[block].label;
+  for (const BlockId block : named_blocks(answer)) named += (named.empty() ? "" : "+") + layout[block].label;
   return named;
 }
 
@@ -61,7 +58,7 @@ void add_without(const Answer& answer, const Comparison& comparison, SurveyRow& 
   const Answer& other = *answer.without->answer;
   row.suspects = fmt::format("{}", fmt::join(suspects_in_words(answer, comparison), ", "));
   row.verdict_without = to_string(verdict_of(other));
-  row.named_without = named_blocks(other, comparison.library.layout);
+  row.named_without = named_in_words(other, comparison.library.layout);
 }
 
 }  // namespace
@@ -80,9 +77,9 @@ SurveyRow survey_row(const std::string& file, const Answer& answer, const Compar
     row.verdict = to_string(verdict_of(answer));
     row.intact_probability = intact_probability(*answer.posterior);
     if (answer.fit) row.reason = answer.fit->reason;
-    row.named = named_blocks(answer, comparison.library.layout);
+    row.named = named_in_words(answer, comparison.library.layout);
     if (!row.named.empty()) {
-      const BlockId last = likely_blocks(*answer.posterior, kCertain).back();
+      const BlockId last = named_blocks(answer).back();
       row.certainty = answer.posterior->block_probability[static_cast<std::size_t>(value(last))];
     }
     add_without(answer, comparison, row);

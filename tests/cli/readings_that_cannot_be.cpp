@@ -133,10 +133,11 @@ TEST_CASE(
     }
 }
 
+/// One of T9 is taken for what an epoch may be, as no reading disagrees then.
 TEST_CASE("Without the reading that is grossly wrong a loss is named (the same readings without it)") {
   const Site site;
   std::size_t named = 0, asked = 0;
-  for (const std::string wrong : {"T2", "T9", "A3"})
+  for (const std::string wrong : {"T2", "A3"})
     for (const double off : {-1.0, 5.0}) {
       INFO(wrong << " off by " << off << " mm");
       const auto told = [&](const std::string& point, double change, double sigma) {
@@ -145,7 +146,7 @@ TEST_CASE("Without the reading that is grossly wrong a loss is named (the same r
       const auto answer = site.answer("2,4", told);
       CHECK(answer.at("verdict") != "located");
       ++asked;
-      if (answer.at("without").is_null()) continue;
+      REQUIRE(!answer.at("without").is_null());
       const auto& without = answer.at("without");
       CHECK(without.at("sensors") == nlohmann::json::array({wrong}));
       const ProgramResult left_out =
@@ -158,7 +159,7 @@ TEST_CASE("Without the reading that is grossly wrong a loss is named (the same r
             Approx(alone.at("intact_probability").get<double>()).margin(1e-9));
       if (without.at("named") == nlohmann::json::array({"2,4"})) ++named;
     }
-  CHECK(named + 2 >= asked);
+  CHECK(named == asked);
   const ProgramResult unknown = test::run(
       "locate-damage", {(site.folder / "readings.csv").string(), "-d", site.database, "--without", "T99"});
   CHECK(unknown.exit_code == 2);

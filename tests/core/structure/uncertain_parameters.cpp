@@ -255,6 +255,7 @@ TEST_CASE("Mortar on softer joints stores the same share of what breaks it (the 
     }
   }
 }
+
 TEST_CASE(
     "Whether anything is uncertain is said as the list of parameters says (each key alone, free sides)") {
   const Uncertainty none{0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
