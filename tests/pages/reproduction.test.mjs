@@ -32,7 +32,7 @@ test('The page loads without errors and fetches nothing, in light, dark and on a
 
 test('A database without fields of what falls is told at once that they are needed', () => {
   const outcomes = new Workshop();
-  assert.throws(() => outcomes.reproduce('paper'), /of scene 0,1 .*expected one that stands, or a database built with --collapses field/);
+  assert.throws(() => outcomes.reproduce('paper'), /of scene 0,6 .*expected one that stands, or a database built with --collapses field/);
   outcomes.remove();
 });
 
