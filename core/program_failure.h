@@ -3,11 +3,11 @@
 /// programs (whoever asks for JSON gets JSON, whatever happens), and exit codes.
 
 #include <cstdio>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
 
 #include "core/error.h"
+#include "core/json_text.h"
 #include "core/process.h"
 
 namespace voussoir {
@@ -27,8 +27,7 @@ inline bool asks_for_json(int argc, const char* const* argv) {
 
 /// One line: {"ok": false, "error": ...}.
 inline std::string failure_to_json(const std::string& message) {
-  const nlohmann::ordered_json json = {{"ok", false}, {"error", message}};
-  return json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+  return json_text({{"ok", false}, {"error", message}});
 }
 
 /// Says what is wrong on the standard error and, with `json`, on the standard output. The exit code.

@@ -23,8 +23,8 @@ constexpr double kLabelHeight = 9.0;       ///< [px]
 constexpr double kSmallLabel = 2.0 / 3.0;  ///< [-] of the others' size, as in the style
 
 constexpr const char* kStyle =
-    "text{font:9px "
-    "sans-serif;fill:#222;text-anchor:middle}.big{font-size:13px}.small{font-size:6px}.key{font-size:11px}\n"
+    "text{font:9px sans-serif;fill:#222;text-anchor:middle}"
+    ".big{font-size:13px}.small{font-size:6px}.key{font-size:11px}\n"
     "path{stroke:#666;stroke-width:.5}.wall{fill:#e4d9c4}.ring{fill:#d6a77a}.pier{fill:#cbbfa6}"
     ".abutment{fill:#bfb49c}.parapet{fill:#efe7d6}.backing{fill:#c9c9c0}.fill{fill:#d9cdb0;fill-opacity:.6}\n"
     ".soil{fill:#e9e2d2;stroke:none}.gauge{stroke:#c00;stroke-width:1}\n"

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.h"
+#include "core/json_text.h"
 
 namespace voussoir {
 namespace {
@@ -61,7 +62,7 @@ std::string to_json(const BuildSummary& summary) {
                {"seconds", summary.seconds},
                {"bytes", summary.bytes},
                {"digest", summary.digest}});
-  return json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+  return json_text(json);
 }
 
 }  // namespace voussoir

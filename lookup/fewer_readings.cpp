@@ -4,8 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
-#include <iterator>
 
 #include "core/error.h"
 #include "core/not_a_number.h"
@@ -46,11 +44,8 @@ std::vector<std::size_t> channels_at(const Comparison& comparison, std::string_v
   return channels;
 }
 
-std::vector<std::vector<std::size_t>> disagreeing(const std::vector<SensorResidual>& residuals) {
-  std::vector<SensorResidual> odd;
-  std::ranges::copy_if(residuals, std::back_inserter(odd), &SensorResidual::disagrees);
-  std::ranges::stable_sort(odd, std::ranges::greater{},
-                           [](const SensorResidual& sensor) { return std::abs(sensor.error); });
+std::vector<std::vector<std::size_t>> suspects_among(const std::vector<SensorResidual>& residuals) {
+  const std::vector<SensorResidual> odd = disagreeing(residuals);
   std::vector<std::vector<std::size_t>> suspects;
   for (const SensorResidual& sensor : std::span(odd).first(std::min(odd.size(), kMostDisagreeing)))
     suspects.push_back({sensor.point});

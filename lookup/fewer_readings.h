@@ -18,7 +18,7 @@ Comparison without_readings(Comparison comparison, std::span<const std::size_t> 
 std::vector<std::size_t> channels_at(const Comparison& comparison, std::string_view names);
 
 /// The two readings that disagree most with all others, if some do: Fit::suspects.
-std::vector<std::vector<std::size_t>> disagreeing(const std::vector<SensorResidual>& residuals);
+std::vector<std::vector<std::size_t>> suspects_among(const std::vector<SensorResidual>& residuals);
 
 /// Fit::suspects of an answer that they may keep from being one: nothing explains the readings, or they do
 /// not tell whether blocks are missing.

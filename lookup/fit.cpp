@@ -8,6 +8,8 @@
 #include <boost/math/distributions/students_t.hpp>
 #include <boost/math/special_functions/gamma.hpp>
 #include <cmath>
+#include <functional>
+#include <iterator>
 #include <limits>
 #include <numbers>
 
@@ -196,6 +198,14 @@ std::optional<Fit> check_sizes(const BridgePosterior& posterior) {
                fmt::format("the missing blocks would change {:.2g} times what they change in the model; {}",
                            posterior.times_signal, kRemedy)};
   return std::nullopt;
+}
+
+std::vector<SensorResidual> disagreeing(const std::vector<SensorResidual>& residuals) {
+  std::vector<SensorResidual> odd;
+  std::ranges::copy_if(residuals, std::back_inserter(odd), &SensorResidual::disagrees);
+  std::ranges::stable_sort(odd, std::ranges::greater{},
+                           [](const SensorResidual& sensor) { return std::abs(sensor.error); });
+  return odd;
 }
 
 }  // namespace voussoir

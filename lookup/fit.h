@@ -39,6 +39,9 @@ struct SensorResidual {
 std::vector<SensorResidual> sensor_residuals(const Observation& observation, const ErrorScales& scales,
                                              std::span<const double> prediction);
 
+/// Those that disagree, the farthest first.
+std::vector<SensorResidual> disagreeing(const std::vector<SensorResidual>& residuals);
+
 /// The predictive check of one scene. With a stated level: how likely is a scatter as large as this
 /// (Gaussian, and with nuisances: chi square; Laplace: sum of absolute errors; Student and uniform: Fisher's
 /// sum of the logarithms of every error's chance)? With an unknown level: is it below the largest level, and

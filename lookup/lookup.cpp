@@ -126,7 +126,7 @@ void judge_known_bridge(const Comparison& comparison, const Observation& observa
   answer.residuals = sensor_residuals(
       observation, scales_at(observation, std::max(answer.noise->level, kSmallestLevel)), prediction);
   answer.fit = fit_of(comparison.library, observation, answer);
-  answer.fit->suspects = disagreeing(answer.residuals);
+  answer.fit->suspects = suspects_among(answer.residuals);
   if (const auto doubt = check_signs(comparison, observation, preparation, answer)) answer.fit = doubt;
 }
 
@@ -153,7 +153,7 @@ void judge_unknown_bridge(const QuestionContext& asked, Answer& answer) {
   answer.fit = check_fit(answer.bridge->posterior);
   answer.residuals = sensor_residuals(observation, bridge, case_noise(bridge, observation, asked.likeliest),
                                       answer.bridge->posterior);
-  answer.fit->suspects = disagreeing(answer.residuals);
+  answer.fit->suspects = suspects_among(answer.residuals);
   if (!answer.fit->explained) name_cause(asked, answer);
   if (answer.fit->explained)
     if (const auto doubt = check_scatter(bridge, answer.bridge->posterior)) answer.fit = doubt;

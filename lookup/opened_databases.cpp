@@ -64,15 +64,23 @@ std::vector<std::string> notes_of(const ReadingsFile& file, const LocateDamageOp
   return notes;
 }
 
-Answered ask_one(OpenedDatabase& one, const ReadingsText& readings) {
+/// Without the readings that are left out.
+Comparison compared(const ReadingsFile& file, const OpenedDatabase& one) {
   ComparisonSettings settings = comparison_settings(one.options);
   settings.sampled = one.sampled;
+  Comparison all = compare(file, one.sensors, one.database, settings);
+  if (one.options.without.empty()) return all;
+  const std::vector<std::size_t> channels = channels_at(all, one.options.without);
+  return without_readings(std::move(all), channels);
+}
+
+Answered ask_one(OpenedDatabase& one, const ReadingsText& readings) {
   const ReadingsFile file = parse_readings(readings.text, readings.name, one.sensors);
-  const Comparison all = compare(file, one.sensors, one.database, settings);
-  const std::string& left_out = one.options.without;
-  Answered asked{&one,         left_out.empty() ? all : without_readings(all, channels_at(all, left_out)),
-                 one.settings, {},
-                 {},           notes_of(file, one.options)};
+  Answered asked{.opened = &one,
+                 .comparison = compared(file, one),
+                 .settings = one.settings,
+                 .answer = {},
+                 .notes = notes_of(file, one.options)};
   asked.settings.noise = noise_of(asked.comparison.measured, asked.settings.noise);
   asked.answer = one.preparations.ask(asked.comparison, asked.settings);
   return asked;

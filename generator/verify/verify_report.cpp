@@ -2,6 +2,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.h"
+#include "core/json_text.h"
 #include "generator/verify/verify.h"
 
 namespace voussoir {
@@ -59,7 +60,7 @@ std::string to_json(const VerifyReport& report) {
                {"largest_composed_error", report.largest_composed_error},
                {"recomputed_inherited", report.recomputed_inherited},
                {"problems", report.problems}});
-  return json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+  return json_text(json);
 }
 
 }  // namespace voussoir

@@ -40,8 +40,7 @@ constexpr std::string_view kRemark = "remark";
 std::string_view advice_on(std::string_view name) {
   if (name.starts_with("temp"))
     return " (readings that are corrected for temperature are asked with --conditions known; else it is "
-           "uncertain "
-           "as the bridge file states, and the column may be called remark)";
+           "uncertain as the bridge file states, and the column may be called remark)";
   if (name.ends_with("_mrad") || name.ends_with("_rad"))
     return " (tilts are read in mm per m, which is mrad, in a column such as change_mm)";
   if (name.starts_with("date") || name.starts_with("time")) return " (what is not read may be called remark)";

@@ -5,6 +5,7 @@
 #include <functional>
 #include <nlohmann/json.hpp>
 
+#include "core/json_text.h"
 #include "lookup/report/drawing/field_drawing.h"
 #include "lookup/report/drawing/table.h"
 
@@ -49,7 +50,7 @@ std::string field_json(const SceneField& scene) {
                       {"ux_m", scene.field(0, node)},
                       {"uy_m", scene.field(1, node)}});
   });
-  return list.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+  return json_text(list, 1);
 }
 
 }  // namespace

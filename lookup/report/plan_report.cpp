@@ -6,6 +6,7 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
+#include "core/json_text.h"
 #include "core/not_a_number.h"
 #include "core/text.h"
 #include "core/units.h"
@@ -96,7 +97,7 @@ std::string plan_json(const SensorPlan& plan, const PlannedBridge& bridge) {
                                    {"falls", plan.falls.size()}};
   result["chosen"] = plan.chosen;
   result["blocks"] = nlohmann::ordered_json::parse(to_json(block_table(plan, bridge.database)));
-  return result.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+  return json_text(result, 1);
 }
 
 using Text = std::back_insert_iterator<std::string>;

@@ -1,6 +1,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "core/json_text.h"
 #include "lookup/report/bridge_report.h"
 #include "lookup/report/reading_words.h"
 #include "lookup/report/report.h"
@@ -227,7 +228,7 @@ std::string json_report(const Answer& answer, const LookupSettings& settings, co
     result["genetic"].push_back({{"generations", run.generations},
                                  {"converged_in_generation", run.converged},
                                  {"evaluations", run.evaluations}});
-  return result.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+  return json_text(result, 2);
 }
 
 }  // namespace voussoir

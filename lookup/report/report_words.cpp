@@ -317,10 +317,7 @@ std::vector<double> expected_readings(const Answer& answer, const Comparison& co
 
 std::vector<std::string> odd_sensors(const Answer& answer, const Comparison& comparison) {
   const std::vector<double> origin = origin_of(comparison);
-  std::vector<SensorResidual> odd;
-  std::ranges::copy_if(answer.residuals, std::back_inserter(odd), &SensorResidual::disagrees);
-  std::ranges::stable_sort(odd, std::ranges::greater{},
-                           [](const SensorResidual& sensor) { return std::abs(sensor.error); });
+  std::vector<SensorResidual> odd = disagreeing(answer.residuals);
   odd.resize(std::min(odd.size(), kMostSensorsListed));
   std::vector<std::string> sentences;
   for (const SensorResidual& sensor : odd)

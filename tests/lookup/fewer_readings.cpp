@@ -46,8 +46,8 @@ TEST_CASE("Readings that are left out are no sensors, silent ones neither, and n
 TEST_CASE("Suspects are the two that disagree most, and only of answers that they may keep from being one") {
   const std::vector<SensorResidual> residuals = {residual(3, 5.0, true), residual(4, -9.0, true),
                                                  residual(5, 20.0, false), residual(6, 4.0, true)};
-  CHECK(disagreeing(residuals) == std::vector<std::vector<std::size_t>>{{4}, {3}});
-  CHECK(disagreeing({residual(5, 20.0, false)}).empty());
+  CHECK(suspects_among(residuals) == std::vector<std::vector<std::size_t>>{{4}, {3}});
+  CHECK(suspects_among({residual(5, 20.0, false)}).empty());
   Answer answer;
   answer.posterior = Posterior{{0.0, {}, {}}, {0.99}, {0.01, 0.99}, {0}};
   answer.fit = Fit{true, 0.5, "", {{4}}};

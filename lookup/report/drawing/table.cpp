@@ -6,6 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "core/json_text.h"
 #include "core/text.h"
 #include "lookup/readings/csv_text.h"
 
@@ -65,7 +66,7 @@ std::string to_json(const Table& table) {
             std::isnan(*number) ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(*number);
     }
   }
-  return list.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+  return json_text(list, 1);
 }
 
 std::string to_html(const Table& table, int digits) {
