@@ -5,16 +5,22 @@
 
 namespace voussoir {
 
-/// The phases of a search, in the order in which they are tried, some of them left out by the settings; or
-/// one of those that descend alone.
+/// The phases of a search. It begins with `warm` from a given start and with `quick` from rest; with
+/// `descending` instead of either where the settings say patient_first; with `patient` where its task does.
+/// What follows on a phase that finds no equilibrium is said beside it; the search ends instead if that is to
+/// have no factorisations (most_iterations).
 enum class SearchPhase {
-  warm,        ///< from a given start
-  descending,  ///< from there on, or at first: the unbalance falling, given up when it falls no more
-  quick,       ///< from rest, given up when it has no hope
-  bold,        ///< goes on with a few bolder steps, which cross what the others cannot; in vain, the search
-               ///< ends where it was before
-  falling,     ///< goes on with bolder steps for longer: does something fall?
-  patient,     ///< likewise, from rest after the others, with all patience: the last word
+  warm,        ///< from a given start. Then `descending`, if the settings say descends_near and the structure
+               ///< has not moved as far as what falls; otherwise `quick`
+  descending,  ///< with less unbalance after every step, given up soon when that falls no more. Then `bold`
+               ///< where the settings say patient_first; otherwise `quick`
+  quick,       ///< from rest, given up where the first few steps make little progress. Then `falling` where
+               ///< the settings say follow_falls; otherwise `bold`
+  bold,        ///< from where the search is, a few bolder steps, which cross what others cannot. The last: in
+               ///< vain, the search ends where it was before them
+  falling,     ///< from where the search is, bolder steps for longer: does something fall? Then `patient`
+  patient,     ///< from rest, or from the start of its task, with less unbalance after every step, given up
+               ///< late. The last
   done
 };
 

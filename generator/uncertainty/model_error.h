@@ -10,9 +10,9 @@
 
 namespace voussoir {
 
-/// What a mesh one level finer changes is this part of the whole error. Measured on the reference bridge, 41
-/// singles: the first two levels change a signal by 0.43 and 0.46 % (median) each, and an independent
-/// program's finest mesh by 1.45 %.
+/// The whole error of a signal is this many times what a mesh one level finer changes of it. Measured on the
+/// reference bridge, 41 singles: the first two levels change a signal by 0.43 and 0.46 % (median) each, and
+/// an independent program's finest mesh by 1.45 %.
 inline constexpr double kErrorPerLevel = 3.0;
 
 /// What losing a block suddenly instead of slowly changes of its signal [-], as in ModelError. Measured on 23
