@@ -1,6 +1,6 @@
 #pragma once
 /// @file Blocks that go when the bridge already carries its weight, in motion: the independent answer to the
-/// history `lost` (core/solve/history.h).
+/// history `lost` (tools/validation/history.h).
 
 #include <memory>
 

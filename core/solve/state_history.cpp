@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <iterator>
 
-#include "core/solve/history.h"
-
 namespace voussoir {
 namespace {
 

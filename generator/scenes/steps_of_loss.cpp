@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/solve/history.h"
+#include "core/solve/state_plan.h"
 #include "core/structure/bridge_description.h"
 
 namespace voussoir {

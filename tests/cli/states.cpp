@@ -4,7 +4,6 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "core/solve/history.h"
 #include "core/statics/joint_forces.h"
 #include "core/structure/loads.h"
 #include "database/records/database.h"
@@ -12,6 +11,7 @@
 #include "tests/support/file_text.h"
 #include "tests/support/program.h"
 #include "tests/support/temporary_folder.h"
+#include "tools/validation/history.h"
 
 namespace voussoir {
 namespace {
@@ -101,8 +101,9 @@ TEST_CASE("query-field shows joints as the solver leaves them that remembers eve
   int looked_at = 0;
   for (int block = 0; block < bridge.block_count(); block += 3) {
     const Scene scene{{BlockId{block}}};
-    const History history = followed_by(lost(scene), "lorry@1", stages.front().force);
-    const std::vector<Solution> solved = solve_history(solver, history);
+    const validation::History history =
+        validation::followed_by(validation::lost(scene), "lorry@1", stages.front().force);
+    const std::vector<Solution> solved = validation::solve_history(solver, history);
     if (solved.size() < 3 || !stands(solved.back())) continue;
     ++looked_at;
     const StageEquations equations(system, coefficients, history.stages.back().stage, solved[1].memory);

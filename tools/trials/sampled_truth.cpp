@@ -7,7 +7,7 @@
 #include "core/geometry/polygon.h"
 #include "core/random.h"
 #include "core/solve/combined_solver.h"
-#include "core/solve/history.h"
+#include "core/solve/state_plan.h"
 #include "core/structure/rigid_movement.h"
 #include "core/structure/unevenness.h"
 #include "core/threads.h"

@@ -4,6 +4,7 @@
 
 #include "tools/validation/assemblies.h"
 #include "tools/validation/hard_case_runs.h"
+#include "tools/validation/history.h"
 
 namespace voussoir::validation {
 namespace {

@@ -1,8 +1,8 @@
 #pragma once
 /// @file Load cases after a first stage: what must come out whatever the bridge, and what remains.
 
-#include "core/solve/history.h"
 #include "core/structure/model.h"
+#include "core/structure/stage.h"
 
 namespace voussoir::validation {
 

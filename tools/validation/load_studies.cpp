@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "tools/validation/assemblies.h"
+#include "tools/validation/history.h"
 #include "tools/validation/load_runs.h"
 #include "tools/validation/studies.h"
 

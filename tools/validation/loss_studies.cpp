@@ -9,7 +9,7 @@
 #include <stdexcept>
 
 #include "core/motion/release.h"
-#include "core/solve/history.h"
+#include "core/solve/state_plan.h"
 #include "tools/validation/hard_case_runs.h"
 #include "tools/validation/studies.h"
 

@@ -8,10 +8,10 @@
 
 #include "core/motion/dynamic_solver.h"
 #include "core/motion/release.h"
-#include "core/solve/history.h"
 #include "tests/support/bridges.h"
 #include "tools/validation/assemblies.h"
 #include "tools/validation/hard_case_runs.h"
+#include "tools/validation/history.h"
 
 using namespace voussoir;
 
@@ -135,7 +135,7 @@ TEST_CASE(
   for (const char* text : {"4,2", "2,2"}) {
     INFO(text);
     const Scene scene = parse_scene(text, bridge.layout);
-    const std::vector<Solution> states = solve_history(newton, lost(scene));
+    const std::vector<Solution> states = validation::solve_history(newton, validation::lost(scene));
     const DynamicSolution without = loaded.without(scene);
     REQUIRE(states.size() == 2);
     REQUIRE(states[1].outcome == Outcome::standing);

@@ -2,17 +2,17 @@
 
 #include <catch2/catch.hpp>
 
-#include "core/solve/history.h"
 #include "tests/support/bridges.h"
 #include "tools/validation/assemblies.h"
 #include "tools/validation/hard_case_runs.h"
+#include "tools/validation/history.h"
 
 namespace voussoir {
 namespace {
 
 /// Signal of the scene as the history `lost` has it.
 Eigen::VectorXd lost_signal(const Model& bridge, QuasiStaticSolver& solver, const Scene& scene) {
-  const std::vector<Solution> states = solve_history(solver, lost(scene));
+  const std::vector<Solution> states = validation::solve_history(solver, validation::lost(scene));
   REQUIRE(states.back().outcome == Outcome::standing);
   REQUIRE(states.size() == 2);
   return test::readings(bridge, states[1].displacement) - test::readings(bridge, states[0].displacement);

@@ -7,11 +7,11 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/solve/history.h"
 #include "core/statics/stresses.h"
 #include "core/statics/thrust_line.h"
 #include "tests/support/bridges.h"
 #include "tools/validation/assemblies.h"
+#include "tools/validation/history.h"
 
 using namespace voussoir;
 
@@ -26,13 +26,13 @@ struct Solved {
   Field displacement;
 
   /// The stages stand, the last one in one step.
-  Solved(const Model& model, const History& history)
+  Solved(const Model& model, const validation::History& history)
       : bridge(model),
         system(bridge),
         coefficients(system, bridge.parameters),
         equations(system, coefficients, history.stages.back().stage) {
     QuasiStaticSolver solver(bridge);
-    std::vector<Solution> solutions = solve_history(solver, history);
+    std::vector<Solution> solutions = validation::solve_history(solver, history);
     REQUIRE(solutions.size() == history.stages.size());
     REQUIRE(stands(solutions.back()));
     const Solution& last = solutions.back();
@@ -91,9 +91,9 @@ TEST_CASE("Joints' forces carry the weight of every block that no support holds"
   const Model bridge = test::small_bridge();
   for (const char* missing : {"intact", "4,2", "4,1+4,2"}) {
     const Scene scene = parse_scene(missing, bridge.layout);
-    History history = lost(scene);
+    validation::History history = validation::lost(scene);
     history.stages.back().steps = 1;
-    const Solved solved(bridge, scene.removed.empty() ? built(scene) : history);
+    const Solved solved(bridge, scene.removed.empty() ? validation::built(scene) : history);
     const Eigen::Matrix3Xd sums = sums_over_blocks(solved);
     const double weight = solved.coefficients.weight.sum() / bridge.block_count();
     double largest = 0.0;
@@ -144,7 +144,7 @@ TEST_CASE("The mean stress of a column's blocks is that of what stands on them (
     const Model column = validation::assemble_blocks(
         description,
         {validation::rectangle(Point(0.0, 0.0), 1.0, 0.5), validation::rectangle(Point(0.0, 0.5), 1.0, 0.5)});
-    const Solved solved(column, built({}));
+    const Solved solved(column, validation::built({}));
     const std::vector<TriangleStress> stresses =
         triangle_stresses(solved.equations, column.parameters, solved.displacement);
     const double weight = 2400.0 * 9.81 * 0.5;  // of a block
@@ -193,7 +193,7 @@ TEST_CASE("Tresca stress of pulled and sheared triangles (Mohr's circle), and st
 TEST_CASE("A thrust line goes through the centre of pressure (closed form) and is its own mirror image",
           "[joint]") {
   const Model bridge = test::small_bridge();
-  const Solved solved(bridge, built({}));
+  const Solved solved(bridge, validation::built({}));
   const std::vector<JointForces> joints = solved.joints();
   const std::vector<ThrustPoint> thrust = thrust_lines(bridge, joints);
   const auto ring = std::ranges::count(bridge.layout.blocks, BlockRole::ring, &Block::role);

@@ -7,8 +7,8 @@
 #include <cmath>
 
 #include "core/random.h"
-#include "core/solve/history.h"
 #include "tests/support/bridges.h"
+#include "tools/validation/history.h"
 
 using namespace voussoir;
 
@@ -44,21 +44,22 @@ struct Bench {
     return theta;
   }
 
-  std::vector<NamedStage> stages(const std::string& kind, const Scene& scene) const {
-    if (kind == "built") return built(scene).stages;
+  std::vector<validation::NamedStage> stages(const std::string& kind, const Scene& scene) const {
+    if (kind == "built") return validation::built(scene).stages;
     Field load = Field::Zero(2, bridge.mesh.node_count());
     load(1, value(bridge.control_points[5].node)) = -2e4;
-    return kind == "lost" ? lost(scene).stages : followed_by(lost(scene), "load", load).stages;
+    return kind == "lost" ? validation::lost(scene).stages
+                          : validation::followed_by(validation::lost(scene), "load", load).stages;
   }
 
   /// `near`: solutions of the same stages to start from.
-  std::vector<Solution> solve(const std::vector<NamedStage>& stages, const Eigen::VectorXd& theta,
+  std::vector<Solution> solve(const std::vector<validation::NamedStage>& stages, const Eigen::VectorXd& theta,
                               const std::vector<Solution>* near) {
     const Parameters own =
         parameters_at(bridge, uncertain, theta.head(static_cast<Eigen::Index>(of_bridge())));
     std::vector<Solution> solutions;
     solutions.reserve(stages.size());
-    for (const NamedStage& next : stages) {
+    for (const validation::NamedStage& next : stages) {
       const Solution* before = solutions.empty() ? nullptr : &solutions.back();
       if (before != nullptr && before->outcome != Outcome::standing) break;
       const Field* start = before != nullptr ? &before->displacement : nullptr;
@@ -74,7 +75,8 @@ struct Bench {
     return solutions;
   }
 
-  Eigen::MatrixXd derivatives(const std::vector<NamedStage>& stages, const std::vector<Solution>& solutions) {
+  Eigen::MatrixXd derivatives(const std::vector<validation::NamedStage>& stages,
+                              const std::vector<Solution>& solutions) {
     SolvedHistory history;
     for (std::size_t i = 0; i < stages.size(); ++i)
       append_stage(solver.system(), coefficients, stages[i].stage, solutions[i], stages[i].steps, history);
@@ -112,7 +114,7 @@ struct Readings {
 };
 
 /// The reading at the nominal bridge, and a step of the parameter before and after it.
-Readings readings_about(Bench& bench, const Draw& draw, const std::vector<NamedStage>& stages,
+Readings readings_about(Bench& bench, const Draw& draw, const std::vector<validation::NamedStage>& stages,
                         const std::vector<Solution>& nominal, double step) {
   const auto moved = [&](double way) {
     Eigen::VectorXd there = bench.nominal();

@@ -5,7 +5,10 @@
 #include <catch2/catch.hpp>
 
 #include "core/motion/release.h"
-#include "core/solve/history.h"
+#include "core/solve/state_plan.h"
+#include "core/statics/elements.h"
+#include "core/statics/equilibrium.h"
+#include "core/structure/loads.h"
 #include "tests/support/bridges.h"
 
 namespace voussoir {
@@ -69,6 +72,38 @@ TEST_CASE("What slides away in a jump has collapsed, and is named (motion)", "[h
   CHECK(lost.moving == motion.solution.moving);
   CHECK(lost.memory.empty());
   CHECK(lost.slipped.size() == 0);
+}
+
+TEST_CASE("Where friction hardly carries a load, a search goes on from where it got, or jumps (equilibrium)",
+          "[history]") {
+  const Model bridge = test::reference_bridge();
+  const Scene scene = parse_scene("5,7+11,10", bridge.layout);
+  QuasiStaticSettings settings;
+  settings.follow_falls = false;
+  QuasiStaticSolver solver(bridge, settings);
+  const Solution before = solver.solve(StageTask{.stage = {.scene = scene}, .patiently = true});
+  REQUIRE(stands(before));
+  const LoadDescription crown{
+      .name = "crown", .points = {{10.0, 2.5e4}}, .lines = {}, .axles = {}, .places = {}, .width = {}};
+  const Stage loaded{.scene = scene, .load = load_stages(crown, bridge, 1.0).front().force};
+  const StageTask task{.stage = loaded, .start = &before.displacement, .before = &before};
+  const Solution found = solver.solve(task);
+  REQUIRE(stands(found));
+  const EquilibriumSystem system(bridge);
+  const Coefficients coefficients(system, bridge.parameters);
+  const StageEquations equations(system, coefficients, loaded, before.memory);
+  const Field unbalanced = unbalanced_forces(equations, without_nan(found.displacement));
+  CHECK(unbalanced.cwiseAbs().maxCoeff() < 1e-7 * equations.largest_load);
+  settings.descends_near = false;
+  StageTask without_jumps = task;
+  without_jumps.may_jump = false;
+  CHECK_FALSE(stands(QuasiStaticSolver(bridge, settings).solve(without_jumps)));
+  const Solution jumped = QuasiStaticSolver(bridge, settings).solve(task);
+  REQUIRE(stands(jumped));
+  REQUIRE(jumped.slipped.cols() == static_cast<Eigen::Index>(bridge.joints.size()));
+  const StageEquations slid(system, coefficients, loaded, memory_of_slip(jumped.slipped));
+  const Field left = unbalanced_forces(slid, without_nan(jumped.displacement));
+  CHECK(left.cwiseAbs().maxCoeff() < 1e-7 * slid.largest_load);
 }
 
 TEST_CASE("A block that only drag holds sinks by its reach (closed form)", "[history]") {

@@ -4,8 +4,8 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "core/solve/history.h"
 #include "core/statics/equilibrium.h"
+#include "core/statics/quasi_static_solver.h"
 #include "core/structure/rigid_movement.h"
 #include "core/structure/uncertain_parameters.h"
 #include "tests/support/bridges.h"

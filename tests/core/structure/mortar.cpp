@@ -5,7 +5,7 @@
 #include <set>
 
 #include "core/error.h"
-#include "core/solve/history.h"
+#include "core/statics/quasi_static_solver.h"
 #include "core/structure/halved_blocks.h"
 #include "core/structure/mortar_regions.h"
 #include "tests/support/bridges.h"

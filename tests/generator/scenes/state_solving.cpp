@@ -2,10 +2,10 @@
 
 #include <catch2/catch.hpp>
 
-#include "core/solve/history.h"
 #include "core/structure/loads.h"
 #include "database/format/field_codec.h"
 #include "tests/support/bridges.h"
+#include "tools/validation/history.h"
 
 namespace voussoir {
 namespace {
@@ -57,13 +57,13 @@ TEST_CASE(
   const SceneStates states = subject.states_of(scene, plan, starts);
   QuasiStaticSolver solver(subject.bridge);
   for (const bool is_lost : {false, true}) {
-    History history = is_lost ? lost(scene) : built(scene);
+    validation::History history = is_lost ? validation::lost(scene) : validation::built(scene);
     for (const LoadStage& stage : load_stages(subject.description.loads[0], subject.bridge, 1.0)) {
       Stage next = history.stages.back().stage;
       next.load = stage.force;
       history.stages.push_back({stage.name, next});
     }
-    const std::vector<Solution> expected = solve_history(solver, history);
+    const std::vector<Solution> expected = validation::solve_history(solver, history);
     const std::size_t first = expected.size() - 4;  // without gravity on the intact bridge
     std::vector<std::size_t> places = {is_lost ? 1U : 0U};
     for (std::size_t i = 0; i < 3; ++i) places.push_back((is_lost ? 5U : 2U) + i);

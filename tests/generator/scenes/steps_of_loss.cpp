@@ -2,12 +2,13 @@
 
 #include <catch2/catch.hpp>
 
-#include "core/solve/history.h"
+#include "core/solve/state_plan.h"
 #include "generator/build.h"
 #include "generator/scenes/state_solving.h"
 #include "generator/verify/verify.h"
 #include "tests/support/bridges.h"
 #include "tests/support/temporary_folder.h"
+#include "tools/validation/history.h"
 
 namespace voussoir {
 namespace {
@@ -41,9 +42,9 @@ struct Reference {
   }
   /// Signal of a history in so many steps, from its own start.
   Eigen::VectorXd expected(const std::string& name, int steps) {
-    History history = lost(scene(name));
+    validation::History history = validation::lost(scene(name));
     history.stages.back().steps = steps;
-    return signal(solve_history(newton, history).back().displacement);
+    return signal(validation::solve_history(newton, history).back().displacement);
   }
   Eigen::VectorXd signal(const Field& field) const {
     const Eigen::VectorXd change =

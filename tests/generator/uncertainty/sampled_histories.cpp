@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "core/solve/combined_solver.h"
-#include "core/solve/history.h"
 #include "tests/support/bridges.h"
+#include "tools/validation/history.h"
 
 namespace voussoir {
 namespace {
@@ -46,17 +46,18 @@ struct Sampling {
   std::vector<SampledBridge> drawn;
 };
 
-NamedStage without(Stage stage, const Scene& scene) {
+validation::NamedStage without(Stage stage, const Scene& scene) {
   stage.scene = scene;
   return {"", std::move(stage)};
 }
 
 /// The stages, and then the parts in which the scene enters the epoch.
-std::vector<NamedStage> with_epoch(std::vector<NamedStage> stages, const Stage& epoch, const Scene& scene) {
+std::vector<validation::NamedStage> with_epoch(std::vector<validation::NamedStage> stages, const Stage& epoch,
+                                               const Scene& scene) {
   const int parts = scene.removed.empty() ? kPartsOfEpoch : kPartsOfEpochWithout;
   for (int part = 1; part <= parts; ++part) {
     const double share = part / static_cast<double>(parts);
-    NamedStage next = without(epoch, scene);
+    validation::NamedStage next = without(epoch, scene);
     next.stage.temperature *= share;
     next.stage.support_movement *= share;
     next.stage.joint_stiffness = epoch.joint_stiffness.pow(share);
@@ -102,16 +103,16 @@ TEST_CASE("Sampled bridges are built, enter their epoch and lose blocks in it (s
     const Scene& scene = sampling.scenes[i % 3];
     const Model bridge = with_parameters(sampling.bridge, sample.parameters);
     QuasiStaticSolver solver(bridge);
-    const auto end_of = [&](const std::vector<NamedStage>& stages) {
-      return solve_history(solver, {"", stages}).back();
+    const auto end_of = [&](const std::vector<validation::NamedStage>& stages) {
+      return validation::solve_history(solver, {"", stages}).back();
     };
-    const auto check = [&](const Eigen::VectorXd& moved, const std::vector<NamedStage>& stages) {
+    const auto check = [&](const Eigen::VectorXd& moved, const std::vector<validation::NamedStage>& stages) {
       CHECK(difference(moved, bridge, end_of(stages)) < 1e-5);
     };
     check(found[i].at_rest[0], {without({}, scene)});
     check(found[i].at_rest[1], {without({}, {}), without({}, scene)});
     check(found[i].in_epoch[0], with_epoch({without({}, scene)}, sample.epoch, scene));
-    std::vector<NamedStage> lost = with_epoch({without({}, {})}, sample.epoch, {});
+    std::vector<validation::NamedStage> lost = with_epoch({without({}, {})}, sample.epoch, {});
     if (!scene.removed.empty()) lost.push_back(without(sample.epoch, scene));
     check(found[i].in_epoch[1], lost);
   }
@@ -139,7 +140,7 @@ TEST_CASE(
     CHECK(difference(found[i].at_rest[0], bridge, at_rest) < 1e-5);
     QuasiStaticSolver solver(bridge);
     Solution in_epoch = at_rest;
-    for (const NamedStage& part : with_epoch({}, sample.epoch, {})) {
+    for (const validation::NamedStage& part : with_epoch({}, sample.epoch, {})) {
       const Solution before = in_epoch;
       in_epoch =
           solver.solve(StageTask{.stage = part.stage, .start = &before.displacement, .before = &before});

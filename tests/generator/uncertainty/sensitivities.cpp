@@ -7,7 +7,6 @@
 
 #include <catch2/catch.hpp>
 
-#include "core/solve/history.h"
 #include "core/structure/unevenness.h"
 #include "database/format/hdf5_handle.h"
 #include "database/records/schema.h"
@@ -18,6 +17,7 @@
 #include "tests/support/bridges.h"
 #include "tests/support/made_up_database.h"
 #include "tests/support/temporary_folder.h"
+#include "tools/validation/history.h"
 
 namespace voussoir {
 namespace {
@@ -84,13 +84,13 @@ Eigen::MatrixXd covariance_anew(QuasiStaticSolver& solver, const Model& bridge,
 /// nothing if anything on the way does not stand.
 std::optional<Eigen::VectorXd> signal_changed(const Model& bridge, const Stage& epoch, const Scene& scene) {
   QuasiStaticSolver solver(bridge);
-  std::vector<NamedStage> stages = {{"", {}}};
+  std::vector<validation::NamedStage> stages = {{"", {}}};
   const auto signal_after = [&](Stage loss) -> std::optional<Eigen::VectorXd> {
-    const Solution intact = solve_history(solver, {"", stages}).back();
-    std::vector<NamedStage> lost = stages;
+    const Solution intact = validation::solve_history(solver, {"", stages}).back();
+    std::vector<validation::NamedStage> lost = stages;
     loss.scene = scene;
     lost.push_back({"", loss});
-    const Solution single = solve_history(solver, {"", lost}).back();
+    const Solution single = validation::solve_history(solver, {"", lost}).back();
     if (!stands(intact) || !stands(single)) return std::nullopt;
     return readings_at(bridge.control_points, single.displacement) -
            readings_at(bridge.control_points, intact.displacement);
@@ -120,14 +120,15 @@ TEST_CASE("A database's sensitivities predict what a little more stiffness and h
   QuasiStaticSolver solver(bridge);
   int compared = 0;
   for (const Scene& scene : found->scenes)
-    for (const auto& [name, history] : {std::pair{"built", built(scene)}, std::pair{"lost", lost(scene)}}) {
+    for (const auto& [name, history] :
+         {std::pair{"built", validation::built(scene)}, std::pair{"lost", validation::lost(scene)}}) {
       const std::size_t state = *database.find_state(name);
       const auto factors = found->find(state, scene);
       if (!factors) continue;
-      History moved = history;
-      for (NamedStage& stage : moved.stages)
+      validation::History moved = history;
+      for (validation::NamedStage& stage : moved.stages)
         stage.stage = in_epoch(stage.stage, bridge, uncertain, change.of_epoch);
-      const auto solutions = solve_history(solver, moved, &parameters);
+      const auto solutions = validation::solve_history(solver, moved, &parameters);
       REQUIRE(solutions.back().outcome == Outcome::standing);
       const Eigen::VectorXd now = readings_at(bridge.control_points, solutions.back().displacement);
       const auto table = database.table(kNominalVariant, state);

@@ -1,6 +1,8 @@
-#include "core/solve/history.h"
+#include "tools/validation/history.h"
 
-namespace voussoir {
+#include "core/solve/state_plan.h"
+
+namespace voussoir::validation {
 
 History built(const Scene& scene) {
   return {"built", {{"built", {.scene = scene}}}};
@@ -33,4 +35,4 @@ std::vector<Solution> solve_history(QuasiStaticSolver& solver, const History& hi
   return solutions;
 }
 
-}  // namespace voussoir
+}  // namespace voussoir::validation

@@ -1,14 +1,12 @@
-#include "core/solve/history.h"
+#include "tools/validation/history.h"
 
 #include <catch2/catch.hpp>
 
-#include "core/statics/elements.h"
-#include "core/statics/equilibrium.h"
-#include "core/structure/loads.h"
 #include "tests/support/bridges.h"
 #include "tools/validation/load_runs.h"
 
 using namespace voussoir;
+using namespace voussoir::validation;
 
 namespace {
 
@@ -40,64 +38,32 @@ TEST_CASE("A stage that changes nothing leaves the bridge where it is (the memor
 }
 
 TEST_CASE("Displacements under loads are reciprocal where nothing slips (Maxwell)", "[history]") {
-  const Model wall = validation::rough_wall();
-  const Stage pressed{.load = validation::side_pressure(wall, 4.0, 2e4)};
+  const Model wall = rough_wall();
+  const Stage pressed{.load = side_pressure(wall, 4.0, 2e4)};
   std::vector<int> components;  // of corners all over the wall, both ways
   for (int node = 3; node < wall.mesh.node_count(); node += 11)
     for (const int axis : {0, 1}) components.push_back(2 * node + axis);
-  CHECK(validation::reciprocity_error(wall, pressed, components, 100.0) < 1e-8);
+  CHECK(reciprocity_error(wall, pressed, components, 100.0) < 1e-8);
 }
 
 TEST_CASE("A load that is added and taken away without slip leaves no trace (elasticity)", "[history]") {
-  const Model wall = validation::rough_wall();
-  const Stage pressed{.load = validation::side_pressure(wall, 4.0, 2e4)};
-  const Field load = validation::point_load(wall, NodeId{wall.mesh.node_count() - 2}, 1e3);
+  const Model wall = rough_wall();
+  const Stage pressed{.load = side_pressure(wall, 4.0, 2e4)};
+  const Field load = point_load(wall, NodeId{wall.mesh.node_count() - 2}, 1e3);
   for (const int steps : {1, 4}) {
-    const validation::LoadTrace trace = validation::load_trace(wall, pressed, load, steps);
+    const LoadTrace trace = load_trace(wall, pressed, load, steps);
     CHECK(trace.under_load > 1e-6);
     CHECK(trace.left < 1e-5 * trace.under_load);  // Newton stops at 1e-8 of the pressure's 5 kN a node
   }
-}
-
-TEST_CASE("Where friction hardly carries a load, a search goes on from where it got, or jumps (equilibrium)",
-          "[history]") {
-  const Model bridge = test::reference_bridge();
-  const Scene scene = parse_scene("5,7+11,10", bridge.layout);
-  QuasiStaticSettings settings;
-  settings.follow_falls = false;
-  QuasiStaticSolver solver(bridge, settings);
-  const Solution before = solver.solve(StageTask{.stage = {.scene = scene}, .patiently = true});
-  REQUIRE(stands(before));
-  const LoadDescription crown{
-      .name = "crown", .points = {{10.0, 2.5e4}}, .lines = {}, .axles = {}, .places = {}, .width = {}};
-  const Stage loaded{.scene = scene, .load = load_stages(crown, bridge, 1.0).front().force};
-  const StageTask task{.stage = loaded, .start = &before.displacement, .before = &before};
-  const Solution found = solver.solve(task);
-  REQUIRE(stands(found));
-  const EquilibriumSystem system(bridge);
-  const Coefficients coefficients(system, bridge.parameters);
-  const StageEquations equations(system, coefficients, loaded, before.memory);
-  const Field unbalanced = unbalanced_forces(equations, without_nan(found.displacement));
-  CHECK(unbalanced.cwiseAbs().maxCoeff() < 1e-7 * equations.largest_load);
-  settings.descends_near = false;
-  StageTask without_jumps = task;
-  without_jumps.may_jump = false;
-  CHECK_FALSE(stands(QuasiStaticSolver(bridge, settings).solve(without_jumps)));
-  const Solution jumped = QuasiStaticSolver(bridge, settings).solve(task);
-  REQUIRE(stands(jumped));
-  REQUIRE(jumped.slipped.cols() == static_cast<Eigen::Index>(bridge.joints.size()));
-  const StageEquations slid(system, coefficients, loaded, memory_of_slip(jumped.slipped));
-  const Field left = unbalanced_forces(slid, without_nan(jumped.displacement));
-  CHECK(left.cwiseAbs().maxCoeff() < 1e-7 * slid.largest_load);
 }
 
 TEST_CASE("Where joints slip a load that has gone leaves a trace (reference bridge, 10 t on the crown)",
           "[history]") {
   // Oracle: the same in eight implicit steps each way; as with losses one step may be off by 5 %.
   const Model bridge = test::reference_bridge();
-  const Field load = validation::point_load(bridge, bridge.control_points[19].node, 1e5);
-  const validation::LoadTrace once = validation::load_trace(bridge, {}, load);
-  const validation::LoadTrace often = validation::load_trace(bridge, {}, load, 8);
+  const Field load = point_load(bridge, bridge.control_points[19].node, 1e5);
+  const LoadTrace once = load_trace(bridge, {}, load);
+  const LoadTrace often = load_trace(bridge, {}, load, 8);
   CHECK(once.left > 0.05 * once.under_load);
   CHECK(once.left == Approx(often.left).epsilon(0.05));
   CHECK(once.under_load == Approx(often.under_load).epsilon(0.05));
@@ -129,8 +95,8 @@ TEST_CASE("After a stage that does not stand a history has no more stages", "[hi
   for (std::size_t b = 0; b < bridge.layout.size(); ++b)
     if (bridge.layout.blocks[b].kind == BlockKind::voussoir)
       arch_block.removed = {BlockId{static_cast<int>(b)}};
-  const auto states = solve_history(
-      solver, followed_by(lost(arch_block), "load", validation::point_load(bridge, NodeId{0}, 1.0)));
+  const auto states =
+      solve_history(solver, followed_by(lost(arch_block), "load", point_load(bridge, NodeId{0}, 1.0)));
   REQUIRE(states.size() == 2);
   CHECK(states[1].outcome != Outcome::standing);
 }
