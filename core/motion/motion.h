@@ -64,7 +64,9 @@ struct Motion {
   std::vector<Pair<T>> rates;     ///< du/dt [m/s]; with explicit steps the nodes' velocities
   std::vector<BlockFrame<T>> frames;
   std::vector<Cell<T>> present;      ///< per block: 1, or 0 where it is removed
-  std::vector<Pair<T>> pushes;       ///< forces on the nodes beside weight and joints [N]; empty: none
+  std::vector<Pair<T>> pushes;       ///< forces on the nodes beside weight and joints [N]; empty: none. No
+                                     ///< solver here sets any: LoadedBridge does, which lets blocks go slowly
+                                     ///< (tools/validation/release.h)
   std::vector<Pair<T>> bond_forces;  ///< on the nodes [N]; empty: there are no bonds
   std::array<std::vector<MortarBond>, kLaneCount<T>> bonds;  ///< of each lane's scene
   std::vector<EdgePair> pairs;                               ///< that some lane's search has found, ascending

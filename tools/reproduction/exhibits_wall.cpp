@@ -56,7 +56,7 @@ std::string crack_picture(const WallTest& test, const WallStep& step) {
 }
 
 std::string stress_picture(const WallTest& test) {
-  const PathPoint& at = test.moved.points[test.first_point() + test.peak].at;
+  const validation::PathPoint& at = test.moved.points[test.first_point() + test.peak].at;
   const EquilibriumSystem system(test.model);
   const Coefficients coefficients(system, test.model.parameters);
   const StageEquations equations(system, coefficients, Stage{}, at.state.memory);

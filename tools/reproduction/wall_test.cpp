@@ -61,10 +61,10 @@ WallTest run(const BridgeDescription& description) {
   if (test.description.movements.empty())
     throw InputError(description.name + ": no [[movements]]: expected what is done to the wall");
   test.model = make_model(test.description);
-  test.moved = follow_movements(test.model, test.description.movements);
+  test.moved = validation::follow_movements(test.model, test.description.movements);
   const EquilibriumSystem system(test.model);
   const Coefficients coefficients(system, test.model.parameters);
-  for (const MovedPoint& point : test.moved.points) {
+  for (const validation::MovedPoint& point : test.moved.points) {
     if (point.movement + 1 != test.description.movements.size()) continue;
     WallStep& step = test.steps.emplace_back();
     step.millimetres = point.moved.x() / kKilo;

@@ -8,8 +8,8 @@
 #include <string_view>
 #include <vector>
 
-#include "core/solve/movements.h"
 #include "core/structure/bridge_file.h"
+#include "tools/validation/movements.h"
 
 namespace voussoir {
 
@@ -44,7 +44,7 @@ struct WallStep {
 struct WallTest {
   BridgeDescription description;
   Model model;
-  MovedStructure moved;
+  validation::MovedStructure moved;
   std::vector<WallStep> steps;  ///< of the last movement; as many as its points
   std::size_t peak = 0;         ///< the step with the greatest force
 

@@ -8,9 +8,9 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "core/motion/release.h"
 #include "core/solve/state_plan.h"
 #include "tools/validation/hard_case_runs.h"
+#include "tools/validation/release.h"
 #include "tools/validation/studies.h"
 
 namespace voussoir::validation {

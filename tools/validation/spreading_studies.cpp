@@ -7,9 +7,9 @@
 
 #include "core/error.h"
 #include "core/law/joint_kinematics.h"
-#include "core/solve/movements.h"
 #include "core/statics/elements.h"
 #include "tools/validation/joint_limits.h"
+#include "tools/validation/movements.h"
 #include "tools/validation/studies.h"
 #include "tools/validation/trial_arches.h"
 

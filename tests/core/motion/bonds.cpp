@@ -7,11 +7,11 @@
 #include <cmath>
 
 #include "core/motion/dynamic_solver.h"
-#include "core/motion/release.h"
 #include "tests/support/bridges.h"
 #include "tools/validation/assemblies.h"
 #include "tools/validation/hard_case_runs.h"
 #include "tools/validation/history.h"
+#include "tools/validation/release.h"
 
 using namespace voussoir;
 
@@ -129,7 +129,7 @@ TEST_CASE(
     "Blocks let go slowly out of mortar change the bridge as the history lost does (independent solver)",
     "[mortar][many-solutions]") {
   const Model bridge = bridge_with_mortar();
-  const LoadedBridge loaded(bridge);
+  const validation::LoadedBridge loaded(bridge);
   REQUIRE(loaded.intact().solution.outcome == Outcome::standing);
   QuasiStaticSolver newton(bridge);
   for (const char* text : {"4,2", "2,2"}) {

@@ -4,12 +4,12 @@
 
 #include <catch2/catch.hpp>
 
-#include "core/motion/release.h"
 #include "core/solve/state_plan.h"
 #include "core/statics/elements.h"
 #include "core/statics/equilibrium.h"
 #include "core/structure/loads.h"
 #include "tests/support/bridges.h"
+#include "tools/validation/release.h"
 
 namespace voussoir {
 namespace {
@@ -53,7 +53,7 @@ TEST_CASE("Where a loss has no equilibrium near, the bridge jumps to where motio
   const Loss loss = lose(bridge, scene);
   REQUIRE(stands(loss.lost));
   REQUIRE(loss.lost.slipped.cols() == static_cast<Eigen::Index>(bridge.joints.size()));
-  const LoadedBridge loaded(bridge);
+  const validation::LoadedBridge loaded(bridge);
   const DynamicSolution motion = loaded.without(scene);
   REQUIRE(stands(motion.solution));
   const Field jumped = without_nan(loss.lost.displacement - loss.intact.displacement);
@@ -66,7 +66,7 @@ TEST_CASE("What slides away in a jump has collapsed, and is named (motion)", "[h
   const Model bridge = bridge_with(0.03, 0.45);
   const Scene scene = parse_scene("4,1", bridge.layout);
   const Solution lost = lose(bridge, scene).lost;
-  const DynamicSolution motion = LoadedBridge(bridge).without(scene);
+  const DynamicSolution motion = validation::LoadedBridge(bridge).without(scene);
   REQUIRE(motion.solution.outcome == Outcome::collapsed);
   CHECK(lost.outcome == Outcome::collapsed);
   CHECK(lost.moving == motion.solution.moving);

@@ -1,4 +1,4 @@
-#include "core/motion/release.h"
+#include "tools/validation/release.h"
 
 #include <limits>
 
@@ -6,7 +6,7 @@
 #include "core/motion/motion_step.h"
 #include "core/statics/equilibrium.h"
 
-namespace voussoir {
+namespace voussoir::validation {
 namespace {
 
 using Forces = std::vector<Pair<double>>;
@@ -65,7 +65,7 @@ struct LoadedBridge::Workspace {
     DynamicSolution result;
     double restless = 0.0;  // the last time at which it did not rest
     long steps = 0;
-    while (result.time < settings.patience &&
+    while (result.time < settings.longest &&
            result.time < std::max(earliest, restless) + settings.rest_time) {
       result.time = static_cast<double>(++steps) * with.step();
       prepare(result.time);
@@ -125,4 +125,4 @@ DynamicSolution LoadedBridge::without(const Scene& scene, const Release& release
   });
 }
 
-}  // namespace voussoir
+}  // namespace voussoir::validation

@@ -1,4 +1,4 @@
-#include "core/solve/movements.h"
+#include "tools/validation/movements.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -7,6 +7,7 @@
 #include "tests/support/bridges.h"
 
 using namespace voussoir;
+using namespace voussoir::validation;
 
 namespace {
 

@@ -1,4 +1,4 @@
-#include "core/solve/movements.h"
+#include "tools/validation/movements.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 #include "core/error.h"
 #include "core/structure/rigid_movement.h"
 
-namespace voussoir {
+namespace voussoir::validation {
 namespace {
 
 constexpr int kMostTrials = 50;
@@ -23,7 +23,7 @@ std::size_t support_called(const Model& model, const std::string& name) {
       fmt::format("support in [[movements]]: '{}' does not exist: expected one of {}", name, names));
 }
 
-Point force_of(std::size_t support, const Model& model, const Field& forces) {
+Point force_of_support(std::size_t support, const Model& model, const Field& forces) {
   Point sum = Point::Zero();
   for (const NodeId node : model.supports[support].nodes)
     for (const int axis : {0, 1})
@@ -71,8 +71,8 @@ class Mover {
     const Path path = go(from, target, movement.steps);
     Point& so_far = ways_.try_emplace(movement.support, Point::Zero()).first->second;
     for (const PathPoint& point : path.points)
-      result.points.push_back(
-          {number, so_far + point.share * way, force_of(support, model_, point.support_forces), point});
+      result.points.push_back({number, so_far + point.share * way,
+                               force_of_support(support, model_, point.support_forces), point});
     result.complete = path.complete;
     if (!path.complete) return;
     so_far += way;
@@ -99,7 +99,7 @@ class Mover {
       const Field target = moved_ + rigid_movement(model_, support, {0.0, -way}, 0.0);
       const Path path = go(from, target, 1);
       const double reached =
-          path.complete ? -force_of(support, model_, path.points.back().support_forces).y() : 0.0;
+          path.complete ? -force_of_support(support, model_, path.points.back().support_forces).y() : 0.0;
       if (!(reached > 0.0)) break;
       if (std::abs(reached / goal - 1.0) <= kPressureTolerance) return {0.0, -way};
       way *= goal / reached;
@@ -130,4 +130,4 @@ MovedStructure follow_movements(const Model& model, const std::vector<MovementDe
   return result;
 }
 
-}  // namespace voussoir
+}  // namespace voussoir::validation

@@ -3,10 +3,10 @@
 
 #include <vector>
 
-#include "core/statics/path.h"
 #include "core/structure/model.h"
+#include "tools/validation/path.h"
 
-namespace voussoir {
+namespace voussoir::validation {
 
 /// The end of a step.
 struct MovedPoint {
@@ -27,4 +27,4 @@ struct MovedStructure {
 MovedStructure follow_movements(const Model& model, const std::vector<MovementDescription>& movements,
                                 const PathSettings& settings = {});
 
-}  // namespace voussoir
+}  // namespace voussoir::validation

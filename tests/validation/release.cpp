@@ -1,4 +1,4 @@
-#include "core/motion/release.h"
+#include "tools/validation/release.h"
 
 #include <catch2/catch.hpp>
 
@@ -7,12 +7,12 @@
 #include "tools/validation/hard_case_runs.h"
 #include "tools/validation/history.h"
 
-namespace voussoir {
+namespace voussoir::validation {
 namespace {
 
 /// Signal of the scene as the history `lost` has it.
 Eigen::VectorXd lost_signal(const Model& bridge, QuasiStaticSolver& solver, const Scene& scene) {
-  const std::vector<Solution> states = validation::solve_history(solver, validation::lost(scene));
+  const std::vector<Solution> states = solve_history(solver, lost(scene));
   REQUIRE(states.back().outcome == Outcome::standing);
   REQUIRE(states.size() == 2);
   return test::readings(bridge, states[1].displacement) - test::readings(bridge, states[0].displacement);
@@ -32,9 +32,9 @@ Model slab_on_piers() {
   description.wall.length = 100.0;
   description.supports.sides = SupportKind::free;
   description.joints.friction_angle = 1.5;
-  std::vector<Polygon> blocks = {validation::rectangle({10.0, 1.0}, 3.0, 0.5)};
-  for (const double x : {10.0, 11.25, 12.5}) blocks.push_back(validation::rectangle({x, 0.0}, 0.5, 1.0));
-  return validation::assemble_blocks(description, blocks);
+  std::vector<Polygon> blocks = {rectangle({10.0, 1.0}, 3.0, 0.5)};
+  for (const double x : {10.0, 11.25, 12.5}) blocks.push_back(rectangle({x, 0.0}, 0.5, 1.0));
+  return assemble_blocks(description, blocks);
 }
 
 }  // namespace
@@ -49,8 +49,8 @@ TEST_CASE("Blocks let go slowly in motion change the bridge as the history lost 
     INFO(text);
     const Scene scene = parse_scene(text, bridge.layout);
     // Set beforehand: a fifth of the 10 % noise that the paper locates blocks under.
-    CHECK(validation::relative_difference(released_signal(bridge, loaded, scene),
-                                          lost_signal(bridge, solver, scene)) < 0.02);
+    CHECK(relative_difference(released_signal(bridge, loaded, scene), lost_signal(bridge, solver, scene)) <
+          0.02);
   }
 }
 
@@ -76,15 +76,15 @@ TEST_CASE("Where joints slip, blocks that go suddenly leave another bridge than 
   const Model bridge = test::reference_bridge();
   const LoadedBridge loaded(bridge);
   const Scene scene = parse_scene("10,4", bridge.layout);
-  const double difference = validation::relative_difference(
-      released_signal(bridge, loaded, scene, Release::sudden()), released_signal(bridge, loaded, scene));
+  const double difference = relative_difference(released_signal(bridge, loaded, scene, Release::sudden()),
+                                                released_signal(bridge, loaded, scene));
   CHECK(difference > 0.02);  // published: 2 to 30 %
   CHECK(difference < 0.3);
 }
 
 TEST_CASE("What blocks carried holds their neighbours until it is let go (equilibrium)") {
   const Model bridge = test::small_bridge();
-  const LoadedBridge loaded(bridge, {.patience = 4.0});
+  const LoadedBridge loaded(bridge, {.longest = 4.0});
   REQUIRE(loaded.intact().solution.outcome == Outcome::standing);
   const Scene scene = parse_scene("4,2+5,5", bridge.layout);
   const Field before = without_nan(loaded.intact().solution.displacement);
@@ -109,4 +109,4 @@ TEST_CASE("A bridge on stiff joints comes to rest under its weight (Newton)") {
         0.02 * expected.norm());
 }
 
-}  // namespace voussoir
+}  // namespace voussoir::validation

@@ -1,4 +1,4 @@
-#include "core/statics/path.h"
+#include "tools/validation/path.h"
 
 #include <Eigen/SparseLU>
 #include <algorithm>
@@ -7,7 +7,7 @@
 
 #include "core/statics/elements.h"
 
-namespace voussoir {
+namespace voussoir::validation {
 namespace {
 
 constexpr int kMostStepHalvings = 5;
@@ -236,4 +236,4 @@ Path follow_path(const EquilibriumSystem& system, const Coefficients& coefficien
   return PathFollower(system, coefficients, task, settings).follow();
 }
 
-}  // namespace voussoir
+}  // namespace voussoir::validation

@@ -7,7 +7,7 @@
 
 #include "core/statics/equilibrium.h"
 
-namespace voussoir {
+namespace voussoir::validation {
 
 struct PathSettings {
   int steps = 50;  ///< equal ones; each is cut where Newton's method fails
@@ -47,4 +47,4 @@ struct Path {
 Path follow_path(const EquilibriumSystem& system, const Coefficients& coefficients, const PathTask& task,
                  const PathSettings& settings = {});
 
-}  // namespace voussoir
+}  // namespace voussoir::validation

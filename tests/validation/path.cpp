@@ -1,7 +1,7 @@
 /// @file Paths of prescribed movement. Oracles: closed forms of a joint pulled and slid, the first law,
 /// refined meshes.
 
-#include "core/statics/path.h"
+#include "tools/validation/path.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -9,6 +9,7 @@
 #include "tools/validation/assemblies.h"
 
 using namespace voussoir;
+using namespace voussoir::validation;
 
 namespace {
 
@@ -34,9 +35,8 @@ Model couplet(int refinement, double young_modulus = 16.7e9) {
   description.wall.length = kLength;
   description.mesh.refinement = refinement;
   description.gravity = 0.0;
-  Model model =
-      validation::assemble_blocks(description, {validation::rectangle({0.0, 0.0}, kLength, kHeight),
-                                                validation::rectangle({0.0, kHeight}, kLength, kHeight)});
+  Model model = assemble_blocks(
+      description, {rectangle({0.0, 0.0}, kLength, kHeight), rectangle({0.0, kHeight}, kLength, kHeight)});
   Support top{.name = "top", .nodes = {}, .holds_x = true, .holds_y = true};
   for (int node = 0; node < model.mesh.node_count(); ++node)
     if (model.mesh.nodes(1, node) > 2.0 * kHeight - 1e-9) top.nodes.push_back(NodeId{node});

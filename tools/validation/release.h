@@ -6,7 +6,7 @@
 
 #include "core/motion/dynamic_solver.h"
 
-namespace voussoir {
+namespace voussoir::validation {
 
 /// How the blocks go.
 struct Release {
@@ -30,8 +30,8 @@ struct LoadingSettings {
   double ramp = 3.0;                       ///< gravity grows over this time [s]
   double rest = 1e-7;  ///< the bridge rests when no more of its weight is unbalanced (sum over the blocks) ..
   double rest_time = 0.1;   ///< .. for this long [s]
-  double patience = 6.0;    ///< for that [s]
-  double trembling = 1e-5;  ///< unbalanced weight up to which a bridge stands at the end of patience, too: a
+  double longest = 6.0;     ///< that a motion is followed [s]
+  double trembling = 1e-5;  ///< unbalanced weight up to which a bridge stands at the end of that, too: a
                             ///< loose block may tremble on
 };
 
@@ -48,8 +48,8 @@ class LoadedBridge {
   const DynamicSolution& intact() const;
 
   /// The bridge at rest again without the scene's blocks: their forces on their neighbours fade and they are
-  /// gone. If it does not stand at the end of patience, `collapsed` if blocks have moved away by then
-  /// (DecisionRules::moving_sags), otherwise `unresolved`. `time` since the start of the release.
+  /// gone. If it does not stand when its motion is followed no longer, `collapsed` if blocks have moved away
+  /// by then (DecisionRules::moving_sags), otherwise `unresolved`. `time` since the start of the release.
   DynamicSolution without(const Scene& scene, const Release& release = {}) const;
 
  private:
@@ -57,4 +57,4 @@ class LoadedBridge {
   std::unique_ptr<Workspace> workspace_;
 };
 
-}  // namespace voussoir
+}  // namespace voussoir::validation
