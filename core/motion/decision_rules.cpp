@@ -6,7 +6,7 @@
 
 namespace voussoir {
 
-DecisionRules patient(DecisionRules rules) {
+DecisionRules patient_rules(DecisionRules rules) {
   // Measured on the reference bridge: a bridge at rest goes below 1e-7 of its weight within a second; a block
   // that creeps keeps 4e-3 and more of its own weight unbalanced.
   rules.standing_unbalance = 1e-7;
@@ -21,12 +21,12 @@ DecisionRules patient(DecisionRules rules) {
   return rules;
 }
 
-DecisionRules when_gone(DecisionRules rules) {
+DecisionRules far_fall_rules(DecisionRules rules) {
   rules.moving_sags = kGoneSags;
   return rules;
 }
 
-DecisionRules near_by(DecisionRules rules) {
+DecisionRules patch_rules(DecisionRules rules) {
   rules.moving_sags = 6.0;  // by two, as in the whole bridge, 21 of 99 would fall that rest (docs/speed.md)
   return rules;
 }

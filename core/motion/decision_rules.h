@@ -23,14 +23,14 @@ struct DecisionRules {
 };
 
 /// Rules that follow a motion until friction that nearly holds has let go, or the bridge is really at rest.
-DecisionRules patient(DecisionRules rules);
+DecisionRules patient_rules(DecisionRules rules);
 
 /// Rules by which something falls only when it is far away: bridges with soft joints come to rest after they
 /// have sagged fifteen times as far as bonded.
-DecisionRules when_gone(DecisionRules rules);
+DecisionRules far_fall_rules(DecisionRules rules);
 
 /// Rules for a patch of a bridge (core/structure/patch.h): more has to move before it counts as a fall.
-DecisionRules near_by(DecisionRules rules);
+DecisionRules patch_rules(DecisionRules rules);
 
 /// How far blocks move that have moved away [m]. `sag` of the bonded bridge, `block` the size of a mean block
 /// [m].

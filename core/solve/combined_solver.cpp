@@ -39,18 +39,24 @@ std::vector<Solution> equilibria(QuasiStaticSolver& newton, const std::vector<St
   return solutions;
 }
 
-/// What is looked at with all patience begins at rest.
-MotionStart start_of(const StageTask& task, const Structure& structure, bool patiently) {
-  const bool adds_up = task.falls_by_one && !patiently && !is_one_group(task.stage.scene, structure);
-  return adds_up ? MotionStart::from_singles : MotionStart::at_rest;
+/// Where motions that are not followed to the end begin.
+MotionStart start_of(const StageTask& task, const Structure& structure) {
+  return task.falls_by_one && !is_one_group(task.stage.scene, structure) ? MotionStart::from_singles
+                                                                         : MotionStart::at_rest;
 }
 
-/// Those that have no answer yet; `patiently`: of them those that are worth it.
-std::vector<std::size_t> open_places(std::span<const StageTask> tasks, const std::vector<Solution>& solutions,
-                                     bool patiently) {
-  return places_where(tasks.size(), [&](std::size_t i) {
-    return is_open(tasks[i], solutions[i]) && !(patiently && tasks[i].open_likely);
-  });
+/// Those that have no answer yet.
+std::vector<std::size_t> open_places(std::span<const StageTask> tasks,
+                                     const std::vector<Solution>& solutions) {
+  return places_where(tasks.size(), [&](std::size_t i) { return is_open(tasks[i], solutions[i]); });
+}
+
+/// Of these those of which long searches and motions may find one.
+std::vector<std::size_t> promising_places(std::span<const StageTask> tasks,
+                                          const std::vector<Solution>& solutions) {
+  std::vector<std::size_t> places = open_places(tasks, solutions);
+  std::erase_if(places, [&](std::size_t place) { return tasks[place].open_likely; });
+  return places;
 }
 
 }  // namespace
@@ -64,18 +70,18 @@ CombinedSolver::CombinedSolver(const Model& model, const SolverSettings& setting
 }
 
 std::vector<Solution> CombinedSolver::solve(std::span<const StageTask> tasks) {
-  std::vector<Solution> solutions = search(tasks);
-  insist(tasks, Whom::intact, solutions);
-  look_nearby(tasks, solutions);
-  follow(settings_.motion.decision, tasks, false, solutions);
-  insist(tasks, Whom::all, solutions);
-  follow(settings_.patient, tasks, true, solutions);
+  std::vector<Solution> solutions = search_from_starts(tasks);
+  solutions = search_from_rest(tasks, Scenes::intact, std::move(solutions));
+  solutions = find_near_falls(tasks, std::move(solutions));
+  solutions = follow_motions(tasks, Followed::as_set, std::move(solutions));
+  solutions = search_from_rest(tasks, Scenes::all, std::move(solutions));
+  solutions = follow_motions(tasks, Followed::to_the_end, std::move(solutions));
   return settle(tasks, std::move(solutions),
                 [&](std::span<const StageTask> stages) { return newton_.solve(stages); });
 }
 
 /// Newton's equilibria; `unresolved` where there is none, or where a fall is likelier.
-std::vector<Solution> CombinedSolver::search(std::span<const StageTask> tasks) {
+std::vector<Solution> CombinedSolver::search_from_starts(std::span<const StageTask> tasks) {
   const bool falls_first = settings_.newton.skips.likely_falls;
   const auto places =
       places_where(tasks.size(), [&](std::size_t i) { return !(falls_first && tasks[i].falls_likely); });
@@ -85,31 +91,65 @@ std::vector<Solution> CombinedSolver::search(std::span<const StageTask> tasks) {
   return solutions;
 }
 
-/// Takes the falls that show near the missing blocks. What falls late is left to the whole bridge: a rim that
-/// goes that far would itself count as moved away.
-void CombinedSolver::look_nearby(std::span<const StageTask> tasks, std::vector<Solution>& solutions) const {
-  if (!settings_.falls_nearby) return;
-  const DecisionRules& rules = settings_.motion.decision;
-  for (const std::size_t place : open_places(tasks, solutions, false)) {
-    if (falls_late(tasks[place], rules)) continue;
-    if (auto fall = fall_nearby(tasks[place], motion_, rules)) solutions[place] = std::move(*fall);
-  }
-}
-
-/// Takes the equilibria that Newton's method finds with all patience, from rest. All other scenes start from
-/// the intact bridge, which shall have slipped only if it has to.
-void CombinedSolver::insist(std::span<const StageTask> tasks, Whom whom, std::vector<Solution>& solutions) {
-  std::vector<std::size_t> places = open_places(tasks, solutions, true);
-  if (whom == Whom::intact)
+/// Takes the equilibria that Newton's patient phase finds from rest. All other scenes start from the intact
+/// bridge, which shall have slipped only if it has to.
+std::vector<Solution> CombinedSolver::search_from_rest(std::span<const StageTask> tasks, Scenes scenes,
+                                                       std::vector<Solution> solutions) {
+  std::vector<std::size_t> places = promising_places(tasks, solutions);
+  if (scenes == Scenes::intact)
     std::erase_if(places, [&](std::size_t place) { return tasks[place].stage.scene.missing() > 0; });
   std::vector<StageTask> open = tasks_at(tasks, places);
   for (StageTask& task : open) {
     task.start = nullptr;
-    task.patiently = true;
+    task.patient_phase = true;
   }
   std::vector<Solution> found = equilibria(newton_, open);
   for (std::size_t k = 0; k < found.size(); ++k)
     if (stands(found[k])) solutions[places[k]] = std::move(found[k]);
+  return solutions;
+}
+
+/// Takes the falls that show near the missing blocks. What falls late is left to the whole bridge: a rim that
+/// goes that far would itself count as moved away.
+std::vector<Solution> CombinedSolver::find_near_falls(std::span<const StageTask> tasks,
+                                                      std::vector<Solution> solutions) const {
+  if (!settings_.falls_nearby) return solutions;
+  const DecisionRules& rules = rules_of(Followed::as_set);
+  for (const std::size_t place : open_places(tasks, solutions)) {
+    if (falls_late(tasks[place], rules)) continue;
+    if (auto fall = fall_nearby(tasks[place], motion_, rules)) solutions[place] = std::move(*fall);
+  }
+  return solutions;
+}
+
+/// Sets scenes in motion, which begins with nothing slipped: takes the collapses, and the equilibria near
+/// where others come to rest.
+std::vector<Solution> CombinedSolver::follow_motions(std::span<const StageTask> tasks, Followed followed,
+                                                     std::vector<Solution> solutions) {
+  const std::vector<std::size_t> open =
+      followed == Followed::as_set ? open_places(tasks, solutions) : promising_places(tasks, solutions);
+  std::vector<DynamicSolution> motions = motions_of(tasks_at(tasks, open), followed);
+
+  std::vector<std::size_t> resting_at;
+  std::vector<Solution> resting;
+  std::vector<StageTask> tasks_at_rest;
+  for (std::size_t k = 0; k < open.size(); ++k) {
+    Solution& moved = motions[k].solution;
+    if (moved.outcome == Outcome::collapsed) {
+      solutions[open[k]] = std::move(moved);
+    } else {
+      resting_at.push_back(open[k]);
+      tasks_at_rest.push_back(task_at_rest(tasks[open[k]], followed, moved));
+      resting.push_back(std::move(moved));
+    }
+  }
+  std::vector<Solution> found = equilibria_near(resting, std::move(tasks_at_rest));
+  for (std::size_t k = 0; k < found.size(); ++k) solutions[resting_at[k]] = std::move(found[k]);
+  return solutions;
+}
+
+const DecisionRules& CombinedSolver::rules_of(Followed followed) const {
+  return followed == Followed::as_set ? settings_.motion.decision : settings_.patient;
 }
 
 /// Whether a scene falls only when something is far away: the intact bridge, as nobody builds what falls at
@@ -121,9 +161,9 @@ bool CombinedSolver::falls_late(const StageTask& task, const DecisionRules& rule
               .empty();
 }
 
-std::vector<DynamicSolution> CombinedSolver::move(std::span<const StageTask> tasks,
-                                                  const DecisionRules& rules, bool patiently) {
-  DecisionRules late_rules = when_gone(rules);  // which takes its time
+std::vector<DynamicSolution> CombinedSolver::motions_of(std::span<const StageTask> tasks, Followed followed) {
+  const DecisionRules& rules = rules_of(followed);
+  DecisionRules late_rules = far_fall_rules(rules);  // what falls far takes its time
   late_rules.latest_decision = settings_.patient.latest_decision;
   std::vector<bool> fall_late;
   for (const StageTask& task : tasks) fall_late.push_back(falls_late(task, rules));
@@ -134,7 +174,8 @@ std::vector<DynamicSolution> CombinedSolver::move(std::span<const StageTask> tas
     std::vector<MotionStart> starts;
     for (const std::size_t place : places) {
       scenes.push_back(tasks[place].stage.scene);
-      starts.push_back(start_of(tasks[place], *newton_.system().structure, patiently));
+      starts.push_back(followed == Followed::as_set ? start_of(tasks[place], *newton_.system().structure)
+                                                    : MotionStart::at_rest);
     }
     std::vector<DynamicSolution> found = motion_.solve(scenes, late ? late_rules : rules, starts);
     for (std::size_t k = 0; k < places.size(); ++k) solutions[places[k]] = std::move(found[k]);
@@ -142,49 +183,31 @@ std::vector<DynamicSolution> CombinedSolver::move(std::span<const StageTask> tas
   return solutions;
 }
 
-/// Sets the scenes that are still open in motion, which begins with nothing slipped: takes the collapses,
-/// polishes what rests; with all patience what rests for certain. A bridge with softer joints rests where its
+/// What rests for certain is searched for by the patient phase. A bridge with softer joints rests where its
 /// own joints may have no equilibrium near.
-void CombinedSolver::follow(const DecisionRules& rules, std::span<const StageTask> tasks, bool patiently,
-                            std::vector<Solution>& solutions) {
-  const std::vector<std::size_t> open = open_places(tasks, solutions, patiently);
-  std::vector<DynamicSolution> motions = move(tasks_at(tasks, open), rules, patiently);
-
-  std::vector<StageTask> tasks_at_rest;
-  std::vector<Solution> resting;
-  std::vector<std::size_t> resting_at;
-  for (std::size_t k = 0; k < open.size(); ++k) {
-    if (motions[k].solution.outcome == Outcome::collapsed) {
-      solutions[open[k]] = std::move(motions[k].solution);
-    } else {
-      const bool rests = patiently && !motion_.softens_joints() && stands(motions[k].solution);
-      tasks_at_rest.push_back(
-          {.stage = tasks[open[k]].stage, .slipped = tasks[open[k]].slipped, .patiently = rests});
-      resting.push_back(std::move(motions[k].solution));
-      resting_at.push_back(open[k]);
-    }
-  }
-  std::vector<Solution> polished = polish(std::move(tasks_at_rest), resting);
-  for (std::size_t k = 0; k < polished.size(); ++k) solutions[resting_at[k]] = std::move(polished[k]);
+StageTask CombinedSolver::task_at_rest(const StageTask& task, Followed followed,
+                                       const Solution& resting) const {
+  const bool rests = followed == Followed::to_the_end && !motion_.softens_joints() && stands(resting);
+  return {.stage = task.stage, .slipped = task.slipped, .patient_phase = rests};
 }
 
 /// Equilibria near where the tasks have come to rest: with nothing slipped beforehand, unless a search for
 /// one with some slip has failed already; otherwise with what the joints remember of the motion, as friction
 /// holds what it has let slide.
-std::vector<Solution> CombinedSolver::polish(std::vector<StageTask> tasks,
-                                             std::span<const Solution> resting) {
-  std::vector<Solution> polished(tasks.size());
-  const auto take = [&](const std::vector<std::size_t>& places) {
-    std::vector<Solution> found = equilibria(newton_, tasks_at(tasks, places));
-    for (std::size_t k = 0; k < found.size(); ++k) polished[places[k]] = std::move(found[k]);
+std::vector<Solution> CombinedSolver::equilibria_near(std::span<const Solution> resting,
+                                                      std::vector<StageTask> tasks) {
+  std::vector<Solution> found(tasks.size());
+  const auto search = [&](const std::vector<std::size_t>& places) {
+    std::vector<Solution> solutions = equilibria(newton_, tasks_at(tasks, places));
+    for (std::size_t k = 0; k < solutions.size(); ++k) found[places[k]] = std::move(solutions[k]);
   };
   for (std::size_t k = 0; k < tasks.size(); ++k) tasks[k].start = &resting[k].displacement;
-  take(places_where(tasks.size(), [&](std::size_t k) { return !tasks[k].has_slipped(); }));
-  const auto open = places_where(
-      tasks.size(), [&](std::size_t k) { return !stands(polished[k]) && has_slipped(resting[k]); });
+  search(places_where(tasks.size(), [&](std::size_t k) { return !tasks[k].has_slipped(); }));
+  const auto open =
+      places_where(tasks.size(), [&](std::size_t k) { return !stands(found[k]) && has_slipped(resting[k]); });
   for (const std::size_t k : open) tasks[k].slipped = &resting[k].slipped;
-  take(open);
-  return polished;
+  search(open);
+  return found;
 }
 
 }  // namespace voussoir

@@ -15,7 +15,7 @@ std::optional<Solution> fall_nearby(const StageTask& task, const DynamicSolver& 
   if (scene.missing() == 0 || task.before != nullptr || task.start == nullptr) return std::nullopt;
   const Patch patch = motion.patch_around(scene, kNeighbours);
   if (patch.share_of_blocks() > kMostOfBridge) return std::nullopt;
-  Solution found = motion.solve_in(patch, scene, without_nan(*task.start), near_by(rules));
+  Solution found = motion.solve_in(patch, scene, without_nan(*task.start), patch_rules(rules));
   if (found.outcome != Outcome::collapsed) return std::nullopt;
   return found;
 }

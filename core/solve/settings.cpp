@@ -188,7 +188,7 @@ double along_against_across(const Model& model) {
 
 SolverSettings SolverSettings::of(SolverKind kind, const DynamicSettings& motion) {
   SolverSettings settings{
-      .kind = kind, .newton = {}, .motion = motion, .patient = voussoir::patient(motion.decision)};
+      .kind = kind, .newton = {}, .motion = motion, .patient = patient_rules(motion.decision)};
   settings.newton.follow_falls = false;  // motion says what falls
   settings.newton.skips = motion.skips;
   return settings;

@@ -30,13 +30,13 @@ constexpr double kMovingShare = 0.1;  ///< of the way of the block that has fall
 }  // namespace
 
 NewtonSearch::NewtonSearch(StageEquations equations, const QuasiStaticSettings& settings, const Field* start,
-                           TangentTarget tangent, bool patiently, bool has_matrix)
+                           TangentTarget tangent, bool patient_phase, bool has_matrix)
     : equations_(std::move(equations)),
       settings_(&settings),
       tangent_(tangent),
       displacement_(Field::Zero(2, system().structure->mesh.node_count())) {
   matrix_is_new_ = !has_matrix;
-  const SearchPhase first = patiently                ? SearchPhase::patient
+  const SearchPhase first = patient_phase            ? SearchPhase::patient
                             : settings.patient_first ? SearchPhase::descending
                             : start != nullptr       ? SearchPhase::warm
                                                      : SearchPhase::quick;
@@ -240,9 +240,9 @@ void NewtonSearch::try_step_with_old_matrix(const Eigen::VectorXd& step) {
 
 bool NewtonSearch::exhausted() const {
   const PhaseRules& rules = rules_of(phase_);
-  const bool without_hope = steps_ >= rules.patience && recent_.back() > rules.promising * first_norm_;
+  const bool unpromising = steps_ >= rules.given_up_after && recent_.back() > rules.promising * first_norm_;
   const bool stalls = phase_iterations_ >= kFewestSteps && stalled_ >= rules.most_stalled;
-  return (settings_->skips.early_outcome && (without_hope || stalls)) || fallen() ||
+  return (settings_->skips.early_outcome && (unpromising || stalls)) || fallen() ||
          phase_iterations_ >= most_iterations(phase_, *settings_);
 }
 

@@ -18,11 +18,11 @@ namespace voussoir {
 /// steps, until one makes too little progress.
 class NewtonSearch {
  public:
-  /// `start` may be null: the search then begins at rest. `patiently`: with the patient phase. `has_matrix`:
+  /// `start` may be null: the search then begins at rest. `patient_phase`: with that. `has_matrix`:
   /// the target holds a matrix of a search that has just ended at `start`, which may serve this one, too.
   /// System, coefficients and settings outlive the search.
   NewtonSearch(StageEquations equations, const QuasiStaticSettings& settings, const Field* start,
-               TangentTarget tangent, bool patiently = false, bool has_matrix = false);
+               TangentTarget tangent, bool patient_phase = false, bool has_matrix = false);
 
   bool finished() const { return phase_ == SearchPhase::done; }
   /// Is the matrix in the target another one than that of the last linear system?

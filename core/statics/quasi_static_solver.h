@@ -52,12 +52,12 @@ struct StageTask {
   /// Implicit steps. Forces that would hold the stage where the one before ended (what lost blocks carried, a
   /// new load turned round) are let go in so many equal parts, and the joints' memory is updated after each.
   int steps = 1;
-  bool patiently = false;     ///< the search begins with its patient phase, whatever the settings say
-  bool falls_likely = false;  ///< so that who can follow a motion asks it first (CombinedSolver)
+  bool patient_phase = false;  ///< the search begins with its patient phase, whatever the settings say
+  bool falls_likely = false;   ///< so that who can follow a motion asks it first (CombinedSolver)
   bool falls_by_one = false;  ///< alone, exactly one of the missing blocks lets something fall, so that early
                               ///< on what they change adds up (CombinedSolver)
-  bool open_likely = false;   ///< fewer missing blocks have no answer with all patience, so that this is not
-                              ///< worth any (CombinedSolver)
+  bool open_likely = false;   ///< fewer missing blocks have no answer whatever is tried, so that no patient
+                              ///< search and no long motion is worth its time (CombinedSolver)
   bool starts_near = false;   ///< the start is so near the answer that a factorisation serves several steps
                               ///< even of a stage with nothing before it
   bool may_jump = true;       ///< false: a later stage without an equilibrium near is `unresolved` there

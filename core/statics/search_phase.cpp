@@ -14,11 +14,11 @@ constexpr int kManyStalled = 30;
 /// Nine of ten standing scenes have a hundredth of the residual after three steps, falling ones more than a
 /// half.
 constexpr PhaseRules kQuick{
-    .largest_step = 0.5, .rise = 1.0, .patience = 3, .promising = 0.3, .most_stalled = kFewStalled};
+    .largest_step = 0.5, .rise = 1.0, .given_up_after = 3, .promising = 0.3, .most_stalled = kFewStalled};
 /// A residual that may rise lets joints open and close in turn for ever (docs/speed.md).
 constexpr PhaseRules kPatient{.largest_step = 0.5,
                               .rise = 1.0,
-                              .patience = kForever,
+                              .given_up_after = kForever,
                               .promising = 0.0,
                               .most_stalled = kManyStalled,
                               .descends = true};
@@ -28,7 +28,7 @@ constexpr PhaseRules kDescending = [] {
   return rules;
 }();
 constexpr PhaseRules kBold{
-    .largest_step = 2.0, .rise = 3.0, .patience = kForever, .promising = 0.0, .most_stalled = kForever};
+    .largest_step = 2.0, .rise = 3.0, .given_up_after = kForever, .promising = 0.0, .most_stalled = kForever};
 
 }  // namespace
 

@@ -28,8 +28,8 @@ enum class SearchPhase {
 struct PhaseRules {
   double largest_step;    ///< in units of the largest displacement so far; loose blocks would jump further
   double rise;            ///< that a step may make of the worst of the last residuals
-  int patience;           ///< steps after which the phase is given up ..
-  double promising;       ///< .. unless the residual is below this share of the first step's
+  int given_up_after;     ///< so many steps if the residual is not `promising` by then
+  double promising;       ///< below this share of the residual after the first step
   int most_stalled;       ///< steps without progress after which the phase is given up
   bool descends = false;  ///< every step but the first must leave less unbalance than there was
 };

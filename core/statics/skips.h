@@ -10,12 +10,13 @@ struct Skips {
                                 ///< the others. Changes nothing
   bool settled_contacts = true;  ///< contacts are looked for anew when blocks have moved, instead of in every
                                  ///< step. Changes round-off
-  bool early_outcome = true;  ///< Newton's search without hope ends after three steps instead of thirty, and
-                              ///< a plain collapse at its stated moment instead of at the earliest decision.
-                              ///< Changes fields of standing scenes by less than the solver's tolerance
-  bool likely_falls = true;   ///< a scene of which a part is known to fall is set in motion at once; what
-                              ///< comes to rest Newton's method polishes. Changes fields of standing scenes
-                              ///< by less than the solver's tolerance
+  bool early_outcome = true;     ///< a search that makes little progress ends after three steps instead of
+                                 ///< thirty, and a plain collapse at its stated moment instead of at the
+                                 ///< earliest decision. Changes fields of standing scenes by less than the
+                                 ///< solver's tolerance
+  bool likely_falls = true;      ///< a scene of which a part is known to fall is set in motion at once; what
+                             ///< comes to rest Newton's method polishes. Changes fields of standing scenes
+                             ///< by less than the solver's tolerance
   bool kept_factors = true;   ///< in all stages but the first, and from near starts there, too, a
                               ///< factorisation serves several steps as long as they make progress. Changes
                               ///< fields by less than the solver's tolerance

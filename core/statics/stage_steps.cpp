@@ -25,7 +25,7 @@ QuasiStaticSettings settings_of(const StageTask& task, bool follows, QuasiStatic
   // What is not found from near falls where joints are soft, and later stages stay near.
   const bool ends_near = task.before != nullptr || (task.starts_near && !settings.patient_first);
   if (ends_near || task.has_slipped()) settings.most_bold_iterations = 0;
-  if (task.has_slipped() && !task.patiently)
+  if (task.has_slipped() && !task.patient_phase)
     settings.most_patient_iterations = settings.most_slipped_iterations;
   if (!follows) return settings;
   settings.most_iterations = 0;
@@ -73,7 +73,7 @@ void StageSteps::begin_step(bool has_matrix) {
   settings_.tolerance = left_ > 1 || reach_ > 0.0 ? settings_.step_tolerance : tolerance_;
   largest_load_ = equations.largest_load;
   search_.emplace(std::move(equations), settings_, start_.size() > 0 ? &start_ : nullptr, tangent_,
-                  task_.patiently, has_matrix);
+                  task_.patient_phase, has_matrix);
 }
 
 bool StageSteps::advance(bool regular, const Eigen::VectorXd& step) {

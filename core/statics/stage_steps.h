@@ -51,7 +51,7 @@ class StageSteps {
   const StageTask& task_;
   TangentTarget tangent_;
   bool follows_;                            ///< step by step; otherwise a step ends wherever it does
-  QuasiStaticSettings settings_;            ///< those given, with the task's patience
+  QuasiStaticSettings settings_;            ///< those given, as the task changes them
   double tolerance_;                        ///< of the last step
   std::optional<Coefficients> own_;         ///< of a variant or stage with joints unlike the solver's model
   Solution reached_;                        ///< at the end of the last step

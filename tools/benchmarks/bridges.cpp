@@ -61,7 +61,7 @@ void find_worst(DefaultBuild& build, std::span<const Scene> scenes, const BlockL
 
 /// Until what moves rests or is far away.
 DecisionRules until_it_rests_or_is_gone() {
-  DecisionRules rules = when_gone(patient(DecisionRules{}));
+  DecisionRules rules = far_fall_rules(patient_rules(DecisionRules{}));
   rules.latest_decision = kLongest;
   rules.freer_until = rules.freer_from;  // what friction holds is not to be shaken loose
   return rules;

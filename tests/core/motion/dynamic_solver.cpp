@@ -291,7 +291,7 @@ TEST_CASE("What creeps moves away soon once it is damped less, and what rests st
   for (const char* text : {"2,9+10,1", "10,1+12,15", "10,1", "8,1"})
     scenes.push_back(parse_scene(text, bridge.layout));
   DynamicSolver solver(bridge);
-  const DecisionRules freer = voussoir::patient(DecisionRules{});
+  const DecisionRules freer = patient_rules(DecisionRules{});
   DecisionRules damped = freer;
   damped.freer_damping = 1.0;
   const std::vector<DynamicSolution> soon = solver.solve(scenes, freer);

@@ -40,7 +40,7 @@ TEST_CASE("Blocks of a patch come to rest where they do in the bridge (Newton's 
   const Patch patch = patch_around(parse_scene("10,4", bridge.layout), 2, bridge);
   const Field expected = patch.field_of(intact);
   const FollowedBridge near(whole, patch, expected);
-  const DecisionRules rules = patient(DecisionRules{});
+  const DecisionRules rules = patient_rules(DecisionRules{});
   const std::vector<Scene> scenes(1);
   const std::vector<MotionStart> starts(1, MotionStart::at_rest);
   const DynamicSolution found = MotionRun<double>(near, rules, scenes, starts).run().front();

@@ -14,7 +14,7 @@ TEST_CASE("Where blocks rest that have slid, field and slip are in balance (the 
     INFO(name);
     const Scene scene = parse_scene(name, bridge.layout);
     const Solution rest = DynamicSolver(bridge)
-                              .solve(std::span(&scene, 1), when_gone(patient(DecisionRules{})))
+                              .solve(std::span(&scene, 1), far_fall_rules(patient_rules(DecisionRules{})))
                               .front()
                               .solution;
     REQUIRE(rest.slipped.cols() == static_cast<Eigen::Index>(bridge.joints.size()));
@@ -27,7 +27,7 @@ TEST_CASE("Where blocks rest that have slid, field and slip are in balance (the 
 TEST_CASE("A block that drops by one course has fallen, though soft joints sag far (plain explicit motion)") {
   const Model bridge = make_model(test::soft_description());
   DynamicSolver solver(bridge);
-  const DecisionRules rules = when_gone(patient(DecisionRules{}));
+  const DecisionRules rules = far_fall_rules(patient_rules(DecisionRules{}));
   REQUIRE(rules.moving_sags * solver.sag() > mean_block_size(bridge));
   const Scene scene = parse_scene("0,5", bridge.layout);
   const DynamicSolution fallen = solver.solve(std::span(&scene, 1), rules).front();

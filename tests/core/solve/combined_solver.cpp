@@ -78,9 +78,9 @@ TEST_CASE("What friction holds where it has slid stands with that slip (equilibr
     CHECK(unbalanced_force(bridge, scene, found.displacement) > 1e-2);
     CHECK_FALSE(stands(QuasiStaticSolver(bridge).solve(scene)));
 
-    DecisionRules rules = patient(DecisionRules{});
+    DecisionRules rules = patient_rules(DecisionRules{});
     rules.freer_until = rules.freer_from;
-    const DynamicSolution moved = motion.solve(std::span(&scene, 1), when_gone(rules)).front();
+    const DynamicSolution moved = motion.solve(std::span(&scene, 1), far_fall_rules(rules)).front();
     CHECK(stands(moved.solution));
     const Field difference = without_nan(moved.solution.displacement - found.displacement);
     CHECK(difference.cwiseAbs().maxCoeff() < 0.1 * motion.sag());
@@ -115,7 +115,7 @@ TEST_CASE(
     const std::vector<Solution> solutions = CombinedSolver(bridge, hasty).solve(from_rest(singles));
     DynamicSolver motion(bridge);
     const auto soon = motion.solve(singles);
-    const auto late = motion.solve(singles, patient(DecisionRules{}));
+    const auto late = motion.solve(singles, patient_rules(DecisionRules{}));
     int fallen = 0;
     for (std::size_t i = 0; i < singles.size(); ++i) {
       if (solutions[i].outcome != Outcome::collapsed) continue;
@@ -169,7 +169,7 @@ TEST_CASE("A patient search finds the equilibrium that rising p_t leads to step 
   description.joints.normal_stiffness = description.joints.tangential_stiffness = 1e8;
   const Model bridge = make_model(description);
   QuasiStaticSolver newton(bridge);
-  const Solution patient = newton.solve(StageTask{.stage = {}, .patiently = true});
+  const Solution patient = newton.solve(StageTask{.stage = {}, .patient_phase = true});
   REQUIRE(stands(patient));
 
   Solution followed;
@@ -189,7 +189,7 @@ TEST_CASE("Scenes that Newton alone leaves open stand or creep away in motion",
   const Model bridge = test::reference_bridge();
   const std::vector<std::pair<const char*, Outcome>> expected =
       {
-          {"intact", Outcome::standing},       {"11,8", Outcome::standing},  // no hope seen after three steps
+          {"intact", Outcome::standing},       {"11,8", Outcome::standing},  // little progress in three steps
           {"0,15", Outcome::collapsed},        {"0,15+7,10", Outcome::collapsed},
           {"10,17+10,18", Outcome::collapsed}, {"8,2+8,3", Outcome::collapsed},
           {"1,6+10,1", Outcome::collapsed},  // creeps: friction holds all but a ten thousandth of the weight
@@ -222,11 +222,13 @@ TEST_CASE("Scenes that are said to fall have the same answers, whether they do o
   }
 }
 
-TEST_CASE("Scenes that are said to have no answer get what is found without patience (Newton, one motion)",
-          "[combined][many-solutions]") {
+TEST_CASE(
+    "Scenes that are said to have no answer get what is found without patient searches (Newton, one motion)",
+    "[combined][many-solutions]") {
   const Model bridge = test::reference_bridge();
   std::vector<StageTask> tasks;
-  for (const char* text : {"10,4", "0,15", "10,1+11,9"})  // stands, falls, creeps: only patience sees it move
+  for (const char* text :
+       {"10,4", "0,15", "10,1+11,9"})  // stands, falls, creeps: only the long motion sees it move
     tasks.push_back({.stage = {.scene = parse_scene(text, bridge.layout)}});
   CombinedSolver solver(bridge);
   const std::vector<Solution> patient = solver.solve(tasks);

@@ -51,7 +51,7 @@ TEST_CASE("A bridge that gives way at the least disturbance rests where it settl
   DynamicSettings slow;
   slow.ramp = slow.moment = 2.0;
   slow.least_step = 0.0;  // joints as they are
-  slow.decision = patient(slow.decision);
+  slow.decision = patient_rules(slow.decision);
   slow.decision.earliest_decision = 2.1;
   const std::vector<Scene> intact(1);
   const Field moved = DynamicSolver(bridge, slow).solve(intact).front().solution.displacement;

@@ -72,7 +72,7 @@ TEST_CASE("Searches without progress are given up, and nothing that stands is (s
   QuasiStaticSolver to_the_end(bridge, settings);
   std::vector<StageTask> tasks;
   for (const Scene& scene : all_scenes(bridge.layout.size(), 1))
-    tasks.push_back({.stage = {.scene = scene}, .patiently = true});
+    tasks.push_back({.stage = {.scene = scene}, .patient_phase = true});
   const std::vector<Solution> found = brief.solve(tasks), wanted = to_the_end.solve(tasks);
   int stand = 0, in_vain = 0, in_vain_to_the_end = 0;
   for (std::size_t i = 0; i < tasks.size(); ++i) {

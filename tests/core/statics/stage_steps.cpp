@@ -81,7 +81,7 @@ TEST_CASE("Where friction hardly carries a load, a search goes on from where it 
   QuasiStaticSettings settings;
   settings.follow_falls = false;
   QuasiStaticSolver solver(bridge, settings);
-  const Solution before = solver.solve(StageTask{.stage = {.scene = scene}, .patiently = true});
+  const Solution before = solver.solve(StageTask{.stage = {.scene = scene}, .patient_phase = true});
   REQUIRE(stands(before));
   const LoadDescription crown{
       .name = "crown", .points = {{10.0, 2.5e4}}, .lines = {}, .axles = {}, .places = {}, .width = {}};
