@@ -41,8 +41,8 @@ std::vector<Solution> equilibria(QuasiStaticSolver& newton, const std::vector<St
 
 /// Where motions that are not followed to the end begin.
 MotionStart start_of(const StageTask& task, const Structure& structure) {
-  return task.falls_by_one && !is_one_group(task.stage.scene, structure) ? MotionStart::from_singles
-                                                                         : MotionStart::at_rest;
+  return task.hints.falls_by_one && !is_one_group(task.stage.scene, structure) ? MotionStart::from_singles
+                                                                               : MotionStart::at_rest;
 }
 
 /// Those that have no answer yet.
@@ -55,7 +55,7 @@ std::vector<std::size_t> open_places(std::span<const StageTask> tasks,
 std::vector<std::size_t> promising_places(std::span<const StageTask> tasks,
                                           const std::vector<Solution>& solutions) {
   std::vector<std::size_t> places = open_places(tasks, solutions);
-  std::erase_if(places, [&](std::size_t place) { return tasks[place].open_likely; });
+  std::erase_if(places, [&](std::size_t place) { return tasks[place].hints.open_likely; });
   return places;
 }
 
@@ -83,8 +83,8 @@ std::vector<Solution> CombinedSolver::solve(std::span<const StageTask> tasks) {
 /// Newton's equilibria; `unresolved` where there is none, or where a fall is likelier.
 std::vector<Solution> CombinedSolver::search_from_starts(std::span<const StageTask> tasks) {
   const bool falls_first = settings_.newton.skips.likely_falls;
-  const auto places =
-      places_where(tasks.size(), [&](std::size_t i) { return !(falls_first && tasks[i].falls_likely); });
+  const auto places = places_where(
+      tasks.size(), [&](std::size_t i) { return !(falls_first && tasks[i].hints.falls_likely); });
   std::vector<Solution> found = equilibria(newton_, tasks_at(tasks, places));
   std::vector<Solution> solutions(tasks.size());
   for (std::size_t k = 0; k < found.size(); ++k) solutions[places[k]] = std::move(found[k]);

@@ -17,7 +17,7 @@ namespace voussoir {
 /// what the joints have slipped in motion (Solution::slipped). If there is none either, Newton searches from
 /// rest by the patient phase; and if that finds none, a block creeps, held by nearly enough friction, and the
 /// motion is followed until it has come to rest or moved away. The intact bridge, from which all others
-/// start, shall rest where it stands (settling.h). A pair apart that falls by one of its blocks (StageTask)
+/// start, shall rest where it stands (settling.h). A pair apart that falls by one of its blocks (SceneHints)
 /// begins to move where its singles' motions add up to. Scenes that are said to fall are set in motion first;
 /// those that are said to have no answer get no patient search and no long motion. Where no fields of falls
 /// are wanted, a scene is set in motion near its missing blocks before all of it is (near_falls.h).

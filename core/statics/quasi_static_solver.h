@@ -41,6 +41,15 @@ struct QuasiStaticSettings {
   Skips skips;
 };
 
+/// What other scenes let expect of one, by which CombinedSolver chooses what it tries, and in which order.
+struct SceneHints {
+  bool falls_likely = false;  ///< so that a motion is followed before an equilibrium is searched for
+  bool falls_by_one = false;  ///< alone, exactly one of the missing blocks lets something fall, so that early
+                              ///< on what they change adds up
+  bool open_likely = false;   ///< fewer missing blocks have no answer whatever is tried, so that no patient
+                              ///< search and no long motion is worth its time
+};
+
 /// A stage and where to look for its equilibrium. What is pointed to must outlive the call.
 struct StageTask {
   Stage stage;
@@ -53,15 +62,11 @@ struct StageTask {
   /// new load turned round) are let go in so many equal parts, and the joints' memory is updated after each.
   int steps = 1;
   bool patient_phase = false;  ///< the search begins with its patient phase, whatever the settings say
-  bool falls_likely = false;   ///< so that who can follow a motion asks it first (CombinedSolver)
-  bool falls_by_one = false;  ///< alone, exactly one of the missing blocks lets something fall, so that early
-                              ///< on what they change adds up (CombinedSolver)
-  bool open_likely = false;   ///< fewer missing blocks have no answer whatever is tried, so that no patient
-                              ///< search and no long motion is worth its time (CombinedSolver)
-  bool starts_near = false;   ///< the start is so near the answer that a factorisation serves several steps
-                              ///< even of a stage with nothing before it
-  bool may_jump = true;       ///< false: a later stage without an equilibrium near is `unresolved` there
-  bool keeps_steps = false;   ///< true: the solution has the states at the ends of all steps
+  bool starts_near = false;    ///< the start is so near the answer that a factorisation serves several steps
+                               ///< even of a stage with nothing before it
+  bool may_jump = true;        ///< false: a later stage without an equilibrium near is `unresolved` there
+  bool keeps_steps = false;    ///< true: the solution has the states at the ends of all steps
+  SceneHints hints{};          ///< of its scene
 
   bool has_slipped() const { return slipped != nullptr && slipped->size() > 0; }
 };

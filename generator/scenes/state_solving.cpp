@@ -11,7 +11,7 @@ namespace {
 template <class Search>
 std::vector<Solution> solve_searches(const StageSolver& solver, const std::vector<Search>& searches) {
   std::vector<StageTask> tasks;
-  for (const Search& search : searches) tasks.push_back(search.task());
+  for (const Search& search : searches) tasks.push_back(search.whole_task());
   return solve_for_storage(solver, tasks);
 }
 
@@ -23,37 +23,27 @@ Solution without_memory(Solution solution) {
 
 }  // namespace
 
-/// A state to be searched for, with all that its task points to.
+/// A state to be searched for.
 struct StateSolving::Search {
   SceneStates* states;  ///< where the answer belongs
-  Stage stage;
-  std::optional<Field> start;
+  StageTask task;       ///< without what it points to, which is here
+  std::optional<Field> start{};
   Eigen::Matrix2Xd slipped{};
-  std::optional<State> before;
-  int steps = 1;
-  bool falls_likely = false;
-  bool falls_by_one = false;
-  bool open_likely = false;
-  bool starts_near = false;
-  bool may_jump = true;
+  std::optional<State> before{};
 
-  StageTask task() const {
-    return {.stage = stage,
-            .start = start ? &*start : nullptr,
-            .before = before ? &*before : nullptr,
-            .slipped = &slipped,
-            .steps = steps,
-            .falls_likely = falls_likely,
-            .falls_by_one = falls_by_one,
-            .open_likely = open_likely,
-            .starts_near = starts_near,
-            .may_jump = may_jump};
+  /// The task with pointers into this.
+  StageTask whole_task() const {
+    StageTask whole = task;
+    whole.start = start ? &*start : nullptr;
+    whole.before = before ? &*before : nullptr;
+    whole.slipped = &slipped;
+    return whole;
   }
 
   /// Lets what the lost blocks carried go in so many steps. Several begin where most of it is held.
   void lose_in(int count) {
     if (count == 1) return;
-    steps = count;
+    task.steps = count;
     start = before->displacement;
   }
 };
@@ -111,23 +101,24 @@ std::optional<Solution> StateSolving::without_search(const Scene& scene, std::si
 StateSolving::Search StateSolving::one_step_search(const Scene& scene, std::size_t state, SceneStates& states,
                                                    const SearchBasis& basis) const {
   const PlannedState& planned = plan_[state];
-  Search search{
-      .states = &states, .stage = {.scene = scene, .load = planned.load}, .start = {}, .before = {}};
+  Search search{.states = &states, .task = {.stage = {.scene = scene, .load = planned.load}}};
   if (!planned.before) {
     if (!basis.warm_starts) return search;
     search.start = basis.starts.start_for(scene, state);
     search.slipped = basis.starts.slipped_for(scene);
-    search.falls_likely = basis.starts.falls_likely(scene, state) ||
-                          (basis.collapse_fields && fall_beside(scene, bridge_, coefficients_).has_value());
-    search.falls_by_one = basis.starts.falls_by_one(scene, state);
-    search.open_likely = basis.starts.open_likely(scene, state);
-    search.starts_near = scene.missing() > 1;  // where what fewer missing blocks change adds up
+    search.task.hints.falls_likely =
+        basis.starts.falls_likely(scene, state) ||
+        (basis.collapse_fields && fall_beside(scene, bridge_, coefficients_).has_value());
+    search.task.hints.falls_by_one = basis.starts.falls_by_one(scene, state);
+    search.task.hints.open_likely = basis.starts.open_likely(scene, state);
+    search.task.starts_near = scene.missing() > 1;  // where what fewer missing blocks change adds up
     return search;
   }
   const Solution& own = *states[*planned.before];
   search.before.emplace(State{planned.is_load ? own.displacement : *basis.starts.intact(kBuilt),
                               memory_before(scene, state, states, basis.of_intact)});
-  search.may_jump = planned.is_load || stands(*states[kBuilt]);  // what falls as built falls in a jump, too
+  // What falls as built falls in a jump, too.
+  search.task.may_jump = planned.is_load || stands(*states[kBuilt]);
   if (!basis.warm_starts)
     search.start = search.before->displacement;
   else if (stands(own))

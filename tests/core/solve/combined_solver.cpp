@@ -211,7 +211,7 @@ TEST_CASE("Scenes that are said to fall have the same answers, whether they do o
     tasks.push_back({.stage = {.scene = parse_scene(text, bridge.layout)}});
   CombinedSolver solver(bridge);
   const std::vector<Solution> expected = solver.solve(tasks);
-  for (StageTask& task : tasks) task.falls_likely = true;
+  for (StageTask& task : tasks) task.hints.falls_likely = true;
   const std::vector<Solution> found = solver.solve(tasks);
   for (std::size_t i = 0; i < tasks.size(); ++i) {
     INFO(to_string(tasks[i].stage.scene, bridge.layout));
@@ -232,7 +232,7 @@ TEST_CASE(
     tasks.push_back({.stage = {.scene = parse_scene(text, bridge.layout)}});
   CombinedSolver solver(bridge);
   const std::vector<Solution> patient = solver.solve(tasks);
-  for (StageTask& task : tasks) task.open_likely = true;
+  for (StageTask& task : tasks) task.hints.open_likely = true;
   const std::vector<Solution> brief = solver.solve(tasks);
   CHECK(patient[2].outcome == Outcome::collapsed);
   CHECK(brief[2].outcome == Outcome::unresolved);
