@@ -16,10 +16,13 @@ struct DecisionRules {
   double largest_standing_unbalance = 1e-2;  ///< resultant force on a block over its weight, at most
   double moving_sags = 2.0;  ///< blocks that have moved further than this many sags of the bonded bridge, or
                              ///< half a mean block, have moved away
-  double freer_from = 0.0;   ///< at this time, what is nearly balanced (sum of the blocks' resultant forces
-  double freer_unbalance = 0.0;  ///< over the bridge's weight, at most) is damped less until a later time:
-  double freer_until = 0.0;      ///< a block that creeps, held by nearly enough friction, falls the sooner
-  double freer_damping = 1.0;    ///< [-] share of the damping
+  // What is nearly balanced is damped less for a while: a block that creeps, held by nearly enough friction,
+  // falls the sooner.
+  double freer_from = 0.0;  ///< when it is looked at whether a scene is
+  double freer_unbalance =
+      0.0;                     ///< sum of the blocks' resultant forces over the bridge's weight [-], at most
+  double freer_until = 0.0;    ///< when it is damped as before again; equal to `freer_from`: never less
+  double freer_damping = 1.0;  ///< share of the damping [-] in between
 };
 
 /// Rules that follow a motion until friction that nearly holds has let go, or the bridge is really at rest.

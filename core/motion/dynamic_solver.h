@@ -23,8 +23,9 @@ struct DynamicSettings {
   Integrator integrator = Integrator::implicit_blocks;
   RotationalInertia inertia = RotationalInertia::lumped;
   std::optional<double> step;  ///< of all blocks; empty: 0.9 times the critical step, and for most blocks
-                               ///< several times that (pace.h) ..
-  int most_parts = 8;          ///< .. at most so many; 1: all blocks take the same implicit steps
+                               ///< several times that (pace.h)
+  int most_parts = 8;        ///< so many times it at most where `step` is empty; 1: all blocks take the same
+                             ///< implicit steps
   double least_step = 2e-4;  ///< joints of a block that alone would need shorter implicit steps are softened
                              ///< until it does not (softening.h), and on until the bridge needs none much
                              ///< shorter; 0: none are
