@@ -4,8 +4,8 @@
 #include <chrono>
 #include <iterator>
 
+#include "core/bridge_file/bridge_model.h"
 #include "core/error.h"
-#include "core/structure/bridge_model.h"
 #include "core/structure/uncertain_parameters.h"
 #include "database/format/durable_file.h"
 #include "database/records/writer.h"

@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "core/structure/bridge_file.h"
+#include "core/bridge_file/bridge_file.h"
 #include "database/records/database.h"
 #include "generator/records/outcome_counts.h"
 #include "generator/scenes/plan_run.h"

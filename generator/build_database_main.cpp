@@ -2,9 +2,9 @@
 
 #include <iostream>
 
+#include "core/bridge_file/bridge_model.h"
 #include "core/heap.h"
 #include "core/program_failure.h"
-#include "core/structure/bridge_model.h"
 #include "core/text_file.h"
 #include "generator/bridge_drawing.h"
 #include "generator/build_options.h"

@@ -1,7 +1,7 @@
 #include "database/records/stored_bridge.h"
 
+#include "core/bridge_file/bridge_file.h"
 #include "core/error.h"
-#include "core/structure/bridge_file.h"
 #include "database/records/schema.h"
 
 namespace voussoir {

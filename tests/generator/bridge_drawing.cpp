@@ -4,7 +4,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "core/structure/bridge_file.h"
+#include "core/bridge_file/bridge_file.h"
 #include "tests/support/bridges.h"
 
 using namespace voussoir;

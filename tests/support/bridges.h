@@ -1,7 +1,7 @@
 #pragma once
 /// @file Bridges that tests share.
 
-#include "core/structure/bridge_file.h"
+#include "core/bridge_file/bridge_file.h"
 #include "core/structure/model.h"
 
 namespace voussoir::test {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/bridge_file/bridge_file.h"
 #include "core/error.h"
-#include "core/structure/bridge_file.h"
 #include "core/structure/control_point.h"
 #include "core/structure/model.h"
 #include "database/format/field_codec.h"

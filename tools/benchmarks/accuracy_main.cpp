@@ -1,6 +1,6 @@
 /// @file benchmark-accuracy: run time against error of the solvers.
 
-#include "core/structure/bridge_file.h"
+#include "core/bridge_file/bridge_file.h"
 #include "core/text_file.h"
 #include "lookup/command_line.h"
 #include "tools/benchmarks/accuracy.h"

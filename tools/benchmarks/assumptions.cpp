@@ -6,9 +6,9 @@
 #include <limits>
 #include <optional>
 
+#include "core/bridge_file/bridge_file.h"
 #include "core/error.h"
 #include "core/geometry/polygon.h"
-#include "core/structure/bridge_file.h"
 #include "core/structure/model.h"
 #include "lookup/opened_databases.h"
 #include "lookup/readings/readings_csv.h"

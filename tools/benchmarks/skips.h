@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/structure/bridge_file.h"
+#include "core/bridge_file/bridge_file.h"
 
 namespace voussoir {
 

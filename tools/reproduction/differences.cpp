@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/structure/bridge_file.h"
+#include "core/bridge_file/bridge_file.h"
 #include "tools/reproduction/exhibits.h"
 
 namespace voussoir {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <map>
 
-#include "core/structure/bridge_file.h"
+#include "core/bridge_file/bridge_file.h"
 #include "lookup/report/drawing/bridge_drawing.h"
 #include "lookup/report/words.h"
 #include "tools/reproduction/exhibits.h"

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/structure/bridge_file.h"
+#include "core/bridge_file/bridge_file.h"
 #include "tools/validation/movements.h"
 
 namespace voussoir {

@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "core/structure/bridge_file.h"
+#include "core/bridge_file/bridge_file.h"
 #include "core/structure/uncertainty.h"
 #include "tools/trials/study.h"
 

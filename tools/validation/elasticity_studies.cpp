@@ -3,9 +3,9 @@
 #include <Eigen/Geometry>
 #include <limits>
 
+#include "core/bridge_file/bridge_file.h"
 #include "core/statics/equilibrium.h"
 #include "core/statics/quasi_static_solver.h"
-#include "core/structure/bridge_file.h"
 #include "tools/validation/assemblies.h"
 #include "tools/validation/studies.h"
 

@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
+#include "core/bridge_file/bridge_file.h"
 #include "core/solve/combined_solver.h"
 #include "core/statics/equilibrium.h"
-#include "core/structure/bridge_file.h"
 
 namespace voussoir::validation {
 namespace {

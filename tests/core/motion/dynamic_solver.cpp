@@ -4,9 +4,9 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "core/bridge_file/bridge_file.h"
 #include "core/error.h"
 #include "core/statics/quasi_static_solver.h"
-#include "core/structure/bridge_file.h"
 #include "tests/support/bridges.h"
 #include "tools/validation/hard_case_runs.h"
 

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 
+#include "core/bridge_file/bridge_file.h"
 #include "core/motion/critical_step.h"
 #include "core/motion/dynamic_solver.h"
-#include "core/structure/bridge_file.h"
 #include "tests/support/bridges.h"
 
 using namespace voussoir;

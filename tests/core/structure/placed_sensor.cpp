@@ -4,9 +4,9 @@
 
 #include <catch2/catch.hpp>
 
+#include "core/bridge_file/bridge_file.h"
 #include "core/error.h"
 #include "core/statics/sensitivity.h"
-#include "core/structure/bridge_file.h"
 #include "tests/support/bridges.h"
 #include "tests/support/file_text.h"
 

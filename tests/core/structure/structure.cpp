@@ -2,8 +2,8 @@
 
 #include <catch2/catch.hpp>
 
+#include "core/bridge_file/bridge_file.h"
 #include "core/error.h"
-#include "core/structure/bridge_file.h"
 #include "tests/support/bridges.h"
 
 using namespace voussoir;

@@ -1,7 +1,7 @@
 #include <catch2/catch.hpp>
 
+#include "core/bridge_file/bridge_file.h"
 #include "core/error.h"
-#include "core/structure/bridge_file.h"
 #include "generator/scenes/scene_list.h"
 
 namespace voussoir {
