@@ -8,7 +8,7 @@
 #include "core/error.h"
 #include "core/not_a_number.h"
 #include "core/text.h"
-#include "lookup/report/verdict.h"
+#include "lookup/verdict.h"
 
 namespace voussoir {
 namespace {
@@ -54,7 +54,7 @@ std::vector<std::vector<std::size_t>> suspects_among(const std::vector<SensorRes
 
 std::vector<std::vector<std::size_t>> suspects_of(const Answer& answer) {
   if (!answer.posterior || !answer.fit) return {};
-  const Verdict verdict = verdict_of(*answer.posterior, answer.fit->explained);
+  const Verdict verdict = verdict_by_probability(*answer.posterior, answer.fit->explained);
   const bool is_open = verdict == Verdict::unexplained || verdict == Verdict::cannot_tell;
   return is_open ? answer.fit->suspects : std::vector<std::vector<std::size_t>>();
 }

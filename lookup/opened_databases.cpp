@@ -8,8 +8,8 @@
 #include "lookup/fewer_readings.h"
 #include "lookup/readings/sensors_file.h"
 #include "lookup/readings/stated_sigmas.h"
-#include "lookup/report/report_words.h"
 #include "lookup/report/words.h"
+#include "lookup/verdict.h"
 #include "lookup/weighed_databases.h"
 
 namespace voussoir {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "lookup/report/verdict.h"
+#include "lookup/verdict.h"
 
 namespace voussoir {
 

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "core/text.h"
+
 namespace voussoir {
 namespace {
 
@@ -83,17 +85,6 @@ std::string history_in_words(const std::string& history) {
   if (history == kBuiltState) return history + " (missing blocks were never there)";
   if (history == kLostState) return history + " (missing blocks went while the bridge carried its weight)";
   return history;
-}
-
-ShownReadings shown_readings(const Comparison& comparison, std::size_t row) {
-  const std::vector<double> origin = origin_of(comparison);
-  const std::span<const double> prediction = comparison.library.table.row(row);
-  ShownReadings shown{comparison.measured.displacement, {prediction.begin(), prediction.end()}};
-  for (std::size_t i = 0; i < origin.size(); ++i) {
-    shown.reading[i] -= origin[i];
-    shown.expected[i] -= origin[i];
-  }
-  return shown;
 }
 
 std::string evidence_in_words(const Comparison& comparison) {

@@ -1,5 +1,5 @@
 #pragma once
-/// @file What readings are, in words, and how they are shown: a change as a change.
+/// @file What readings are, in words.
 
 #include <string>
 #include <vector>
@@ -30,12 +30,5 @@ std::string history_in_words(const std::string& history);
 /// What says how much a bridge scatters that is not exactly known: "derivatives of the stored bridge (first
 /// order)", or how many sampled bridges, and what those cannot know. Precondition: there are factors.
 std::string evidence_in_words(const Comparison& comparison);
-
-/// Readings as they are shown [m]: without what `compare` added to changes.
-struct ShownReadings {
-  std::vector<double> reading;   ///< by channel; NaN where there is none
-  std::vector<double> expected;  ///< by channel, of one scene
-};
-ShownReadings shown_readings(const Comparison& comparison, std::size_t row);
 
 }  // namespace voussoir

@@ -3,9 +3,8 @@
 #include <fmt/format.h>
 
 #include "lookup/readings/csv_text.h"
-#include "lookup/report/report_words.h"
-#include "lookup/report/verdict.h"
 #include "lookup/report/words.h"
+#include "lookup/verdict.h"
 
 namespace voussoir {
 

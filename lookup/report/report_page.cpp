@@ -5,11 +5,13 @@
 #include "core/error.h"
 #include "lookup/report/bridge_report.h"
 #include "lookup/report/drawing/page.h"
+#include "lookup/report/reading_words.h"
 #include "lookup/report/report.h"
 #include "lookup/report/report_pictures.h"
 #include "lookup/report/report_profiles.h"
 #include "lookup/report/report_words.h"
 #include "lookup/report/words.h"
+#include "lookup/verdict.h"
 
 namespace voussoir {
 namespace {

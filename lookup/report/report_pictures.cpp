@@ -9,8 +9,8 @@
 #include "core/units.h"
 #include "lookup/report/drawing/bridge_drawing.h"
 #include "lookup/report/drawing/colour_map.h"
-#include "lookup/report/report_words.h"
 #include "lookup/report/words.h"
+#include "lookup/verdict.h"
 
 namespace voussoir {
 namespace {

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/units.h"
+#include "lookup/expected_readings.h"
 
 namespace voussoir {
 namespace {

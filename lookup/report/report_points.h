@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "lookup/answer.h"
-#include "lookup/report/reading_words.h"
+#include "lookup/readings/shown_readings.h"
 
 namespace voussoir {
 

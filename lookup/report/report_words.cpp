@@ -6,15 +6,13 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <functional>
 #include <iterator>
 #include <span>
 
-#include "core/not_a_number.h"
 #include "core/units.h"
 #include "lookup/report/reading_words.h"
-#include "lookup/report/verdict.h"
 #include "lookup/report/words.h"
+#include "lookup/verdict.h"
 
 namespace voussoir {
 
@@ -43,27 +41,9 @@ std::string located_in_words(const Posterior& posterior, const Library& library)
                      blocks.size() == 1 ? "is" : "are");
 }
 
-/// What a prior that leaves no choice supposes.
-enum class Supposed { nothing, damage, no_damage };
-
-Supposed supposed_by(const Prior& prior) {
-  const std::vector<double> weight = weights_of(prior);
-  bool none = false, some = false;
-  for (std::size_t i = 0; i < weight.size(); ++i)
-    if (weight[i] > 0.0) (prior.missing[i] == 0 ? none : some) = true;
-  return none == some ? Supposed::nothing : some ? Supposed::damage : Supposed::no_damage;
-}
-
 std::string supposed_in_words(Supposed supposed) {
   return supposed == Supposed::damage ? "that blocks are missing was supposed, not found"
                                       : "that no block is missing was supposed, not found";
-}
-
-/// Does belief make the intact bridge certain where the readings alone do not?
-bool is_intact_by_belief(const Answer& answer) {
-  const bool is_asked = !answer.contested && supposed_by(answer.prior) == Supposed::nothing;
-  return is_asked && verdict_of(answer) == Verdict::cannot_tell &&
-         intact_probability(*answer.posterior) >= kCertain;
 }
 
 /// What goes with the probability of the intact bridge.
@@ -82,18 +62,6 @@ std::string in_words(const Scene& scene, const Library& library) {
 }
 
 }  // namespace
-
-Verdict verdict_of(const Answer& answer) {
-  const Verdict alone = verdict_of(*answer.posterior, answer.fit && answer.fit->explained);
-  if (alone == Verdict::unexplained) return alone;
-  const bool as_supposed = supposed_by(answer.prior) != Supposed::nothing && alone != Verdict::located;
-  return answer.contested || as_supposed ? Verdict::cannot_tell : alone;
-}
-
-std::vector<BlockId> named_blocks(const Answer& answer) {
-  if (!answer.posterior || verdict_of(answer) != Verdict::located) return {};
-  return likely_blocks(*answer.posterior, kCertain);
-}
 
 std::string_view standing(const Answer& answer) {
   if (!answer.posterior) return "best match";
@@ -148,13 +116,6 @@ std::string searched_in_words(const Answer& answer) {
     text += fmt::format("; {} in which something falls, and of which no field is kept, were left out",
                         answer.fallen);
   return text;
-}
-
-std::vector<OpenLoss> open_losses(const Answer& answer) {
-  if (!answer.posterior || verdict_of(answer) != Verdict::intact) return {};
-  std::vector<OpenLoss> open = answer.posterior->open_losses;
-  std::ranges::stable_sort(open, std::ranges::greater{}, &OpenLoss::times_as_likely);
-  return open;
 }
 
 std::string open_losses_in_words(const Answer& answer, const Library& library) {
@@ -296,23 +257,8 @@ std::string missing_in_words(const Answer& answer) {
   return numbers;
 }
 
-bool has_probabilities(const Answer& answer) {
-  return answer.posterior && verdict_of(answer) != Verdict::unexplained;
-}
-
 std::string_view if_true(const Answer& answer) {
   return has_probabilities(answer) ? "" : ", if one of the scenes were the truth";
-}
-
-/// Of a held point nothing is known but that.
-std::vector<double> expected_readings(const Answer& answer, const Comparison& comparison) {
-  const std::vector<double> origin = origin_of(comparison);
-  const std::vector<double> stated = shown_readings(comparison, answer.candidates.front().row).expected;
-  std::vector<double> expected = answer.known_bridge ? stated : std::vector<double>(stated.size(), kNan);
-  for (const SensorResidual& sensor : answer.residuals)
-    expected[sensor.point] =
-        std::isnan(sensor.error) ? stated[sensor.point] : sensor.predicted - origin[sensor.point];
-  return expected;
 }
 
 std::vector<std::string> odd_sensors(const Answer& answer, const Comparison& comparison) {

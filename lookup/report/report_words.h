@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "lookup/answer.h"
-#include "lookup/report/verdict.h"
+#include "lookup/readings/comparison.h"
 
 namespace voussoir {
 
@@ -15,12 +15,6 @@ std::vector<std::string> verdict(const Answer& answer, const Library& library);
 
 /// "located (a block is missing and named, at least 90 % sure)"
 std::string verdict_in_words(const Answer& answer);
-
-/// Precondition: there are probabilities.
-Verdict verdict_of(const Answer& answer);
-
-/// The blocks that an answer names: missing for certain, likeliest first; none unless it is `located`.
-std::vector<BlockId> named_blocks(const Answer& answer);
 
 /// The verdict as a sentence: "Block 10,4 is missing (98.2 %)." Without probabilities nothing.
 std::string headline(const Answer& answer, const Comparison& comparison);
@@ -37,11 +31,7 @@ inline constexpr std::string_view kStandsBySlip =
 /// "22579 scenes", and how many were left out for which reason.
 std::string searched_in_words(const Answer& answer);
 
-/// Of a bridge that is said to be intact: the losses that the readings do not exclude, the likeliest first.
-/// Nothing with any other verdict.
-std::vector<OpenLoss> open_losses(const Answer& answer);
-
-/// The same as a sentence; empty if there are none.
+/// The losses that stay open (open_losses) as a sentence; empty if there are none.
 std::string open_losses_in_words(const Answer& answer, const Library& library);
 
 /// "Without F64: Block 4,1 (> 99.9 %) is missing.": what the readings say without one that may be wrong;
@@ -71,15 +61,9 @@ std::string same_in_words(const Candidate& candidate, const Library& library);
 /// "0: < 0.1 %, 1: 91.5 %, 2: 8.5 %"
 std::string missing_in_words(const Answer& answer);
 
-/// Probabilities of scenes, if these may be the truth: where nothing explains the readings they are only
-/// shares among scenes none of which is an answer. Without probabilities false.
-bool has_probabilities(const Answer& answer);
-/// What goes with such shares: ", if one of the scenes were the truth"; nothing otherwise.
+/// What goes with shares that are no probabilities (has_probabilities): ", if one of the scenes were the
+/// truth"; nothing otherwise.
 std::string_view if_true(const Answer& answer);
-
-/// What the answer lets expect of each channel's reading as it is shown [m]: the first candidate's if the
-/// bridge is known, else by all other readings too, NaN where there is no reading.
-std::vector<double> expected_readings(const Answer& answer, const Comparison& comparison);
 
 /// A sentence for each sensor that disagrees with the rest, the farthest first, at most five.
 std::vector<std::string> odd_sensors(const Answer& answer, const Comparison& comparison);

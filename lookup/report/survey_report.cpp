@@ -9,8 +9,8 @@
 #include "core/not_a_number.h"
 #include "lookup/report/drawing/table.h"
 #include "lookup/report/report_words.h"
-#include "lookup/report/verdict.h"
 #include "lookup/report/words.h"
+#include "lookup/verdict.h"
 
 namespace voussoir {
 namespace {

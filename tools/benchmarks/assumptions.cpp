@@ -12,7 +12,7 @@
 #include "core/structure/model.h"
 #include "lookup/opened_databases.h"
 #include "lookup/readings/readings_csv.h"
-#include "lookup/report/report_words.h"
+#include "lookup/verdict.h"
 #include "tools/trials/sampled_truth.h"
 #include "tools/trials/taken_readings.h"
 

@@ -7,7 +7,6 @@
 
 #include "core/error.h"
 #include "lookup/readings/stated_sigmas.h"
-#include "lookup/report/report_words.h"
 
 namespace voussoir {
 namespace {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "lookup/lookup.h"
-#include "lookup/report/verdict.h"
+#include "lookup/verdict.h"
 #include "tools/trials/localisation.h"
 
 namespace voussoir {

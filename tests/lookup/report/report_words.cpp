@@ -2,6 +2,7 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
+#include "tests/lookup/explained_answer.h"
 #include "tests/lookup/synthetic_library.h"
 
 #include "lookup/report/bridge_report.h"
@@ -15,19 +16,6 @@ Candidate candidate(double misfit, std::optional<double> posterior) {
   result.misfit = misfit;
   result.posterior = posterior;
   return result;
-}
-
-/// An answer whose likely scene explains the readings; probabilities of numbers of missing blocks, and of one
-/// block.
-Answer explained(const std::vector<double>& missing, double block) {
-  Answer answer;
-  answer.posterior = {.probability = {0.0, {}, {}},
-                      .block_probability = {block},
-                      .missing_probability = missing,
-                      .credible = {0},
-                      .intact_if_even = missing.front()};
-  answer.fit = {.explained = true, .chance = 0.5, .reason = {}};
-  return answer;
 }
 
 }  // namespace
@@ -46,44 +34,29 @@ TEST_CASE("With probabilities a candidate is behind by their ratio, whatever the
   CHECK(behind(candidate(-2.0, 0.0), best) == "negligible");
 }
 
-TEST_CASE("An answer that another database contests is none, unless nothing explains the readings") {
-  Answer answer = explained({0.99, 0.01}, 0.01);
-  CHECK(verdict_of(answer) == Verdict::intact);
+TEST_CASE("What stands against a verdict is said with it (written out)") {
+  Answer answer = test::explained_answer({0.99, 0.01}, 0.01);
   answer.contested = true;
-  CHECK(verdict_of(answer) == Verdict::cannot_tell);
   CHECK(verdict_in_words(answer) ==
         "cannot-tell (the databases that may be right come to different answers)");
-  answer.fit->explained = false;
-  CHECK(verdict_of(answer) == Verdict::unexplained);
+  answer.contested = false;
+  answer.prior = {{0}, {1.0}};
+  CHECK(verdict_in_words(answer) == "cannot-tell (that no block is missing was supposed, not found)");
+  answer = test::explained_answer({0.0, 1.0}, 0.4);
+  for (const Prior& prior : {Prior{{1}, {1.0}}, Prior{{0, 1}, {0.0, 1.0}}}) {
+    answer.prior = prior;
+    CHECK(verdict_in_words(answer) == "cannot-tell (that blocks are missing was supposed, not found)");
+  }
 }
 
 TEST_CASE("What is said to be intact is said with the losses that would hardly show (written out)") {
-  Answer answer = explained({0.995, 0.005}, 0.005);
+  Answer answer = test::explained_answer({0.995, 0.005}, 0.005);
   const test::SyntheticLibrary library(2, 3);
   const Comparison readings = absolute_readings(library.library(), no_measurements(library.points.size()));
   CHECK(headline(answer, readings) == "No block is missing (99.5 %).");
   answer.posterior->open_losses = {{1, 0.5}, {2, 0.2}};
   CHECK(headline(answer, readings) ==
         "No block is missing (99.5 %), but the loss of 2 blocks is not excluded.");
-}
-
-TEST_CASE("What a prior supposes is no verdict (written out)") {
-  Answer answer = explained({0.0, 1.0}, 0.4);
-  answer.prior = {{0, 1}, {8.0, 1.0}};
-  CHECK(verdict_of(answer) == Verdict::damaged_unlocated);
-  for (const Prior& prior : {Prior{{1}, {1.0}}, Prior{{0, 1}, {0.0, 1.0}}}) {
-    answer.prior = prior;
-    CHECK(verdict_of(answer) == Verdict::cannot_tell);
-    CHECK(verdict_in_words(answer) == "cannot-tell (that blocks are missing was supposed, not found)");
-  }
-  answer.posterior->missing_probability = {1.0};
-  answer.prior = {{0}, {1.0}};
-  CHECK(verdict_of(answer) == Verdict::cannot_tell);
-  CHECK(verdict_in_words(answer) == "cannot-tell (that no block is missing was supposed, not found)");
-  answer.posterior->block_probability = {0.95};
-  answer.posterior->missing_probability = {0.0, 1.0};
-  answer.prior = {{1}, {1.0}};
-  CHECK(verdict_of(answer) == Verdict::located);
 }
 
 TEST_CASE(
