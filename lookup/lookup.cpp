@@ -6,16 +6,16 @@
 #include <numeric>
 
 #include "core/error.h"
+#include "lookup/checks/fewer_readings.h"
+#include "lookup/checks/lines_and_loads.h"
+#include "lookup/checks/other_explanations.h"
+#include "lookup/checks/plausible_readings.h"
+#include "lookup/checks/same_readings.h"
+#include "lookup/checks/turned_readings.h"
 #include "lookup/evidence/largest_places.h"
-#include "lookup/fewer_readings.h"
-#include "lookup/lines_and_loads.h"
-#include "lookup/other_explanations.h"
-#include "lookup/plausible_readings.h"
-#include "lookup/same_readings.h"
 #include "lookup/search/exhaustive_search.h"
 #include "lookup/search/misfit.h"
 #include "lookup/search/nearest_search.h"
-#include "lookup/turned_readings.h"
 
 namespace voussoir {
 namespace {

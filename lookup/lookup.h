@@ -1,8 +1,8 @@
 #pragma once
 /// @file From measurements to an answer: the flow of locate-damage.
 
-#include "lookup/answer.h"
-#include "lookup/preparation.h"
+#include "lookup/answer/answer.h"
+#include "lookup/answer/preparation.h"
 
 namespace voussoir {
 

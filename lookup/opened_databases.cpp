@@ -4,12 +4,12 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "lookup/answer/verdict.h"
+#include "lookup/checks/fewer_readings.h"
 #include "lookup/command_line.h"
-#include "lookup/fewer_readings.h"
 #include "lookup/readings/sensors_file.h"
 #include "lookup/readings/stated_sigmas.h"
 #include "lookup/report/words.h"
-#include "lookup/verdict.h"
 #include "lookup/weighed_databases.h"
 
 namespace voussoir {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "lookup/verdict.h"
+#include "lookup/answer/verdict.h"
 
 namespace voussoir {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "lookup/answer.h"
+#include "lookup/answer/answer.h"
 
 namespace voussoir {
 

@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
+#include "lookup/answer/verdict.h"
 #include "lookup/readings/csv_text.h"
 #include "lookup/report/words.h"
-#include "lookup/verdict.h"
 
 namespace voussoir {
 

@@ -4,7 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "lookup/lookup.h"
+#include "lookup/answer/answer.h"
+#include "lookup/answer/lookup_settings.h"
 #include "lookup/report/asked_databases.h"
 
 namespace voussoir {

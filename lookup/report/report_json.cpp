@@ -2,13 +2,13 @@
 #include <nlohmann/json.hpp>
 
 #include "core/json_text.h"
+#include "lookup/answer/verdict.h"
 #include "lookup/readings/shown_readings.h"
 #include "lookup/report/bridge_report.h"
 #include "lookup/report/reading_words.h"
 #include "lookup/report/report.h"
 #include "lookup/report/report_words.h"
 #include "lookup/report/words.h"
-#include "lookup/verdict.h"
 
 namespace voussoir {
 namespace {

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/error.h"
+#include "lookup/answer/verdict.h"
 #include "lookup/report/bridge_report.h"
 #include "lookup/report/drawing/page.h"
 #include "lookup/report/reading_words.h"
@@ -11,7 +12,6 @@
 #include "lookup/report/report_profiles.h"
 #include "lookup/report/report_words.h"
 #include "lookup/report/words.h"
-#include "lookup/verdict.h"
 
 namespace voussoir {
 namespace {

@@ -7,10 +7,10 @@
 
 #include "core/not_a_number.h"
 #include "core/units.h"
+#include "lookup/answer/verdict.h"
 #include "lookup/report/drawing/bridge_drawing.h"
 #include "lookup/report/drawing/colour_map.h"
 #include "lookup/report/words.h"
-#include "lookup/verdict.h"
 
 namespace voussoir {
 namespace {

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "core/units.h"
-#include "lookup/expected_readings.h"
+#include "lookup/answer/expected_readings.h"
 
 namespace voussoir {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "lookup/answer.h"
+#include "lookup/answer/answer.h"
 #include "lookup/readings/shown_readings.h"
 
 namespace voussoir {

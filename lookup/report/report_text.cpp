@@ -5,14 +5,14 @@
 #include <iterator>
 
 #include "core/units.h"
-#include "lookup/expected_readings.h"
+#include "lookup/answer/expected_readings.h"
+#include "lookup/answer/verdict.h"
 #include "lookup/readings/shown_readings.h"
 #include "lookup/report/bridge_report.h"
 #include "lookup/report/reading_words.h"
 #include "lookup/report/report.h"
 #include "lookup/report/report_words.h"
 #include "lookup/report/words.h"
-#include "lookup/verdict.h"
 
 namespace voussoir {
 namespace {

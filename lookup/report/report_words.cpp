@@ -10,9 +10,9 @@
 #include <span>
 
 #include "core/units.h"
+#include "lookup/answer/verdict.h"
 #include "lookup/report/reading_words.h"
 #include "lookup/report/words.h"
-#include "lookup/verdict.h"
 
 namespace voussoir {
 

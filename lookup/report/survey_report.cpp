@@ -7,10 +7,10 @@
 #include <cmath>
 
 #include "core/not_a_number.h"
+#include "lookup/answer/verdict.h"
 #include "lookup/report/drawing/table.h"
 #include "lookup/report/report_words.h"
 #include "lookup/report/words.h"
-#include "lookup/verdict.h"
 
 namespace voussoir {
 namespace {

@@ -10,9 +10,9 @@
 #include "core/error.h"
 #include "core/geometry/polygon.h"
 #include "core/structure/model.h"
+#include "lookup/answer/verdict.h"
 #include "lookup/opened_databases.h"
 #include "lookup/readings/readings_csv.h"
-#include "lookup/verdict.h"
 #include "tools/trials/sampled_truth.h"
 #include "tools/trials/taken_readings.h"
 

@@ -4,8 +4,8 @@
 #include <array>
 #include <vector>
 
+#include "lookup/answer/verdict.h"
 #include "lookup/lookup.h"
-#include "lookup/verdict.h"
 #include "tools/trials/localisation.h"
 
 namespace voussoir {

@@ -1,4 +1,4 @@
-#include "lookup/fewer_readings.h"
+#include "lookup/checks/fewer_readings.h"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 #include "core/error.h"
 #include "core/not_a_number.h"
 #include "core/text.h"
-#include "lookup/verdict.h"
+#include "lookup/answer/verdict.h"
 
 namespace voussoir {
 namespace {

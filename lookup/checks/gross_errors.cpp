@@ -1,4 +1,4 @@
-#include "lookup/gross_errors.h"
+#include "lookup/checks/gross_errors.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "lookup/expected_readings.h"
+#include "lookup/answer/expected_readings.h"
 
 #include <cmath>
 

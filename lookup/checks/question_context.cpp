@@ -1,4 +1,4 @@
-#include "lookup/question_context.h"
+#include "lookup/checks/question_context.h"
 
 #include <algorithm>
 #include <cmath>

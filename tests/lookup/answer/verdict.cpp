@@ -1,4 +1,4 @@
-#include "lookup/verdict.h"
+#include "lookup/answer/verdict.h"
 
 #include <catch2/catch.hpp>
 

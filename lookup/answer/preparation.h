@@ -5,8 +5,8 @@
 #include <optional>
 #include <vector>
 
+#include "lookup/answer/lookup_settings.h"
 #include "lookup/evidence/evidence_screen.h"
-#include "lookup/lookup_settings.h"
 #include "lookup/readings/observation.h"
 #include "lookup/search/indexed_search.h"
 

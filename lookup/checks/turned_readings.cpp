@@ -1,4 +1,4 @@
-#include "lookup/turned_readings.h"
+#include "lookup/checks/turned_readings.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "lookup/plausible_readings.h"
+#include "lookup/checks/plausible_readings.h"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
 /// @file What may be asked of a database. Oracle: counts by hand.
 
-#include "lookup/preparation.h"
+#include "lookup/answer/preparation.h"
 
 #include <catch2/catch.hpp>
 

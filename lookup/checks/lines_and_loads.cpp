@@ -1,4 +1,4 @@
-#include "lookup/lines_and_loads.h"
+#include "lookup/checks/lines_and_loads.h"
 
 #include <cmath>
 

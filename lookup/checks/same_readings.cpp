@@ -1,4 +1,4 @@
-#include "lookup/same_readings.h"
+#include "lookup/checks/same_readings.h"
 
 #include <algorithm>
 #include <cmath>

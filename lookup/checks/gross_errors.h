@@ -1,7 +1,7 @@
 #pragma once
 /// @file Is it one reading alone that says what an answer calls missing?
 
-#include "lookup/question_context.h"
+#include "lookup/checks/question_context.h"
 
 namespace voussoir {
 

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "lookup/answer.h"
+#include "lookup/answer/answer.h"
 #include "lookup/readings/comparison.h"
 
 namespace voussoir {

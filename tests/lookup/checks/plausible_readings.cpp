@@ -1,6 +1,6 @@
 /// @file Do changes scatter as instruments let expect? Oracle: cases written out.
 
-#include "lookup/plausible_readings.h"
+#include "lookup/checks/plausible_readings.h"
 
 #include <catch2/catch.hpp>
 

@@ -4,8 +4,8 @@
 
 #include <optional>
 
-#include "lookup/answer.h"
-#include "lookup/preparation.h"
+#include "lookup/answer/answer.h"
+#include "lookup/answer/preparation.h"
 
 namespace voussoir {
 

@@ -1,6 +1,6 @@
 /// What else would explain readings. Oracle: readings as they were made, of which the answer is known.
 
-#include "lookup/other_explanations.h"
+#include "lookup/checks/other_explanations.h"
 
 #include <catch2/catch.hpp>
 

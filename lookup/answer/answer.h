@@ -5,9 +5,9 @@
 #include <optional>
 #include <vector>
 
+#include "lookup/answer/fit.h"
 #include "lookup/evidence/evidence.h"
 #include "lookup/evidence/posterior.h"
-#include "lookup/fit.h"
 #include "lookup/search/genetic_search.h"
 #include "lookup/unknown/bridge_posterior.h"
 

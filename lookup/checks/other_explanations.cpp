@@ -1,12 +1,12 @@
-#include "lookup/other_explanations.h"
+#include "lookup/checks/other_explanations.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
+#include "lookup/checks/gross_errors.h"
+#include "lookup/checks/lines_and_loads.h"
 #include "lookup/evidence/scene_evidence.h"
-#include "lookup/gross_errors.h"
-#include "lookup/lines_and_loads.h"
 #include "lookup/unknown/hidden_losses.h"
 
 namespace voussoir {

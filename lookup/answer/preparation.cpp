@@ -1,4 +1,4 @@
-#include "lookup/preparation.h"
+#include "lookup/answer/preparation.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "lookup/fit.h"
+#include "lookup/answer/fit.h"
 #include "lookup/readings/comparison.h"
 
 namespace voussoir {

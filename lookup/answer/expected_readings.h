@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "lookup/answer.h"
+#include "lookup/answer/answer.h"
 #include "lookup/readings/comparison.h"
 
 namespace voussoir {

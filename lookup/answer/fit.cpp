@@ -1,4 +1,4 @@
-#include "lookup/fit.h"
+#include "lookup/answer/fit.h"
 
 #include <fmt/format.h>
 

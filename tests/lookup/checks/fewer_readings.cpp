@@ -1,6 +1,6 @@
 /// @file Readings without those of some sensors. Oracle: the same readings made without them; by hand.
 
-#include "lookup/fewer_readings.h"
+#include "lookup/checks/fewer_readings.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "lookup/answer.h"
-#include "lookup/preparation.h"
+#include "lookup/answer/answer.h"
+#include "lookup/answer/preparation.h"
 #include "lookup/unknown/unknown_question.h"
 
 namespace voussoir {
