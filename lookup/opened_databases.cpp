@@ -10,7 +10,6 @@
 #include "lookup/readings/sensors_file.h"
 #include "lookup/readings/stated_sigmas.h"
 #include "lookup/report/words.h"
-#include "lookup/weighed_databases.h"
 
 namespace voussoir {
 namespace {

@@ -7,10 +7,10 @@
 
 #include "database/records/database.h"
 #include "lookup/locate_damage_options.h"
-#include "lookup/preparations.h"
+#include "lookup/prepared_questions.h"
 #include "lookup/readings/comparison.h"
 #include "lookup/readings/readings_file.h"
-#include "lookup/report/asked_databases.h"
+#include "lookup/weighed_databases.h"
 
 namespace voussoir {
 
@@ -21,7 +21,7 @@ struct OpenedDatabase {
   Database database;
   SensorList sensors;
   std::shared_ptr<const SampledBridges> sampled{};  ///< null: the first order speaks
-  Preparations preparations{};
+  PreparedQuestions preparations{};
 };
 
 using OpenedDatabases = std::list<OpenedDatabase>;  // each stays where it is

@@ -71,4 +71,25 @@ void require_same_readings(std::span<const DatabaseReadings> all) {
   }
 }
 
+void weigh(std::vector<AskedDatabase>& databases) {
+  std::ranges::stable_sort(databases, std::ranges::greater{}, &AskedDatabase::log_evidence);
+  const double most = databases.front().log_evidence;
+  double total = 0.0;
+  for (AskedDatabase& one : databases) {
+    // Where none has a possible scene, none is more likely than the others.
+    one.probability = one.log_evidence == most ? 1.0 : std::exp(one.log_evidence - most);
+    total += one.probability;
+  }
+  for (AskedDatabase& one : databases) one.probability /= total;
+}
+
+bool is_contested(std::span<const AskedDatabase> databases) {
+  const AskedDatabase& first = databases.front();
+  return std::ranges::any_of(databases.subspan(1), [&](const AskedDatabase& other) {
+    if (other.probability < kCounting) return false;
+    return other.verdict != first.verdict ||
+           (first.verdict == Verdict::located && other.first != first.first);
+  });
+}
+
 }  // namespace voussoir

@@ -1,13 +1,16 @@
 #pragma once
-/// @file Which databases may be weighed against each other: those that say something of the same readings, of
-/// one bridge.
+/// @file Databases of one bridge under different assumptions (supports, shape), asked about the same
+/// readings: which may be weighed against each other, and how likely each one's assumptions are.
 
 #include <map>
 #include <set>
 #include <span>
 #include <string>
+#include <vector>
 
-#include "lookup/lookup.h"
+#include "lookup/answer/answer.h"
+#include "lookup/answer/verdict.h"
+#include "lookup/readings/comparison.h"
 
 namespace voussoir {
 
@@ -40,5 +43,26 @@ void require_one_bridge(std::span<const DatabaseReadings> all);
 /// What one database leaves out speaks for it. Throws InputError naming a reading that counts in one and not
 /// in another.
 void require_same_readings(std::span<const DatabaseReadings> all);
+
+/// What one of them says, if its assumptions hold.
+struct AskedDatabase {
+  std::string file, bridge, digest;
+  Verdict verdict = Verdict::unexplained;
+  std::string first{};        ///< its first candidate; empty: no scene is possible
+  double intact = 0.0;        ///< probability that no block is missing
+  double log_evidence = 0.0;  ///< Posterior::log_evidence
+  double probability = 0.0;   ///< that its assumptions hold: see weigh
+};
+
+/// A database that is less likely than this does not contest what another one says.
+inline constexpr double kCounting = 0.05;
+
+/// Fills in the probabilities, if all assumptions are as likely beforehand and one of them holds; the
+/// likeliest comes first. Precondition: the same readings with the same errors were asked about.
+void weigh(std::vector<AskedDatabase>& databases);
+
+/// Does a database that counts say anything else than the first: another verdict, or another scene where both
+/// name one?
+bool is_contested(std::span<const AskedDatabase> databases);
 
 }  // namespace voussoir

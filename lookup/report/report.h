@@ -6,7 +6,7 @@
 
 #include "lookup/answer/answer.h"
 #include "lookup/answer/lookup_settings.h"
-#include "lookup/report/asked_databases.h"
+#include "lookup/weighed_databases.h"
 
 namespace voussoir {
 

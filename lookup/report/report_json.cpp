@@ -212,7 +212,7 @@ std::string json_report(const Answer& answer, const LookupSettings& settings, co
                          {"database", database_json(answer, source)}};
   result["notes"] = source.notes;
   if (!source.databases.empty()) result["databases"] = databases_json(source.databases);
-  if (!answer.candidates.empty()) result["first_candidate"] = standing(answer);
+  if (!answer.candidates.empty()) result["first_candidate"] = first_candidate_in_words(answer);
   add_judgement(answer, comparison, result);
   if (answer.posterior) result["posterior"] = posterior_json(answer, library);
   if (answer.noise)

@@ -27,7 +27,7 @@ std::string verdict_html(const Answer& answer, const Comparison& comparison) {
     html += paragraph(first, "lead");
   if (const std::string other = without_in_words(answer, comparison); !other.empty())
     html += paragraph(other, "lead");
-  for (const std::string& sentence : verdict(answer, library))
+  for (const std::string& sentence : conclusions_in_words(answer, library))
     html += paragraph(sentence, html.empty() ? "lead" : "");
   if (answer.posterior) html += paragraph("Verdict: " + verdict_in_words(answer));
   if (answer.posterior && !answer.posterior->credible.empty())
@@ -194,7 +194,7 @@ std::string assumptions_html(const Answer& answer, const LookupSettings& setting
 std::string picture_report(const Answer& answer, const Comparison& comparison) {
   if (answer.candidates.empty())
     throw Failure("no scene explains the measurements: there is no picture to draw, only a page");
-  return svg_file(draw_bridge(ReportPictures(answer, comparison)));
+  return svg_file(draw_bridge(PicturedAnswer(answer, comparison)));
 }
 
 std::string page_report(const Answer& answer, const LookupSettings& settings, const Comparison& comparison,
@@ -209,7 +209,7 @@ std::string page_report(const Answer& answer, const LookupSettings& settings, co
                                "block that has a reading.",
                                "lead") +
                          assumed);
-  const ReportPictures pictures(answer, comparison);
+  const PicturedAnswer pictures(answer, comparison);
   return html_page(
       title,
       verdict_html(answer, comparison) + figures_html({bridge_figure(pictures)}) +

@@ -21,25 +21,25 @@ constexpr double kReadingsHeight = 1.1;   // [m] above the bridge, for the top's
 constexpr double kLongestReading = 0.75;  // [m] on the bridge's scale
 constexpr double kSensorDisc = 3.0;
 
-double probability_of(const ReportPictures& report, BlockId block) {
+double probability_of(const PicturedAnswer& report, BlockId block) {
   if (!has_probabilities(report.answer)) return kNan;
   return report.answer.posterior->block_probability[static_cast<std::size_t>(value(block))];
 }
 
-std::string block_tip(const ReportPictures& report, BlockId id) {
+std::string block_tip(const PicturedAnswer& report, BlockId id) {
   const double probability = probability_of(report, id);
   return fmt::format(
       "Block ({})\n{}\n{}", report.library.layout[id].label, place_in_words(id, report.library.layout),
       std::isnan(probability) ? "no probability" : "missing with probability " + percent(probability));
 }
 
-BlockLook block_look(const ReportPictures& report, BlockId id) {
+BlockLook block_look(const PicturedAnswer& report, BlockId id) {
   const double probability = probability_of(report, id);
   const bool coloured = probability >= kWorthColour;
   return {coloured ? fmt::format("block m{}", colour_level(probability)) : "stone", block_tip(report, id)};
 }
 
-std::string best_scene_marks(const ReportPictures& report, const BridgeFrame& frame) {
+std::string best_scene_marks(const PicturedAnswer& report, const BridgeFrame& frame) {
   std::string elements;
   for (const BlockId id : report.answer.candidates.front().scene.removed) {
     const Block& block = report.library.layout[id];
@@ -49,14 +49,14 @@ std::string best_scene_marks(const ReportPictures& report, const BridgeFrame& fr
 }
 
 /// Whether the picture shows the reading as a line: heights, under the first load if there are several.
-bool hangs(const ReportPictures& report, std::size_t point) {
+bool hangs(const PicturedAnswer& report, std::size_t point) {
   return quantity_of(report.comparison, point) == Quantity::uy &&
          (report.comparison.load.empty() || report.comparison.load[point] == report.comparison.load.front());
 }
 
 /// A sensor with its reading as a line that hangs from it: from the intrados into the opening, and on top
 /// from a line above the bridge.
-std::string reading_element(const ReportPictures& report, const BridgeFrame& frame, std::size_t point,
+std::string reading_element(const PicturedAnswer& report, const BridgeFrame& frame, std::size_t point,
                             double units_a_metre) {
   const double lift = site_of(report, point) == Site::top ? kReadingsHeight - 0.2 : 0.0;
   const Point at = frame(report.library.points[point].position + Point(0.0, lift));
@@ -74,14 +74,14 @@ std::string reading_element(const ReportPictures& report, const BridgeFrame& fra
 }
 
 /// [m] on the bridge's scale that the top's longest upward line needs above the others' start.
-double room_above(const ReportPictures& report, double longest) {
+double room_above(const PicturedAnswer& report, double longest) {
   double upward = 0.0;
   for (std::size_t point = 0; point < report.shown.reading.size(); ++point)
     if (hangs(report, point)) upward = std::max(upward, report.shown.reading[point]);
   return longest > 0.0 ? kLongestReading * upward / longest : 0.0;
 }
 
-double largest_reading(const ReportPictures& report) {
+double largest_reading(const PicturedAnswer& report) {
   double largest = 0.0;
   for (std::size_t point = 0; point < report.shown.reading.size(); ++point)
     if (hangs(report, point) && !std::isnan(report.shown.reading[point]))
@@ -89,7 +89,7 @@ double largest_reading(const ReportPictures& report) {
   return largest;
 }
 
-Table block_table(const ReportPictures& report) {
+Table block_table(const PicturedAnswer& report) {
   Table table{{"block", "probability", "where"}, {}};
   if (!has_probabilities(report.answer)) {
     for (const BlockId id : report.answer.candidates.front().scene.removed)
@@ -105,7 +105,7 @@ Table block_table(const ReportPictures& report) {
 
 }  // namespace
 
-Drawing draw_bridge(const ReportPictures& report) {
+Drawing draw_bridge(const PicturedAnswer& report) {
   const double longest = largest_reading(report);
   const BridgeFrame frame =
       frame_of(report.library.layout, kPictureWidth, kReadingsHeight + room_above(report, longest), 0.15);
@@ -128,7 +128,7 @@ Drawing draw_bridge(const ReportPictures& report) {
   return drawing;
 }
 
-Figure bridge_figure(const ReportPictures& report) {
+Figure bridge_figure(const PicturedAnswer& report) {
   const double longest = kMillimetres * largest_reading(report);
   return {
       "bridge",

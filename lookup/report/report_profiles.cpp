@@ -16,11 +16,11 @@ namespace {
 constexpr const char* kAcross = "sensor, from left to right";
 
 /// Half the width of the noise band [m]: the bound of uniform noise, two standard deviations of the others.
-double band_of(const ReportPictures& report, const SensorResidual& residual) {
+double band_of(const PicturedAnswer& report, const SensorResidual& residual) {
   return (report.answer.noise->shape == NoiseShape::uniform ? 1.0 : 2.0) * residual.scale;
 }
 
-std::string band_in_words(const ReportPictures& report) {
+std::string band_in_words(const PicturedAnswer& report) {
   if (!report.answer.noise) return "";
   return fmt::format(
       " The line is what the answer lets expect{}, the band the noise, {}{}.{}",
@@ -40,7 +40,7 @@ struct PointSet {
   std::vector<std::size_t> points;
 };
 
-Chart profile_chart(const ReportPictures& report, const PointSet& set) {
+Chart profile_chart(const PicturedAnswer& report, const PointSet& set) {
   const std::vector<std::size_t>& points = set.points;
   Series readings{std::string(reading_word(report)), 1, Mark::points, {}, {}};
   Series fit{"expected", 0, Mark::line, {}, {}};
@@ -74,7 +74,7 @@ Chart profile_chart(const ReportPictures& report, const PointSet& set) {
           {band, stated, fit, readings}};
 }
 
-Table profile_table(const ReportPictures& report, const PointSet& set) {
+Table profile_table(const PicturedAnswer& report, const PointSet& set) {
   const std::string_view unit = unit_of(set.quantity);
   const bool epochs = !report.comparison.before.empty();
   Table table{{"point", "x [m]", fmt::format("{} [{}]", reading_word(report), unit),
@@ -100,7 +100,7 @@ Table profile_table(const ReportPictures& report, const PointSet& set) {
   return table;
 }
 
-Chart residual_chart(const ReportPictures& report, const std::vector<std::size_t>& points,
+Chart residual_chart(const PicturedAnswer& report, const std::vector<std::size_t>& points,
                      const std::string& label) {
   Series agreeing{"agrees", 1, Mark::points, {}, {}};
   Series odd{"disagrees with the rest", 2, Mark::points, {}, {}};
@@ -116,7 +116,7 @@ Chart residual_chart(const ReportPictures& report, const std::vector<std::size_t
   return {label, {kAcross}, {"residual in standard deviations"}, {agreeing, odd}};
 }
 
-Table residual_table(const ReportPictures& report, const PointSet& set) {
+Table residual_table(const PicturedAnswer& report, const PointSet& set) {
   Table table{
       {"point", fmt::format("residual [{}]", unit_of(set.quantity)), "in standard deviations", "verdict"},
       {}};
@@ -130,7 +130,7 @@ Table residual_table(const ReportPictures& report, const PointSet& set) {
   return table;
 }
 
-std::vector<std::string> loads_of(const ReportPictures& report) {
+std::vector<std::string> loads_of(const PicturedAnswer& report) {
   std::vector<std::string> loads;
   for (const std::string& load : report.comparison.load)
     if (std::find(loads.begin(), loads.end(), load) == loads.end()) loads.push_back(load);
@@ -139,7 +139,7 @@ std::vector<std::string> loads_of(const ReportPictures& report) {
 
 /// Appends the set of the points that belong, if there are any.
 template <class Belongs>
-void add_set(const ReportPictures& report, const std::string& title, const std::string& id, Quantity quantity,
+void add_set(const PicturedAnswer& report, const std::string& title, const std::string& id, Quantity quantity,
              const Belongs& belongs, std::vector<PointSet>& sets) {
   std::vector<std::size_t> points;
   for (std::size_t point = 0; point < report.library.points.size(); ++point)
@@ -156,7 +156,7 @@ void add_set(const ReportPictures& report, const std::string& title, const std::
   sets.push_back({title + ", " + names_in_words(names) + under, id, quantity, points});
 }
 
-std::vector<PointSet> point_sets(const ReportPictures& report) {
+std::vector<PointSet> point_sets(const PicturedAnswer& report) {
   std::vector<PointSet> sets;
   int count = 1;
   std::string number;  // of the load, from the second on
@@ -178,7 +178,7 @@ std::vector<PointSet> point_sets(const ReportPictures& report) {
   return sets;
 }
 
-std::string residuals_in_words(const ReportPictures& report) {
+std::string residuals_in_words(const PicturedAnswer& report) {
   return report.answer.known_bridge
              ? "Reading minus first candidate, with an unknown datum, tilt or scale as far as the readings "
                "show it, in units of the noise at that sensor (the bound of uniform noise, else the "
@@ -202,7 +202,7 @@ std::string sign_in_words(Quantity quantity) {
 
 }  // namespace
 
-std::vector<Figure> profile_figures(const ReportPictures& report) {
+std::vector<Figure> profile_figures(const PicturedAnswer& report) {
   std::vector<Figure> figures;
   for (const PointSet& set : point_sets(report))
     figures.push_back({"profile-" + set.id, set.title, sign_in_words(set.quantity) + band_in_words(report),
@@ -210,7 +210,7 @@ std::vector<Figure> profile_figures(const ReportPictures& report) {
   return figures;
 }
 
-std::vector<Figure> residual_figures(const ReportPictures& report) {
+std::vector<Figure> residual_figures(const PicturedAnswer& report) {
   if (report.answer.residuals.empty()) return {};
   std::vector<Figure> figures;
   for (const PointSet& set : point_sets(report)) {

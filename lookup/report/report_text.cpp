@@ -53,7 +53,7 @@ void write_heading(Text& text, const Answer& answer, const Comparison& compariso
 
 void write_verdict(Text& text, const Answer& answer, const Library& library) {
   if (answer.posterior) text.line("Verdict:      {}", verdict_in_words(answer));
-  for (const std::string& sentence : verdict(answer, library)) text.line("{}", sentence);
+  for (const std::string& sentence : conclusions_in_words(answer, library)) text.line("{}", sentence);
 }
 
 void write_table(Text& text, const Answer& answer, const Library& library) {

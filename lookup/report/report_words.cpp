@@ -63,7 +63,7 @@ std::string in_words(const Scene& scene, const Library& library) {
 
 }  // namespace
 
-std::string_view standing(const Answer& answer) {
+std::string_view first_candidate_in_words(const Answer& answer) {
   if (!answer.posterior) return "best match";
   if (missed_row(answer)) return "nearest by misfit";
   switch (verdict_of(answer)) {
@@ -144,18 +144,18 @@ std::string without_in_words(const Answer& answer, const Comparison& comparison)
                      headline(*answer.without->answer, comparison));
 }
 
-std::vector<std::string> verdict(const Answer& answer, const Library& library) {
+std::vector<std::string> conclusions_in_words(const Answer& answer, const Library& library) {
   const Candidate& best = answer.candidates.front();
   const std::optional<std::size_t> missed = missed_row(answer);
   std::vector<std::string> sentences;
-  if (standing(answer) == kOneOfMany)
+  if (first_candidate_in_words(answer) == kOneOfMany)
     sentences.push_back(is_intact_by_belief(answer)
                             ? "No scene is named: what follows is likeliest by belief, not by the readings."
                             : "No scene is named: what follows is only the likeliest of many.");
   if (!missed && answer.fit && !answer.fit->explained)
     sentences.push_back(fmt::format("No scene in this database is an answer to these measurements: {}{}",
                                     answer.fit->reason, answer.fit->reason.ends_with('?') ? "" : "."));
-  std::string opening(standing(answer));
+  std::string opening(first_candidate_in_words(answer));
   opening.front() = static_cast<char>(std::toupper(opening.front()));
   sentences.push_back(fmt::format("{}: {}", opening, in_words(best.scene, library)));
   if (best.posterior)
@@ -195,6 +195,12 @@ std::string verdict_in_words(const Answer& answer) {
   const bool certain = verdict != Verdict::cannot_tell && verdict != Verdict::unexplained;
   return fmt::format("{} ({}{})", to_string(verdict), meaning(),
                      certain ? fmt::format(", at least {:.0f} % sure", 100.0 * kCertain) : "");
+}
+
+std::string in_words(const AskedDatabase& database) {
+  return fmt::format("{:>8}  {} (digest {}): {}{}", percent(database.probability), database.file,
+                     database.digest.substr(0, kDigestShown), to_string(database.verdict),
+                     database.first.empty() ? "" : fmt::format(", first {}", database.first));
 }
 
 std::string bridge_in_words(const Answer& answer) {

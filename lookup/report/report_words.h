@@ -7,11 +7,13 @@
 
 #include "lookup/answer/answer.h"
 #include "lookup/readings/comparison.h"
+#include "lookup/weighed_databases.h"
 
 namespace voussoir {
 
-/// The answer in a sentence or a few, the most important first. Precondition: there is a candidate.
-std::vector<std::string> verdict(const Answer& answer, const Library& library);
+/// What the answer comes to, a sentence or a few, the most important first. Precondition: there is a
+/// candidate.
+std::vector<std::string> conclusions_in_words(const Answer& answer, const Library& library);
 
 /// "located (a block is missing and named, at least 90 % sure)"
 std::string verdict_in_words(const Answer& answer);
@@ -22,7 +24,10 @@ std::string headline(const Answer& answer, const Comparison& comparison);
 /// What the first candidate is: "most likely", or only "likeliest of many" where the verdict names no scene
 /// and "closest" if nothing explains the readings, "nearest by misfit" if the search did not find the
 /// likeliest scene, "best match" without probabilities.
-std::string_view standing(const Answer& answer);
+std::string_view first_candidate_in_words(const Answer& answer);
+
+/// "99.1 %  clamped.h5 (digest 0123456789ab): intact, first intact"
+std::string in_words(const AskedDatabase& database);
 
 /// Of a bridge that Source::stands_by_slip.
 inline constexpr std::string_view kStandsBySlip =

@@ -2,7 +2,7 @@
 
 #include <chrono>
 
-#include "lookup/preparations.h"
+#include "lookup/prepared_questions.h"
 #include "lookup/readings/simulate.h"
 #include "tools/trials/random_truth.h"
 
@@ -91,7 +91,7 @@ Comparison readings_of(const Library& library, const ModelError& error, const Fa
 QuestionTiming time_question(const Library& library, const ModelError& error, const Factors& factors,
                              const Question& question, int queries, std::uint64_t seed) {
   Random random(seed);
-  Preparations preparations;
+  PreparedQuestions preparations;
   std::vector<double> milliseconds, of_processors;
   std::vector<int> numbers = question.missing.empty() ? numbers_of_missing(library.table) : question.missing;
   std::erase_if(numbers, [&](int number) { return eligible_rows(library.table, {number}).rows.empty(); });

@@ -93,7 +93,7 @@ TEST_CASE("The text says the history, the verdict and what moved most, before an
 TEST_CASE("Figures of changes show the change, on an axis that says so, with both epochs in the table") {
   const Comparison comparison = two_epochs();
   const Answer answer = locate_damage(comparison, stated_noise());
-  const std::vector<Figure> figures = profile_figures(ReportPictures(answer, comparison));
+  const std::vector<Figure> figures = profile_figures(PicturedAnswer(answer, comparison));
   REQUIRE(figures.size() == 1);  // this bridge has no arch
   CHECK_THAT(figures[0].pictures, Contains("change of vertical displacement [mm]"));
   const Table& table = figures[0].table;
@@ -121,7 +121,7 @@ TEST_CASE("Sensors of one quantity under one load share a figure") {
   comparison.load.assign(points, "axle");
   comparison.load[2] = "truck@2";
   const Answer answer = locate_damage(comparison, stated_noise());
-  const std::vector<Figure> figures = profile_figures(ReportPictures(answer, comparison));
+  const std::vector<Figure> figures = profile_figures(PicturedAnswer(answer, comparison));
   REQUIRE(figures.size() == 3);
   CHECK(figures[0].id == "profile-top");
   CHECK(figures[1].id == "profile-tilt");
@@ -129,5 +129,5 @@ TEST_CASE("Sensors of one quantity under one load share a figure") {
   CHECK(figures[0].table.rows.size() == points - 3);
   CHECK(figures[1].table.rows.size() == 2);
   CHECK_THAT(figures[1].pictures, Contains("added by the load: tilt [mm per m]"));
-  CHECK(residual_figures(ReportPictures(answer, comparison))[1].table.columns[1] == "residual [mm per m]");
+  CHECK(residual_figures(PicturedAnswer(answer, comparison))[1].table.columns[1] == "residual [mm per m]");
 }

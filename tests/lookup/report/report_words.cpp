@@ -59,6 +59,15 @@ TEST_CASE("What is said to be intact is said with the losses that would hardly s
         "No block is missing (99.5 %), but the loss of 2 blocks is not excluded.");
 }
 
+TEST_CASE("A database that was asked is told with its share, its digest and its verdict (written out)") {
+  CHECK(in_words(AskedDatabase{.file = "a.h5",
+                               .bridge = "bridge",
+                               .digest = "0123456789abcdef",
+                               .verdict = Verdict::located,
+                               .first = "4,2"}) ==
+        "     0 %  a.h5 (digest 0123456789ab): located, first 4,2");
+}
+
 TEST_CASE(
     "Factors are told as per cent, other parameters with as many digits as they are known (written out)") {
   const double softer = std::log(0.5), twice = std::log(2.0);

@@ -1,4 +1,4 @@
-#include "lookup/report/report_points.h"
+#include "lookup/report/pictured_answer.h"
 
 #include <fmt/format.h>
 
@@ -11,7 +11,7 @@
 namespace voussoir {
 namespace {
 
-std::string epochs_in_words(const ReportPictures& report, std::size_t point) {
+std::string epochs_in_words(const PicturedAnswer& report, std::size_t point) {
   if (report.comparison.before.empty()) return "";
   return fmt::format("before {:.4g}, after {:.4g}\n", kMillimetres * report.comparison.before[point],
                      kMillimetres * report.comparison.after[point]);
@@ -19,14 +19,14 @@ std::string epochs_in_words(const ReportPictures& report, std::size_t point) {
 
 }  // namespace
 
-ReportPictures::ReportPictures(const Answer& of, const Comparison& with)
+PicturedAnswer::PicturedAnswer(const Answer& of, const Comparison& with)
     : answer(of),
       comparison(with),
       library(with.library),
       shown(shown_readings(with, of.candidates.front().row)),
       expected(expected_readings(of, with)) {}
 
-Site site_of(const ReportPictures& report, std::size_t point) {
+Site site_of(const PicturedAnswer& report, std::size_t point) {
   const auto& points = report.library.points;
   if (report.library.layout[points[point].block].role == BlockRole::ring) return Site::arch;
   if (report.library.storage == nullptr)
@@ -38,23 +38,23 @@ Site site_of(const ReportPictures& report, std::size_t point) {
   return points[point].position.y() >= highest - kPointTolerance ? Site::top : Site::elsewhere;
 }
 
-const SensorResidual* residual_of(const ReportPictures& report, std::size_t point) {
+const SensorResidual* residual_of(const PicturedAnswer& report, std::size_t point) {
   const auto& residuals = report.answer.residuals;
   const auto found = std::find_if(residuals.begin(), residuals.end(),
                                   [&](const SensorResidual& residual) { return residual.point == point; });
   return found == residuals.end() ? nullptr : &*found;
 }
 
-bool disagrees(const ReportPictures& report, std::size_t point) {
+bool disagrees(const PicturedAnswer& report, std::size_t point) {
   const SensorResidual* const residual = residual_of(report, point);
   return residual != nullptr && residual->disagrees;
 }
 
-std::string_view reading_word(const ReportPictures& report) {
+std::string_view reading_word(const PicturedAnswer& report) {
   return is_change(report.comparison.kind) ? "change" : "reading";
 }
 
-std::string point_tip(const ReportPictures& report, std::size_t point) {
+std::string point_tip(const PicturedAnswer& report, std::size_t point) {
   const std::string& name = report.library.points[point].name;
   const double reading = report.shown.reading[point];
   const double expected = report.expected[point];

@@ -10,7 +10,7 @@
 namespace voussoir {
 
 /// All questions have the same settings but for the noise, and come from any number of threads.
-class Preparations {
+class PreparedQuestions {
  public:
   /// locate_damage; what is prepared is shared by all questions to a table of the database itself.
   Answer ask(const Comparison& comparison, const LookupSettings& settings);

@@ -1,5 +1,5 @@
 #pragma once
-/// @file What the pictures of the report page show at a sensor.
+/// @file An answer as the report page's pictures show it, sensor by sensor.
 
 #include <string>
 #include <string_view>
@@ -9,9 +9,9 @@
 
 namespace voussoir {
 
-/// What the pictures show. Precondition: the answer has a candidate.
-struct ReportPictures {
-  ReportPictures(const Answer& of, const Comparison& with);
+/// Precondition: the answer has a candidate.
+struct PicturedAnswer {
+  PicturedAnswer(const Answer& of, const Comparison& with);
 
   const Answer& answer;
   const Comparison& comparison;
@@ -23,18 +23,18 @@ struct ReportPictures {
 /// Where a sensor is: on a block of the arch, as high as the highest other sensor, or elsewhere. Control
 /// points that are not on the arch are on top.
 enum class Site { arch, top, elsewhere };
-Site site_of(const ReportPictures& report, std::size_t point);
+Site site_of(const PicturedAnswer& report, std::size_t point);
 
 /// Of the first candidate; nothing where there is no reading, and without a noise model.
-const SensorResidual* residual_of(const ReportPictures& report, std::size_t point);
+const SensorResidual* residual_of(const PicturedAnswer& report, std::size_t point);
 
 /// Whether the reading is far outside what the others show.
-bool disagrees(const ReportPictures& report, std::size_t point);
+bool disagrees(const PicturedAnswer& report, std::size_t point);
 
 /// "change" of readings that are changes, else "reading".
-std::string_view reading_word(const ReportPictures& report);
+std::string_view reading_word(const PicturedAnswer& report);
 
 /// Name, reading and what the first candidate lets expect, for pointing at it.
-std::string point_tip(const ReportPictures& report, std::size_t point);
+std::string point_tip(const PicturedAnswer& report, std::size_t point);
 
 }  // namespace voussoir
