@@ -82,15 +82,14 @@ std::string in_words(const std::vector<GrossError>& gross, bool named, const Lib
 
 }  // namespace
 
-std::optional<Fit> check_gross_errors(const QuestionContext& asked, const Answer& answer,
-                                      const Alarm& alarm) {
+std::optional<Fit> check_gross_errors(const QuestionContext& asked, const Alarm& alarm) {
   for (const std::size_t row : rows_otherwise(asked, alarm.rows, alarm.named))
     for (const std::vector<GrossError>& gross : suspects_of(asked, row)) {
       const double chance = gross.size() > 1 ? kOfOneBlock * kGrossChance : kGrossChance;
-      if (explained_by(asked, answer, alarm,
+      if (explained_by(asked, alarm,
                        {{.gross = gross}, chance, without(asked.observation, channels_of(gross))}))
         return Fit{false,
-                   answer.fit->chance,
+                   asked.believed.chance,
                    in_words(gross, !alarm.named.empty(), asked.comparison.library),
                    {channels_of(gross)}};
     }

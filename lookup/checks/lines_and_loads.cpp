@@ -73,29 +73,28 @@ std::string in_words(const LineError& line, const QuestionContext& asked) {
 }
 
 /// If something acted that nobody stated, would others be likely?
-std::optional<Fit> check_cause(const QuestionContext& asked, const Answer& answer, const Alarm& alarm,
-                               const UnstatedCause& cause, double chance, const std::string& in_words) {
+std::optional<Fit> check_cause(const QuestionContext& asked, const Alarm& alarm, const UnstatedCause& cause,
+                               double chance, const std::string& in_words) {
   const auto scene = explained_by(
-      asked, answer, alarm,
+      asked, alarm,
       {{.beside = cause.covariance}, chance, without(asked.question.bridge(), asked.observation, cause)});
   if (!scene) return std::nullopt;
   const std::string named =
       alarm.named.empty() ? "some block" : to_string(Scene{alarm.named}, asked.comparison.library.layout);
-  return Fit{false, answer.fit->chance,
+  return Fit{false, asked.believed.chance,
              fmt::format("{} may be behind them: with it {} would be likely, without it {} is missing",
                          in_words, scene_in_words(asked, *scene), named)};
 }
 
 }  // namespace
 
-std::optional<Fit> check_lines_and_loads(const QuestionContext& asked, const Answer& answer,
-                                         const Alarm& alarm) {
+std::optional<Fit> check_lines_and_loads(const QuestionContext& asked, const Alarm& alarm) {
   for (const LineError& line : lines_of(asked))
-    if (const auto fit = check_cause(asked, answer, alarm, line.cause, line.chance, in_words(line, asked)))
+    if (const auto fit = check_cause(asked, alarm, line.cause, line.chance, in_words(line, asked)))
       return fit;
   for (const UnstatedLoad& load : loads_of(asked, kMostLoads))
     if (const auto fit =
-            check_cause(asked, answer, alarm, load.cause, kLoadChance, in_words(load, asked.comparison.kind)))
+            check_cause(asked, alarm, load.cause, kLoadChance, in_words(load, asked.comparison.kind)))
       return fit;
   return std::nullopt;
 }

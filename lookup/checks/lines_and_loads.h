@@ -7,8 +7,7 @@
 namespace voussoir {
 
 /// A fit that explains nothing, with what may have acted, if with it others would be likely, too.
-std::optional<Fit> check_lines_and_loads(const QuestionContext& asked, const Answer& answer,
-                                         const Alarm& alarm);
+std::optional<Fit> check_lines_and_loads(const QuestionContext& asked, const Alarm& alarm);
 
 /// In words, an error that a line of levelling shares, or a load, with which an intact bridge would show such
 /// readings, if there may be one.

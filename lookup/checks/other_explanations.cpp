@@ -23,13 +23,12 @@ constexpr double kKeptChance = 1e-2;
 /// Do larger errors than those that are stated explain the readings far better, with no block missing or by
 /// scenes that are near them? A scene that scatters much, if errors of 0.02 mm are said to be 0.002, seems
 /// to.
-std::optional<Fit> check_stated_errors(const QuestionContext& asked, const Answer& answer,
-                                       const Alarm& alarm) {
+std::optional<Fit> check_stated_errors(const QuestionContext& asked, const Alarm& alarm) {
   for (const double times : kTimesErrors) {
     const double log = log_sum_of(asked.question.log_parts_of(alarm.rows, asked.preparation.eligible(),
-                                                              answer.prior, {.errors = times}));
-    if (log > answer.posterior->log_evidence - std::log(kSmallestChance))
-      return Fit{false, answer.fit->chance,
+                                                              asked.preparation.prior(), {.errors = times}));
+    if (log > asked.posterior.log_evidence - std::log(kSmallestChance))
+      return Fit{false, asked.believed.chance,
                  fmt::format("errors {:g} times as large as stated explain them far better", times)};
   }
   return std::nullopt;
@@ -37,29 +36,29 @@ std::optional<Fit> check_stated_errors(const QuestionContext& asked, const Answe
 
 /// What falls may come to lie anywhere, so little of its probability is near any readings. Would falls be
 /// likely, too, if they showed just what the database has of them, and the best of them is not?
-std::optional<Fit> check_falls(const QuestionContext& asked, const Answer& answer) {
+std::optional<Fit> check_falls(const QuestionContext& asked) {
   const UnknownBridge& bridge = asked.question.bridge();
   const SceneTable& table = asked.comparison.library.table;
   std::vector<std::size_t> rows = rows_near(asked, asked.observation, kMostFalls);
   std::erase_if(rows, [&](std::size_t row) { return known_losses(bridge, table, row).all; });
   if (rows.empty()) return std::nullopt;
-  const std::vector<double> logs =
-      asked.question.log_parts_of(rows, asked.preparation.eligible(), answer.prior, {.shown_exactly = true});
+  const std::vector<double> logs = asked.question.log_parts_of(
+      rows, asked.preparation.eligible(), asked.preparation.prior(), {.shown_exactly = true});
   const std::size_t best = rows[static_cast<std::size_t>(std::ranges::max_element(logs) - logs.begin())];
-  const auto& likely = answer.posterior->credible;
-  if (!is_likely_beside(answer, log_sum_of(logs)) || std::ranges::find(likely, best) != likely.end())
+  const auto& likely = asked.posterior.credible;
+  if (!is_likely_beside(asked, log_sum_of(logs)) || std::ranges::find(likely, best) != likely.end())
     return std::nullopt;
-  return Fit{false, answer.fit->chance,
+  return Fit{false, asked.believed.chance,
              fmt::format("what falls without {} would show them, too",
                          to_string(table.scene(best), asked.comparison.library.layout))};
 }
 
 /// What a hidden loss competes with, and the scenes with it: alone and beside what the answer calls missing.
-std::vector<std::size_t> rows_with_hidden(const QuestionContext& asked, const Answer& answer,
-                                          const Observation& others, BlockId block) {
+std::vector<std::size_t> rows_with_hidden(const QuestionContext& asked, const Observation& others,
+                                          BlockId block) {
   const SceneTable& table = asked.comparison.library.table;
   const Eligible& eligible = asked.preparation.eligible();
-  const std::vector<std::size_t>& likely = answer.posterior->credible;
+  const std::vector<std::size_t>& likely = asked.posterior.credible;
   std::vector<std::size_t> rows = rows_near(asked, others, kMostNear);
   rows.insert(rows.end(), likely.begin(),
               likely.begin() + static_cast<std::ptrdiff_t>(std::min(likely.size(), kMostLikely)));
@@ -78,14 +77,14 @@ std::vector<std::size_t> rows_with_hidden(const QuestionContext& asked, const An
 
 /// A block that is read is not missing, unless what is read is on it no longer. Would its loss, alone or with
 /// others, explain all other readings better than what the answer calls likely?
-bool would_be_lost(const QuestionContext& asked, const Answer& answer, const HiddenLoss& hidden) {
+bool would_be_lost(const QuestionContext& asked, const HiddenLoss& hidden) {
   const SceneTable& table = asked.comparison.library.table;
   const BlockId block = table.scene(hidden.row).removed.front();
   const Observation others = without(asked.observation, hidden.channels);
-  const std::vector<std::size_t> rows = rows_with_hidden(asked, answer, others, block);
+  const std::vector<std::size_t> rows = rows_with_hidden(asked, others, block);
   const UnknownBridgeQuestion question(asked.comparison, others, asked.settings);
   const std::vector<double> logs =
-      question.log_parts_of(rows, asked.preparation.eligible(), answer.prior, {});
+      question.log_parts_of(rows, asked.preparation.eligible(), asked.preparation.prior(), {});
   double lost = kImpossible, there = kImpossible;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     double& sum = table.scene(rows[i]).lacks(block) ? lost : there;
@@ -94,18 +93,18 @@ bool would_be_lost(const QuestionContext& asked, const Answer& answer, const Hid
   return is_likely_beside(there, std::log(kKeptChance) + lost);
 }
 
-std::optional<Fit> check_hidden_losses(const QuestionContext& asked, const Answer& answer) {
+std::optional<Fit> check_hidden_losses(const QuestionContext& asked) {
   const Library& library = asked.comparison.library;
   const std::vector<double> prior =
-      log_prior_by_missing(library.table, asked.preparation.eligible(), answer.prior);
+      log_prior_by_missing(library.table, asked.preparation.eligible(), asked.preparation.prior());
   std::vector<HiddenLoss> hidden =
       hidden_losses(asked.question.bridge(), asked.observation, asked.comparison.library,
                     asked.preparation.eligible(), asked.gaussians);
   hidden.resize(std::min(hidden.size(), kMostHidden));
   for (const HiddenLoss& one : hidden) {
     if (!is_likely_beside(prior[0], one.gain + prior[1] + std::log(kKeptChance))) break;
-    if (!would_be_lost(asked, answer, one)) continue;
-    return Fit{false, answer.fit->chance,
+    if (!would_be_lost(asked, one)) continue;
+    return Fit{false, asked.believed.chance,
                fmt::format("only what is read at {} says that {} is still there; if that is on it no longer, "
                            "the loss of it or of a block beside it is likely",
                            places_in_words(library, one.channels),
@@ -116,18 +115,17 @@ std::optional<Fit> check_hidden_losses(const QuestionContext& asked, const Answe
 
 }  // namespace
 
-std::optional<Fit> find_other(const QuestionContext& asked, const Answer& answer) {
-  const bool is_alarm = 1.0 - intact_probability(*answer.posterior) >= kCertain;
-  const Alarm alarm = is_alarm ? alarm_of(asked, answer) : Alarm{};
+std::optional<Fit> find_other(const QuestionContext& asked) {
+  const bool is_alarm = 1.0 - intact_probability(asked.posterior) >= kCertain;
+  const Alarm alarm = is_alarm ? alarm_of(asked) : Alarm{};
   if (is_alarm)
-    if (const auto gross = check_gross_errors(asked, answer, alarm)) return gross;
-  if (const auto hidden = check_hidden_losses(asked, answer)) return hidden;
+    if (const auto gross = check_gross_errors(asked, alarm)) return gross;
+  if (const auto hidden = check_hidden_losses(asked)) return hidden;
   if (is_alarm)
-    if (const auto cause = check_lines_and_loads(asked, answer, alarm)) return cause;
-  if (const auto sizes = check_sizes(answer.bridge->posterior)) return sizes;
-  if (const auto falls = check_falls(asked, answer)) return falls;
-  return is_alarm && !asked.observation.unknown_level ? check_stated_errors(asked, answer, alarm)
-                                                      : std::nullopt;
+    if (const auto cause = check_lines_and_loads(asked, alarm)) return cause;
+  if (const auto sizes = check_sizes(asked.believed)) return sizes;
+  if (const auto falls = check_falls(asked)) return falls;
+  return is_alarm && !asked.observation.unknown_level ? check_stated_errors(asked, alarm) : std::nullopt;
 }
 
 }  // namespace voussoir

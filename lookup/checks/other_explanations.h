@@ -12,8 +12,7 @@ namespace voussoir {
 /// error that a line of levelling shares or a load that stood on the bridge, not stated, with which others
 /// would be likely; sizes that cannot be (check_sizes); falls that show just what the database has of them,
 /// which would be likely, too; and, where blocks are said to be missing, errors that are larger than stated,
-/// which would be far likelier. Preconditions: some scene is likely, and the answer has what the readings say
-/// of the bridge.
-std::optional<Fit> find_other(const QuestionContext& asked, const Answer& answer);
+/// which would be far likelier. Precondition: some scene is likely.
+std::optional<Fit> find_other(const QuestionContext& asked);
 
 }  // namespace voussoir

@@ -23,8 +23,8 @@ double log_sum_of(const std::vector<double>& logs) {
 bool is_likely_beside(double log_other, double log) {
   return log > log_other + std::log((1.0 - kCertain) / kCertain);
 }
-bool is_likely_beside(const Answer& answer, double log) {
-  return is_likely_beside(answer.posterior->log_evidence, log);
+bool is_likely_beside(const QuestionContext& asked, double log) {
+  return is_likely_beside(asked.posterior.log_evidence, log);
 }
 
 std::vector<std::size_t> distinct(std::vector<std::size_t> rows) {
@@ -60,23 +60,23 @@ std::vector<std::size_t> rows_otherwise(const QuestionContext& asked, std::vecto
   return rows;
 }
 
-Alarm alarm_of(const QuestionContext& asked, const Answer& answer) {
+Alarm alarm_of(const QuestionContext& asked) {
   std::vector<std::size_t> rows = rows_near(asked, asked.observation, kMostNear);
-  rows.push_back(answer.posterior->credible.front());
+  rows.push_back(asked.posterior.credible.front());
   const Eligible& eligible = asked.preparation.eligible();
   if (eligible.missing.front() == 0) rows.push_back(eligible.rows.front());
-  return {likely_blocks(*answer.posterior, kCertain), distinct(std::move(rows))};
+  return {likely_blocks(asked.posterior, kCertain), distinct(std::move(rows))};
 }
 
-std::optional<Scene> explained_by(const QuestionContext& asked, const Answer& answer, const Alarm& alarm,
+std::optional<Scene> explained_by(const QuestionContext& asked, const Alarm& alarm,
                                   const Alternative& alternative) {
   std::vector<std::size_t> rows = rows_near(asked, alternative.others, kMostNear);
   rows.insert(rows.end(), alarm.rows.begin(), alarm.rows.end());
   rows = rows_otherwise(asked, std::move(rows), alarm.named);
   if (rows.empty()) return std::nullopt;
-  const std::vector<double> logs =
-      asked.question.log_parts_of(rows, asked.preparation.eligible(), answer.prior, alternative.supposed);
-  if (!is_likely_beside(answer, std::log(alternative.chance) + log_sum_of(logs))) return std::nullopt;
+  const std::vector<double> logs = asked.question.log_parts_of(
+      rows, asked.preparation.eligible(), asked.preparation.prior(), alternative.supposed);
+  if (!is_likely_beside(asked, std::log(alternative.chance) + log_sum_of(logs))) return std::nullopt;
   return asked.comparison.library.table.scene(
       rows[static_cast<std::size_t>(std::ranges::max_element(logs) - logs.begin())]);
 }

@@ -1,26 +1,24 @@
 #pragma once
-/// @file A question about a bridge that is not exactly known, and what its answer competes with.
+/// @file A question about a bridge that is not exactly known, what it was answered with, and what that
+/// competes with.
 
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "lookup/answer/answer.h"
-#include "lookup/answer/preparation.h"
+#include "lookup/answer/fit.h"
+#include "lookup/checks/asked_readings.h"
 #include "lookup/unknown/unknown_question.h"
 
 namespace voussoir {
 
-/// The question, and what it is asked of.
-struct QuestionContext {
+/// The question, and what it was answered with.
+struct QuestionContext : AskedReadings {
   const UnknownBridgeQuestion& question;
-  UnknownCase likeliest;                  ///< UnknownEvidence::likeliest
-  std::vector<IntactGaussian> gaussians;  ///< at its level
   const UnknownSettings& settings;
-  const Comparison& comparison;
-  const Observation& observation;
-  const Preparation& preparation;
+  std::vector<IntactGaussian> gaussians;  ///< at the level of UnknownEvidence::likeliest
+  const BridgePosterior& believed;        ///< of the likeliest scenes
 };
 
 /// "T1, T2"
@@ -32,7 +30,7 @@ double log_sum_of(const std::vector<double>& logs);
 /// More than a tenth beside something else: logarithms.
 bool is_likely_beside(double log_other, double log);
 /// The same beside what the answer is about.
-bool is_likely_beside(const Answer& answer, double log);
+bool is_likely_beside(const QuestionContext& asked, double log);
 
 /// Each once, in ascending order.
 std::vector<std::size_t> distinct(std::vector<std::size_t> rows);
@@ -58,7 +56,7 @@ struct Alarm {
   std::vector<BlockId> named;
   std::vector<std::size_t> rows;
 };
-Alarm alarm_of(const QuestionContext& asked, const Answer& answer);
+Alarm alarm_of(const QuestionContext& asked);
 
 /// Something that nobody stated.
 struct Alternative {
@@ -69,7 +67,7 @@ struct Alternative {
 
 /// A scene that lacks not all of the named blocks and would be likely, too, if this were so: the likeliest of
 /// the alarm's and those near the other readings. Null unless all of them together would be likely.
-std::optional<Scene> explained_by(const QuestionContext& asked, const Answer& answer, const Alarm& alarm,
+std::optional<Scene> explained_by(const QuestionContext& asked, const Alarm& alarm,
                                   const Alternative& alternative);
 
 /// "an intact bridge", or the blocks that are missing.

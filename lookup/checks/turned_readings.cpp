@@ -23,23 +23,23 @@ Observation turned_round(Observation observation) {
 
 }  // namespace
 
-std::optional<Fit> check_signs(const Comparison& comparison, const Observation& observation,
-                               const Preparation& preparation, const Answer& answer) {
-  if (!is_change(comparison.kind) || answer.fit->chance >= kWellShown) return std::nullopt;
-  const SceneTable& table = comparison.library.table;
-  const Observation readings = turned_round(observation);
-  const Posterior turned = posterior(table, preparation.eligible(), preparation.screen()(readings),
-                                     answer.prior, comparison.library.layout.size());
-  if (turned.credible.empty() ||
-      turned.log_evidence + std::log(kTurnedChance) < answer.posterior->log_evidence)
+std::optional<Fit> check_signs(const AskedReadings& asked, double chance) {
+  if (!is_change(asked.comparison.kind) || chance >= kWellShown) return std::nullopt;
+  const Library& library = asked.comparison.library;
+  const SceneTable& table = library.table;
+  const Observation readings = turned_round(asked.observation);
+  const Posterior turned =
+      posterior(table, asked.preparation.eligible(), asked.preparation.screen()(readings),
+                asked.preparation.prior(), library.layout.size());
+  if (turned.credible.empty() || turned.log_evidence + std::log(kTurnedChance) < asked.posterior.log_evidence)
     return std::nullopt;
   const std::span<const double> likeliest = table.row(turned.credible.front());
   if (!check_fit(readings, estimate_noise(readings, likeliest), likeliest).explained) return std::nullopt;
   return Fit{
-      false, answer.fit->chance,
+      false, chance,
       fmt::format("with the opposite sign they would be far likelier ({}): are the two times taken for "
                   "each other?",
-                  to_string(table.scene(turned.credible.front()), comparison.library.layout))};
+                  to_string(table.scene(turned.credible.front()), library.layout))};
 }
 
 }  // namespace voussoir
