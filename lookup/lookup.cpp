@@ -15,7 +15,9 @@
 namespace voussoir {
 namespace {
 
-constexpr std::size_t kMostComparisons = 500;  // credible rows looked at for scenes that cannot be told apart
+// Credible rows looked at for scenes that cannot be told apart, which takes time for each candidate. Chosen,
+// not tuned.
+constexpr std::size_t kMostComparisons = 500;
 
 /// What it is an answer to.
 Answer answer_without_candidates(const Comparison& comparison, const Observation& observation,

@@ -26,12 +26,14 @@
 namespace voussoir {
 namespace {
 
+// Chosen, not tuned.
 constexpr double kSuspiciousLevel = 0.3;  // an estimated noise above this share means that nothing fits
 constexpr double kPerfectLevel = 1e-4;    // below it residuals are rounding, and their pattern means nothing
-constexpr std::size_t kFewestForPattern = 10;
-constexpr double kDisagreement = 8.0;  // times the median error: rare even among Laplace's wide tails
-constexpr std::size_t kFewestForDisagreement = 5;
-constexpr double kLeastTimes = 0.2, kMostTimes = 5.0;  // of what the model says, to be believed
+constexpr std::size_t kFewestForPattern = 10;  // errors, for the normal limit of von Neumann's ratio
+constexpr double kDisagreement = 8.0;          // times the median error: rare even among Laplace's wide tails
+constexpr std::size_t kFewestForDisagreement = 5;  // errors, of which the median says how large they are
+// Of what the model says, to be believed: docs/uncertainty.md ("The model turned round") says what it finds.
+constexpr double kLeastTimes = 0.2, kMostTimes = 5.0;
 
 /// The errors of the sensors that can move.
 std::vector<double> errors_of(const std::vector<SensorResidual>& residuals) {

@@ -9,7 +9,7 @@
 
 namespace voussoir {
 
-/// So many of the best rows are compared with each candidate, however few are listed.
+/// So many of the best rows are compared with each candidate, however few are listed. Chosen, not tuned.
 inline constexpr std::size_t kBestCompared = 10;
 
 /// How many rows a search has to find.

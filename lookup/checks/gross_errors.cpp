@@ -15,7 +15,9 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 // Beforehand that a reading is off by a size that is given to a factor of e. One in a thousand grossly wrong,
-// by anything from its own error to ten thousand times that, comes to about as much.
+// by anything from its own error to ten thousand times that, comes to about as much. Chosen, as the two
+// below, not tuned; what they find, leave and cost is measured in docs/uncertainty.md ("Readings that cannot
+// be").
 constexpr double kGrossChance = 2e-4;
 constexpr double kOfOneBlock = 0.1;       // share of these that are of all that is read on a block
 constexpr std::size_t kMostSuspects = 2;  // readings, of each scene that is looked at for them

@@ -13,6 +13,7 @@
 namespace voussoir {
 namespace {
 
+// Chosen, not tuned.
 constexpr std::size_t kMostChecked = 20;  // scenes whose fit is checked
 constexpr std::size_t kMostMixed = 3;     // scenes that say together what the bridge is like
 

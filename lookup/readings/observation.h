@@ -25,9 +25,9 @@ struct Observation {
   double error_share = 0.0;          ///< ModelError of the signals
   double error_common = 0.0;
   double unknown_scale = 0.0;  ///< standard deviation of the common factor of all movements
-  Eigen::MatrixXd levelling;   ///< levelling_columns, of
-  bool datum_stated = false;   ///< a datum of each levelling,
-  bool tilt_stated = false;    ///< and a tilt
+  Eigen::MatrixXd levelling;   ///< levelling_columns: of the datum and the tilt of every levelling
+  bool datum_stated = false;   ///< every levelling has a datum that is unknown to a stated deviation
+  bool tilt_stated = false;    ///< every levelling has a tilt that is
   std::vector<bool> silent;    ///< there is a sensor, but it gave no reading
   NoiseModel noise;            ///< noise_of the readings
   std::size_t count = 0;       ///< of `reading`

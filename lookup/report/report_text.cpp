@@ -21,7 +21,8 @@ constexpr std::size_t kMostBlocksListed = 5;
 constexpr std::size_t kMostMovementsListed = 5;
 constexpr double kBlockWorthListing = 0.01;
 constexpr std::size_t kMostJointsListed = 3;
-constexpr double kWorthSaying = 0.5;  // KnownParameter::news
+constexpr double kWorthSaying = 0.5;         // KnownParameter::news
+constexpr double kShownAsNegative = -0.005;  // a share below it rounds to a whole per cent below zero
 
 /// Collects lines.
 class Text {
@@ -136,7 +137,8 @@ void write_bridge(Text& text, const Answer& answer, const Comparison& comparison
   if (!answer.bridge || !has_probabilities(answer)) return;
   const ReadingFactors& factors = *comparison.factors;
   const std::vector<Cause> causes = causes_of(*answer.bridge, factors);
-  const bool some_against = std::ranges::any_of(causes, [](const Cause& one) { return one.share < -0.005; });
+  const bool some_against =
+      std::ranges::any_of(causes, [](const Cause& one) { return one.share < kShownAsNegative; });
   text.line("Explained by: {}{}", causes_in_words(causes),
             some_against ? " (below zero: works against the rest)" : "");
   for (const KnownParameter& parameter : known_of_epochs(*answer.bridge, factors))
