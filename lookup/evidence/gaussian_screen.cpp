@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/fetch.h"
 #include "core/parts.h"
 #include "lookup/evidence/box_variances.h"
 #include "lookup/evidence/evidence.h"
@@ -65,10 +66,11 @@ VOUSSOIR_INLINE DoubleLanes row_squares(const PlaceArrays& arrays, const double*
   return weighted_squares(reading, reading - load_some<DoubleLanes>(row + i, some, 0.0), weight + i);
 }
 
-/// Fetches `count` numbers ahead: rows come from memory in an order of their own.
-VOUSSOIR_INLINE void fetch(const double* numbers, std::size_t count) {
+/// Fetches the next places of a row: rows come from memory in an order of their own, and begin anywhere in a
+/// line of the cache.
+VOUSSOIR_INLINE void fetch_places(const double* places) {
   constexpr std::size_t kLine = 64 / sizeof(double);
-  for (std::size_t i = 0; i < count + kLine; i += kLine) __builtin_prefetch(numbers + i);
+  fetch(std::span(places, kPlacesAtOnce + kLine));
 }
 
 /// Writes down the rows of a cluster that may matter, none of whose densities' logarithms is above `highest`,
@@ -78,7 +80,7 @@ VOUSSOIR_INLINE std::size_t open_rows(const Question& q, std::size_t cluster, do
   for (const std::int32_t slot : q.index.row.subspan(q.index.slot(cluster), q.index.rows(cluster))) {
     const auto row = static_cast<std::size_t>(slot);
     open[count] = {row, 0.0, 2.0 * (highest + q.priors.row[row] - q.least)};
-    fetch(q.table.row(row).data(), kPlacesAtOnce);
+    fetch_places(q.table.row(row).data());
     count += open[count].most >= 0.0 ? 1 : 0;
   }
   return count;
@@ -92,7 +94,7 @@ VOUSSOIR_INLINE std::size_t keep_within(const Question& q, const double* weight,
   for (std::size_t k = 0; k < count; ++k) {
     OpenRow one = open[k];
     const double* row = q.table.row(one.row).data();
-    fetch(row + last, kPlacesAtOnce);
+    fetch_places(row + last);
     DoubleLanes sum{};
     for_lanes(last - first, [&](std::size_t i, std::size_t some) VOUSSOIR_INLINE_WORK {
       sum += row_squares(q.arrays, row, weight, first + i, some);
