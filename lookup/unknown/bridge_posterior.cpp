@@ -97,6 +97,17 @@ double chance_of(const UnknownBridge& bridge, const CaseNoise& noise, const Scen
   return chi_square_chance(square, n);
 }
 
+/// What a part's means make of its scene's readings.
+void add_causes(const UnknownBridge& bridge, const SceneGaussian& scene, double weight,
+                const VectorXd& bridge_mean, const VectorXd& epoch_mean, BridgePosterior& result) {
+  const Index parameters = bridge.factors->epoch_parameters();
+  result.signal += weight * scene.loss.signal;
+  result.from_bridge += weight * (scene.bridge * bridge_mean);
+  const MatrixXd each = weight * (scene.epoch * epoch_mean.asDiagonal());
+  result.from_epochs += each.rightCols(bridge.factors->of_epoch()).leftCols(parameters);
+  if (bridge.epochs > 1) result.from_epochs += each.leftCols(parameters);
+}
+
 /// What all others let expect of reading i is off by (C^-1 r)_i / (C^-1)_ii, which has the variance
 /// 1 / (C^-1)_ii. The epochs' parameters have the mean E^T C^-1 r and the covariance I - E^T C^-1 E, in
 /// deviations of the case.
@@ -114,6 +125,7 @@ void add_part(const UnknownBridge& bridge, const CaseNoise& noise, const SceneGa
   const MatrixXd fall = size * size * lower.solve(scene.epoch);
   result.bridge_mean += weight * part.mean;
   result.epoch_mean += weight * epoch;
+  add_causes(bridge, scene, weight, part.mean, epoch, result);
   result.from_unevenness += weight * (bridge.unevenness * pulled);
   // The expected common factor of all movements (Nuisance::scale), which moves the intact bridge, too.
   const double factor = bridge.scale * bridge.scale * (bridge.movement + scene.loss.signal).dot(pulled);
@@ -134,23 +146,29 @@ double times_of(const VectorXd& movement, const VectorXd& more) {
   return movement.isZero(0.0) ? 1.0 : 1.0 + movement.dot(more) / movement.squaredNorm();
 }
 
-/// What the means make of the likeliest scene's readings.
-void explain(const UnknownBridge& bridge, const Observation& observation, const SceneGaussian& scene,
-             BridgePosterior& result) {
-  const Index parameters = bridge.factors->epoch_parameters();
-  result.signal = scene.loss.signal;
-  result.from_bridge = scene.bridge * result.bridge_mean;
-  const VectorXd of_intact = bridge_columns(bridge, {}) * result.bridge_mean;
-  result.times_signal = times_of(result.signal, result.from_bridge - of_intact);
+/// The bridge's columns if the likeliest scene is the truth.
+VectorXd mean_of_first(const BridgePosterior& result, std::span<const Part> kept) {
+  VectorXd mean = VectorXd::Zero(result.bridge_mean.size());
+  double weight = 0.0;
+  for (std::size_t i = 0; i < kept.size(); ++i) {
+    if (kept[i].scene != 0) continue;
+    mean += kept[i].weight * result.parts[i].mean;
+    weight += kept[i].weight;
+  }
+  return weight > 0.0 ? VectorXd(mean / weight) : mean;
+}
+
+/// By how many times as much as in the model things move: what the likeliest scene loses if it is the truth,
+/// and the intact bridge.
+void compare_with_model(const UnknownBridge& bridge, const Observation& observation,
+                        const SceneGaussian& first, std::span<const Part> kept, BridgePosterior& result) {
+  const MatrixXd intact = bridge_columns(bridge, {});
+  result.times_signal = times_of(first.loss.signal, (first.bridge - intact) * mean_of_first(result, kept));
   // A levelling may shift all heights by as much as the bridge settles.
+  const VectorXd of_intact = intact * result.bridge_mean;
   const bool is_level_known = !observation.has_levelling();
   result.times_movement =
       times_of(bridge.movement, is_level_known ? VectorXd(of_intact + result.from_model) : of_intact);
-  const MatrixXd each = scene.epoch * result.epoch_mean.asDiagonal();
-  result.from_epochs = each.rightCols(bridge.factors->of_epoch()).leftCols(parameters);
-  if (bridge.epochs > 1) result.from_epochs += each.leftCols(parameters);
-  result.left =
-      scene.difference - result.from_bridge - result.from_epochs.rowwise().sum() - result.from_unevenness;
 }
 
 BridgePosterior empty_posterior(const UnknownBridge& bridge) {
@@ -159,6 +177,8 @@ BridgePosterior empty_posterior(const UnknownBridge& bridge) {
   result.chance = result.square = 0.0;
   result.beside = result.others = VectorXd::Zero(bridge.reading.size());
   result.from_unevenness = result.from_model = VectorXd::Zero(bridge.reading.size());
+  result.signal = result.from_bridge = VectorXd::Zero(bridge.reading.size());
+  result.from_epochs = MatrixXd::Zero(bridge.reading.size(), bridge.factors->epoch_parameters());
   result.bridge_mean = VectorXd::Zero(bridge.factors->of_bridge());
   result.epoch_mean = VectorXd::Zero(epochs);
   result.epoch_covariance = MatrixXd::Zero(epochs, epochs);
@@ -184,7 +204,9 @@ BridgePosterior bridge_posterior(const UnknownBridge& bridge, const Observation&
     add_part(bridge, noise, gaussian(part.scene), kScatterFactors[part.kappa], part.weight, result);
   }
   result.epoch_covariance -= result.epoch_mean * result.epoch_mean.transpose();
-  explain(bridge, observation, gaussian(0), result);
+  result.left = bridge.reading - result.signal - result.from_bridge - result.from_epochs.rowwise().sum() -
+                result.from_unevenness;
+  compare_with_model(bridge, observation, gaussian(0), kept, result);
   return result;
 }
 

@@ -35,14 +35,15 @@ struct BridgePosterior {
   Eigen::VectorXd epoch_mean;  ///< of the columns of each epoch in y, the second's last
   Eigen::MatrixXd epoch_covariance;
 
-  // Of the likeliest scene; rows are those of y [m].
-  Eigen::VectorXd signal;           ///< what the missing blocks change, as the nominal bridge shows it
+  // What makes the readings, in the mean over the mixture; rows are those of y [m].
+  Eigen::VectorXd signal;           ///< what missing blocks change, as the nominal bridge shows it
   Eigen::VectorXd from_bridge;      ///< expected of the parameters of the bridge
   Eigen::MatrixXd from_epochs;      ///< and of those of the epochs: a column for each parameter
   Eigen::VectorXd from_unevenness;  ///< of what is uneven in the epochs
   Eigen::VectorXd from_model;       ///< of what the model leaves of the intact bridge, and levellings
   Eigen::VectorXd left;             ///< of y
-  double times_signal = 1.0;  ///< how many times as large as in the model is what the missing blocks change,
+  double times_signal =
+      1.0;  ///< how many times as large as in the model is what the likeliest scene's blocks change,
   double times_movement = 1.0;  ///< and what the intact bridge shows, after what is believed of the bridge
   Eigen::VectorXd beside;       ///< y less what all other readings let expect [m],
   Eigen::VectorXd others;       ///< and in standard deviations of that

@@ -142,7 +142,10 @@ PartCauses causes_of_part(const MixedQuestion& question, const Scene& scene, con
 /// What one part of the mixture says.
 struct MixedPart {
   double log = 0.0, weight = 0.0, kappa = 1.0, chance = 0.0;
-  VectorXd mean, unevenness, beside, others;
+  VectorXd mean, signal, bridge, epochs, unevenness, beside, others;
+  std::vector<VectorXd*> vectors() {
+    return {&mean, &signal, &bridge, &epochs, &unevenness, &beside, &others};
+  }
   MatrixXd covariance;
 };
 
@@ -185,8 +188,14 @@ MixedPart mixed_part_of(const MixedQuestion& question, const Scene& scene, const
   part.mean = gain * difference;
   part.covariance = prior - gain * design * prior;
   part.chance = even_chance_of(1e8 * difference.dot(solver.solve(difference)), difference.size());
-  const Index first = causes.bridge + 2 * causes.epoch, columns = 2 * causes.uneven;
-  part.unevenness = design.middleCols(first, columns) * part.mean.segment(first, columns);
+  const auto made_by = [&](Index first, Index columns) -> VectorXd {
+    return design.middleCols(first, columns) * part.mean.segment(first, columns);
+  };
+  const Index second = causes.bridge + causes.epoch, parameters = question.sensitivities.of_epoch();
+  part.signal = question.compared() * (predicted - question.intact());
+  part.bridge = made_by(0, causes.bridge);
+  part.epochs = made_by(causes.bridge, parameters) + made_by(second, parameters);
+  part.unevenness = made_by(second + causes.epoch, 2 * causes.uneven);
   add_leave_one_out(difference, covariance, part);
   return part;
 }
@@ -215,21 +224,19 @@ std::vector<MixedPart> all_parts(const MixedQuestion& question, const std::vecto
 MixedPart mean_of_parts(const std::vector<MixedPart>& all) {
   MixedPart mean = all.front();
   mean.chance = 0.0;
-  for (VectorXd* of : {&mean.mean, &mean.unevenness, &mean.beside, &mean.others}) of->setZero();
+  for (VectorXd* of : mean.vectors()) of->setZero();
   mean.covariance.setZero();
   double held = 0.0;
-  for (const MixedPart& part : all)
+  for (MixedPart part : all)
     if (held < kHeaviest) {
       held += part.weight;
       mean.chance += part.weight * part.chance;
-      mean.mean += part.weight * part.mean;
-      mean.unevenness += part.weight * part.unevenness;
-      mean.beside += part.weight * part.beside;
-      mean.others += part.weight * part.others;
+      for (std::size_t i = 0; i < mean.vectors().size(); ++i)
+        *mean.vectors()[i] += part.weight * *part.vectors()[i];
       mean.covariance += part.weight * (part.covariance + part.mean * part.mean.transpose());
     }
   mean.chance /= held;
-  for (VectorXd* of : {&mean.mean, &mean.unevenness, &mean.beside, &mean.others}) *of /= held;
+  for (VectorXd* of : mean.vectors()) *of /= held;
   mean.covariance = mean.covariance / held - mean.mean * mean.mean.transpose();
   return mean;
 }
@@ -282,6 +289,9 @@ TEST_CASE("What readings say of a bridge is the mean over scenes, conditions, no
   check_scatter(found, all);
   check_parameters(found, mean, question);
   CHECK(found.chance == Approx(mean.chance).epsilon(1e-6));
+  CHECK(found.signal.isApprox(mean.signal, 1e-6));
+  CHECK(found.from_bridge.isApprox(mean.bridge, 1e-6));
+  CHECK(VectorXd(found.from_epochs.rowwise().sum()).isApprox(mean.epochs, 1e-6));
   CHECK(found.from_unevenness.isApprox(mean.unevenness, 1e-6));
   CHECK(found.beside.isApprox(mean.beside, 1e-6));
   CHECK(found.others.isApprox(mean.others, 1e-6));
