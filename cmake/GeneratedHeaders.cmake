@@ -14,6 +14,7 @@ configure_file(cmake/build_information.h.in generated/build_information.h @ONLY)
 
 # One hash over the sources that results depend on (see database/records/provenance.h).
 file(GLOB_RECURSE result_sources CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR} core/*.cpp core/*.h)
+list(FILTER result_sources EXCLUDE REGEX "^core/program/")  # how programs start and end
 file(GLOB generator_result_sources CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR} database/format/field_codec.*
      generator/scenes/*.cpp generator/scenes/*.h generator/uncertainty/*.cpp generator/uncertainty/*.h)
 list(APPEND result_sources ${generator_result_sources})

@@ -1,6 +1,7 @@
 #pragma once
 /// @file The command line of build-database.
 
+#include <CLI/CLI.hpp>
 #include <optional>
 
 #include "generator/build.h"
@@ -19,11 +20,16 @@ struct BuildOptions {
   bool version = false;                          ///< only tell what would be built with what
   bool quiet = false;
   bool json = false;
-  std::optional<int> exit_code;  ///< set if the program is to end at once (--help, --version, bad usage)
+  // Words of the command line, which finished() turns into settings.
+  std::optional<std::string> scenes;  ///< nothing: all, and singles of variants
+  std::vector<std::string> without;
 };
 
-/// Fills in the options; prints help, version or what is wrong with the command line itself.
-void parse_build_options(int argc, char** argv, BuildOptions& options);
+/// Adds the options to the program.
+void add_options(CLI::App& app, BuildOptions& options);
+
+/// With what the command line's words stand for. Throws InputError for what does not go together.
+BuildOptions finished(BuildOptions options);
 
 /// Settles what depends on the bridge: whether fields of collapses are kept. Returns the solver.
 SolverChoice settle_collapses(const Model& bridge, BuildOptions& options);

@@ -1,13 +1,11 @@
 #include "generator/merge_options.h"
 
+#include "core/program/command_line.h"
 #include "database/records/provenance.h"
-#include "generator/command_line.h"
 
 namespace voussoir {
 
-void parse_merge_options(int argc, char** argv, MergeOptions& options) {
-  CLI::App app("Puts the parts of a database together that build-database --shard has computed.",
-               "merge-databases");
+void add_options(CLI::App& app, MergeOptions& options) {
   app.footer(
       "Example: build-database -o part1.h5 --shard 1/2 && build-database -o part2.h5 --shard 2/2 &&\n"
       "         merge-databases part1.h5 part2.h5 -o bridge.h5\n\n"
@@ -17,15 +15,16 @@ void parse_merge_options(int argc, char** argv, MergeOptions& options) {
   app.add_option("parts", options.request.parts, "files that build-database --shard I/N wrote, in any order")
       ->required()
       ->option_text("PART...");
-  app.add_option("-o,--output", options.request.output, "database to write")->capture_default_str();
+  app.add_option("-o,--output", options.request.output, "database to write, default bridge.h5")
+      ->option_text("FILE");
   add_threads_option(app, options.request.threads);
-  add_format_option(app, options.json, "of the summary");
+  add_choice<bool>(app, "--format", options.json, {{"text", false}, {"json", true}},
+                   "of the summary: text (default) or json");
   app.add_flag("--force", options.request.force, "build anew even if the file is up to date");
   app.add_flag(
       "--drop", options.request.drop,
       "let scenes, states, fields and sensitivities of an existing file go that the parts do not have");
   app.add_flag("--quiet", options.quiet, "of messages the summary and errors only");
-  options.exit_code = parse_command_line(app, argc, argv);
 }
 
 }  // namespace voussoir

@@ -1,7 +1,7 @@
 #pragma once
 /// @file The command line of merge-databases.
 
-#include <optional>
+#include <CLI/CLI.hpp>
 
 #include "generator/merge.h"
 
@@ -11,10 +11,9 @@ struct MergeOptions {
   MergeRequest request;
   bool quiet = false;
   bool json = false;
-  std::optional<int> exit_code;  ///< set if the program is to end at once (--help, --version, bad usage)
 };
 
-/// Fills in the options; prints help, version or what is wrong with the command line itself.
-void parse_merge_options(int argc, char** argv, MergeOptions& options);
+/// Adds the options to the program.
+void add_options(CLI::App& app, MergeOptions& options);
 
 }  // namespace voussoir

@@ -1,8 +1,7 @@
 #include "generator/verify_options.h"
 
-#include "core/random.h"
+#include "core/program/command_line.h"
 #include "database/records/provenance.h"
-#include "generator/command_line.h"
 
 namespace voussoir {
 namespace {
@@ -11,24 +10,22 @@ constexpr int kMostRecomputed = 1000000000;
 
 }  // namespace
 
-VerifyOptions parse_verify_options(int argc, char** argv) {
-  VerifyOptions options;
-  CLI::App app("Checks that a database is whole and that what it says is right.", "verify-database");
+void add_options(CLI::App& app, VerifyOptions& options) {
   app.footer(
       "Example: verify-database bridge.h5 --recompute 20\n\n"
       "Exit codes: 0 no problems, 1 problems (or the file cannot be read), 2 bad usage.");
   app.set_version_flag("--version", version_text("verify-database"));
-  app.add_option("database", options.request.database, "file written by build-database")->required();
-  app.add_option("--recompute", options.request.recompute, "solve this many scenes anew and compare")
+  app.add_option("database", options.request.database, "file written by build-database")
+      ->required()
+      ->option_text("FILE");
+  app.add_option("--recompute", options.request.recompute,
+                 "solve this many scenes anew and compare, default 0")
       ->check(CLI::Range(0, kMostRecomputed))
-      ->capture_default_str();
-  app.add_option("--seed", options.request.seed, "of the choice of these scenes")
-      ->check(CLI::Range(std::uint64_t{0}, kLargestSeed))
-      ->capture_default_str();
+      ->option_text("N");
+  add_seed_option(app, options.request.seed, "of the choice of these scenes, default 1");
   add_threads_option(app, options.request.threads);
-  add_format_option(app, options.json, "of the report");
-  options.exit_code = parse_command_line(app, argc, argv);
-  return options;
+  add_choice<bool>(app, "--format", options.json, {{"text", false}, {"json", true}},
+                   "of the report: text (default) or json");
 }
 
 }  // namespace voussoir

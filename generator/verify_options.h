@@ -1,7 +1,7 @@
 #pragma once
 /// @file The command line of verify-database.
 
-#include <optional>
+#include <CLI/CLI.hpp>
 
 #include "generator/verify/verify.h"
 
@@ -10,10 +10,9 @@ namespace voussoir {
 struct VerifyOptions {
   VerifyRequest request;
   bool json = false;
-  std::optional<int> exit_code;  ///< set if the program is to end at once (--help, --version, bad usage)
 };
 
-/// Prints help, version or what is wrong with the command line itself.
-VerifyOptions parse_verify_options(int argc, char** argv);
+/// Adds the options to the program.
+void add_options(CLI::App& app, VerifyOptions& options);
 
 }  // namespace voussoir

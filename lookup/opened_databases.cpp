@@ -4,21 +4,14 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "database/records/content_digest.h"
 #include "lookup/answer/verdict.h"
 #include "lookup/checks/fewer_readings.h"
-#include "lookup/command_line.h"
 #include "lookup/readings/sensors_file.h"
 #include "lookup/readings/stated_sigmas.h"
-#include "lookup/report/words.h"
 
 namespace voussoir {
 namespace {
-
-SensorList sensors_of(const Database& database, const LocateDamageOptions& options) {
-  SensorList list = control_point_sensors(database.control_points());
-  if (options.sensors) read_sensors(*options.sensors, database.layout(), database.mesh(), list);
-  return list;
-}
 
 /// The same assumptions must not count twice.
 void require_another(const Database& database, const OpenedDatabases& opened) {
@@ -29,34 +22,36 @@ void require_another(const Database& database, const OpenedDatabases& opened) {
                                    database.digest().substr(0, kDigestShown)));
 }
 
-void open_database(const LocateDamageOptions& options, const std::optional<std::string>& named,
+void open_database(const QuestionSettings& question, const std::filesystem::path& file,
                    OpenedDatabases& opened) {
-  Database database = Database::open(find_database(named));
+  Database database = Database::open(file);
   require_another(database, opened);
-  OpenedDatabase& one = opened.emplace_back(options, finish(options), std::move(database));
+  OpenedDatabase& one = opened.emplace_back(question, std::move(database));
   if (const auto& part = one.database.shard())
     throw Failure(fmt::format("{}: is part {} of a database, expected the whole: see merge-databases",
                               one.database.path().string(), to_string(part->shard)));
-  one.sensors = sensors_of(one.database, options);
-  one.sampled = sampled_bridges(one.database, options.evidence);
+  one.sensors = all_sensors(one.database, question.sensors);
+  one.sampled = sampled_bridges(one.database, question.evidence);
 }
 
 /// What was asked for and cannot have an effect on these readings is said: who tries other errors must not
 /// believe the answer that does not change.
-std::vector<std::string> notes_of(const ReadingsFile& file, const LocateDamageOptions& options) {
+std::vector<std::string> notes_of(const ReadingsFile& file, const QuestionSettings& question) {
+  const bool has_sigma = question.comparison.sigma.has_value();
+  const NoiseModel& noise = question.lookup.noise;
   std::vector<std::string> notes;
-  if (!options.without.empty()) notes.push_back(fmt::format("left out by --without: {}", options.without));
+  if (!question.without.empty()) notes.push_back(fmt::format("left out by --without: {}", question.without));
   const bool states_all = std::ranges::none_of(
       file.readings, [](const Reading& one) { return !one.silent && std::isnan(one.sigma); });
-  if (!options.sigma.empty() && states_all)
+  if (has_sigma && states_all)
     notes.push_back("--sigma has no effect: every reading states its own error (sigma_mm)");
-  if (!options.noise_level.empty() && (states_all || !options.sigma.empty()))
+  if (noise.relative && (states_all || has_sigma))
     notes.push_back("--noise has no effect: the standard deviation of every reading is stated");
-  if (options.settings.noise.floor > 0.0 && (states_all || !options.sigma.empty()))
+  if (noise.floor > 0.0 && (states_all || has_sigma))
     notes.push_back("--floor has no effect: the standard deviation of every reading is stated");
   const bool names_levellings =
       std::ranges::any_of(file.readings, [](const Reading& one) { return !one.levelling.empty(); });
-  if (names_levellings && !options.settings.nuisance.any())
+  if (names_levellings && !question.lookup.nuisance.any())
     notes.push_back(
         "levellings are named, but the datum of each is taken as known: --unknown-datum 0.3mm and "
         "--unknown-tilt 0.03mm/m let each have its own");
@@ -65,11 +60,11 @@ std::vector<std::string> notes_of(const ReadingsFile& file, const LocateDamageOp
 
 /// Without the readings that are left out.
 Comparison compared(const ReadingsFile& file, const OpenedDatabase& one) {
-  ComparisonSettings settings = comparison_settings(one.options);
+  ComparisonSettings settings = one.question.comparison;
   settings.sampled = one.sampled;
   Comparison all = compare(file, one.sensors, one.database, settings);
-  if (one.options.without.empty()) return all;
-  const std::vector<std::size_t> channels = channels_at(all, one.options.without);
+  if (one.question.without.empty()) return all;
+  const std::vector<std::size_t> channels = channels_at(all, one.question.without);
   return without_readings(std::move(all), channels);
 }
 
@@ -77,9 +72,9 @@ Answered ask_one(OpenedDatabase& one, const ReadingsText& readings) {
   const ReadingsFile file = parse_readings(readings.text, readings.name, one.sensors);
   Answered asked{.opened = &one,
                  .comparison = compared(file, one),
-                 .settings = one.settings,
+                 .settings = one.question.lookup,
                  .answer = {},
-                 .notes = notes_of(file, one.options)};
+                 .notes = notes_of(file, one.question)};
   asked.settings.noise = noise_of(asked.comparison.measured, asked.settings.noise);
   asked.answer = one.preparations.ask(asked.comparison, asked.settings);
   return asked;
@@ -125,12 +120,11 @@ Answered ask_one_of_several(OpenedDatabase& one, const ReadingsText& readings) {
 
 }  // namespace
 
-OpenedDatabases open_databases(const LocateDamageOptions& options) {
-  if (options.databases.size() > 1 && options.settings.objective == Objective::paper)
+OpenedDatabases open_databases(const QuestionSettings& question) {
+  if (question.databases.size() > 1 && question.lookup.objective == Objective::paper)
     throw InputError("several databases are weighed by probabilities, expected --objective posterior");
   OpenedDatabases opened;
-  if (options.databases.empty()) open_database(options, std::nullopt, opened);
-  for (const std::string& file : options.databases) open_database(options, file, opened);
+  for (const std::filesystem::path& file : question.databases) open_database(question, file, opened);
   return opened;
 }
 

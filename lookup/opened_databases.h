@@ -1,12 +1,15 @@
 #pragma once
 /// @file The databases that locate-damage asks, and asking them.
 
+#include <filesystem>
 #include <list>
 #include <memory>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "database/records/database.h"
-#include "lookup/locate_damage_options.h"
+#include "lookup/answer/lookup_settings.h"
 #include "lookup/prepared_questions.h"
 #include "lookup/readings/comparison.h"
 #include "lookup/readings/readings_file.h"
@@ -14,10 +17,19 @@
 
 namespace voussoir {
 
+/// What is asked, beside the readings.
+struct QuestionSettings {
+  std::vector<std::filesystem::path> databases{};  ///< several: one bridge under other assumptions
+  LookupSettings lookup{};
+  ComparisonSettings comparison{};
+  ScatterEvidence evidence = ScatterEvidence::first_order;
+  std::optional<std::filesystem::path> sensors{};  ///< file of sensors beside the databases' own
+  std::string without{};                           ///< names of readings that are left out, with commas
+};
+
 /// A database, and what all questions to it share beside their readings.
 struct OpenedDatabase {
-  const LocateDamageOptions& options;  ///< outlive this
-  LookupSettings settings;
+  QuestionSettings question;
   Database database;
   SensorList sensors;
   std::shared_ptr<const SampledBridges> sampled{};  ///< null: the first order speaks
@@ -28,7 +40,7 @@ using OpenedDatabases = std::list<OpenedDatabase>;  // each stays where it is
 
 /// Throws Failure for what is no whole database, InputError for options and files that do not go together and
 /// for a database that comes twice.
-OpenedDatabases open_databases(const LocateDamageOptions& options);
+OpenedDatabases open_databases(const QuestionSettings& question);
 
 /// A question with the answer of the database whose assumptions are likeliest.
 struct Answered {

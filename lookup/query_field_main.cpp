@@ -1,14 +1,12 @@
 /// @file query-field: the displacements of a scene and the forces in it.
 
 #include "core/error.h"
-#include "core/solve/state_name.h"
 #include "lookup/command_line.h"
 #include "lookup/report/field_query.h"
 #include "lookup/report/field_report.h"
 #include "lookup/report/forces_report.h"
 
-using voussoir::FieldFormat;
-using voussoir::FieldQuantity;
+using namespace voussoir;
 
 namespace {
 
@@ -24,61 +22,56 @@ struct Options {
 
 std::string query(const Options& options) {
   if (options.at && (options.format == FieldFormat::vtu || options.format == FieldFormat::svg))
-    throw voussoir::InputError("--format vtu and svg are of the whole field, expected no --at beside them");
+    throw InputError("--format vtu and svg are of the whole field, expected no --at beside them");
   if (options.at && options.show != FieldQuantity::displacements)
-    throw voussoir::InputError("--at gives displacements, expected no --show of something else beside it");
-  const auto database = voussoir::Database::open(voussoir::find_database(options.database));
-  const std::size_t row = voussoir::find_row(database, options.scene);
-  const std::size_t state = voussoir::find_state(database, options.history, options.load);
+    throw InputError("--at gives displacements, expected no --show of something else beside it");
+  const auto database = Database::open(find_database(options.database));
+  const std::size_t row = find_row(database, options.scene);
+  const std::size_t state = find_state(database, options.history, options.load);
   if (options.show != FieldQuantity::displacements)
-    return voussoir::forces_report(database, row, state, options.show, options.format);
-  const auto outcome =
-      static_cast<voussoir::Outcome>(database.table(voussoir::kNominalVariant, state).outcome[row]);
-  voussoir::expect_displacements(database, row, state);
-  if (outcome != voussoir::Outcome::standing)
+    return forces_report(database, row, state, options.show, options.format);
+  const auto outcome = static_cast<Outcome>(database.table(kNominalVariant, state).outcome[row]);
+  expect_displacements(database, row, state);
+  if (outcome != Outcome::standing)
     fmt::print(stderr, "query-field: note: scene {} is {} as {}, its field is no equilibrium\n",
-               options.scene, voussoir::to_string(outcome), database.states()[state]);
-  if (!options.at) return voussoir::field_report(database, row, state, options.format);
-  return voussoir::places_report(voussoir::displacements_at(database, row, state, *options.at),
-                                 options.format);
+               options.scene, to_string(outcome), database.states()[state]);
+  if (!options.at) return field_report(database, row, state, options.format);
+  return places_report(displacements_at(database, row, state, *options.at), options.format);
 }
 
 void add_options(CLI::App& app, Options& options) {
   app.add_option("SCENE", options.scene, "missing blocks: intact, 10,4 or 10,4+6,4")
       ->required()
       ->option_text("SCENE");
-  app.add_option("-d,--database", options.database, "default: $VOUSSOIR_DATABASE, else ./bridge.h5")
-      ->option_text("FILE");
+  add_database_option(app, options.database);
   app.add_option(
          "--at", options.at,
          "control points, or sensors of the bridge file that move, such as T12,A3, coordinates X,Y "
          "in metres (where blocks meet of each of them), or control for all: with x_m and y_m, as a list "
          "for setting out")
       ->option_text("PLACES");
-  app.add_option(
-         "--history", options.history,
-         "built: the blocks were missing from the start, or lost: they went when the bridge carried its "
-         "weight; default: the database's first")
-      ->check(CLI::IsMember({voussoir::kBuiltState, voussoir::kLostState}))
-      ->option_text("NAME");
+  add_history_option(
+      app, options.history,
+      "built: the blocks were missing from the start, or lost: they went when the bridge carried its weight; "
+      "default: the database's first");
   app.add_option("--load", options.load,
                  "with this load case, or at this step of it (truck@2); default: none")
       ->option_text("NAME");
-  voussoir::add_choice<FieldQuantity>(
+  add_choice<FieldQuantity>(
       app, "--show", options.show,
       {{"displacements", FieldQuantity::displacements},
        {"stresses", FieldQuantity::stresses},
        {"joints", FieldQuantity::joints},
        {"thrust", FieldQuantity::thrust}},
       "displacements (default); stresses: of every triangle; joints: pressure, shear, opening and state "
-      "(open, "
-      "sticking, sliding) of every joint; thrust: where the resultant crosses each joint of a ring");
-  voussoir::add_choice<FieldFormat>(app, "--format", options.format,
-                                    {{"csv", FieldFormat::csv},
-                                     {"json", FieldFormat::json},
-                                     {"vtu", FieldFormat::vtu},
-                                     {"svg", FieldFormat::svg}},
-                                    "csv (default), json, vtu for ParaView, or svg: a picture");
+      "(open, sticking, "
+      "sliding) of every joint; thrust: where the resultant crosses each joint of a ring");
+  add_choice<FieldFormat>(app, "--format", options.format,
+                          {{"csv", FieldFormat::csv},
+                           {"json", FieldFormat::json},
+                           {"vtu", FieldFormat::vtu},
+                           {"svg", FieldFormat::svg}},
+                          "csv (default), json, vtu for ParaView, or svg: a picture");
 }
 
 }  // namespace
@@ -87,9 +80,10 @@ int main(int argc, char** argv) {
   CLI::App app("Prints displacements, stresses, joints or thrust lines of a scene.", "query-field");
   app.footer(
       "Example: query-field 10,4+6,4 -d bridge.h5 --at T12,A3 --format json\n"
-      "         query-field 10,4 --history lost --show joints --format svg > joints.svg");
-  app.set_version_flag("--version", voussoir::version_text("query-field"));
+      "         query-field 10,4 --history lost --show joints --format svg > joints.svg\n"
+      "         query-field intact --load truck@2 --show thrust --format svg > thrust.svg");
+  app.set_version_flag("--version", version_text("query-field"));
   Options options;
   add_options(app, options);
-  return voussoir::run_program(app, argc, argv, [&] { return query(options); });
+  return run_program(app, argc, argv, [&] { return query(options); });
 }

@@ -13,9 +13,9 @@
 #include "lookup/readings/stated_sigmas.h"
 #include "lookup/report/field_query.h"
 
-namespace {
-
 using namespace voussoir;
+
+namespace {
 
 constexpr const char* kUsualNoise = "5%";
 
@@ -25,15 +25,15 @@ struct Options {
   std::string scene;
   std::optional<std::string> database;
   Kind kind = Kind::absolute;
-  std::string history;
+  std::optional<std::string> history;
   std::vector<std::string> loads;
   std::optional<std::string> sensors;
   std::optional<std::string> noise_level;  // default kUsualNoise
   NoiseShape noise_model = NoiseShape::uniform;
-  double floor = 0.0;  // [m]
-  std::string sigma;
+  double floor = 0.0;           // [m]
+  std::optional<double> sigma;  // [m]
   Nuisance levelling;
-  std::string silence = "0%";
+  double silence = 0.0;
   std::uint64_t seed = 1;
   bool hide = false;
   std::string output;
@@ -42,7 +42,7 @@ struct Options {
 /// Readings of two times are nothing to locate-damage unless their errors are stated: a share of what has not
 /// changed is none.
 void require_errors(const Options& options) {
-  const bool stated = !options.sigma.empty() || options.noise_level || options.floor > 0.0;
+  const bool stated = options.sigma || options.noise_level || options.floor > 0.0;
   if (options.kind == Kind::absolute || stated) return;
   throw InputError(fmt::format("--kind {} without an error of what has not changed, expected --sigma 0.02mm",
                                options.kind == Kind::change ? "change" : "epochs"));
@@ -50,11 +50,11 @@ void require_errors(const Options& options) {
 
 NoiseModel noise_of(const Options& options) {
   NoiseModel noise;
-  noise.silence = parse_chance(options.silence);
-  if (!options.sigma.empty()) {
+  noise.silence = options.silence;
+  if (options.sigma) {
     noise.shape = NoiseShape::gaussian;
     noise.relative = 0.0;
-    noise.floor = parse_sigma(options.sigma);
+    noise.floor = *options.sigma;
     return noise;
   }
   noise.shape = options.noise_model;
@@ -96,10 +96,10 @@ std::string_view what_is_read(ReadingKind kind) {
 
 std::string errors_in_words(const Options& options) {
   std::string text =
-      options.sigma.empty()
+      !options.sigma
           ? fmt::format("{} of the value and {:g} mm, {}", options.noise_level.value_or(kUsualNoise),
                         kMillimetres * options.floor, to_string(options.noise_model))
-          : fmt::format("gaussian, standard deviation {} mm", kMillimetres * parse_sigma(options.sigma));
+          : fmt::format("gaussian, standard deviation {} mm", kMillimetres * *options.sigma);
   const Nuisance& levelling = options.levelling;
   if (levelling.datum > 0.0) text += fmt::format(", datum {:g} mm", kMillimetres * levelling.datum);
   if (levelling.tilt > 0.0) text += fmt::format(", tilt {:g} mm per m", kMillimetres * levelling.tilt);
@@ -123,14 +123,13 @@ std::string make_measurements(const Options& options) {
   require_errors(options);
   const NoiseModel noise = noise_of(options);
   const auto database = Database::open(find_database(options.database));
-  SensorList list = control_point_sensors(database.control_points());
-  if (options.sensors) read_sensors(*options.sensors, database.layout(), database.mesh(), list);
+  const SensorList list = all_sensors(database, options.sensors);
   ReadingsFile blank = blank_file(list, reading_kind(options), options.loads);
   blank.name = "--load";
   blank.two_epochs = options.kind == Kind::epochs;
   ComparisonSettings settings;
   settings.known_bridge = true;  // what is uncertain is no part of what is measured
-  if (!options.history.empty()) settings.history = options.history;
+  settings.history = options.history;
   const Comparison comparison = compare(blank, list, database, settings);
   require_loads(options.loads);
   Random random(options.seed);
@@ -153,9 +152,8 @@ void add_reading_options(CLI::App& app, Options& options) {
       "absolute (default): displacements since the bridge carried nothing, with --load what the load "
       "adds; change: between two times; epochs: the same as values before, which have no error, and after, "
       "which have all of it");
-  add_choice<std::string>(app, "--history", options.history,
-                          {{kBuiltState, kBuiltState}, {kLostState, kLostState}},
-                          "whether the blocks were never there or went later; default: as locate-damage");
+  add_history_option(app, options.history,
+                     "whether the blocks were never there or went later; default: as locate-damage");
   app.add_option("--load", options.loads, "load cases to read under, such as axle,truck@2")
       ->delimiter(',')
       ->option_text("LIST");
@@ -166,7 +164,8 @@ void add_reading_options(CLI::App& app, Options& options) {
 
 void add_error_options(CLI::App& app, Options& options) {
   CLI::Option* const level = app.add_option("--noise", options.noise_level, "share of the value, default 5%")
-                                 ->check(checked_by(parse_noise_level, "LEVEL"));
+                                 ->check(checked_by(parse_noise_level, "LEVEL"))
+                                 ->option_text("LEVEL");
   CLI::Option* const model = add_choice<NoiseShape>(app, "--noise-model", options.noise_model,
                                                     {{"uniform", NoiseShape::uniform},
                                                      {"gaussian", NoiseShape::gaussian},
@@ -175,21 +174,19 @@ void add_error_options(CLI::App& app, Options& options) {
                                                     "default uniform");
   CLI::Option* const floor =
       add_millimetres(app, "--floor", options.floor, "absolute part, such as 0.02mm, default 0");
-  app.add_option("--sigma", options.sigma,
-                 "instead of these: standard deviation of every value, such as 0.02mm; written as sigma_mm")
-      ->check(checked_by(parse_sigma, "MM"))
+  add_parsed(app, "--sigma", options.sigma, parse_sigma, "MM",
+             "instead of these: standard deviation of every value, such as 0.02mm; written as sigma_mm")
       ->excludes(level)
       ->excludes(model)
-      ->excludes(floor)
-      ->option_text("MM");
+      ->excludes(floor);
   add_millimetres(app, "--datum", options.levelling.datum,
                   "standard deviation of a shift of all heights of one levelling, such as 0.3mm, default 0");
   add_millimetres(
       app, "--tilt", options.levelling.tilt,
       "standard deviation of a rotation of all heights of one levelling, such as 0.03mm/m, default 0",
       "mm/m");
-  app.add_option("--silent-sensors", options.silence, "chance that a sensor gives no reading, default 0%")
-      ->check(checked_by(parse_chance, "CHANCE"));
+  add_parsed(app, "--silent-sensors", options.silence, parse_chance, "CHANCE",
+             "chance that a sensor gives no reading, default 0%");
 }
 
 }  // namespace
@@ -206,12 +203,11 @@ int main(int argc, char** argv) {
   app.add_option("SCENE", options.scene, "missing blocks: intact, 10,4 or 10,4+6,4")
       ->required()
       ->option_text("SCENE");
-  app.add_option("-d,--database", options.database, "default: $VOUSSOIR_DATABASE, else ./bridge.h5");
+  add_database_option(app, options.database);
   add_reading_options(app, options);
   add_error_options(app, options);
-  app.add_option("--seed", options.seed, "of the random numbers, default 1")
-      ->check(CLI::Range(std::uint64_t{0}, kLargestSeed));
+  add_seed_option(app, options.seed, "of the random numbers, default 1");
   app.add_flag("--hide", options.hide, "do not name the scene in the file");
-  app.add_option("-o,--output", options.output, "default: the standard output");
+  app.add_option("-o,--output", options.output, "default: the standard output")->option_text("FILE");
   return run_program(app, argc, argv, [&] { return make_measurements(options); });
 }

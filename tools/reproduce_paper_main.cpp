@@ -4,19 +4,21 @@
 #include "lookup/command_line.h"
 #include "tools/reproduction/page.h"
 
+using namespace voussoir;
+
 namespace {
 
 struct Options {
   std::optional<std::string> database;
-  std::string cases = voussoir::paper_cases_file().string();
+  std::string cases = paper_cases_file().string();
   std::string folder = "paper";
-  voussoir::ReproductionSettings settings;
+  ReproductionSettings settings;
 };
 
 std::string reproduce(const Options& options) {
-  const auto database = voussoir::Database::open(voussoir::find_database(options.database));
-  const voussoir::Subject subject(database, voussoir::read_paper_cases(options.cases), options.settings);
-  voussoir::write_reproduction(subject, voussoir::reproduce(subject), options.folder);
+  const auto database = Database::open(find_database(options.database));
+  const Subject subject(database, read_paper_cases(options.cases), options.settings);
+  write_reproduction(subject, reproduce(subject), options.folder);
   return (std::filesystem::path(options.folder) / "index.html").string() + "\n";
 }
 
@@ -28,7 +30,7 @@ int main(int argc, char** argv) {
       "reproduce-paper");
   app.footer("Example: reproduce-paper -d bridge.h5 -o paper");
   Options options;
-  app.add_option("-d,--database", options.database, "default: $VOUSSOIR_DATABASE, else ./bridge.h5");
+  add_database_option(app, options.database);
   app.add_option("-o,--output", options.folder, "folder, default ./paper");
   app.add_option("--cases", options.cases, "file of cases, for another bridge; default: the paper's");
   app.add_option("--trials", options.settings.trials, "seeds of each case, default 50")
@@ -38,6 +40,6 @@ int main(int argc, char** argv) {
   app.add_option(
       "--wall", options.settings.wall,
       "bridge file of the wall of Fig. 3, examples/bridges/eindhoven-wall.toml; default: left out");
-  app.add_option("--seed", options.settings.seed, "default 1");
-  return voussoir::run_program(app, argc, argv, [&] { return reproduce(options); });
+  add_seed_option(app, options.settings.seed, "default 1");
+  return run_program(app, argc, argv, [&] { return reproduce(options); });
 }

@@ -3,10 +3,12 @@
 #include <CLI/CLI.hpp>
 #include <iostream>
 
+#include "core/program/command_line.h"
 #include "core/text_file.h"
 #include "core/threads.h"
-#include "lookup/command_line.h"
 #include "tools/validation/report.h"
+
+using namespace voussoir;
 
 namespace {
 
@@ -14,7 +16,7 @@ struct Options {
   std::vector<std::string> studies;
   bool quick = false;
   bool list = false;
-  int threads = voussoir::hardware_threads();
+  int threads = hardware_threads();
   std::string format = "text";
   std::string page;
 };
@@ -32,14 +34,13 @@ CLI::App& add_options(CLI::App& app, Options& options) {
   return app;
 }
 
-std::string in_format(const std::string& format,
-                      const std::vector<voussoir::validation::StudyResult>& results) {
+std::string in_format(const std::string& format, const std::vector<validation::StudyResult>& results) {
   if (format == "json") return to_json(results);
   return format == "markdown" ? to_markdown(results) : to_text(results);
 }
 
-voussoir::ProgramOutput run(const Options& options) {
-  using namespace voussoir::validation;
+ProgramOutput run(const Options& options) {
+  using namespace validation;
   const std::vector<Study> studies = chosen_studies(options.studies, options.quick);
   if (options.list) {
     std::string names;
@@ -50,9 +51,11 @@ voussoir::ProgramOutput run(const Options& options) {
       run_studies(studies, options.threads, [](const StudyResult& result) {
         std::cerr << fmt::format("{} ({:.1f} s)\n", result.title, result.seconds);
       });
-  if (!options.page.empty()) voussoir::write_file(options.page, to_page(results));
+  if (!options.page.empty()) write_file(options.page, to_page(results));
   const Tally found = tally(results);
-  return {in_format(options.format, results), found.all_good() ? std::string() : to_sentence(found)};
+  const std::string report = in_format(options.format, results);
+  if (found.all_good()) return report;
+  return {report, kFailed, to_sentence(found)};
 }
 
 }  // namespace
@@ -61,5 +64,5 @@ int main(int argc, char** argv) {
   CLI::App app("Holds the solvers against known answers and hard cases.", "validate");
   Options options;
   add_options(app, options);
-  return voussoir::run_program(app, argc, argv, [&] { return run(options); });
+  return run_program(app, argc, argv, [&] { return run(options); });
 }

@@ -19,4 +19,7 @@ struct DigestPart {
 /// digest.
 Sha256 content_digest(const std::vector<DigestPart>& parts);
 
+/// How many figures of a digest people see.
+inline constexpr std::size_t kDigestShown = 12;
+
 }  // namespace voussoir

@@ -100,8 +100,8 @@ class SensorsReader {
 
 }  // namespace
 
-void parse_sensors(std::string_view text, const std::string& name, const BlockLayout& layout,
-                   const Mesh& mesh, SensorList& list) {
+SensorList parse_sensors(std::string_view text, const std::string& name, const BlockLayout& layout,
+                         const Mesh& mesh, SensorList list) {
   const CsvTable table = read_csv(text, name, kColumns);
   const SensorsReader reader(table, layout, mesh);
   for (const CsvLine& line : table.rows) {
@@ -112,11 +112,18 @@ void parse_sensors(std::string_view text, const std::string& name, const BlockLa
                  fmt::format("sensor {} is there already, expected another name", in_quotes(sensor.name)));
     list.sensors.push_back(std::move(sensor));
   }
+  return list;
 }
 
-void read_sensors(const std::filesystem::path& path, const BlockLayout& layout, const Mesh& mesh,
-                  SensorList& list) {
-  parse_sensors(read_text_input(path, "a CSV file of sensors"), input_name(path), layout, mesh, list);
+SensorList read_sensors(const std::filesystem::path& path, const BlockLayout& layout, const Mesh& mesh,
+                        SensorList list) {
+  return parse_sensors(read_text_input(path, "a CSV file of sensors"), input_name(path), layout, mesh,
+                       std::move(list));
+}
+
+SensorList all_sensors(const Database& database, const std::optional<std::filesystem::path>& file) {
+  SensorList own = control_point_sensors(database.control_points());
+  return file ? read_sensors(*file, database.layout(), database.mesh(), std::move(own)) : own;
 }
 
 }  // namespace voussoir

@@ -9,6 +9,7 @@
 /// Signs: ux to the right, uy up, tilt counter-clockwise, distance longer.
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -16,12 +17,15 @@
 
 namespace voussoir {
 
-/// Appends the file's sensors to the list. Throws InputError "file:line: ..." for a name that is there
-/// already, an unknown quantity, a place outside the bridge or where blocks meet and none is named, a
-/// distance between places that are one, and numbers or places that the quantity does not have.
-void parse_sensors(std::string_view text, const std::string& name, const BlockLayout& layout,
-                   const Mesh& mesh, SensorList& list);
-void read_sensors(const std::filesystem::path& path, const BlockLayout& layout, const Mesh& mesh,
-                  SensorList& list);
+/// The sensors of the list, and those of the file after them. Throws InputError "file:line: ..." for a name
+/// that is there already, an unknown quantity, a place outside the bridge or where blocks meet and none is
+/// named, a distance between places that are one, and numbers or places that the quantity does not have.
+SensorList parse_sensors(std::string_view text, const std::string& name, const BlockLayout& layout,
+                         const Mesh& mesh, SensorList list = {});
+SensorList read_sensors(const std::filesystem::path& path, const BlockLayout& layout, const Mesh& mesh,
+                        SensorList list = {});
+
+/// A database's own sensors, and after them those of a file, if one is named.
+SensorList all_sensors(const Database& database, const std::optional<std::filesystem::path>& file);
 
 }  // namespace voussoir

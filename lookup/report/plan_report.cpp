@@ -10,6 +10,7 @@
 #include "core/not_a_number.h"
 #include "core/text.h"
 #include "core/units.h"
+#include "database/records/content_digest.h"
 #include "lookup/report/drawing/bridge_drawing.h"
 #include "lookup/report/drawing/colour_map.h"
 #include "lookup/report/drawing/table.h"

@@ -131,8 +131,7 @@ void add_noise_terms(const Answer& answer, const LookupSettings& settings, const
   terms.emplace_back("Noise model", std::string(to_string(settings.noise.shape)));
   terms.emplace_back("Noise level", level_in_words(settings.noise, comparison.kind));
   if (answer.noise)
-    terms.emplace_back("Noise, if the first scene is the truth",
-                       noise_in_words(*answer.noise, comparison.kind));
+    terms.emplace_back("Noise, if the first scene is the truth", noise_in_words(*answer.noise, comparison));
   if (settings.noise.floor > 0.0)
     terms.emplace_back("Absolute part of the noise", fmt::format("{:.3g} mm", 1e3 * settings.noise.floor));
   terms.emplace_back("Sensors that fail by themselves",
@@ -179,7 +178,8 @@ std::string assumptions_html(const Answer& answer, const LookupSettings& setting
                    "that change's root mean square",
                    100.0 * comparison.model_error.share, 100.0 * comparison.model_error.common)}};
   for (const std::string& note : source.notes) terms.emplace_back("Note", note);
-  for (const AskedDatabase& asked : source.databases) terms.emplace_back("Asked", in_words(asked));
+  for (const AskedDatabase& asked : source.databases)
+    terms.emplace_back("Database asked, and how likely its assumptions are", in_words(asked));
   if (answer.bridge) terms.emplace_back("How much bridges scatter", evidence_in_words(comparison));
   if (settings.objective == Objective::posterior) add_noise_terms(answer, settings, comparison, terms);
   return terms_html(terms) +

@@ -25,7 +25,7 @@ std::string band_in_words(const PicturedAnswer& report) {
   return fmt::format(
       " The line is what the answer lets expect{}, the band the noise, {}{}.{}",
       report.answer.known_bridge ? "" : " by all other readings",
-      noise_in_words(*report.answer.noise, report.comparison.kind),
+      noise_in_words(*report.answer.noise, report.comparison),
       report.answer.noise->shape == NoiseShape::uniform ? "" : ", two standard deviations each way",
       report.answer.known_bridge
           ? ""

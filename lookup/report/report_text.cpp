@@ -5,6 +5,7 @@
 #include <iterator>
 
 #include "core/units.h"
+#include "database/records/content_digest.h"
 #include "lookup/answer/expected_readings.h"
 #include "lookup/answer/verdict.h"
 #include "lookup/readings/shown_readings.h"
@@ -43,7 +44,7 @@ void write_heading(Text& text, const Answer& answer, const Comparison& compariso
   text.line("Database:     {} (bridge '{}', digest {})", source.database, source.bridge,
             source.digest.substr(0, kDigestShown));
   for (std::size_t i = 0; i < source.databases.size(); ++i)
-    text.line("{:<13} {}", i == 0 ? "Asked:" : "", in_words(source.databases[i]));
+    text.line("{:<13} {}", i == 0 ? "Databases:" : "", in_words(source.databases[i]));
   text.line("Searched:     {}", searched_in_words(answer));
   text.line("History:      {}", history_in_words(comparison.history));
   text.line("Bridge:       {}", bridge_in_words(answer));
@@ -173,7 +174,7 @@ std::string text_report(const Answer& answer, const Comparison& comparison, cons
     return text.take();
   }
   write_verdict(text, answer, library);
-  if (answer.noise) text.line("Noise:        {}", noise_in_words(*answer.noise, comparison.kind));
+  if (answer.noise) text.line("Noise:        {}", noise_in_words(*answer.noise, comparison));
   text.line("");
   write_table(text, answer, library);
   text.line("");

@@ -7,12 +7,15 @@
 #include <cctype>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <span>
 
 #include "core/units.h"
+#include "database/records/content_digest.h"
 #include "lookup/answer/verdict.h"
 #include "lookup/report/reading_words.h"
 #include "lookup/report/words.h"
+#include "lookup/search/eligible_rows.h"
 
 namespace voussoir {
 
@@ -57,6 +60,16 @@ std::string blocks_in_words(std::size_t count) {
   return fmt::format("{} block{}", count, count == 1 ? "" : "s");
 }
 
+/// An intact bridge, as far as these sensors would show what is lost.
+std::string intact_in_words(double probability, std::size_t open_losses, ReadingKind kind) {
+  const std::string sure = percent(probability);
+  const std::string_view when = is_change(kind) ? "has gone between the two times" : "is missing";
+  if (open_losses == 0) return fmt::format("No block {} ({}).", when, sure);
+  return fmt::format(
+      "Nothing shows that a block {} ({} that none is), but these readings do not exclude the loss of {}.",
+      when, sure, blocks_in_words(open_losses));
+}
+
 std::string in_words(const Scene& scene, const Library& library) {
   return fmt::format("{} ({})", to_string(scene, library.layout), place_in_words(scene, library.layout));
 }
@@ -88,17 +101,11 @@ std::string headline(const Answer& answer, const Comparison& comparison) {
              (supposed == Supposed::nothing ? "" : fmt::format(" But {}.", supposed_in_words(supposed)));
     case Verdict::damaged_unlocated:
       return fmt::format("Blocks are missing ({}), but the readings do not say which.",
-                         percent_of_others(intact));
+                         percent(1.0 - intact));
     case Verdict::intact:
-      return fmt::format(
-          "{} ({}){}.",
-          is_change(comparison.kind) ? "No block has gone between the two times" : "No block is missing",
-          percent(intact),
-          posterior.open_losses.empty() ? ""
-                                        : fmt::format(", but the loss of {} is not excluded",
-                                                      blocks_in_words(posterior.open_losses.size())));
+      return intact_in_words(intact, posterior.open_losses.size(), comparison.kind);
     case Verdict::cannot_tell:
-      if (answer.contested) return "The databases that may be right come to different answers.";
+      if (answer.contested) return "The answer depends on which database's assumptions hold.";
       if (supposed != Supposed::nothing)
         return fmt::format("The readings name no block, and {}.", supposed_in_words(supposed));
       return fmt::format("The readings do not tell whether blocks are missing (none is: {}{}).",
@@ -125,9 +132,36 @@ std::string open_losses_in_words(const Answer& answer, const Library& library) {
   for (const OpenLoss& loss : std::span(open).first(std::min(open.size(), kMostLossesNamed)))
     names += (names.empty() ? "" : ", ") + to_string(library.table.scene(loss.row), library.layout);
   return fmt::format(
-      "These readings hardly speak against the loss of {}{}: with it they would be more than a "
-      "tenth as likely. plan-sensors says which sensors would show it.",
+      "The readings fit the loss of one of these nearly as well, at least a tenth as likely as with none: "
+      "{}{}. "
+      "plan-sensors says which sensors would show it.",
       names, open.size() > kMostLossesNamed ? fmt::format(", .. ({} in all)", open.size()) : "");
+}
+
+/// What a probability of one scene is of.
+std::string_view just_this_in_words(const Scene& scene) {
+  if (scene.removed.empty()) return "that no block is missing";
+  return scene.removed.size() == 1 ? "that this block is missing and no other"
+                                   : "that these blocks are missing and no other";
+}
+
+/// Where the intact bridge comes first but is not certain: which loss it would be, if it were one.
+std::string suspect_in_words(const Answer& answer, const Library& library) {
+  if (!answer.posterior || verdict_of(answer) != Verdict::cannot_tell ||
+      !answer.candidates.front().scene.removed.empty())
+    return "";
+  const RowValues& probability = answer.posterior->probability;
+  const double damage = 1.0 - intact_probability(*answer.posterior);
+  std::size_t likeliest = 0;
+  double most = 0.0;
+  for (std::size_t i = 0; i < probability.rows.size(); ++i) {
+    if (probability.values[i] <= most || missing_blocks(library.table, probability.rows[i]) == 0) continue;
+    likeliest = probability.rows[i];
+    most = probability.values[i];
+  }
+  if (most == 0.0 || damage <= 0.0) return "";
+  return fmt::format("Of losses the likeliest is {}, with {} of the probability of damage",
+                     in_words(library.table.scene(likeliest), library), percent(most / damage));
 }
 
 std::vector<std::string> suspects_in_words(const Answer& answer, const Comparison& comparison) {
@@ -160,8 +194,10 @@ std::vector<std::string> conclusions_in_words(const Answer& answer, const Librar
   sentences.push_back(fmt::format("{}: {}", opening, in_words(best.scene, library)));
   if (best.posterior)
     sentences.push_back(
-        fmt::format("Probability:  {}{}", percent(*best.posterior),
+        fmt::format("Probability:  {} {}{}", percent(*best.posterior), just_this_in_words(best.scene),
                     answer.fit && !answer.fit->explained ? ", if one of the scenes were the truth" : ""));
+  if (const std::string suspect = suspect_in_words(answer, library); !suspect.empty())
+    sentences.push_back(suspect);
   if (const std::string open = open_losses_in_words(answer, library); !open.empty())
     sentences.push_back(open);
   if (missed)
@@ -176,25 +212,24 @@ std::vector<std::string> conclusions_in_words(const Answer& answer, const Librar
 std::string verdict_in_words(const Answer& answer) {
   const Verdict verdict = verdict_of(answer);
   const Supposed supposed = supposed_by(answer.prior);
+  const std::string sure = fmt::format("at least {:.0f} % sure ", 100.0 * kCertain);
   const auto meaning = [&]() -> std::string {
     switch (verdict) {
       case Verdict::located:
-        return "a block is missing and named";
+        return sure + "that each block named is missing";
       case Verdict::damaged_unlocated:
-        return "blocks are missing, but the readings do not name one";
+        return sure + "that blocks are missing, but not of any single one";
       case Verdict::intact:
-        return "no block is missing";
+        return sure + "that no block is missing";
       case Verdict::cannot_tell:
-        if (answer.contested) return "the databases that may be right come to different answers";
+        if (answer.contested) return "the databases whose assumptions may hold differ in their verdicts";
         return supposed == Supposed::nothing ? "the readings do not tell whether blocks are missing"
                                              : supposed_in_words(supposed);
       default:
         return "no scene is an answer; the list below names the closest";
     }
   };
-  const bool certain = verdict != Verdict::cannot_tell && verdict != Verdict::unexplained;
-  return fmt::format("{} ({}{})", to_string(verdict), meaning(),
-                     certain ? fmt::format(", at least {:.0f} % sure", 100.0 * kCertain) : "");
+  return fmt::format("{} ({})", to_string(verdict), meaning());
 }
 
 std::string in_words(const AskedDatabase& database) {
@@ -223,9 +258,23 @@ std::string_view errors_are_shares_of(ReadingKind kind) {
   }
 }
 
-std::string noise_in_words(const NoiseEstimate& noise, ReadingKind kind) {
+/// The standard deviations that the readings state.
+std::string stated_in_words(const Measurements& measured) {
+  double least = std::numeric_limits<double>::infinity(), most = 0.0;
+  for (std::size_t i = 0; i < measured.sigma.size(); ++i) {
+    if (std::isnan(measured.displacement[i]) || std::isnan(measured.sigma[i])) continue;
+    least = std::min(least, kMillimetres * measured.sigma[i]);
+    most = std::max(most, kMillimetres * measured.sigma[i]);
+  }
+  if (most == 0.0) return "absolute";
+  return least == most ? fmt::format("{:.3g} mm", most) : fmt::format("{:.3g} to {:.3g} mm", least, most);
+}
+
+std::string noise_in_words(const NoiseEstimate& noise, const Comparison& comparison) {
+  const ReadingKind kind = comparison.kind;
   if (!noise.estimated && noise.level <= kSmallestLevel)
-    return fmt::format("absolute, as stated for each reading ({} noise)", to_string(noise.shape));
+    return fmt::format("{} as stated for each reading ({} noise)", stated_in_words(comparison.measured),
+                       to_string(noise.shape));
   const std::string floor = noise.floor > 0.0 ? fmt::format("{:.3g} mm", kMillimetres * noise.floor) : "";
   if (noise.estimated && noise.level <= 2.0 * kSmallestLevel)
     return floor.empty() ? "none that could be seen"
@@ -242,7 +291,10 @@ std::string behind(const Candidate& candidate, const Candidate& best) {
   if (!best.posterior) return fmt::format("{:+.4f}", candidate.misfit - best.misfit);
   if (*candidate.posterior == 0.0) return "negligible";
   const double odds = *best.posterior / *candidate.posterior;
-  return odds < 1e6 ? fmt::format("1 : {:.4g}", odds) : "1 : > 10^6";
+  if (odds >= 1e6) return "1 : > 10^6";
+  if (odds < 100.0) return fmt::format("1 : {:.3g}", odds);
+  const double step = std::pow(10.0, std::floor(std::log10(odds)) - 2.0);  // three figures
+  return fmt::format("1 : {:.0f}", step * std::round(odds / step));
 }
 
 std::string same_in_words(const Candidate& candidate, const Library& library) {
@@ -269,11 +321,18 @@ std::string_view if_true(const Answer& answer) {
 
 std::vector<std::string> odd_sensors(const Answer& answer, const Comparison& comparison) {
   const std::vector<double> origin = origin_of(comparison);
+  // A scene that falls lets expect its snapshot, which is no measure of sensors.
+  if (answer.known_bridge && answer.candidates.front().outcome == Outcome::collapsed) return {};
   std::vector<SensorResidual> odd = disagreeing(answer.residuals);
+  // Where some readings may be wrong and decide, what all others let expect hangs on them.
+  if (answer.without)
+    std::erase_if(odd, [&](const SensorResidual& sensor) {
+      return std::ranges::find(answer.without->channels, sensor.point) == answer.without->channels.end();
+    });
   odd.resize(std::min(odd.size(), kMostSensorsListed));
   std::vector<std::string> sentences;
   for (const SensorResidual& sensor : odd)
-    sentences.push_back(fmt::format("Sensor {} disagrees: it reads {:.4g} {} where {:.4g} would be expected",
+    sentences.push_back(fmt::format("Sensor {} disagrees: it reads {:.3f} {} where {:.3f} would be expected",
                                     comparison.library.points[sensor.point].name,
                                     kMillimetres * (sensor.reading - origin[sensor.point]),
                                     unit_of(quantity_of(comparison, sensor.point)),

@@ -53,7 +53,7 @@ std::string bridge_in_words(const Answer& answer);
 std::string_view errors_are_shares_of(ReadingKind kind);
 
 /// "at most 9.7 % of the displacement (uniform noise, estimated)"
-std::string noise_in_words(const NoiseEstimate& noise, ReadingKind kind);
+std::string noise_in_words(const NoiseEstimate& noise, const Comparison& comparison);
 
 /// How far a candidate is behind the best: the ratio of probabilities or, without them, of misfits their
 /// difference.

@@ -17,7 +17,7 @@ namespace {
 
 Table table_of(const std::vector<SurveyRow>& rows) {
   Table table{{"file", "verdict", "named", "certainty", "scene", "posterior", "intact_probability", "misfit",
-               "readings", "reason", "error", "suspects", "verdict_without", "named_without"},
+               "readings", "reason", "error", "suspects", "verdict_without", "named_without", "open_losses"},
               {}};
   const bool several = std::ranges::any_of(rows, [](const SurveyRow& row) { return !row.database.empty(); });
   if (several) table.columns.push_back("database");
@@ -26,7 +26,8 @@ Table table_of(const std::vector<SurveyRow>& rows) {
     table.rows.push_back({row.file, row.verdict, row.named, answered ? row.certainty : kNan, row.scene,
                           answered ? row.posterior : kNan, answered ? row.intact_probability : kNan,
                           answered ? row.misfit : kNan, answered ? static_cast<double>(row.readings) : kNan,
-                          row.reason, row.error, row.suspects, row.verdict_without, row.named_without});
+                          row.reason, row.error, row.suspects, row.verdict_without, row.named_without,
+                          answered ? static_cast<double>(row.open_losses) : kNan});
     if (several) table.rows.back().push_back(row.database);
   }
   return table;
@@ -42,6 +43,9 @@ std::string line_of(const SurveyRow& row) {
   if (!row.suspects.empty())
     reason += fmt::format(", without {} {}{}{}", row.suspects, row.verdict_without,
                           row.named_without.empty() ? "" : " ", row.named_without);
+  if (row.open_losses > 0)
+    reason += fmt::format(", but {} {} not excluded", row.open_losses,
+                          row.open_losses == 1 ? "loss is" : "losses are");
   return fmt::format("{}: {}{}{}; first {} ({}), intact {}{}\n", row.file, row.verdict, named, reason,
                      row.scene, percent(row.posterior), percent(row.intact_probability),
                      row.database.empty() ? "" : fmt::format("; {}", row.database));
@@ -82,6 +86,7 @@ SurveyRow survey_row(const std::string& file, const Answer& answer, const Compar
       const BlockId last = named_blocks(answer).back();
       row.certainty = answer.posterior->block_probability[static_cast<std::size_t>(value(last))];
     }
+    row.open_losses = open_losses(answer).size();
     add_without(answer, comparison, row);
   }
   if (answer.candidates.empty()) return row;

@@ -16,15 +16,9 @@ std::string ordinal(int number) {
 }
 
 std::string percent(double share) {
-  if (share == 0.0) return "0 %";
-  if (share == 1.0) return "100 %";
   if (share < 0.001) return "< 0.1 %";
   if (share > 0.999) return "> 99.9 %";
   return fmt::format("{:.1f} %", 100.0 * share);
-}
-
-std::string percent_of_others(double share) {
-  return share > 0.0 && share < 0.001 ? percent(0.9999) : percent(1.0 - share);
 }
 
 std::string place_in_words(BlockId id, const BlockLayout& layout) {

@@ -17,12 +17,7 @@ std::string place_in_words(const Scene& scene, const BlockLayout& layout);
 /// "1st", "2nd", "11th"...
 std::string ordinal(int number);
 
-/// How many figures of a database's digest people see.
-inline constexpr std::size_t kDigestShown = 12;
-
-/// "97.3 %", "< 0.1 %", "100 %" only for what is exactly one.
+/// "97.3 %"; "< 0.1 %" and "> 99.9 %" at the ends, as nothing is known to be impossible or certain.
 std::string percent(double share);
-/// Of 1 - share, which may differ from 1 by less than numbers near 1 can.
-std::string percent_of_others(double share);
 
 }  // namespace voussoir

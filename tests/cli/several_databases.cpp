@@ -74,7 +74,7 @@ TEST_CASE("Of several databases the one answers whose assumptions the readings w
       CHECK(both["candidates"] == alone["candidates"]);
     }
     const std::string text = Assumptions::locate({readings}, {sliding, held}).out;
-    CHECK(text.find("Asked:") < text.find("Searched:"));
+    CHECK(text.find("Databases:") < text.find("Searched:"));
     CHECK(text.find("held.h5 (digest ") != std::string::npos);
   }
 }

@@ -72,7 +72,8 @@ TEST_CASE("A file that is none has a row of a survey that says why, and the othe
   CHECK_THAT(csv.err, Catch::Contains("2 of 5 files"));
   CHECK_THAT(csv.out,
              Catch::StartsWith("file,verdict,named,certainty,scene,posterior,intact_probability,misfit,"
-                               "readings,reason,error,suspects,verdict_without,named_without\n"));
+                               "readings,reason,error,suspects,verdict_without,named_without,"
+                               "open_losses\n"));
   CHECK(std::ranges::count(csv.out, '\n') == 6);
   CHECK_THAT(csv.out, Catch::Contains("bad.csv:2") && Catch::Contains("absent.csv"));
   const test::ProgramResult text = survey.locate(survey.files, "text");

@@ -1,6 +1,6 @@
 /// @file Random bridges' files say what was drawn.
 
-#include "tools/benchmarks/random_bridge.h"
+#include "tools/validation/random_bridge.h"
 
 #include <catch2/catch.hpp>
 

@@ -1,27 +1,29 @@
 /// @file benchmark-accuracy: run time against error of the solvers.
 
 #include "core/bridge_file/bridge_file.h"
+#include "core/program/command_line.h"
 #include "core/text_file.h"
-#include "lookup/command_line.h"
 #include "tools/benchmarks/accuracy.h"
 #include "tools/benchmarks/skips.h"
+
+using namespace voussoir;
 
 namespace {
 
 struct Options {
   std::string bridge;
-  voussoir::AccuracyOptions accuracy;
+  AccuracyOptions accuracy;
   std::string plot;
   bool skips = false;
   std::string skip_scenes = "singles;10,*+12,*;8,*+4,10;0,3+1,*;0,5+3,*";
 };
 
 std::string benchmark(const Options& options) {
-  const voussoir::BridgeFile bridge =
-      options.bridge.empty() ? voussoir::reference_bridge_file() : voussoir::read_bridge_file(options.bridge);
-  if (options.skips) return to_markdown(voussoir::measure_skips(bridge, options.skip_scenes));
-  const auto rows = voussoir::measure_accuracy(bridge.description, options.accuracy);
-  if (!options.plot.empty()) voussoir::write_file(options.plot, to_svg(rows));
+  const BridgeFile bridge =
+      options.bridge.empty() ? reference_bridge_file() : read_bridge_file(options.bridge);
+  if (options.skips) return to_markdown(measure_skips(bridge, options.skip_scenes));
+  const auto rows = measure_accuracy(bridge.description, options.accuracy);
+  if (!options.plot.empty()) write_file(options.plot, to_svg(rows));
   return to_markdown(rows);
 }
 
@@ -44,5 +46,5 @@ int main(int argc, char** argv) {
                  "scenes built for that, as --scenes of build-database takes them")
       ->capture_default_str();
   app.add_option("--svg", options.plot, "write the plot to this file");
-  return voussoir::run_program(app, argc, argv, [&] { return benchmark(options); });
+  return run_program(app, argc, argv, [&] { return benchmark(options); });
 }

@@ -192,9 +192,7 @@ std::string counts_text(const AssumptionCounts& counts) {
 
 std::vector<AssumptionRow> measure_assumptions(const AssumptionOptions& options,
                                                const AssumptionRowsDone& done) {
-  LocateDamageOptions asking;
-  asking.databases = options.databases;
-  OpenedDatabases opened = open_databases(asking);
+  OpenedDatabases opened = open_databases({.databases = options.databases});
   std::vector<AssumptionRow> all;
   for (const std::string& file : options.bridges) {
     const std::vector<AssumptionRow> rows = BridgeRows(file, opened, options).measure();

@@ -2,6 +2,7 @@
 /// @file What databases say of an intact bridge that is built otherwise than their files say.
 
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <string>
 #include <vector>
@@ -9,12 +10,12 @@
 namespace voussoir {
 
 struct AssumptionOptions {
-  std::vector<std::string> bridges;    ///< files: the bridge as it may be in truth
-  std::vector<std::string> databases;  ///< asked one by one and, if several, together; none: the usual one
-  double sigma = 1e-5;                 ///< [m] of a change, or of an absolute reading
-  int questions = 4;                   ///< of each kind, each with errors of its own
-  std::uint64_t seed = 1;              ///< of the errors
-  double shift = 0.0;                  ///< [m] by which the bridges lie further right than the databases'
+  std::vector<std::string> bridges;              ///< files: the bridge as it may be in truth
+  std::vector<std::filesystem::path> databases;  ///< asked one by one and, if several, together
+  double sigma = 1e-5;                           ///< [m] of a change, or of an absolute reading
+  int questions = 4;                             ///< of each kind, each with errors of its own
+  std::uint64_t seed = 1;                        ///< of the errors
+  double shift = 0.0;  ///< [m] by which the bridges lie further right than the databases'
 };
 
 /// What came of some questions. Nothing is missing, so every block that is named is there.

@@ -8,8 +8,8 @@
 #include "core/motion/dynamic_solver.h"
 #include "core/random.h"
 #include "tools/benchmarks/default_build.h"
-#include "tools/benchmarks/random_bridge.h"
 #include "tools/benchmarks/timing.h"
+#include "tools/validation/random_bridge.h"
 
 namespace voussoir {
 namespace {

@@ -3,12 +3,13 @@
 #include <filesystem>
 #include <iostream>
 
+#include "core/program/command_line.h"
 #include "core/text_file.h"
-#include "lookup/command_line.h"
 #include "tools/benchmarks/bridges.h"
-#include "tools/benchmarks/random_bridge.h"
+#include "tools/validation/random_bridge.h"
 
-namespace voussoir {
+using namespace voussoir;
+
 namespace {
 
 /// Bridge files FOLDER/SEED.toml, for build-database. Returns what was written, a line each.
@@ -25,7 +26,6 @@ std::string write_bridges(const BridgeOptions& options, const std::filesystem::p
 }
 
 }  // namespace
-}  // namespace voussoir
 
 int main(int argc, char** argv) {
   CLI::App app(
@@ -35,9 +35,9 @@ int main(int argc, char** argv) {
   app.footer(
       "Examples: benchmark-bridges --bridges 20 --seed 100\n"
       "          benchmark-bridges --bridges 20 --seed 100 --write bridges");
-  voussoir::BridgeOptions options;
+  BridgeOptions options;
   app.add_option("--bridges", options.bridges, "default 10")->check(CLI::Range(0, 100000));
-  app.add_option("--seed", options.seed, "of the first bridge, the next has the next one; default 1");
+  add_seed_option(app, options.seed, "of the first bridge, the next has the next one; default 1");
   app.add_option("--scenes", options.scenes, "singles drawn of each bridge, 0: all; default 40")
       ->check(CLI::Range(0, 100000));
   app.add_option(
@@ -48,11 +48,11 @@ int main(int argc, char** argv) {
   std::string folder;
   app.add_option("--write", folder, "only write the bridges' files, FOLDER/SEED.toml, for build-database")
       ->type_name("FOLDER");
-  return voussoir::run_program(app, argc, argv, [&] {
-    if (!folder.empty()) return voussoir::write_bridges(options, folder);
-    const auto tell = [](const voussoir::BridgeRow& row) {
+  return run_program(app, argc, argv, [&] {
+    if (!folder.empty()) return write_bridges(options, folder);
+    const auto tell = [](const BridgeRow& row) {
       std::cerr << fmt::format("{}: {} blocks, {:.1f} s\n", row.name, row.blocks, row.intact + row.singles);
     };
-    return to_markdown(voussoir::measure_bridges(options, tell));
+    return to_markdown(measure_bridges(options, tell));
   });
 }

@@ -3,22 +3,23 @@
 #include <filesystem>
 #include <iostream>
 
+#include "core/program/command_line.h"
 #include "core/text_file.h"
-#include "lookup/command_line.h"
 #include "tools/benchmarks/growth.h"
+
+using namespace voussoir;
 
 namespace {
 
 std::string benchmark(int most_spans, int scenes, const std::string& folder) {
-  const auto tell = [](const voussoir::Growth& growth) {
-    const voussoir::GrowthPoint& point = growth.points.back();
+  const auto tell = [](const Growth& growth) {
+    const GrowthPoint& point = growth.points.back();
     std::cerr << fmt::format("{} {:.3g}: {:.2f} ms a scene\n", growth.name, point.x, 1e3 * point.seconds);
   };
   std::string text;
-  for (const voussoir::Growth& growth : voussoir::measure_growth(most_spans, scenes, tell)) {
+  for (const Growth& growth : measure_growth(most_spans, scenes, tell)) {
     text += to_markdown(growth);
-    if (!folder.empty())
-      voussoir::write_file(std::filesystem::path(folder) / (growth.name + ".svg"), to_svg(growth));
+    if (!folder.empty()) write_file(std::filesystem::path(folder) / (growth.name + ".svg"), to_svg(growth));
   }
   return text;
 }
@@ -38,5 +39,5 @@ int main(int argc, char** argv) {
   app.add_option("--scenes", scenes, "singles of each bridge with other joints or pieces; default 0: all")
       ->check(CLI::Range(0, 100000));
   app.add_option("--svg", folder, "write the pictures into this folder")->check(CLI::ExistingDirectory);
-  return voussoir::run_program(app, argc, argv, [&] { return benchmark(most_spans, scenes, folder); });
+  return run_program(app, argc, argv, [&] { return benchmark(most_spans, scenes, folder); });
 }

@@ -2,16 +2,12 @@
 
 #include "core/error.h"
 #include "lookup/command_line.h"
-#include "tools/benchmarks/irregular_options.h"
+#include "tools/benchmarks/localisation_options.h"
 #include "tools/trials/localisation.h"
 
-namespace {
+using namespace voussoir;
 
-using voussoir::Calibration;
-using voussoir::CaseResult;
-using voussoir::Library;
-using voussoir::NoiseShape;
-using voussoir::Success;
+namespace {
 
 struct Options {
   std::optional<std::string> database;
@@ -19,7 +15,7 @@ struct Options {
   int scenes = 2000;
   std::uint64_t seed = 1;
   bool irregular = false;
-  voussoir::IrregularOptions bridges;
+  IrregularOptions bridges;
 };
 
 double share(double count, const Success& success) {
@@ -35,8 +31,8 @@ std::string generations(const CaseResult& result) {
   return fmt::format("{} ({}..{})", at(0.5), at(0.1), at(0.9));
 }
 
-void print_table(const Library& library, const std::string& title,
-                 const std::vector<voussoir::PaperCase>& cases, const Options& options) {
+void print_table(const Library& library, const std::string& title, const std::vector<PaperCase>& cases,
+                 const Options& options) {
   fmt::print(
       "{}: {} noisy trials a case, uniform relative noise, among the scenes with as many missing blocks\n",
       title, options.trials);
@@ -44,7 +40,7 @@ void print_table(const Library& library, const std::string& title,
              "scene", "noise", "paper", "Eq. 1", "top 5", "right", "top 5", "95 %", "deflt", "top 5", "95 %",
              "GA true", "GA min", "generations");
   for (const auto& paper_case : cases) {
-    const CaseResult r = voussoir::run_case(library, paper_case, options.trials, options.seed);
+    const CaseResult r = run_case(library, paper_case, options.trials, options.seed);
     fmt::print(
         "{:<12} {:>4.0f}% | {:>9} | {:>6.3f} {:>6.3f} | {:>6.3f} {:>6.3f} {:>6.3f} | {:>6.3f} {:>6.3f} "
         "{:>6.3f} | "
@@ -62,7 +58,7 @@ void print_table(const Library& library, const std::string& title,
 
 void print_calibration(const Library& library, const std::string& title, NoiseShape drawn, NoiseShape assumed,
                        bool stated, const Options& options) {
-  const Calibration c = voussoir::calibrate(library, drawn, assumed, stated, options.scenes, options.seed);
+  const Calibration c = calibrate(library, drawn, assumed, stated, options.scenes, options.seed);
   fmt::print("Calibration, {}: {} random scenes, noise 1..20 %\n", title, options.scenes);
   fmt::print(
       "  truth first {:.3f}, in the first five {:.3f}, in the 95 % set {:.3f} (of exactly 95 %: {:.3f}; mean "
@@ -82,8 +78,8 @@ void print_calibration(const Library& library, const std::string& title, NoiseSh
 }
 
 std::string benchmark_paper(const Options& options) {
-  const auto database = voussoir::Database::open(voussoir::find_database(options.database));
-  const voussoir::PaperCases cases = voussoir::read_paper_cases(voussoir::paper_cases_file());
+  const auto database = Database::open(find_database(options.database));
+  const PaperCases cases = read_paper_cases(paper_cases_file());
   const Library library = library_of(database);
   fmt::print(
       "Columns: Eq. 1 = the paper's objective; right = posterior with the true noise model; deflt = "
@@ -101,7 +97,7 @@ std::string benchmark_paper(const Options& options) {
                     false, options);
   for (const bool known : {true, false})
     fmt::print("Intact called damaged, noise {}: {} of {} trials\n", known ? "known" : "unknown",
-               voussoir::false_alarms(library, known, options.scenes, options.seed), options.scenes);
+               false_alarms(library, known, options.scenes, options.seed), options.scenes);
   return {};
 }
 
@@ -113,19 +109,18 @@ int main(int argc, char** argv) {
       "Example: benchmark-localisation -d bridge.h5\n"
       "         benchmark-localisation -d bridge.h5 --irregular --page irregular.html");
   Options options;
-  app.add_option("-d,--database", options.database, "default: $VOUSSOIR_DATABASE, else ./bridge.h5");
+  add_database_option(app, options.database);
   app.add_option("--trials", options.trials, "noisy trials of each of the paper's cases, default 200")
       ->check(CLI::Range(1, 1000000));
   app.add_option("--scenes", options.scenes, "random scenes of the calibration, default 2000")
       ->check(CLI::Range(1, 1000000));
-  app.add_option("--seed", options.seed, "default 1");
+  add_seed_option(app, options.seed, "default 1");
   app.add_flag(
       "--irregular", options.irregular,
       "instead: bridges that the database does not hold, with the bridge taken as known and as unknown");
-  voussoir::add_irregular_options(app, options.bridges);
-  return voussoir::run_program(app, argc, argv, [&] {
-    return options.irregular
-               ? voussoir::benchmark_irregular(voussoir::find_database(options.database), options.bridges)
-               : benchmark_paper(options);
+  add_irregular_options(app, options.bridges);
+  return run_program(app, argc, argv, [&] {
+    return options.irregular ? benchmark_irregular(find_database(options.database), options.bridges)
+                             : benchmark_paper(options);
   });
 }

@@ -8,7 +8,7 @@
 #include "core/structure/uncertain_parameters.h"
 #include "tests/support/bridges.h"
 #include "tests/support/same_bits.h"
-#include "tools/benchmarks/random_bridge.h"
+#include "tools/validation/random_bridge.h"
 
 namespace voussoir {
 namespace {

@@ -55,7 +55,8 @@ const Shelf& shelf() {
 Comparison compare_text(const std::string& text, const Database& database, const std::string& sensors = "",
                         const ComparisonSettings& settings = {}) {
   SensorList list = control_point_sensors(database.control_points());
-  if (!sensors.empty()) parse_sensors(sensors, "s.csv", database.layout(), database.mesh(), list);
+  if (!sensors.empty())
+    list = parse_sensors(sensors, "s.csv", database.layout(), database.mesh(), std::move(list));
   return compare(parse_readings(text, "m.csv", list), list, database, settings);
 }
 

@@ -113,9 +113,7 @@ test::Tally feed_sensors(int inputs, std::uint64_t seed) {
   return test::feed(inputs, [&] {
     const std::string text = test::damaged_text(good, kNasty, chance);
     return verdict_of(text, [&] {
-      SensorList list;
-      parse_sensors(text, "fuzz.csv", bridge.layout, bridge.mesh, list);
-      return is_sound(list, bridge.mesh);
+      return is_sound(parse_sensors(text, "fuzz.csv", bridge.layout, bridge.mesh), bridge.mesh);
     });
   });
 }

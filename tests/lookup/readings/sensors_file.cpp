@@ -16,7 +16,7 @@ const Model& sensors_bridge() {
 
 std::vector<Sensor> sensors_of(const std::string& text) {
   SensorList list{{{"T1", Quantity::uy, Point(0, 2.5), {BlockId{0}}}}, 1};
-  parse_sensors(text, "s.csv", sensors_bridge().layout, sensors_bridge().mesh, list);
+  list = parse_sensors(text, "s.csv", sensors_bridge().layout, sensors_bridge().mesh, std::move(list));
   list.sensors.erase(list.sensors.begin());
   return list.sensors;
 }
@@ -62,8 +62,7 @@ TEST_CASE("Sensors are read with their quantity, place and block") {
 TEST_CASE("The example's sensors are on the reference bridge, its gauge over a joint") {
   const std::string examples = std::string(VOUSSOIR_SOURCE_DIR) + "/examples/";
   const Model bridge = make_model(read_bridge_file(examples + "bridges/reference.toml").description);
-  SensorList list;
-  read_sensors(examples + "sensors/reference.csv", bridge.layout, bridge.mesh, list);
+  const SensorList list = read_sensors(examples + "sensors/reference.csv", bridge.layout, bridge.mesh);
   REQUIRE(list.sensors.size() == 4);
   CHECK(bridge.layout[list.sensors[1].blocks.front()].label == "10,4");
   CHECK(bridge.layout[list.sensors[2].blocks.front()].label == "10,5");

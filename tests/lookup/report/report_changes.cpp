@@ -78,8 +78,9 @@ TEST_CASE("Without probabilities there is no verdict") {
 TEST_CASE("The text says the history, the verdict and what moved most, before and after") {
   const Comparison comparison = two_epochs();
   const std::string text = text_report(locate_damage(comparison, stated_noise()), comparison, {});
-  CHECK_THAT(text, Contains("History:      lost (missing blocks went while the bridge carried its weight)") &&
-                       Contains("Verdict:      located (a block is missing and named, at least 90 % sure)"));
+  CHECK_THAT(text,
+             Contains("History:      lost (missing blocks went while the bridge carried its weight)") &&
+                 Contains("Verdict:      located (at least 90 % sure that each block named is missing)"));
   std::size_t most = 0;
   for (std::size_t i = 1; i < synthetic().points.size(); ++i)
     if (std::abs(change_at(i)) > std::abs(change_at(most))) most = i;

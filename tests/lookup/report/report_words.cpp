@@ -6,6 +6,7 @@
 #include "tests/lookup/synthetic_library.h"
 
 #include "lookup/report/bridge_report.h"
+#include "lookup/report/words.h"
 
 using namespace voussoir;
 
@@ -29,7 +30,9 @@ TEST_CASE("With probabilities a candidate is behind by their ratio, whatever the
   const Candidate best = candidate(-3.0, 0.75);
   CHECK(behind(candidate(-4.5, 0.25), best) == "1 : 3");
   CHECK(behind(candidate(-3.0, 0.75), best) == "1 : 1");
-  CHECK(behind(candidate(-2.0, 0.75e-5), best) == "1 : 1e+05");
+  CHECK(behind(candidate(-2.0, 0.75e-5), best) == "1 : 100000");
+  CHECK(behind(candidate(-2.0, 0.75 / 18.532), best) == "1 : 18.5");
+  CHECK(behind(candidate(-2.0, 0.75 / 10972.0), best) == "1 : 11000");
   CHECK(behind(candidate(-2.0, 1e-9), best) == "1 : > 10^6");
   CHECK(behind(candidate(-2.0, 0.0), best) == "negligible");
 }
@@ -38,7 +41,7 @@ TEST_CASE("What stands against a verdict is said with it (written out)") {
   Answer answer = test::explained_answer({0.99, 0.01}, 0.01);
   answer.contested = true;
   CHECK(verdict_in_words(answer) ==
-        "cannot-tell (the databases that may be right come to different answers)");
+        "cannot-tell (the databases whose assumptions may hold differ in their verdicts)");
   answer.contested = false;
   answer.prior = {{0}, {1.0}};
   CHECK(verdict_in_words(answer) == "cannot-tell (that no block is missing was supposed, not found)");
@@ -56,7 +59,53 @@ TEST_CASE("What is said to be intact is said with the losses that would hardly s
   CHECK(headline(answer, readings) == "No block is missing (99.5 %).");
   answer.posterior->open_losses = {{1, 0.5}, {2, 0.2}};
   CHECK(headline(answer, readings) ==
-        "No block is missing (99.5 %), but the loss of 2 blocks is not excluded.");
+        "Nothing shows that a block is missing (99.5 % that none is), but these readings do not exclude the "
+        "loss of 2 blocks.");
+}
+
+TEST_CASE("Where the intact bridge is likeliest but not certain the likeliest loss is told (written out)") {
+  const test::SyntheticLibrary library(2, 3);
+  const std::size_t likeliest = library.row_of({{BlockId{4}}});
+  Answer answer = test::explained_answer({0.7, 0.3}, 0.24);
+  answer.posterior->probability = {0.0, {0, library.row_of({{BlockId{3}}}), likeliest}, {0.7, 0.06, 0.24}};
+  answer.candidates = {candidate(-3.0, 0.7)};
+  const auto told = [&] {
+    const std::vector<std::string> all = conclusions_in_words(answer, library.library());
+    return std::ranges::count(
+        all, fmt::format("Of losses the likeliest is {} ({}), with 80.0 % of the probability of damage",
+                         library.layout[BlockId{4}].label,
+                         place_in_words(library.table.scene(likeliest), library.layout)));
+  };
+  CHECK(told() == 1);
+  answer.posterior->missing_probability = {0.95, 0.05};
+  answer.posterior->intact_if_even = 0.95;  // intact: no loss is told
+  CHECK(told() == 0);
+}
+
+TEST_CASE("A sensor that is told to be wrong is not told with those that only it makes look wrong") {
+  const test::SyntheticLibrary library(2, 3);
+  const Comparison readings = absolute_readings(library.library(), no_measurements(library.points.size()));
+  Answer answer = test::explained_answer({0.99, 0.01}, 0.01);
+  answer.candidates = {candidate(-3.0, 0.99)};
+  for (const std::size_t point : {0, 1})
+    answer.residuals.push_back({.point = point, .scale = 1e-5, .error = 20.0, .disagrees = true});
+  CHECK(odd_sensors(answer, readings).size() == 2);
+  answer.without = AnswerWithout{{1}, nullptr};
+  REQUIRE(odd_sensors(answer, readings).size() == 1);
+  CHECK_THAT(odd_sensors(answer, readings).front(),
+             Catch::StartsWith("Sensor " + library.points[1].name + " disagrees"));
+}
+
+TEST_CASE("Of a known bridge no sensor is held against a scene that falls") {
+  const test::SyntheticLibrary library(2, 3);
+  const Comparison readings = absolute_readings(library.library(), no_measurements(library.points.size()));
+  Answer answer = test::explained_answer({0.99, 0.01}, 0.01);
+  answer.known_bridge = true;
+  answer.candidates = {candidate(-3.0, 0.99)};
+  answer.residuals.push_back({.point = 0, .scale = 1e-5, .error = 20.0, .disagrees = true});
+  CHECK(odd_sensors(answer, readings).size() == 1);
+  answer.candidates.front().outcome = Outcome::collapsed;
+  CHECK(odd_sensors(answer, readings).empty());
 }
 
 TEST_CASE("A database that was asked is told with its share, its digest and its verdict (written out)") {

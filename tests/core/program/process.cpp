@@ -1,6 +1,6 @@
 /// @file What is put right of a process. Oracle: the system, which says how a child of this one ended.
 
-#include "core/process.h"
+#include "core/program/process.h"
 
 #include <fcntl.h>
 #include <sys/mman.h>

@@ -1,9 +1,10 @@
-#include "tools/benchmarks/irregular_options.h"
+#include "tools/benchmarks/localisation_options.h"
+
+#include "core/units.h"
 
 namespace voussoir {
 namespace {
 
-constexpr double kMetres = 1e-3;  // in a millimetre
 constexpr int kMost = 1000000;
 
 /// What the lookup is told.
@@ -38,7 +39,7 @@ void add_irregular_options(CLI::App& app, IrregularOptions& options) {
          "--sigma",
          [&](const std::vector<double>& sigmas) {
            options.settings.sigmas.clear();
-           for (const double sigma : sigmas) options.settings.sigmas.push_back(kMetres * sigma);
+           for (const double sigma : sigmas) options.settings.sigmas.push_back(kMetresPerMillimetre * sigma);
          },
          "of --irregular: errors of readings [mm], default .01,.03,.1")
       ->delimiter(',')

@@ -1,4 +1,4 @@
-#include "core/process.h"
+#include "core/program/process.h"
 
 #include <fcntl.h>
 #include <unistd.h>

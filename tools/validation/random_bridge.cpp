@@ -1,4 +1,4 @@
-#include "tools/benchmarks/random_bridge.h"
+#include "tools/validation/random_bridge.h"
 
 #include <fmt/format.h>
 
