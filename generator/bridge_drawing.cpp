@@ -4,33 +4,45 @@
 #include <array>
 #include <cmath>
 #include <iterator>
-#include <numeric>
 #include <span>
 
 #include "core/error.h"
-#include "core/structure/loads.h"
 #include "core/structure/top_surface.h"
 #include "core/text.h"
+#include "generator/load_drawing.h"
 
 namespace voussoir {
 namespace {
 
 constexpr double kLeastWidth = 1200.0;  ///< [px] of the picture; wider where labels need it
 constexpr double kMostWidth = 4800.0;
-constexpr double kLoadRow = 30.0;          ///< [px] above the bridge, of each load case
 constexpr double kMargin = 50.0;           ///< [px] on all sides, with the scale
 constexpr double kLabelHeight = 9.0;       ///< [px]
 constexpr double kSmallLabel = 2.0 / 3.0;  ///< [-] of the others' size, as in the style
 
+constexpr const char* kLightColours =
+    "--page:#fff;--text:#222;--edge:#666;--joint:#000;--sensor:#c00;--held:#06c;--load:#b00;--soil:#e9e2d2;"
+    "--wall:#e4d9c4;--ring:#d6a77a;--pier:#cbbfa6;--abutment:#bfb49c;--parapet:#efe7d6;--backing:#c9c9c0;"
+    "--fill:#d9cdb0";
+constexpr const char* kDarkColours =
+    "--page:#14171b;--text:#e6e8eb;--edge:#8b8f96;--joint:#d0d4d8;--sensor:#ff8a7a;--held:#6ab4ff;--load:#"
+    "ff9a57;"
+    "--soil:#2a2822;--wall:#3f3a30;--ring:#75512f;--pier:#4d4636;--abutment:#55503f;--parapet:#34312a;"
+    "--backing:#41433f;--fill:#4a4332";
 constexpr const char* kStyle =
-    "text{font:9px sans-serif;fill:#222;text-anchor:middle}"
-    ".big{font-size:13px}.small{font-size:6px}.key{font-size:11px}\n"
-    "path{stroke:#666;stroke-width:.5}.wall{fill:#e4d9c4}.ring{fill:#d6a77a}.pier{fill:#cbbfa6}"
-    ".abutment{fill:#bfb49c}.parapet{fill:#efe7d6}.backing{fill:#c9c9c0}.fill{fill:#d9cdb0;fill-opacity:.6}\n"
-    ".soil{fill:#e9e2d2;stroke:none}.gauge{stroke:#c00;stroke-width:1}\n"
-    ".joint{stroke:#000;stroke-width:1}.support{fill:none;stroke:#06c;stroke-width:1.5}"
-    ".roller{fill:#fff;stroke:#06c}.point{fill:#c00}.load{stroke:#b00;stroke-width:2;fill:none}"
-    "\n";
+    "svg{color-scheme:light dark}"
+    "text{font:9px system-ui,\"DejaVu Sans\",sans-serif;fill:var(--text);text-anchor:middle}"
+    ".big{font-size:13px}.small{font-size:6px}.key{font-size:11px}.start{text-anchor:start}"
+    ".name{font-weight:600;paint-order:stroke;stroke:var(--page);stroke-width:2.5px}"
+    ".swatch{stroke:var(--edge);stroke-width:.5}\n"
+    "path{stroke:var(--edge);stroke-width:.5}.page{fill:var(--page)}.wall{fill:var(--wall)}.ring{fill:var(--"
+    "ring)}"
+    ".pier{fill:var(--pier)}.abutment{fill:var(--abutment)}.parapet{fill:var(--parapet)}"
+    ".backing{fill:var(--backing)}.fill{fill:var(--fill);fill-opacity:.6}\n"
+    ".soil{fill:var(--soil);stroke:none}.gauge{stroke:var(--sensor);stroke-width:1}"
+    ".joint{stroke:var(--joint);stroke-width:1}.support{fill:none;stroke:var(--held);stroke-width:1.5}"
+    ".roller{fill:var(--page);stroke:var(--held)}.point{fill:var(--sensor)}.held{fill:var(--held)}"
+    ".load{stroke:var(--load);stroke-width:2;fill:none}.loads{fill:var(--load)}\n";
 
 using Soil = std::array<Point, 4>;  ///< a piece of what only weighs [m]
 
@@ -61,7 +73,7 @@ struct Frame {
         high(bridge.mesh.nodes.rowwise().maxCoeff()),
         width(width_for_labels(bridge.layout, high.x() - low.x())),
         scale((width - 2.0 * kMargin) / (high.x() - low.x())),
-        above(1.5 * kMargin + kLoadRow * static_cast<double>(load_cases)) {
+        above(1.8 * kMargin + kLoadRow * static_cast<double>(load_cases)) {
     for (const Soil& piece : soil)
       for (const Point& corner : piece) high = high.cwiseMax(corner);
   }
@@ -70,11 +82,6 @@ struct Frame {
   }
   double height() const { return above + 1.5 * kMargin + scale * (high.y() - low.y()); }
 };
-
-std::string text_at(const Point& at, const char* css_class, const std::string& text) {
-  return fmt::format("<text class=\"{}\" x=\"{:.1f}\" y=\"{:.1f}\">{}</text>\n", css_class, at.x(), at.y(),
-                     escaped(text));
-}
 
 /// A closed outline, as a path's data.
 std::string outline(std::span<const Point> corners, const Frame& frame) {
@@ -104,14 +111,19 @@ std::string soil(const std::vector<Soil>& pieces, double unit_weight, const Fram
       1e-3 * unit_weight);
 }
 
-/// Labels of the blocks in which they have room, small ones where that helps.
-std::string labels(const BlockLayout& layout, const Frame& frame) {
+/// Labels of the blocks in which they have room, small ones where that helps, above a sensor in their place.
+std::string labels(const Structure& bridge, const Frame& frame) {
   std::string elements;
-  for (const Block& block : layout.blocks) {
-    const double room = frame.scale * std::sqrt(area(block.polygon)) / label_width(block);
+  for (const Block& block : bridge.layout.blocks) {
+    const double width = label_width(block);
+    const double room = frame.scale * std::sqrt(area(block.polygon)) / width;
     if (room < kSmallLabel) continue;
-    elements +=
-        text_at(frame(centroid(block.polygon)) + Point(0.0, 3.0), room < 1.0 ? "small" : "", block.label);
+    const Point middle = frame(centroid(block.polygon));
+    const bool is_taken = std::ranges::any_of(bridge.control_points, [&](const ControlPoint& point) {
+      const Point away = (frame(point.position) - middle).cwiseAbs();
+      return away.x() < 0.5 * width + 2.0 && away.y() < 0.5 * kLabelHeight + 2.0;
+    });
+    elements += text_at(middle + Point(0.0, is_taken ? -5.0 : 3.0), room < 1.0 ? "small" : "", block.label);
   }
   return elements;
 }
@@ -155,6 +167,18 @@ std::string control_points(const Structure& bridge, const Frame& frame) {
   return elements;
 }
 
+/// Names of the sensors that the bridge file adds to the control points, below their places.
+std::string sensor_names(const Structure& bridge, const BridgeDescription& description, const Frame& frame) {
+  std::string elements;
+  const std::size_t first = bridge.control_points.size() - description.sensors.size();
+  for (const ControlPoint& point : std::span(bridge.control_points).subspan(first)) {
+    const double half = 0.32 * kLabelHeight * static_cast<double>(point.name.size());
+    const Point p = frame(point.position);
+    elements += text_at({std::clamp(p.x(), half, frame.width - half), p.y() + 11.0}, "name", point.name);
+  }
+  return elements;
+}
+
 /// A line between the two places of each sensor of a distance.
 std::string gauges(const BridgeDescription& description, const Frame& frame) {
   std::string elements;
@@ -168,72 +192,38 @@ std::string gauges(const BridgeDescription& description, const Frame& frame) {
   return elements;
 }
 
-/// Where a load case pushes: its points, its vehicle's axles at the first place, and lines as two ends [m].
-std::vector<double> pushed_at(const LoadDescription& load) {
-  std::vector<double> places;
-  for (const PointLoad& point : load.points) places.push_back(point.x);
-  if (!load.places.empty())
-    for (const Axle& axle : load.axles) places.push_back(load.places.front() - axle.at);
-  for (const LineLoad& line : load.lines) places.insert(places.end(), {line.from_x, line.to_x});
-  return places;
-}
-
-/// A row above the bridge for each load case: arrows where it pushes, bars along lines.
-std::string loads(const Model& bridge, const BridgeDescription& description, const Frame& frame) {
-  constexpr double kArrow = 0.5 * kLoadRow;
-  std::string elements;
-  double base =
-      frame(frame.high).y() - 0.3 * kLoadRow - kLoadRow * static_cast<double>(description.loads.size());
-  for (const LoadDescription& load : description.loads) {
-    base += kLoadRow;
-    const LoadStage stage = load_stages(load, bridge, description.material.thickness).front();
-    std::string data;
-    const auto across = [&](double x) { return frame(Point(x, 0.0)).x(); };
-    for (const LineLoad& line : load.lines)
-      fmt::format_to(std::back_inserter(data), "M{:.1f} {:.1f}H{:.1f}", across(line.from_x), base - kArrow,
-                     across(line.to_x));
-    std::vector<double> places = pushed_at(load);
-    std::erase_if(places, [&](double x) { return x < frame.low.x() || x > frame.high.x(); });
-    for (const double x : places)
-      fmt::format_to(std::back_inserter(data), "M{:.1f} {:.1f}v{:.1f}m-3 -6l3 6l3 -6", across(x),
-                     base - kArrow, kArrow);
-    const double sum = std::reduce(places.begin(), places.end());
-    const double middle =
-        places.empty() ? 0.5 * frame.width : across(sum / static_cast<double>(places.size()));
-    const std::string name = fmt::format("{}, {:.4g} kN", stage.name, -1e-3 * stage.force.row(1).sum() + 0.0);
-    elements +=
-        fmt::format("<path class=\"load\" d=\"{}\"><title>{} on the bridge's thickness</title></path>\n",
-                    data, escaped(name)) +
-        text_at({std::clamp(middle, 0.3 * kLabelHeight * static_cast<double>(name.size()), frame.width),
-                 base - kArrow - 3.0},
-                "", name);
-  }
-  return elements;
-}
-
-/// What the signs mean; of loads if there are any.
-std::string legend(const BridgeDescription& description) {
+/// What the signs and colours mean; of loads if there are any.
+std::string legend(const BlockLayout& layout, const BridgeDescription& description) {
   std::string text =
-      "<tspan fill=\"#c00\">\u25cf</tspan> sensors  "
-      "<tspan fill=\"#06c\">\u25b3</tspan> held  <tspan fill=\"#06c\">\u25cb</tspan> slides along";
+      "<tspan class=\"point\">\u25cf</tspan> points that are read  "
+      "<tspan class=\"held\">\u25b3</tspan> held  <tspan class=\"held\">\u25cb</tspan> slides along";
   if (!description.loads.empty())
-    text +=
-        "  <tspan fill=\"#b00\">\u2193</tspan> loads on the bridge's thickness, vehicles at their first "
-        "place";
-  return fmt::format("<text class=\"key\" x=\"{}\" y=\"36\">{}</text>\n", 0.5 * kLeastWidth, text);
+    text += "  <tspan class=\"loads\">\u2193</tspan> loads, vehicles at their first place";
+  std::string roles;
+  for (const std::string_view role : kRoleNames)
+    if (std::ranges::any_of(layout.blocks, [&](const Block& block) { return name_of(block.role) == role; }))
+      roles +=
+          fmt::format("{0}<tspan class=\"swatch {1}\">\u25a0</tspan> {1}", roles.empty() ? "" : "  ", role);
+  return fmt::format(
+      "<text class=\"key\" x=\"{0}\" y=\"36\">{1}</text>\n<text class=\"key\" x=\"{0}\" "
+      "y=\"52\">{2}</text>\n",
+      0.5 * kLeastWidth, text, roles);
 }
 
-/// Every metre, or every ten, so that numbers along an axis do not touch [m].
+/// 1, 2 or 5 times a power of ten, so that numbers along an axis have room [m].
 double step_between_numbers(const Frame& frame, Eigen::Index axis) {
-  constexpr double kSign = 7.0, kBetween = 10.0;  // [px], of each and between numbers
-  const double least = 16.0 / frame.scale;
-  double step = std::pow(10.0, std::ceil(std::log10(least)));
-  const auto width = [&](double at) {
-    return kSign * static_cast<double>(fmt::format("{:g}", std::ceil(at / step) * step).size()) + kBetween;
+  constexpr double kSign = 7.0, kLeastAcross = 45.0, kLeastUp = 40.0;  // [px]
+  const double least = (axis == 0 ? kLeastAcross : kLeastUp) / frame.scale;
+  const auto has_room = [&](double step) {
+    const auto width = [&](double at) {
+      return kSign * static_cast<double>(fmt::format("{:g}", std::ceil(at / step) * step).size() + 1);
+    };
+    return step >= least &&
+           (axis == 1 || std::max(width(frame.low.x()), width(frame.high.x())) <= step * frame.scale);
   };
-  while (axis == 0 && std::max(width(frame.low.x()), width(frame.high.x())) > step * frame.scale)
-    step *= 10.0;
-  return step;
+  for (double power = std::pow(10.0, std::floor(std::log10(least)));; power *= 10.0)
+    for (const double factor : {1.0, 2.0, 5.0})
+      if (has_room(factor * power)) return factor * power;
 }
 
 /// Numbers along x and y.
@@ -248,13 +238,17 @@ std::string scales(const Frame& frame) {
       elements += text_at(p, "", fmt::format("{:g}", at + 0.0));
     }
   }
-  return elements;
+  const Point corner = frame(frame.low);
+  return elements + text_at({frame.width - 0.4 * kMargin, corner.y() + 30.0}, "", "x [m]") +
+         text_at({corner.x() - 30.0, frame(frame.high).y() - 14.0}, "", "y [m]");
 }
 
 std::string title(const Model& bridge, const BridgeDescription& description) {
-  return fmt::format("{}: {} blocks, {} of them in rings; {} joints, {} control points{} [m]",
-                     description.name, bridge.block_count(), bridge.layout.count_with(BlockRole::ring),
-                     bridge.joints.size(), bridge.control_points.size(),
+  const std::size_t sensors = description.sensors.size();
+  return fmt::format("{}: {} blocks, {} of them in rings; {} joints, {} control points{}{}", description.name,
+                     bridge.block_count(), bridge.layout.count_with(BlockRole::ring), bridge.joints.size(),
+                     bridge.control_points.size() - sensors,
+                     sensors == 0 ? "" : fmt::format(", {} sensor{}", sensors, sensors == 1 ? "" : "s"),
                      bridge.symmetry ? "; its own mirror image" : "");
 }
 
@@ -264,17 +258,24 @@ std::string bridge_drawing(const Model& bridge, const BridgeDescription& descrip
   const std::vector<Soil> pieces = TopSurface(bridge.mesh).soil(description.fill.surface);
   const Frame frame(bridge, pieces, description.loads.size());
   const std::string heading = title(bridge, description);
+  const LoadFrame across{kMargin - frame.scale * frame.low.x(),
+                         frame.scale,
+                         frame.low.x(),
+                         frame.high.x(),
+                         frame.width,
+                         frame(frame.high).y()};
   return fmt::format(
              "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.0f}\" height=\"{1:.0f}\" viewBox=\"0 0 "
-             "{0:.0f} "
-             "{1:.0f}\" role=\"img\" aria-label=\"{2}\">\n<style>{3}</style>\n<rect width=\"100%\" "
-             "height=\"100%\" "
-             "fill=\"#fff\"/>\n",
-             frame.width, frame.height(), escaped(heading), kStyle) +
-         text_at({0.5 * kLeastWidth, 20.0}, "big", heading) + legend(description) +
+             "{0:.0f} {1:.0f}\" style=\"max-width:100%;height:auto\" role=\"img\" aria-label=\"{2}\">\n"
+             "<style>:root{{{3}}}\n@media screen and "
+             "(prefers-color-scheme:dark){{:root{{{4}}}}}\n{5}</style>\n"
+             "<rect class=\"page\" width=\"100%\" height=\"100%\"/>\n",
+             frame.width, frame.height(), escaped(heading), kLightColours, kDarkColours, kStyle) +
+         text_at({0.5 * kLeastWidth, 20.0}, "big", heading) + legend(bridge.layout, description) +
          soil(pieces, description.fill.unit_weight, frame) + blocks(bridge.layout, frame) +
-         joints(bridge, frame) + labels(bridge.layout, frame) + supports(bridge, frame) +
-         gauges(description, frame) + control_points(bridge, frame) + loads(bridge, description, frame) +
+         joints(bridge, frame) + labels(bridge, frame) + supports(bridge, frame) +
+         gauges(description, frame) + control_points(bridge, frame) +
+         sensor_names(bridge, description, frame) + load_elements(bridge, description, across) +
          scales(frame) + "</svg>\n";
 }
 

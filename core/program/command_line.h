@@ -3,8 +3,9 @@
 
 #include <CLI/CLI.hpp>
 #include <functional>
-#include <map>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace voussoir {
 
@@ -30,14 +31,17 @@ int run_program(CLI::App& app, int argc, char** argv, const std::function<Progra
 /// An option with one of a few named values. --help names them as "{a,b}", which completions are made from.
 template <typename Value>
 CLI::Option* add_choice(CLI::App& app, const std::string& names, Value& value,
-                        const std::map<std::string, Value>& choices, const std::string& description) {
-  std::string texts;
-  for (const auto& [text, meaning] : choices) texts += (texts.empty() ? "" : ",") + text;
-  return app
-      .add_option_function<std::string>(
-          names, [&value, choices](const std::string& text) { value = choices.at(text); }, description)
-      ->check(CLI::IsMember(choices))
-      ->option_text("{" + texts + "}");
+                        const std::vector<std::pair<std::string, Value>>& choices,
+                        const std::string& description) {
+  std::vector<std::string> texts;
+  for (const auto& [text, meaning] : choices) texts.push_back(text);
+  const auto choose = [&value, choices](const std::string& chosen) {
+    for (const auto& [text, meaning] : choices)
+      if (text == chosen) value = meaning;
+  };
+  return app.add_option_function<std::string>(names, choose, description)
+      ->check(CLI::IsMember(texts))
+      ->option_text("{" + CLI::detail::join(texts, ",") + "}");
 }
 
 /// An option's check: the text must be acceptable to `parse`, whose InputError becomes the message.

@@ -43,14 +43,6 @@ std::vector<double> errors_of(const std::vector<SensorResidual>& residuals) {
   return result;
 }
 
-/// How large an error must be to disagree with the others.
-double limit_of_agreement(const std::vector<SensorResidual>& residuals) {
-  std::vector<double> sizes = errors_of(residuals);
-  for (double& size : sizes) size = std::abs(size);
-  if (sizes.size() < kFewestForDisagreement) return std::numeric_limits<double>::infinity();
-  return kDisagreement * median(sizes);
-}
-
 void mark_disagreement(std::vector<SensorResidual>& residuals) {
   const double limit = limit_of_agreement(residuals);
   for (SensorResidual& residual : residuals)
@@ -128,6 +120,13 @@ double chance_of_pattern(const std::vector<double>& errors) {
 
 }  // namespace
 
+double limit_of_agreement(const std::vector<SensorResidual>& residuals) {
+  std::vector<double> sizes = errors_of(residuals);
+  for (double& size : sizes) size = std::abs(size);
+  if (sizes.size() < kFewestForDisagreement) return std::numeric_limits<double>::infinity();
+  return kDisagreement * median(sizes);
+}
+
 std::vector<SensorResidual> sensor_residuals(const Observation& observation, const ErrorScales& scales,
                                              std::span<const double> prediction) {
   const ExpectedErrors expected = expected_errors(observation, scales, prediction);
@@ -147,7 +146,7 @@ std::vector<SensorResidual> sensor_residuals(const Observation& observation, con
 }
 
 std::vector<SensorResidual> sensor_residuals(const Observation& observation, const UnknownBridge& bridge,
-                                             const CaseNoise& noise, const BridgePosterior& posterior) {
+                                             const BridgePosterior& posterior) {
   std::vector<SensorResidual> result;
   for (std::size_t point = 0; point < observation.displacement.size(); ++point)
     if (const double reading = observation.displacement[point]; !std::isnan(reading))
@@ -159,8 +158,8 @@ std::vector<SensorResidual> sensor_residuals(const Observation& observation, con
       return residual.point == bridge.rows[k].channel;
     });
     found->predicted = found->reading - posterior.beside[row];
-    found->scale = std::sqrt(noise.instruments[row]);
-    found->error = posterior.others[row];
+    found->scale = posterior.spread[row];
+    found->error = posterior.beside[row] / posterior.spread[row];
   }
   mark_disagreement(result);
   return result;

@@ -28,9 +28,9 @@ struct SensorResidual {
   std::size_t point = 0;
   double reading = 0.0;    ///< [m]
   double predicted = 0.0;  ///< [m]
-  double scale = 0.0;      ///< [m] of the instrument (the bound of uniform noise) and the model together; NaN
-                           ///< at points that cannot move
-  double error = 0.0;      ///< in units of sigma; NaN at points that cannot move
+  double scale = 0.0;  ///< [m] of the instrument (the bound of uniform noise) and the model together, or of
+                       ///< all that an uncertain bridge leaves open; NaN at points that cannot move
+  double error = 0.0;  ///< reading less prediction in units of `scale`; NaN at points that cannot move
   bool disagrees = false;  ///< far outside what the other sensors show
 };
 
@@ -48,10 +48,14 @@ std::vector<SensorResidual> disagreeing(const std::vector<SensorResidual>& resid
 /// free of a pattern along the bridge (von Neumann's ratio of successive differences)?
 Fit check_fit(const Observation& observation, const NoiseEstimate& noise, std::span<const double> prediction);
 
-/// The same of a bridge that is not exactly known. `predicted` is what all other readings let expect, `error`
-/// how far the reading is from it, in standard deviations of that; `scale` is the instrument's alone.
+/// How far a reading may be from its prediction, in units of `error`, without disagreeing: eight times as far
+/// as half of them are; infinite where there are too few to say.
+double limit_of_agreement(const std::vector<SensorResidual>& residuals);
+
+/// The same of a bridge that is not exactly known. `predicted` is what all other readings let expect, `scale`
+/// the standard deviation of the reading about that.
 std::vector<SensorResidual> sensor_residuals(const Observation& observation, const UnknownBridge& bridge,
-                                             const CaseNoise& noise, const BridgePosterior& posterior);
+                                             const BridgePosterior& posterior);
 Fit check_fit(const BridgePosterior& posterior);
 
 /// Does what is believed of the bridge make the model move by less than a fifth or more than five times? To

@@ -96,8 +96,7 @@ Judgement judge_unknown_bridge(const AskedReadings& asked, const UnknownBridgeQu
   BridgeAnswer answer{bridge, question.posterior(scenes)};
   const QuestionContext context{asked, question, settings, question.gaussians_at(likeliest.level),
                                 answer.posterior};
-  std::vector<SensorResidual> residuals =
-      sensor_residuals(observation, bridge, case_noise(bridge, observation, likeliest), answer.posterior);
+  std::vector<SensorResidual> residuals = sensor_residuals(observation, bridge, answer.posterior);
   Fit fit = fit_of_unknown_bridge(context, residuals);
   return {noise, std::move(fit), std::move(residuals), std::move(answer)};
 }

@@ -5,7 +5,9 @@
 #include <functional>
 #include <nlohmann/json.hpp>
 
+#include "core/error.h"
 #include "core/json_text.h"
+#include "core/solve/settings.h"
 #include "lookup/report/drawing/field_drawing.h"
 #include "lookup/report/drawing/table.h"
 
@@ -53,6 +55,22 @@ std::string field_json(const SceneField& scene) {
   return json_text(list, 1);
 }
 
+/// "moment 0.3 s, "; nothing where another version has written the settings.
+std::string moment_in_words(const Database& database) {
+  try {
+    return fmt::format("moment {:g} s, ",
+                       parse_settings(database.provenance().solver_settings).motion.moment);
+  } catch (const Failure&) {
+    return "";
+  }
+}
+
+/// "standing", or of what falls the moment that its field is of.
+std::string outcome_in_words(const Database& database, Outcome outcome) {
+  if (outcome != Outcome::collapsed) return std::string(to_string(outcome));
+  return "falling, " + moment_in_words(database) + "not in equilibrium";
+}
+
 }  // namespace
 
 std::string scene_heading(const Database& database, std::size_t row, std::size_t state) {
@@ -61,7 +79,7 @@ std::string scene_heading(const Database& database, std::size_t row, std::size_t
   return fmt::format("Bridge '{}' {}{}, {}", database.bridge_name(),
                      scene.removed.empty() ? "intact" : "without " + to_string(scene, database.layout()),
                      database.states().size() > 1 ? " as " + database.states()[state] : "",
-                     to_string(static_cast<Outcome>(table.outcome[row])));
+                     outcome_in_words(database, static_cast<Outcome>(table.outcome[row])));
 }
 
 VtkGrid field_grid(const Mesh& mesh, const BlockLayout& layout, const Scene& scene, const Field& field) {

@@ -134,9 +134,10 @@ std::string forces_vtu(const ForcesView& view, const Field& field, FieldQuantity
 
 std::string forces_svg(const ForcesView& view, FieldQuantity quantity, const std::string& heading) {
   const ForcesPicture picture{view.database.layout(), view.database.mesh(), view.forces.scene, heading};
-  return svg_file(quantity == FieldQuantity::stresses
-                      ? draw_stresses(picture, view.forces.triangles)
-                      : draw_joints(picture, view.forces.joints, view.forces.thrust));
+  if (quantity == FieldQuantity::stresses) return svg_file(draw_stresses(picture, view.forces.triangles));
+  return svg_file(quantity == FieldQuantity::joints
+                      ? draw_joints(picture, view.forces.joints, view.forces.thrust)
+                      : draw_thrust(picture, view.forces.thrust));
 }
 
 }  // namespace

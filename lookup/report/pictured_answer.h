@@ -18,10 +18,11 @@ struct PicturedAnswer {
   const Library& library;
   ShownReadings shown;           ///< beside the first candidate as the bridge file states it
   std::vector<double> expected;  ///< expected_readings
+  int decimals = 3;  ///< of readings in millimetres: more where errors are smaller than a micrometre
 };
 
-/// Where a sensor is: on a block of the arch, as high as the highest other sensor, or elsewhere. Control
-/// points that are not on the arch are on top.
+/// Where a sensor is: on a block of the arch; on top: one of heights on the upper face of a block of the
+/// highest course, within kPointTolerance; or elsewhere, as in the middle of such a block.
 enum class Site { arch, top, elsewhere };
 Site site_of(const PicturedAnswer& report, std::size_t point);
 

@@ -8,12 +8,10 @@
 
 #include "core/json_text.h"
 #include "core/not_a_number.h"
-#include "core/text.h"
 #include "core/units.h"
 #include "database/records/content_digest.h"
-#include "lookup/report/drawing/bridge_drawing.h"
-#include "lookup/report/drawing/colour_map.h"
 #include "lookup/report/drawing/table.h"
+#include "lookup/report/plan_words.h"
 #include "lookup/report/reading_words.h"
 #include "lookup/report/words.h"
 
@@ -21,11 +19,6 @@ namespace voussoir {
 namespace {
 
 constexpr double kHardly = 0.1;  // a loss that is seen less often shows hardly
-constexpr double kPlanWidth = 1040.0;
-constexpr double kRoomAbove = 0.3;  // [m]
-constexpr double kPlanDisc = 4.0;
-constexpr double kPlanTitle = 42.0;          // height
-constexpr std::size_t kMostNamesDrawn = 40;  // of sensors: more would hide each other
 constexpr std::size_t kLeastSeenListed = 15;
 
 std::string label(BlockId block, const Database& database) {
@@ -103,32 +96,10 @@ std::string plan_json(const SensorPlan& plan, const PlannedBridge& bridge) {
 
 using Text = std::back_insert_iterator<std::string>;
 
-bool is_read(const SensorPlan& plan, const StoredPoint& point) {
-  return std::ranges::find(plan.points, point.name) != plan.points.end();
-}
-
 bool reads_tilts(const SensorPlan& plan, const Database& database) {
   return std::ranges::any_of(database.control_points(), [&](const StoredPoint& point) {
     return point.quantity == Quantity::tilt && is_read(plan, point);
   });
-}
-
-/// "changes between two times at 12 points, each off by 0.02 mm, tilt by 0.01 mm per m"
-std::string planned_in_words(const SensorPlan& plan, const PlannedBridge& bridge) {
-  std::string text = fmt::format("changes between two times at {} points, each off by {:g} mm{}",
-                                 plan.points.size(), kMillimetres * bridge.settings.sigma,
-                                 reads_tilts(plan, bridge.database) ? " (tilts: mm per m)" : "");
-  for (const auto& [quantity, sigma] : bridge.settings.sigma_of)
-    text += fmt::format(", {} by {:g} {}", to_string(quantity), kMillimetres * sigma, unit_of(quantity));
-  if (bridge.settings.datum > 0.0)
-    text +=
-        fmt::format(", all heights of a levelling by {:g} mm alike", kMillimetres * bridge.settings.datum);
-  return text;
-}
-
-std::string conditions_in_words(const PlannedBridge& bridge) {
-  return fmt::format("uncertain as its file states, temperature and supports {}",
-                     bridge.settings.conditions == Conditions::known ? "known" : "too");
 }
 
 void write_heading(Text to, const SensorPlan& plan, const PlannedBridge& bridge) {
@@ -139,19 +110,32 @@ void write_heading(Text to, const SensorPlan& plan, const PlannedBridge& bridge)
   fmt::format_to(to, "Bridge:       {}\n\n", conditions_in_words(bridge));
 }
 
+/// "none of 193 losses", "12 of 193 losses"
+std::string some_of(std::size_t some, std::size_t all, std::string_view things) {
+  return fmt::format("{} of {} {}", some == 0 ? "none" : fmt::format("{}", some), all, things);
+}
+
+/// "24 %"; below 1 % as `percent` has it.
+std::string about(double share) {
+  return share < 0.01 ? percent(share) : fmt::format("{:.0f} %", 100.0 * share);
+}
+
 void write_counts(Text to, const SensorPlan& plan, const PlannedBridge& bridge) {
   const std::size_t count = plan.sights.size();
-  fmt::format_to(to, "Seen:         of {} losses {}, each with a chance of at least {}; on average {}\n",
-                 count, seen(plan).size(), percent(kSure), percent(mean_of(plan, &Sight::seen)));
-  fmt::format_to(to, "Named:        {}; on average {}\n", named(plan).size(),
-                 percent(mean_of(plan, &Sight::named)));
+  fmt::format_to(
+      to, "Seen:         {} would be seen with a chance of {:.0f} % or more; the average chance is {}\n",
+      some_of(seen(plan).size(), count, "losses"), 100.0 * kSure, about(mean_of(plan, &Sight::seen)));
+  fmt::format_to(
+      to, "Named:        {} would be named with a chance of {:.0f} % or more; the average chance is {}\n",
+      some_of(named(plan).size(), count, "blocks"), 100.0 * kSure, about(mean_of(plan, &Sight::named)));
   if (bridge.settings.conditions != Conditions::known)
     fmt::format_to(
         to,
         "In trials:    of the reference bridge half to three quarters as many were seen, with twelve "
         "sensors fewer still (docs/plan.md)\n");
   const std::vector<BlockId> hardly = hardly_seen(plan);
-  fmt::format_to(to, "Hardly seen:  {}, each less often than {}{}\n", hardly.size(), percent(kHardly),
+  fmt::format_to(to, "Hardly seen:  {} would be seen with a chance of less than {:.0f} %{}\n",
+                 some_of(hardly.size(), count, "losses"), 100.0 * kHardly,
                  hardly.empty() ? "" : ": " + labels(hardly, bridge.database));
   if (!plan.falls.empty())
     fmt::format_to(to, "Falls:        without one of {} more blocks something falls: {}\n", plan.falls.size(),
@@ -166,6 +150,12 @@ void write_chosen(Text to, const SensorPlan& plan) {
     fmt::format_to(to, "\nChosen, those that help most first: {}\n", fmt::join(plan.chosen, " "));
 }
 
+/// What the readings after the loss would be taken for.
+std::string looks_like(const Sight& sight, const Database& database) {
+  if (sight.seen < kHardly) return "no loss";
+  return sight.alike ? label(*sight.alike, database) : "";
+}
+
 /// Those that are hardest to see first.
 void write_blocks(Text to, const SensorPlan& plan, const Database& database) {
   std::vector<Sight> sights = plan.sights;
@@ -178,50 +168,32 @@ void write_blocks(Text to, const SensorPlan& plan, const Database& database) {
   for (const Sight& sight : std::span(sights).first(shown))
     fmt::format_to(to, "  {:<8} {:>9} {:>9} {:>12.3f}  {:<6} {}\n", label(sight.block, database),
                    percent(sight.seen), percent(sight.named), kMillimetres * sight.largest,
-                   plan.point_of(sight), sight.alike ? label(*sight.alike, database) : "");
-}
-
-BlockLook look_of(const SensorPlan& plan, const Database& database, BlockId block) {
-  const auto sight = std::ranges::find(plan.sights, block, &Sight::block);
-  const std::string heading =
-      fmt::format("Block ({})\n{}\n", label(block, database), place_in_words(block, database.layout()));
-  if (sight == plan.sights.end())
-    return {"stone",
-            heading + (std::ranges::find(plan.falls, block) != plan.falls.end() ? "something falls without it"
-                                                                                : "not known")};
-  return {fmt::format("block m{}", colour_level(sight->seen)),
-          heading + fmt::format("its loss is seen with {}, named with {}", percent(sight->seen),
-                                percent(sight->named))};
-}
-
-std::string sensor_element(const Point& at, const std::string& name, bool is_named) {
-  std::string element = fmt::format("<circle class=\"f1\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{}\">{}</circle>\n",
-                                    at.x(), at.y(), kPlanDisc, tip_element(name));
-  if (is_named)
-    element +=
-        fmt::format("<text class=\"label\" text-anchor=\"middle\" x=\"{:.1f}\" y=\"{:.1f}\">{}</text>\n",
-                    at.x(), at.y() - 1.5 * kPlanDisc, escaped(name));
-  return element;
-}
-
-/// Points at one place, of two blocks that meet there, have one disc and both names.
-std::string sensors(const SensorPlan& plan, const Database& database, const BridgeFrame& frame) {
-  std::vector<std::pair<Point, std::string>> places;
-  for (const StoredPoint& point : database.control_points()) {
-    if (!is_read(plan, point)) continue;
-    const auto same = std::ranges::find(places, point.position, &std::pair<Point, std::string>::first);
-    if (same == places.end())
-      places.emplace_back(point.position, point.name);
-    else
-      same->second += ", " + point.name;
-  }
-  std::string elements;
-  for (const auto& [place, names] : places)
-    elements += sensor_element(frame(place), names, plan.points.size() <= kMostNamesDrawn);
-  return elements;
+                   plan.point_of(sight), looks_like(sight, database));
 }
 
 }  // namespace
+
+bool is_read(const SensorPlan& plan, const StoredPoint& point) {
+  return std::ranges::find(plan.points, point.name) != plan.points.end();
+}
+
+std::string planned_in_words(const SensorPlan& plan, const PlannedBridge& bridge) {
+  std::string text =
+      fmt::format("changes between two times at {} points, each with a standard deviation of {:g} mm{}",
+                  plan.points.size(), kMillimetres * bridge.settings.sigma,
+                  reads_tilts(plan, bridge.database) ? " (tilts: mm per m)" : "");
+  for (const auto& [quantity, sigma] : bridge.settings.sigma_of)
+    text += fmt::format(", {} of {:g} {}", to_string(quantity), kMillimetres * sigma, unit_of(quantity));
+  if (bridge.settings.datum > 0.0)
+    text += fmt::format(", all heights of a levelling off by {:g} mm alike",
+                        kMillimetres * bridge.settings.datum);
+  return text;
+}
+
+std::string conditions_in_words(const PlannedBridge& bridge) {
+  return fmt::format("taken as uncertain as its file states; temperature and supports{}",
+                     bridge.settings.conditions == Conditions::known ? " as known" : ", too");
+}
 
 std::string plan_report(const SensorPlan& plan, const PlannedBridge& bridge, ReportFormat format) {
   if (format == ReportFormat::csv) return to_csv(block_table(plan, bridge.database));
@@ -233,30 +205,6 @@ std::string plan_report(const SensorPlan& plan, const PlannedBridge& bridge, Rep
   write_chosen(to, plan);
   write_blocks(to, plan, bridge.database);
   return text;
-}
-
-std::string plan_picture(const SensorPlan& plan, const PlannedBridge& bridge) {
-  const Database& database = bridge.database;
-  const BlockLayout& layout = database.layout();
-  const BridgeFrame frame = frame_of(layout, kPlanWidth, kRoomAbove, 0.15);
-  Drawing drawing{frame.width, kPlanTitle + frame.height + kColourBarHeight,
-                  "The bridge; each block coloured by the chance that its loss is seen, and the sensors", ""};
-  drawing.elements =
-      fmt::format(
-          "<text x=\"8\" y=\"17\">{}: {}</text>\n<text class=\"small\" x=\"8\" y=\"34\">{}</text>\n"
-          "<g transform=\"translate(0 {})\">\n",
-          escaped(database.bridge_name()), escaped(planned_in_words(plan, bridge)),
-          escaped(conditions_in_words(bridge)), kPlanTitle) +
-      ground_element(layout, frame) +
-      block_elements(layout, frame, [&](BlockId block) { return look_of(plan, database, block); });
-  drawing.elements += sensors(plan, database, frame);
-  drawing.elements +=
-      "</g>\n" + colour_bar({plan.falls.empty() && plan.unknown.empty()
-                                 ? "chance that the block's loss is seen"
-                                 : "chance that the block's loss is seen (stone: falls, or not known)",
-                             {"0", "25 %", "50 %", "75 %", "100 %"}},
-                            drawing.width, drawing.height);
-  return svg_file(drawing);
 }
 
 }  // namespace voussoir

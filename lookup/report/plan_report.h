@@ -19,8 +19,8 @@ struct PlannedBridge {
 /// looks most alike. JSON also has points and counts.
 std::string plan_report(const SensorPlan& plan, const PlannedBridge& bridge, ReportFormat format);
 
-/// The bridge, each block coloured by the chance that its loss is seen, and the sensors, with their names
-/// where few are read (SVG file).
+/// The bridge, each block coloured by the chance that its loss is seen, and the sensors, with their names as
+/// far as these have room (SVG file).
 std::string plan_picture(const SensorPlan& plan, const PlannedBridge& bridge);
 
 }  // namespace voussoir

@@ -20,6 +20,11 @@ constexpr std::size_t kMostJointsShown = 12;
 
 using Terms = std::vector<std::pair<std::string, std::string>>;
 
+/// What its bar is coloured by.
+std::string verdict_class(const Answer& answer) {
+  return answer.posterior ? fmt::format("verdict {}", to_string(verdict_of(answer))) : "verdict";
+}
+
 std::string verdict_html(const Answer& answer, const Comparison& comparison) {
   const Library& library = comparison.library;
   std::string html;
@@ -38,7 +43,7 @@ std::string verdict_html(const Answer& answer, const Comparison& comparison) {
   if (const std::string same = same_in_words(answer.candidates.front(), library); !same.empty())
     html += paragraph("These sensors cannot tell it from: " + same);
   for (const std::string& sensor : odd_sensors(answer, comparison)) html += paragraph(sensor);
-  return "<div class=\"verdict\">" + html + "</div>\n";
+  return fmt::format("<div class=\"{}\">{}</div>\n", verdict_class(answer), html);
 }
 
 /// Blanks at which no line breaks.
@@ -49,7 +54,9 @@ std::string on_one_line(const std::string& text) {
 }
 
 Figure candidates_figure(const Answer& answer, const Library& library) {
-  Table table{{"rank", "scene", "probability", "misfit (Eq. 1)", "behind the first", "outcome", "where"}, {}};
+  Table table{{"rank", "scene", "probability", "misfit", "behind the first", "outcome", "where"},
+              {},
+              {0, kAsNeeded, kAsNeeded, 4}};
   for (std::size_t i = 0; i < answer.candidates.size(); ++i) {
     const Candidate& candidate = answer.candidates[i];
     table.rows.push_back(
@@ -58,19 +65,21 @@ Figure candidates_figure(const Answer& answer, const Library& library) {
          i == 0 ? "" : on_one_line(behind(candidate, answer.candidates.front())),
          std::string(to_string(candidate.outcome)), place_in_words(candidate.scene, library.layout)});
   }
-  return {"candidates",
-          answer.posterior && !has_probabilities(answer) ? "The closest scenes, none of which is an answer"
-                                                         : "Scenes that may explain the readings",
-          "A scene is a set of missing blocks, named (course, position from the left); course 0 is the arch.",
-          "",
-          table,
-          true,
-          TableView::open,
-          5};
+  return {
+      "candidates",
+      answer.posterior && !has_probabilities(answer) ? "The closest scenes, none of which is an answer"
+                                                     : "Scenes that may explain the readings",
+      "A scene is a set of missing blocks, named (course, position from the left); course 0 is the arch. The "
+      "misfit is the logarithm of the summed differences in metres: smaller fits better.",
+      "",
+      table,
+      true,
+      TableView::open,
+      5};
 }
 
 Figure causes_figure(const Answer& answer, const ReadingFactors& factors) {
-  Table table{{"cause", "share of the squares [%]", "root mean square [mm]"}, {}};
+  Table table{{"cause", "share of the squares [%]", "root mean square [mm]"}, {}, {kAsNeeded, 1, 3}};
   for (const Cause& cause : causes_of(*answer.bridge, factors))
     table.rows.push_back({cause.name, 100.0 * cause.share, 1e3 * cause.size});
   return {
@@ -104,6 +113,19 @@ Figure parameters_figure(const Answer& answer, const ReadingFactors& factors) {
           false,
           TableView::open,
           3};
+}
+
+/// Each set's readings with its residuals beside them.
+std::vector<Figure> reading_figures(const PicturedAnswer& pictures) {
+  const std::vector<Figure> residuals = residual_figures(pictures);
+  std::vector<Figure> figures;
+  for (const Figure& profile : profile_figures(pictures)) {
+    figures.push_back(profile);
+    const std::string id = "residual" + profile.id.substr(profile.id.find('-'));
+    const auto beside = std::ranges::find(residuals, id, &Figure::id);
+    if (beside != residuals.end()) figures.push_back(*beside);
+  }
+  return figures;
 }
 
 std::string bridge_html(const Answer& answer, const Comparison& comparison) {
@@ -211,12 +233,11 @@ std::string page_report(const Answer& answer, const LookupSettings& settings, co
                          assumed);
   const PicturedAnswer pictures(answer, comparison);
   return html_page(
-      title,
-      verdict_html(answer, comparison) + figures_html({bridge_figure(pictures)}) +
-          section_html("ranked", "Candidates", figures_html({candidates_figure(answer, library)})) +
-          section_html("readings", "Readings against the first candidate",
-                       figures_html(profile_figures(pictures)) + figures_html(residual_figures(pictures))) +
-          bridge_html(answer, comparison) + assumed);
+      title, verdict_html(answer, comparison) + figures_html({bridge_figure(pictures)}) +
+                 section_html("ranked", "Candidates", figures_html({candidates_figure(answer, library)})) +
+                 section_html("readings", "Readings and what was expected",
+                              figures_html(reading_figures(pictures))) +
+                 bridge_html(answer, comparison) + assumed);
 }
 
 }  // namespace voussoir

@@ -4,33 +4,42 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "core/not_a_number.h"
-#include "core/units.h"
-#include "lookup/answer/verdict.h"
 #include "lookup/report/drawing/bridge_drawing.h"
 #include "lookup/report/drawing/colour_map.h"
+#include "lookup/report/report_stems.h"
+#include "lookup/report/report_words.h"
 #include "lookup/report/words.h"
 
 namespace voussoir {
 namespace {
 
-constexpr double kWorthColour = 0.001;  // blocks less likely to be missing look like any stone
+constexpr double kWorthColour = 0.01;  // blocks less likely to be missing look like any stone
+constexpr double kWorthListing = 0.001;
 constexpr double kPictureWidth = 1040.0;
-constexpr double kReadingsHeight = 1.1;   // [m] above the bridge, for the top's readings
-constexpr double kLongestReading = 0.75;  // [m] on the bridge's scale
-constexpr double kSensorDisc = 3.0;
+constexpr double kKeyHeight = 30.0;
 
 double probability_of(const PicturedAnswer& report, BlockId block) {
   if (!has_probabilities(report.answer)) return kNan;
   return report.answer.posterior->block_probability[static_cast<std::size_t>(value(block))];
 }
 
+/// How much likelier the readings are with the loss of this block alone than with none, of losses that are
+/// not excluded; else nothing.
+std::optional<double> open_loss_of(const PicturedAnswer& report, BlockId block) {
+  for (const OpenLoss& loss : open_losses(report.answer))
+    if (report.library.table.scene(loss.row).lacks(block)) return loss.times_as_likely;
+  return std::nullopt;
+}
+
 std::string block_tip(const PicturedAnswer& report, BlockId id) {
   const double probability = probability_of(report, id);
   return fmt::format(
-      "Block ({})\n{}\n{}", report.library.layout[id].label, place_in_words(id, report.library.layout),
-      std::isnan(probability) ? "no probability" : "missing with probability " + percent(probability));
+      "Block ({})\n{}\n{}{}", report.library.layout[id].label, place_in_words(id, report.library.layout),
+      std::isnan(probability) ? "no probability" : "missing with probability " + percent(probability),
+      open_loss_of(report, id) ? "\nits loss is not excluded" : "");
 }
 
 BlockLook block_look(const PicturedAnswer& report, BlockId id) {
@@ -48,105 +57,112 @@ std::string best_scene_marks(const PicturedAnswer& report, const BridgeFrame& fr
   return elements;
 }
 
-/// Whether the picture shows the reading as a line: heights, under the first load if there are several.
-bool hangs(const PicturedAnswer& report, std::size_t point) {
-  return quantity_of(report.comparison, point) == Quantity::uy &&
-         (report.comparison.load.empty() || report.comparison.load[point] == report.comparison.load.front());
+std::string open_loss_stripes(const PicturedAnswer& report, const BridgeFrame& frame) {
+  std::string elements;
+  for (const OpenLoss& loss : open_losses(report.answer))
+    for (const BlockId id : report.library.table.scene(loss.row).removed)
+      elements += striped(report.library.layout[id], frame);
+  return elements.empty() ? "" : stripes_definition() + elements;
 }
 
-/// A sensor with its reading as a line that hangs from it: from the intrados into the opening, and on top
-/// from a line above the bridge.
-std::string reading_element(const PicturedAnswer& report, const BridgeFrame& frame, std::size_t point,
-                            double units_a_metre) {
-  const double lift = site_of(report, point) == Site::top ? kReadingsHeight - 0.2 : 0.0;
-  const Point at = frame(report.library.points[point].position + Point(0.0, lift));
-  const double reading = report.shown.reading[point];
-  const bool silent = std::isnan(reading);
-  const int colour = disagrees(report, point) ? 2 : 1;
-  const std::string stem =
-      silent || !hangs(report, point)
-          ? ""
-          : path_element(fmt::format("line s{}", colour),
-                         fmt::format("M{:.1f} {:.1f}v{:.2f}", at.x(), at.y(), -reading * units_a_metre));
-  return stem + fmt::format("<circle class=\"{}\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{}\">{}</circle>\n",
-                            silent ? "silent" : fmt::format("f{}", colour), at.x(), at.y(), kSensorDisc,
-                            tip_element(point_tip(report, point)));
-}
-
-/// [m] on the bridge's scale that the top's longest upward line needs above the others' start.
-double room_above(const PicturedAnswer& report, double longest) {
-  double upward = 0.0;
-  for (std::size_t point = 0; point < report.shown.reading.size(); ++point)
-    if (hangs(report, point)) upward = std::max(upward, report.shown.reading[point]);
-  return longest > 0.0 ? kLongestReading * upward / longest : 0.0;
-}
-
-double largest_reading(const PicturedAnswer& report) {
-  double largest = 0.0;
-  for (std::size_t point = 0; point < report.shown.reading.size(); ++point)
-    if (hangs(report, point) && !std::isnan(report.shown.reading[point]))
-      largest = std::max(largest, std::abs(report.shown.reading[point]));
-  return largest;
+/// Likely blocks, then those whose loss is not excluded; without probabilities the first candidate's.
+std::vector<BlockId> listed_blocks(const PicturedAnswer& report) {
+  if (!has_probabilities(report.answer)) return report.answer.candidates.front().scene.removed;
+  std::vector<BlockId> blocks = likely_blocks(*report.answer.posterior, kWorthListing);
+  for (const OpenLoss& loss : open_losses(report.answer))
+    for (const BlockId id : report.library.table.scene(loss.row).removed)
+      if (std::ranges::find(blocks, id) == blocks.end()) blocks.push_back(id);
+  return blocks;
 }
 
 Table block_table(const PicturedAnswer& report) {
   Table table{{"block", "probability", "where"}, {}};
-  if (!has_probabilities(report.answer)) {
-    for (const BlockId id : report.answer.candidates.front().scene.removed)
-      table.rows.push_back(
-          {report.library.layout[id].label, "none", place_in_words(id, report.library.layout)});
-    return table;
-  }
-  for (const BlockId id : likely_blocks(*report.answer.posterior, kWorthColour))
-    table.rows.push_back({report.library.layout[id].label, percent(probability_of(report, id)),
+  const bool has_open = !open_losses(report.answer).empty();
+  if (has_open) table.columns.emplace_back("its loss");
+  for (const BlockId id : listed_blocks(report)) {
+    const double probability = probability_of(report, id);
+    table.rows.push_back({report.library.layout[id].label,
+                          std::isnan(probability) ? "none" : percent(probability),
                           place_in_words(id, report.library.layout)});
+    if (!has_open) continue;
+    const std::optional<double> times = open_loss_of(report, id);
+    table.rows.back().emplace_back(
+        times ? fmt::format("not excluded: readings {:.2f} times as likely as without it", *times) : "");
+  }
   return table;
+}
+
+/// What colours, lines and stripes mean, below the bridge.
+std::string keys(const PicturedAnswer& report, const Drawing& drawing, const BridgeFrame& frame) {
+  const bool has_open = !open_losses(report.answer).empty();
+  const double bottom = drawing.height - (has_open ? kKeyHeight : 0.0);
+  std::string elements = stem_scale(report, {14.0, bottom - kColourBarHeight + 16.0}) +
+                         metre_scale(frame, {drawing.width - 14.0, bottom - kColourBarHeight + 36.0});
+  if (has_probabilities(report.answer)) {
+    std::vector<BarMark> marks = percent_marks();
+    marks.erase(marks.begin());  // there is the field of stone
+    elements += colour_bar(
+        {"probability that the block is missing", marks, fmt::format("< {:g} %", 100.0 * kWorthColour)},
+        drawing.width, bottom);
+  }
+  if (has_open) elements += stripes_key({0.36 * drawing.width, bottom + 6.0}, "its loss is not excluded");
+  return elements;
+}
+
+std::string colours_in_words(const PicturedAnswer& report) {
+  if (has_probabilities(report.answer))
+    return fmt::format("Blocks that are missing with less than {:g} % have the colour of stone.",
+                       100.0 * kWorthColour);
+  return report.answer.posterior ? "No block is coloured, as no scene is an answer."
+                                 : "With this objective there are no probabilities.";
+}
+
+/// Of what is there alone.
+std::string signs_in_words(const PicturedAnswer& report) {
+  const ShownStems shown = shown_stems(report);
+  std::string text;
+  if (!report.answer.candidates.front().scene.removed.empty()) text += " Outlined: the first candidate.";
+  if (!open_losses(report.answer).empty())
+    text += " Striped: blocks whose loss is not excluded; the table has all.";
+  if (shown.lines)
+    text +=
+        fmt::format(" Lines hang from the sensors by their {}s{}{}; those with names are the largest{}.",
+                    reading_word(report), shown.lifted ? ", the top's from above the bridge" : "",
+                    cuts_stems(report) ? ", arrows go on" : "", shown.odd ? " and those that disagree" : "");
+  if (shown.silent) text += " A hollow point has no reading.";
+  if (shown.odd) text += " An orange one disagrees with the rest.";
+  return text;
 }
 
 }  // namespace
 
 Drawing draw_bridge(const PicturedAnswer& report) {
-  const double longest = largest_reading(report);
+  const double scale = frame_of(report.library.layout, kPictureWidth, 0.0, 0.0).scale;
   const BridgeFrame frame =
-      frame_of(report.library.layout, kPictureWidth, kReadingsHeight + room_above(report, longest), 0.15);
-  const bool with_bar = has_probabilities(report.answer);
-  Drawing drawing{frame.width, frame.height + (with_bar ? kColourBarHeight : 0.0),
-                  with_bar ? "The bridge; each block coloured by the probability that it is missing"
-                           : "The bridge; the first candidate's blocks outlined",
+      frame_of(report.library.layout, kPictureWidth, room_for_stems(report) / scale, 0.15);
+  const bool has_open = !open_losses(report.answer).empty();
+  Drawing drawing{frame.width, frame.height + kColourBarHeight + (has_open ? kKeyHeight : 0.0),
+                  has_probabilities(report.answer)
+                      ? "The bridge; each block coloured by the probability that it is missing"
+                      : "The bridge; the first candidate's blocks outlined",
                   ""};
   drawing.elements =
       ground_element(report.library.layout, frame) +
       block_elements(report.library.layout, frame, [&](BlockId id) { return block_look(report, id); }) +
-      best_scene_marks(report, frame);
-  const double units = longest > 0.0 ? kLongestReading * frame.scale / longest : 0.0;
-  for (std::size_t point = 0; point < report.library.points.size(); ++point)
-    drawing.elements += reading_element(report, frame, point, units);
-  if (with_bar)
-    drawing.elements +=
-        colour_bar({"probability that the block is missing", {"0", "25 %", "50 %", "75 %", "100 %"}},
-                   drawing.width, drawing.height);
+      open_loss_stripes(report, frame) + best_scene_marks(report, frame) + stem_elements(report, frame) +
+      keys(report, drawing, frame);
   return drawing;
 }
 
 Figure bridge_figure(const PicturedAnswer& report) {
-  const double longest = kMillimetres * largest_reading(report);
-  return {
-      "bridge",
-      has_probabilities(report.answer) ? "The bridge, and how likely each block is missing"
-                                       : "The bridge and the first candidate",
-      fmt::format(
-          "{} Outlined: the first candidate. Blue lines hang from the control points by their {}s (the "
-          "longest is {:.3g} mm; the top's hang from above the bridge); a hollow point has no reading, an "
-          "orange one disagrees with the rest.",
-          has_probabilities(report.answer)
-              ? "Blocks that are missing with less than 0.1 % have the colour of stone."
-          : report.answer.posterior ? "No block is coloured, as no scene is an answer."
-                                    : "With this objective there are no probabilities.",
-          reading_word(report), longest),
-      panorama_html(draw_bridge(report)),
-      block_table(report),
-      true,
-      TableView::printed};
+  return {"bridge",
+          has_probabilities(report.answer) ? "The bridge, and how likely each block is missing"
+                                           : "The bridge and the first candidate",
+          colours_in_words(report) + signs_in_words(report),
+          panorama_html(draw_bridge(report)),
+          block_table(report),
+          true,
+          TableView::printed};
 }
 
 }  // namespace voussoir

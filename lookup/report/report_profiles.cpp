@@ -6,91 +6,137 @@
 #include <cmath>
 
 #include "core/not_a_number.h"
-#include "core/text.h"
 #include "core/units.h"
+#include "lookup/report/point_sets.h"
+#include "lookup/report/reading_words.h"
 #include "lookup/report/report_words.h"
 
 namespace voussoir {
 namespace {
 
-constexpr const char* kAcross = "sensor, from left to right";
-
-/// Half the width of the noise band [m]: the bound of uniform noise, two standard deviations of the others.
-double band_of(const PicturedAnswer& report, const SensorResidual& residual) {
-  return (report.answer.noise->shape == NoiseShape::uniform ? 1.0 : 2.0) * residual.scale;
+/// A line through fewer readings than three says nothing.
+bool has_line(const PicturedAnswer& report, const PointSet& set) {
+  return std::ranges::count_if(
+             set.points, [&](std::size_t point) { return std::isfinite(report.shown.reading[point]); }) >= 3;
 }
 
-std::string band_in_words(const PicturedAnswer& report) {
+/// The axis of the sensors, each by its name.
+ChartAxis sensors_axis(const PointSet& set) {
+  const bool has_gaps = set.names.size() > set.points.size();
+  return named_axis(
+      has_gaps ? "sensor, course by course, each from left to right" : "sensor, from left to right",
+      set.names);
+}
+
+/// Of uniform noise residuals are in units of its bound, else of a standard deviation.
+bool is_bounded(const PicturedAnswer& report) {
+  return report.answer.known_bridge && report.answer.noise->shape == NoiseShape::uniform;
+}
+
+/// Half the width of the band about what is expected [m]: the bound of uniform noise, two standard deviations
+/// of all others.
+double band_of(const PicturedAnswer& report, std::size_t point) {
+  const SensorResidual* const residual = residual_of(report, point);
+  if (residual == nullptr || !report.answer.noise) return kNan;
+  return (is_bounded(report) ? 1.0 : 2.0) * residual->scale;
+}
+
+std::string band_in_words(const PicturedAnswer& report, const PointSet& set) {
   if (!report.answer.noise) return "";
+  const std::string_view mark = has_line(report, set) ? "Line" : "Black";
+  const std::string noise = noise_in_words(*report.answer.noise, report.comparison);
+  if (report.answer.known_bridge)
+    return fmt::format(" {}: the first candidate. Band: the noise, {}{}.", mark, noise,
+                       is_bounded(report) ? "" : ", two standard deviations each way");
   return fmt::format(
-      " The line is what the answer lets expect{}, the band the noise, {}{}.{}",
-      report.answer.known_bridge ? "" : " by all other readings",
-      noise_in_words(*report.answer.noise, report.comparison),
-      report.answer.noise->shape == NoiseShape::uniform ? "" : ", two standard deviations each way",
-      report.answer.known_bridge
-          ? ""
-          : " Dashed is the first candidate as the bridge file states it, without what joints, stone, "
-            "temperature and supports have added.");
+      " {}: the reading expected from all other readings. Band: two standard deviations of a reading about "
+      "that, with what they leave open of the bridge and with the noise, {}. Dashed: the first candidate as "
+      "the bridge file states it, without what joints, stone, temperature and supports have added.",
+      mark, noise);
 }
 
-/// Sensors of one quantity under one load, with the name of their set and of the figures' ids.
-struct PointSet {
-  std::string title, id;
-  Quantity quantity = Quantity::uy;
-  std::vector<std::size_t> points;
+/// What is drawn of one set; values in millimetres.
+struct ProfileSeries {
+  Series readings, fit, stated, band, silent;
 };
 
-Chart profile_chart(const PicturedAnswer& report, const PointSet& set) {
-  const std::vector<std::size_t>& points = set.points;
-  Series readings{std::string(reading_word(report)), 1, Mark::points, {}, {}};
-  Series fit{"expected", 0, Mark::line, {}, {}};
-  Series stated{report.answer.known_bridge ? "" : "first candidate by the file", 3, Mark::dashes, {}, {}};
-  Series band{report.answer.noise ? "noise" : "", 0, Mark::band, {}, {}};
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const auto number = static_cast<double>(i + 1);
-    const double expected = kMillimetres * report.expected[points[i]];
-    readings.x.push_back(number);
-    readings.y.push_back(kMillimetres * report.shown.reading[points[i]]);
-    readings.tips.push_back(point_tip(report, points[i]));
-    if (!std::isnan(expected)) {  // lines join readings, however many points have none in between
-      fit.x.push_back(number);
-      fit.y.push_back(expected);
-    }
-    if (!report.answer.known_bridge) {
-      stated.x.push_back(number);
-      stated.y.push_back(kMillimetres * report.shown.expected[points[i]]);
-    }
-    const SensorResidual* const residual = residual_of(report, points[i]);
-    const double half =
-        residual != nullptr && report.answer.noise ? kMillimetres * band_of(report, *residual) : kNan;
-    if (std::isnan(expected)) continue;
-    band.x.push_back(number);
-    band.y.push_back(expected - half);
-    band.upper.push_back(expected + half);
+/// Lines join readings, however many points have none in between, but no two courses.
+void interrupt(double place, ProfileSeries& series) {
+  for (Series* const line : {&series.fit, &series.stated, &series.band}) {
+    line->x.push_back(place);
+    line->y.push_back(kNan);
   }
+  series.band.upper.push_back(kNan);
+}
+
+void add_point(const PicturedAnswer& report, std::size_t point, double place, ProfileSeries& series) {
+  const double reading = kMillimetres * report.shown.reading[point];
+  const double expected = kMillimetres * report.expected[point];
+  const double half = kMillimetres * band_of(report, point);
+  Series& discs = report.comparison.measured.silent[point] ? series.silent : series.readings;
+  discs.x.push_back(place);
+  discs.y.push_back(reading);
+  discs.tips.push_back(point_tip(report, point));
+  if (!report.answer.known_bridge) {
+    series.stated.x.push_back(place);
+    series.stated.y.push_back(kMillimetres * report.shown.expected[point]);
+  }
+  if (std::isnan(expected)) return;
+  series.fit.x.push_back(place);
+  series.fit.y.push_back(expected);
+  series.band.x.push_back(place);
+  series.band.y.push_back(expected - half);
+  series.band.upper.push_back(expected + half);
+}
+
+ProfileSeries profile_series(const PicturedAnswer& report, const PointSet& set) {
+  const bool is_known = report.answer.known_bridge;
+  const bool joined = has_line(report, set);
+  ProfileSeries series{
+      {std::string(reading_word(report)), 1, Mark::points, {}, {}},
+      {"expected", 0, joined ? Mark::line : Mark::ticks, {}, {}},
+      {is_known ? "" : "first candidate by the file", 3, joined ? Mark::dashes : Mark::ticks, {}, {}},
+      {!report.answer.noise ? ""
+       : is_known           ? "noise"
+                            : "two standard deviations",
+       0,
+       Mark::band,
+       {},
+       {}},
+      {"", 0, Mark::hollow, {}, {}}};
+  for (std::size_t i = 0; i < set.points.size(); ++i) {
+    if (i > 0 && (!joined || set.places[i] > set.places[i - 1] + 1.5)) interrupt(set.places[i] - 0.5, series);
+    add_point(report, set.points[i], set.places[i], series);
+  }
+  if (!series.silent.x.empty()) series.silent.name = "no reading";
+  return series;
+}
+
+Chart profile_chart(const PicturedAnswer& report, const PointSet& set) {
+  const ProfileSeries series = profile_series(report, set);
   return {set.title,
-          {kAcross},
+          sensors_axis(set),
           {axis_in_words(report.comparison.kind, set.quantity)},
-          {band, stated, fit, readings}};
+          {series.band, series.stated, series.fit, series.readings, series.silent}};
 }
 
 Table profile_table(const PicturedAnswer& report, const PointSet& set) {
   const std::string_view unit = unit_of(set.quantity);
   const bool epochs = !report.comparison.before.empty();
   Table table{{"point", "x [m]", fmt::format("{} [{}]", reading_word(report), unit),
-               fmt::format("expected [{}]", unit), fmt::format("noise, each way [{}]", unit)},
+               fmt::format("expected [{}]", unit), fmt::format("band, each way [{}]", unit)},
               {}};
   const bool is_uncertain = !report.answer.known_bridge;
   if (is_uncertain) table.columns.push_back(fmt::format("first candidate by the file [{}]", unit));
   if (epochs)
     table.columns.insert(table.columns.begin() + 2,
                          {fmt::format("before [{}]", unit), fmt::format("after [{}]", unit)});
+  table.decimals.assign(table.columns.size(), report.decimals);
+  table.decimals[1] = 2;
   for (const std::size_t point : set.points) {
-    const SensorResidual* const residual = residual_of(report, point);
-    table.rows.push_back(
-        {report.library.points[point].name, report.library.points[point].position.x(),
-         kMillimetres * report.shown.reading[point], kMillimetres * report.expected[point],
-         residual != nullptr && report.answer.noise ? kMillimetres * band_of(report, *residual) : kNan});
+    table.rows.push_back({report.library.points[point].name, report.library.points[point].position.x(),
+                          kMillimetres * report.shown.reading[point], kMillimetres * report.expected[point],
+                          kMillimetres * band_of(report, point)});
     if (is_uncertain) table.rows.back().push_back(kMillimetres * report.shown.expected[point]);
     if (epochs)
       table.rows.back().insert(
@@ -100,26 +146,41 @@ Table profile_table(const PicturedAnswer& report, const PointSet& set) {
   return table;
 }
 
-Chart residual_chart(const PicturedAnswer& report, const std::vector<std::size_t>& points,
-                     const std::string& label) {
+/// Dashed from end to end where disagreement begins; nothing where there are too few sensors to say.
+std::vector<Series> limit_series(const PicturedAnswer& report, const PointSet& set) {
+  const double limit = limit_of_agreement(report.answer.residuals);
+  if (!std::isfinite(limit) || limit <= 0.0) return {};
+  const std::vector<double> ends = {0.4, static_cast<double>(set.names.size()) + 0.6};
+  return {{"limit of agreement", 2, Mark::dashes, ends, {limit, limit}},
+          {"", 2, Mark::dashes, ends, {-limit, -limit}}};
+}
+
+Chart residual_chart(const PicturedAnswer& report, const PointSet& set) {
   Series agreeing{"agrees", 1, Mark::points, {}, {}};
   Series odd{"disagrees with the rest", 2, Mark::points, {}, {}};
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const SensorResidual* const residual = residual_of(report, points[i]);
+  for (std::size_t i = 0; i < set.points.size(); ++i) {
+    const SensorResidual* const residual = residual_of(report, set.points[i]);
     if (residual == nullptr) continue;
     Series& series = residual->disagrees ? odd : agreeing;
-    series.x.push_back(static_cast<double>(i + 1));
+    series.x.push_back(set.places[i]);
     series.y.push_back(residual->error);
-    series.tips.push_back(point_tip(report, points[i]));
+    series.tips.push_back(point_tip(report, set.points[i]));
   }
   if (odd.x.empty()) odd.name.clear();
-  return {label, {kAcross}, {"residual in standard deviations"}, {agreeing, odd}};
+  Chart chart{set.title,
+              sensors_axis(set),
+              {is_bounded(report) ? "residual in bounds of the noise" : "residual in standard deviations"},
+              limit_series(report, set)};
+  chart.series.push_back(agreeing);
+  chart.series.push_back(odd);
+  return chart;
 }
 
 Table residual_table(const PicturedAnswer& report, const PointSet& set) {
-  Table table{
-      {"point", fmt::format("residual [{}]", unit_of(set.quantity)), "in standard deviations", "verdict"},
-      {}};
+  Table table{{"point", fmt::format("residual [{}]", unit_of(set.quantity)),
+               is_bounded(report) ? "in bounds of the noise" : "in standard deviations", "verdict"},
+              {},
+              {kAsNeeded, report.decimals, 2, kAsNeeded}};
   for (const std::size_t point : set.points)
     if (const SensorResidual* const residual = residual_of(report, point))
       table.rows.push_back({report.library.points[point].name,
@@ -130,61 +191,25 @@ Table residual_table(const PicturedAnswer& report, const PointSet& set) {
   return table;
 }
 
-std::vector<std::string> loads_of(const PicturedAnswer& report) {
-  std::vector<std::string> loads;
-  for (const std::string& load : report.comparison.load)
-    if (std::find(loads.begin(), loads.end(), load) == loads.end()) loads.push_back(load);
-  return loads.empty() ? std::vector<std::string>{""} : loads;
-}
-
-/// Appends the set of the points that belong, if there are any.
-template <class Belongs>
-void add_set(const PicturedAnswer& report, const std::string& title, const std::string& id, Quantity quantity,
-             const Belongs& belongs, std::vector<PointSet>& sets) {
-  std::vector<std::size_t> points;
-  for (std::size_t point = 0; point < report.library.points.size(); ++point)
-    if (quantity_of(report.comparison, point) == quantity && belongs(point)) points.push_back(point);
-  const auto is_read = [&](std::size_t point) { return std::isfinite(report.shown.reading[point]); };
-  if (std::ranges::none_of(points, is_read)) return;
-  const std::vector<std::string>& loads = report.comparison.load;
-  const std::string under = loads.empty() ? "" : under_load(loads[points.front()]);
-  std::vector<std::string> names;
-  for (const std::size_t point : points) {
-    const std::string& name = report.library.points[point].name;
-    names.push_back(name.substr(0, name.size() - under.size()));
-  }
-  sets.push_back({title + ", " + names_in_words(names) + under, id, quantity, points});
-}
-
-std::vector<PointSet> point_sets(const PicturedAnswer& report) {
-  std::vector<PointSet> sets;
-  int count = 1;
-  std::string number;  // of the load, from the second on
-  for (const std::string& load : loads_of(report)) {
-    const auto under = [&](std::size_t point) {
-      return load.empty() || report.comparison.load[point] == load;
-    };
-    const auto at = [&](Site site) {
-      return [&, site](std::size_t point) { return under(point) && site_of(report, point) == site; };
-    };
-    add_set(report, "Top", "top" + number, Quantity::uy, at(Site::top), sets);
-    add_set(report, "Arch", "arch" + number, Quantity::uy, at(Site::arch), sets);
-    add_set(report, "Wall", "wall" + number, Quantity::uy, at(Site::elsewhere), sets);
-    add_set(report, "Horizontal", "horizontal" + number, Quantity::ux, under, sets);
-    add_set(report, "Tilts", "tilt" + number, Quantity::tilt, under, sets);
-    add_set(report, "Distances", "distance" + number, Quantity::distance, under, sets);
-    number = fmt::format("-{}", ++count);
-  }
-  return sets;
-}
-
 std::string residuals_in_words(const PicturedAnswer& report) {
   return report.answer.known_bridge
-             ? "Reading minus first candidate, with an unknown datum, tilt or scale as far as the readings "
-               "show it, in units of the noise at that sensor (the bound of uniform noise, else the "
-               "standard deviation)."
-             : "Reading minus what the likeliest scenes and all other readings let expect, in standard "
-               "deviations of that.";
+             ? fmt::format(
+                   "Reading minus first candidate, with an unknown datum, tilt or scale as far as the "
+                   "readings show it, in {} of the noise at that sensor.",
+                   is_bounded(report) ? "bounds" : "standard deviations")
+             : "Reading minus what all other readings let expect, in standard deviations of a reading about "
+               "that.";
+}
+
+/// Nothing where no limit is drawn.
+std::string limit_in_words(const PicturedAnswer& report) {
+  const double limit = limit_of_agreement(report.answer.residuals);
+  return std::isfinite(limit) && limit > 0.0
+             ? fmt::format(
+                   " Beyond the dashed lines ({:.1f}, eight times what half of all sensors reach) a sensor "
+                   "disagrees with the rest.",
+                   limit)
+             : "";
 }
 
 std::string sign_in_words(Quantity quantity) {
@@ -205,7 +230,8 @@ std::string sign_in_words(Quantity quantity) {
 std::vector<Figure> profile_figures(const PicturedAnswer& report) {
   std::vector<Figure> figures;
   for (const PointSet& set : point_sets(report))
-    figures.push_back({"profile-" + set.id, set.title, sign_in_words(set.quantity) + band_in_words(report),
+    figures.push_back({"profile-" + set.id, set.title,
+                       sign_in_words(set.quantity) + band_in_words(report, set),
                        chart_html(profile_chart(report, set)), profile_table(report, set)});
   return figures;
 }
@@ -217,9 +243,9 @@ std::vector<Figure> residual_figures(const PicturedAnswer& report) {
     if (std::ranges::none_of(set.points,
                              [&](std::size_t point) { return residual_of(report, point) != nullptr; }))
       continue;
-    figures.push_back({"residual-" + set.id, "Residuals: " + set.title, residuals_in_words(report),
-                       chart_html(residual_chart(report, set.points, set.title)), residual_table(report, set),
-                       false, TableView::printed});
+    figures.push_back(
+        {"residual-" + set.id, "Residuals: " + set.title, residuals_in_words(report) + limit_in_words(report),
+         chart_html(residual_chart(report, set)), residual_table(report, set), false, TableView::printed});
   }
   return figures;
 }

@@ -332,11 +332,11 @@ std::vector<std::string> odd_sensors(const Answer& answer, const Comparison& com
   odd.resize(std::min(odd.size(), kMostSensorsListed));
   std::vector<std::string> sentences;
   for (const SensorResidual& sensor : odd)
-    sentences.push_back(fmt::format("Sensor {} disagrees: it reads {:.3f} {} where {:.3f} would be expected",
-                                    comparison.library.points[sensor.point].name,
-                                    kMillimetres * (sensor.reading - origin[sensor.point]),
-                                    unit_of(quantity_of(comparison, sensor.point)),
-                                    kMillimetres * (sensor.predicted - origin[sensor.point])));
+    sentences.push_back(fmt::format(
+        "Sensor {0} disagrees: it reads {1:.3f} {2} where {3:.3f} {2} would be expected",
+        comparison.library.points[sensor.point].name, kMillimetres * (sensor.reading - origin[sensor.point]),
+        unit_of(quantity_of(comparison, sensor.point)),
+        kMillimetres * (sensor.predicted - origin[sensor.point])));
   return sentences;
 }
 

@@ -135,7 +135,9 @@ void add_part(const UnknownBridge& bridge, const CaseNoise& noise, const SceneGa
   const MatrixXd inverse = lower.solve(MatrixXd::Identity(n, n));
   const VectorXd precision = inverse.colwise().squaredNorm();
   result.square += weight * whitened.squaredNorm() / noise.instruments.dot(precision);
-  result.beside += weight * pulled.cwiseQuotient(precision);
+  const VectorXd beside = pulled.cwiseQuotient(precision);
+  result.beside += weight * beside;
+  result.spread += weight * (precision.cwiseInverse() + beside.cwiseAbs2());
   result.others += weight * (pulled.array() / precision.array().sqrt()).matrix();
   result.chance += weight * chance_of(bridge, noise, scene, covariance, whitened.squaredNorm());
   result.parts.push_back(std::move(part));
@@ -175,7 +177,7 @@ BridgePosterior empty_posterior(const UnknownBridge& bridge) {
   const Index epochs = bridge.epochs * bridge.factors->of_epoch();
   BridgePosterior result;
   result.chance = result.square = 0.0;
-  result.beside = result.others = VectorXd::Zero(bridge.reading.size());
+  result.beside = result.others = result.spread = VectorXd::Zero(bridge.reading.size());
   result.from_unevenness = result.from_model = VectorXd::Zero(bridge.reading.size());
   result.signal = result.from_bridge = VectorXd::Zero(bridge.reading.size());
   result.from_epochs = MatrixXd::Zero(bridge.reading.size(), bridge.factors->epoch_parameters());
@@ -204,6 +206,7 @@ BridgePosterior bridge_posterior(const UnknownBridge& bridge, const Observation&
     add_part(bridge, noise, gaussian(part.scene), kScatterFactors[part.kappa], part.weight, result);
   }
   result.epoch_covariance -= result.epoch_mean * result.epoch_mean.transpose();
+  result.spread = (result.spread - result.beside.cwiseAbs2()).cwiseMax(0.0).cwiseSqrt();
   result.left = bridge.reading - result.signal - result.from_bridge - result.from_epochs.rowwise().sum() -
                 result.from_unevenness;
   compare_with_model(bridge, observation, gaussian(0), kept, result);

@@ -46,7 +46,8 @@ struct BridgePosterior {
       1.0;  ///< how many times as large as in the model is what the likeliest scene's blocks change,
   double times_movement = 1.0;  ///< and what the intact bridge shows, after what is believed of the bridge
   Eigen::VectorXd beside;       ///< y less what all other readings let expect [m],
-  Eigen::VectorXd others;       ///< and in standard deviations of that
+  Eigen::VectorXd spread;       ///< the standard deviation of that over all parts [m],
+  Eigen::VectorXd others;       ///< and in standard deviations of each part, on average
   double square =
       1.0;  ///< square of the readings' whitened distance from what the scenes let expect, in units of what
             ///< the instruments' errors alone make of it on average: about 1 or more

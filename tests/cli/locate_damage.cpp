@@ -7,6 +7,7 @@
 #include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <regex>
 
 #include "database/format/hdf5_handle.h"
 #include "database/records/database.h"
@@ -285,10 +286,21 @@ TEST_CASE("query-field draws every block that is there, and its colours span the
   const Field field = database.field(database.find(parse_scene("4,2", database.layout())).value());
   CHECK(occurrences(drawn.out, "class=\"outline\"") == database.layout().size() - 1);
   CHECK(occurrences(drawn.out, "class=\"gone\"") == 1);
-  double lowest = 0.0;
-  for (Eigen::Index node = 0; node < field.cols(); ++node)
-    if (!std::isnan(field(1, node))) lowest = std::min(lowest, field(1, node));
-  CHECK_THAT(drawn.out, Contains(fmt::format(">{:.3g}</text>", 1e3 * lowest)) && Contains("times larger"));
+  double lowest = INFINITY, highest = -INFINITY;  // [mm]
+  for (const double uy : field.row(1)) {
+    if (std::isnan(uy)) continue;
+    lowest = std::min(lowest, 1e3 * uy);
+    highest = std::max(highest, 1e3 * uy);
+  }
+  CHECK_THAT(drawn.out, Contains("times larger"));
+  // The bar is half as wide as the picture's 1040 units, in its middle; places are written to a tenth.
+  const std::regex mark(
+      "<text x=\"([0-9.]+)\" y=\"[0-9.]+\" text-anchor=\"middle\" class=\"small\">([-0-9.]+)<");
+  int marks = 0;
+  for (std::sregex_iterator at(drawn.out.begin(), drawn.out.end(), mark), none; at != none; ++at, ++marks)
+    CHECK(std::stod((*at)[1]) ==
+          Approx(260.0 + 520.0 * (highest - std::stod((*at)[2])) / (highest - lowest)).margin(0.06));
+  CHECK(marks >= 3);
   CHECK(test::run("query-field", {"4,2", "-d", desk().database, "--format", "svg", "--at", "T3"}).exit_code ==
         2);
 }

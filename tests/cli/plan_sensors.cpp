@@ -3,7 +3,9 @@
 
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
+#include <regex>
 #include <set>
+#include <sstream>
 
 #include "tests/support/bridges.h"
 #include "tests/support/file_text.h"
@@ -110,6 +112,43 @@ TEST_CASE("plan-sensors chooses so many sensors of those that it may, and draws 
   CHECK(all["chosen"].empty());
   CHECK(all["seen"] >= plan["seen"]);
   CHECK(planned().plan({"--sigma", "0.01mm"}).out.find("In trials:") != std::string::npos);
+}
+
+TEST_CASE(
+    "A plan's text says in sentences how many losses would be seen, and names no block where none is seen") {
+  const test::ProgramResult text = planned().plan({"--sigma", "1mm"});  // changes are far smaller
+  CHECK_THAT(text.out,
+             Catch::Contains("losses would be seen with a chance of 90 % or more; the average chance is") &&
+                 Catch::Contains("none of ") && Catch::Contains("each with a standard deviation of 1 mm"));
+  const std::string table = text.out.substr(text.out.find("looks most like"));
+  std::istringstream lines(table.substr(table.find('\n') + 1));
+  int rows = 0;
+  for (std::string line; std::getline(lines, line); ++rows) CHECK_THAT(line, Catch::EndsWith("no loss"));
+  CHECK(rows == 15);
+}
+
+TEST_CASE("The names of planned sensors neither cover each other nor stick out (boxes of their letters)") {
+  const std::string picture = (planned().folder / "names.svg").string();
+  planned().plan({"--sigma", "0.01mm", "--report", picture});
+  const std::string drawn = test::text_of(picture);
+  const std::regex text(
+      "<text x=\"([-0-9.]+)\" y=\"([-0-9.]+)\" text-anchor=\"middle\" class=\"label\">([^<]*)<");
+  struct Name {
+    double left, right, base;
+  };
+  std::vector<Name> names;
+  for (std::sregex_iterator at(drawn.begin(), drawn.end(), text), none; at != none; ++at) {
+    const double half = 3.3 * static_cast<double>((*at)[3].length());
+    const double x = std::stod((*at)[1]);
+    names.push_back({x - half, x + half, std::stod((*at)[2])});
+  }
+  CHECK(names.size() >= 10);
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    CHECK((names[i].left >= 0.0 && names[i].right <= 1040.0));
+    for (std::size_t k = 0; k < i; ++k)
+      CHECK((names[i].left > names[k].right || names[k].left > names[i].right ||
+             std::abs(names[i].base - names[k].base) > 11.0));
+  }
 }
 
 TEST_CASE("plan-sensors refuses what it cannot plan, and says why") {

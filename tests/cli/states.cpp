@@ -126,7 +126,7 @@ TEST_CASE("query-field shows joints as the solver leaves them that remembers eve
 
 TEST_CASE("query-field shows stresses, joints and thrust lines in every format, of scenes that stand") {
   const LoadedSite site;
-  REQUIRE(site.build({"--history", "built,lost"}).exit_code == 0);
+  REQUIRE(site.build({"--history", "built,lost", "--collapses", "field"}).exit_code == 0);
   const auto show = [&](const char* what, const char* format, const char* scene = "4,2") {
     return test::run("query-field",
                      {scene, "-d", site.database, "--history", "lost", "--show", what, "--format", format});
@@ -137,6 +137,11 @@ TEST_CASE("query-field shows stresses, joints and thrust lines in every format, 
   CHECK_THAT(show("joints", "svg").out, Catch::Contains("joint-sticking") && Catch::Contains("thrust line"));
   CHECK_THAT(show("joints", "vtu").out, Catch::Contains("normal_N"));
   CHECK_THAT(show("thrust", "vtu").out, Catch::Contains("<VTKFile"));
+  const std::string thrust_picture = show("thrust", "svg").out;
+  CHECK_THAT(thrust_picture, Catch::Contains("middle third") && !Catch::Contains("joint-sticking\" d="));
+  CHECK_THAT(show("displacements", "svg").out, Catch::Contains(", standing"));
+  CHECK_THAT(show("displacements", "svg", "0,4").out,
+             Catch::Contains("falling, moment 0.3 s, not in equilibrium") && !Catch::Contains("collapsed"));
   const auto thrust = nlohmann::json::parse(show("thrust", "json").out);
   CHECK(thrust.size() > 5);
   CHECK(thrust[0]["ring"] == 1);

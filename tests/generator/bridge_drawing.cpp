@@ -2,6 +2,8 @@
 
 #include "generator/bridge_drawing.h"
 
+#include <fmt/format.h>
+
 #include <catch2/catch.hpp>
 
 #include "core/bridge_file/bridge_file.h"
@@ -36,8 +38,52 @@ TEST_CASE("A drawing shows every block, control point, support, joint and load o
   const std::string line = picture.substr(joints, picture.find('\n', joints) - joints);
   CHECK(count(line, "M") == static_cast<int>(bridge.joints.size()));
   CHECK(count(picture, "class=\"load\"") == static_cast<int>(description.loads.size()));
-  CHECK(count(picture, "sensors") == 1);
-  CHECK(count(picture, "loads on the bridge's thickness") == 1);
+  CHECK(count(picture, "points that are read") == 1);
+  CHECK(count(picture, "loads, vehicles at their first place") == 1);
+  CHECK(count(picture, "class=\"swatch wall\"") == 1);
+  CHECK(count(picture, "class=\"swatch ring\"") == 1);
+  CHECK(count(picture, "class=\"swatch pier\"") == 0);
+}
+
+TEST_CASE(
+    "Loads say what acts on their width and what the model carries of it (forces as the file states them)",
+    "[drawing]") {
+  const BridgeDescription description = read_bridge_file(test::example_bridge("load-test")).description;
+  const std::string picture = bridge_drawing(make_model(description), description);
+  REQUIRE(description.material.thickness == 1.0);
+  CHECK(count(picture, ">truck@1: 160 kN over 3 m, 53.3 kN of it on the model's 1 m</text>") == 1);
+  CHECK(count(picture, ">crowd: 300 kN over 3 m, 100 kN of it on the model's 1 m</text>") == 1);
+  CHECK(count(picture, ">60 kN</text>") == 1);  // the axles
+  CHECK(count(picture, ">100 kN</text>") == 1);
+}
+
+TEST_CASE("Sensors of the bridge file stand in the drawing by name and are no control points", "[drawing]") {
+  BridgeDescription description = test::small_description();
+  SensorDescription sensor;
+  sensor.name = "TILT-NW1";
+  sensor.quantity = Quantity::tilt;
+  sensor.block = "4,2";
+  description.sensors = {sensor};
+  const Model bridge = make_model(description);
+  const std::string picture = bridge_drawing(bridge, description);
+  CHECK(count(picture, ">TILT-NW1</text>") == 1);
+  CHECK(count(picture, fmt::format("{} control points, 1 sensor;", bridge.control_points.size() - 1)) == 2);
+}
+
+TEST_CASE("Numbers along a small bridge stand a whole or half metre apart, not a tenth", "[drawing]") {
+  // Oracle: 6 m over 1100 px. Numbers that stand 0.1 m apart are 18 px from each other.
+  const BridgeDescription description = test::small_description();
+  const std::string picture = bridge_drawing(make_model(description), description);
+  CHECK(count(picture, ">0.1</text>") == 0);
+  CHECK(count(picture, ">0.5</text>") == 2);  // along x and y
+  CHECK(count(picture, ">x [m]</text>") == 1);
+}
+
+TEST_CASE("A drawing follows a dark page and a narrow one", "[drawing]") {
+  const BridgeDescription description = test::small_description();
+  const std::string picture = bridge_drawing(make_model(description), description);
+  CHECK(count(picture, "prefers-color-scheme:dark") == 1);
+  CHECK(count(picture, "style=\"max-width:100%;height:auto\"") == 1);
 }
 
 TEST_CASE("What a name holds cannot end the picture's markup", "[drawing]") {

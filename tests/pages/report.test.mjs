@@ -88,7 +88,8 @@ test('A table stands beside every picture, and the readings in it are those of t
   let compared = 0;
   for (const row of [...await rowsOf(page, '#profile-top'), ...await rowsOf(page, '#profile-arch')]) {
     const reading = inFile.get(row[0]);
-    if (reading) assert.ok(Math.abs(Number(row[2]) - Number(reading)) <= 1e-3 * Math.abs(Number(reading)) + 1e-9, row.join());
+    const shown = 0.5 * 10 ** -(row[2].split('.')[1] ?? '').length;  // half of the last decimal
+    if (reading) assert.ok(shown <= 0.5e-3 && Math.abs(Number(row[2]) - Number(reading)) <= shown + 1e-9, row.join());
     else assert.equal(row[2], '');
     ++compared;
   }
@@ -132,6 +133,35 @@ test('On a phone nothing sticks out and all writing can be read', async () => {
   })));
   assert.ok(smallest >= 8, `the smallest writing is ${smallest} px high`);
   assert.deepEqual(page.faults, []);
+});
+
+test('On a phone every candidate says where it is, below its name', async () => {
+  const page = await open(browser, silent.page, {viewport: {width: 390, height: 800}, isMobile: true, hasTouch: true});
+  const rows = page.locator('#candidates tbody tr');
+  for (let i = 0; i < await rows.count(); ++i) {
+    const cells = rows.nth(i).locator('td');
+    const scene = await cells.nth(1).boundingBox(), where = await cells.nth(6).boundingBox(), behind = await cells.nth(4).boundingBox();
+    assert.ok(where.y >= scene.y + scene.height - 1 && where.x >= 0 && where.x + where.width <= 390, JSON.stringify(where));
+    assert.ok(behind.x + behind.width <= 390, JSON.stringify(behind));
+    assert.ok(await cells.nth(3).isHidden() && await cells.nth(5).isHidden());
+  }
+});
+
+test('The bar beside the verdict has a colour of its own for what is found, on light and dark pages and on paper', async () => {
+  const colour = (page, verdict) => page.evaluate(name => {
+    const box = document.querySelector('.verdict');
+    box.className = `verdict ${name}`;
+    return getComputedStyle(box).borderLeftColor;
+  }, verdict);
+  for (const media of [{colorScheme: 'light'}, {colorScheme: 'dark'}, {media: 'print'}]) {
+    const page = await open(browser, single.page);
+    assert.match(await page.getAttribute('.verdict', 'class'), /^verdict located$/);
+    await page.emulateMedia(media);
+    const [found, intact, unknown] = [await colour(page, 'located'), await colour(page, 'intact'), await colour(page, 'cannot-tell')];
+    assert.equal(new Set([found, intact, unknown]).size, 3);
+    assert.equal(await colour(page, 'damaged-unlocated'), found);
+    assert.equal(await colour(page, 'unexplained'), unknown);
+  }
 });
 
 test('Printed on A4 all tables are there and nothing is cut off', async () => {

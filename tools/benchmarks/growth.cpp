@@ -90,6 +90,11 @@ std::vector<double> column(const Growth& growth, Value GrowthPoint::*member) {
   return values;
 }
 
+/// Such an exponent only says how the measurements scatter.
+bool is_flat(double exponent) {
+  return std::abs(exponent) < 0.05;
+}
+
 }  // namespace
 
 double fitted_exponent(const std::vector<double>& x, const std::vector<double>& y) {
@@ -179,9 +184,12 @@ std::string to_markdown(const Growth& growth) {
                         point.standing, point.collapsed, point.unresolved, 1e3 * point.seconds,
                         point.seconds / growth.points.front().seconds, point.megabytes);
   const std::vector<double> x = column(growth, &GrowthPoint::x);
-  return text + fmt::format("\nFitted exponents: time {:.2f}, memory {:.2f}\n\n",
-                            fitted_exponent(x, column(growth, &GrowthPoint::seconds)),
-                            fitted_exponent(x, column(growth, &GrowthPoint::megabytes)));
+  const auto exponent = [&](double GrowthPoint::*member) {
+    const double fitted = fitted_exponent(x, column(growth, member));
+    return is_flat(fitted) ? "none (flat)" : fmt::format("{:.2f}", fitted);
+  };
+  return text + fmt::format("\nFitted exponents: time {}, memory {}\n\n", exponent(&GrowthPoint::seconds),
+                            exponent(&GrowthPoint::megabytes));
 }
 
 std::string to_svg(const Growth& growth) {
@@ -190,7 +198,8 @@ std::string to_svg(const Growth& growth) {
     std::vector<double> y = column(growth, member);
     const double exponent = fitted_exponent(x, y);
     for (double& value : y) value *= unit;
-    return Series{fmt::format("{}, exponent {:.2f}", what, exponent), colour, Mark::beads, x, y};
+    const std::string power = is_flat(exponent) ? "" : fmt::format(", exponent {:.2f}", exponent);
+    return Series{what + power, colour, Mark::beads, x, y};
   };
   Chart chart{fmt::format("Time and memory of a scene over {}", growth.unit),
               {growth.unit, AxisScale::logarithmic},

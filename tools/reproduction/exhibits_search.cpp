@@ -71,9 +71,9 @@ Drawing draw_objective(const Subject& subject, const Misfits& objective) {
       path_element("mark", closed_path(placed(layout[objective.truth].polygon, frame))) +
       block_label(layout[objective.truth], frame) +
       colour_bar({"f_v, the better the fit the deeper the colour",
-                  {fmt::format("{:.2f} or more", objective.highest),
-                   fmt::format("{:.2f}", 0.5 * (objective.highest + objective.lowest)),
-                   fmt::format("{:.2f} or less", objective.lowest)}},
+                  {{0.0, fmt::format("{:.2f} or more", objective.highest)},
+                   {0.5, fmt::format("{:.2f}", 0.5 * (objective.highest + objective.lowest))},
+                   {1.0, fmt::format("{:.2f} or less", objective.lowest)}}},
                  frame.width, frame.height + kColourBarHeight);
   return drawing;
 }

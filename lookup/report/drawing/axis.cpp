@@ -57,6 +57,12 @@ AxisMap whole_decades(const Range& range, double begin, double end) {
 
 }  // namespace
 
+double round_below(double value) {
+  const double most = value * (1.0 + kStepRounding);
+  const double power = std::pow(10.0, std::floor(std::log10(most)));
+  return power * (most >= 5.0 * power ? 5.0 : most >= 2.0 * power ? 2.0 : 1.0);
+}
+
 double AxisMap::operator()(double value) const {
   const bool logarithmic = scale == AxisScale::logarithmic;
   const double part = logarithmic ? std::log(value / lowest) / std::log(highest / lowest)

@@ -25,6 +25,9 @@ struct AxisMap {
   double operator()(double value) const;
 };
 
+/// The largest of 1, 2, 5 times a power of ten that is at most this. Precondition: it is positive.
+double round_below(double value);
+
 /// The range of some finite values, widened to round numbers (a logarithmic one to powers of ten, leaving out
 /// values that are not positive), as an axis of about `ticks` steps.
 AxisMap axis_over(std::span<const double> values, AxisScale scale, int ticks, double begin, double end);

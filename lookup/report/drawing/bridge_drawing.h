@@ -25,7 +25,7 @@ struct BridgeFrame {
 };
 
 inline constexpr double kHeadingHeight = 0.75;  ///< [m] on the bridge's scale
-inline constexpr int kBarMarks = 5;             ///< numbers beside a bar of colours
+inline constexpr int kBarMarks = 6;             ///< numbers beside a bar of colours, about
 
 /// A frame `width` wide that holds the bridge and leaves `above` and `below` [m] free.
 BridgeFrame frame_of(const BlockLayout& layout, double width, double above, double below);
@@ -49,16 +49,41 @@ std::string block_label(const Block& block, const BridgeFrame& frame);
 /// The ground that the bridge stands on.
 std::string ground_element(const BlockLayout& layout, const BridgeFrame& frame);
 
-/// The colour levels from left to right, with what their ends and marks between mean.
+/// A text beside a bar, at a share of its length.
+struct BarMark {
+  double share = 0.0;
+  std::string text;
+};
+
+/// 0, 25 %, .. 100 %
+std::vector<BarMark> percent_marks();
+
+/// Round numbers between the values that the lowest and the highest level stand for.
+std::vector<BarMark> round_marks(double at_lowest, double at_highest);
+
+/// The colour levels from left to right, with what they mean.
 struct ColourBar {
-  std::string title;               ///< with its unit
-  std::vector<std::string> marks;  ///< evenly spaced from the lowest to the highest level
+  std::string title;  ///< with its unit
+  std::vector<BarMark> marks;
+  std::string stone = {};  ///< what a field of stone before the lowest level means; empty: none
 };
 
 /// Units that a colour bar is high.
-inline constexpr double kColourBarHeight = 72.0;
+inline constexpr double kColourBarHeight = 78.0;
 
 /// The bar, centred at the bottom of a frame of this size.
 std::string colour_bar(const ColourBar& bar, double width, double height);
+
+/// A round number of metres as a line, its right end at a place: about an eighth of the frame's width.
+std::string metre_scale(const BridgeFrame& frame, const Point& right_end);
+
+/// Stripes over a block, under which its look stays.
+std::string striped(const Block& block, const BridgeFrame& frame);
+
+/// What the stripes are made of: once in a picture that has striped blocks.
+std::string stripes_definition();
+
+/// A field of stripes with what it means, its left end at a place.
+std::string stripes_key(const Point& left_end, const std::string& meaning);
 
 }  // namespace voussoir

@@ -18,6 +18,9 @@ constexpr double kDisc = 3.4;
 constexpr double kLegendLine = 22.0;
 constexpr double kLegendSample = 30.0;
 constexpr double kLetter = 7.2;  // width of one, about
+constexpr double kTickHalf = 8.0;
+constexpr double kHollow = 4.2;
+constexpr double kBetweenNames = 12.0;
 
 struct Axes {
   AxisMap x, y;
@@ -49,14 +52,18 @@ std::string squeezed(const std::string& text, double most) {
              : "";
 }
 
+std::vector<Tick> ticks_on(const ChartAxis& axis, const AxisMap& map, int count) {
+  return axis.ticks.empty() ? ticks_of(map, count) : axis.ticks;
+}
+
 std::string grid(const Chart& chart, const Axes& axes) {
   std::string text;
-  for (const Tick& tick : ticks_of(axes.x, kTicksAcross)) {
+  for (const Tick& tick : ticks_on(chart.x, axes.x, kTicksAcross)) {
     const double x = axes.x(tick.value);
     text += path_element("grid", fmt::format("M{:.1f} {:.1f}V{:.1f}", x, axes.y.begin, axes.y.end));
     text += text_element({x, axes.y.begin + 17.0}, "middle", "small", tick.text);
   }
-  for (const Tick& tick : ticks_of(axes.y, kTicksUp)) {
+  for (const Tick& tick : ticks_on(chart.y, axes.y, kTicksUp)) {
     const double y = axes.y(tick.value);
     text += path_element("grid", fmt::format("M{:.1f} {:.1f}H{:.1f}", axes.x.begin, y, axes.x.end));
     text += text_element({axes.x.begin - 7.0, y + 4.0}, "end", "small", tick.text);
@@ -85,6 +92,10 @@ std::string line_class(const Series& series) {
   return fmt::format("line s{}{}", series.colour, pattern);
 }
 
+std::string tick_data(const Point& at) {
+  return fmt::format("M{:.1f} {:.1f}h{}", at.x() - kTickHalf, at.y(), 2.0 * kTickHalf);
+}
+
 std::string line(const Series& series, const Axes& axes) {
   std::string data;
   std::vector<Point> stretch;
@@ -92,16 +103,23 @@ std::string line(const Series& series, const Axes& axes) {
     if (i < series.x.size() && drawable(series, i, axes)) {
       stretch.push_back(axes(series.x[i], series.y[i]));
     } else {
-      data += open_path(stretch);
+      data += stretch.size() == 1 ? tick_data(stretch.front()) : open_path(stretch);
       stretch.clear();
     }
   }
   return path_element(line_class(series), data);
 }
 
+std::string ticks(const Series& series, const Axes& axes) {
+  std::string data;
+  for (std::size_t i = 0; i < series.x.size(); ++i)
+    if (drawable(series, i, axes)) data += tick_data(axes(series.x[i], series.y[i]));
+  return path_element(line_class(series), data);
+}
+
 /// The outline of a band over the values from `begin` to `end`; over a single value a narrow column.
 std::string band_outline(const Series& series, const Axes& axes, std::size_t begin, std::size_t end) {
-  const Point half = end - begin == 1 ? Point(kDisc, 0.0) : Point(0.0, 0.0);
+  const Point half = end - begin == 1 ? Point(kTickHalf, 0.0) : Point(0.0, 0.0);
   std::vector<Point> outline;
   for (std::size_t i = begin; i < end; ++i) outline.push_back(axes(series.x[i], series.y[i]) - half);
   if (end - begin == 1) outline.push_back(outline.back() + 2.0 * half);
@@ -136,6 +154,15 @@ std::string discs(const Series& series, const Axes& axes) {
     text += fmt::format("<circle class=\"f{}\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{}\">{}</circle>\n",
                         series.colour, at.x(), at.y(), kDisc, tip_element(tip_of(series, i)));
   }
+  return text;
+}
+
+std::string hollow_discs(const Series& series, const Axes& axes) {
+  std::string text;
+  for (std::size_t i = 0; i < series.x.size(); ++i)
+    text += fmt::format("<circle class=\"silent\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{}\">{}</circle>\n",
+                        axes.x(series.x[i]), axes.y.begin, kHollow,
+                        i < series.tips.size() ? tip_element(series.tips[i]) : "");
   return text;
 }
 
@@ -193,6 +220,10 @@ std::string draw_series(const Series& series, const Axes& axes) {
       return discs(series, axes);
     case Mark::beads:
       return line(series, axes) + discs(series, axes);
+    case Mark::ticks:
+      return ticks(series, axes);
+    case Mark::hollow:
+      return hollow_discs(series, axes);
     default:
       return line(series, axes);
   }
@@ -203,6 +234,9 @@ std::string sample(const Series& series, const Point& at) {
   if (series.mark == Mark::band)
     return fmt::format("<rect class=\"band f{}\" x=\"{:.1f}\" y=\"{:.1f}\" width=\"{}\" height=\"10\"/>\n",
                        series.colour, at.x(), at.y() - 5.0, kLegendSample);
+  if (series.mark == Mark::hollow)
+    return fmt::format("<circle class=\"silent\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{}\"/>\n",
+                       at.x() + 0.5 * kLegendSample, at.y(), kHollow);
   const std::string disc = series.mark == Mark::points || series.mark == Mark::beads
                                ? fmt::format("<circle class=\"f{}\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{}\"/>\n",
                                              series.colour, at.x() + 0.5 * kLegendSample, at.y(), kDisc)
@@ -213,6 +247,22 @@ std::string sample(const Series& series, const Point& at) {
 }
 
 }  // namespace
+
+ChartAxis named_axis(const std::string& label, const std::vector<std::string>& names) {
+  const double room = (Chart{}.width - kLeft - kRight) / static_cast<double>(names.size());  // of one name
+  std::size_t longest = 1;
+  for (const std::string& name : names) longest = std::max(longest, name.size());
+  const double needed = kLetter * static_cast<double>(longest) + kBetweenNames;
+  ChartAxis axis{label, AxisScale::linear, {{0.4, static_cast<double>(names.size()) + 0.6}}};
+  double last = -needed;  // where the name before stands
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const double at = room * static_cast<double>(i);
+    if (names[i].empty() || at - last < needed) continue;
+    axis.ticks.push_back({static_cast<double>(i + 1), names[i]});
+    last = at;
+  }
+  return axis;
+}
 
 Drawing draw(const Chart& chart) {
   const Axes axes = axes_of(chart);

@@ -12,11 +12,13 @@
 namespace voussoir {
 
 enum class Mark {
-  line,
+  line,  ///< a value without neighbours is a tick
   dashes,
   dots,    ///< a dotted line
   points,  ///< one disc a point
   beads,   ///< a line with discs
+  ticks,   ///< a short level stroke a point
+  hollow,  ///< a hollow disc on the lower axis for each x, whatever y
   band     ///< the area between y and `upper`
 };
 
@@ -36,6 +38,7 @@ struct ChartAxis {
   std::string label;  ///< with its unit
   AxisScale scale = AxisScale::linear;
   std::optional<std::pair<double, double>> range = {};  ///< instead of what the values need
+  std::vector<Tick> ticks = {};                         ///< instead of round numbers
 };
 
 struct Chart {
@@ -45,6 +48,10 @@ struct Chart {
   double width = 480.0;
   double height = 300.0;
 };
+
+/// An axis of things that have names, numbered from 1, none of them on the frame: each name is written that
+/// has room beside the one before. An empty name stands for a gap.
+ChartAxis named_axis(const std::string& label, const std::vector<std::string>& names);
 
 /// The chart without a legend.
 Drawing draw(const Chart& chart);

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "core/units.h"
+#include "lookup/report/drawing/axis.h"
 #include "lookup/report/drawing/bridge_drawing.h"
 #include "lookup/report/drawing/colour_map.h"
 
@@ -89,14 +90,18 @@ class FieldPainter {
     std::string elements = ground_element(picture_.layout, frame_) + bands();
     for (std::size_t block = 0; block < picture_.layout.size(); ++block) elements += outline(block);
     if (!picture_.heading.empty())
-      elements +=
-          text_element({0.5 * frame_.width, 17.0}, "middle", "strong",
-                       fmt::format("{}; displacements drawn {:g} times larger", picture_.heading, factor_));
+      elements += text_element({0.5 * frame_.width, 17.0}, "middle", "strong", heading());
     elements += colour_bar({"vertical displacement [mm]", marks()}, frame_.width, height);
     return {frame_.width, height, "Deformed bridge, coloured by vertical displacement", elements};
   }
 
  private:
+  std::string heading() const {
+    return factor_ == 1.0
+               ? picture_.heading + "; displacements drawn as they are"
+               : fmt::format("{}; displacements drawn {:g} times larger", picture_.heading, factor_);
+  }
+
   Point moved(int node) const {
     return frame_(picture_.mesh.nodes.col(node) + factor_ * picture_.field.col(node));
   }
@@ -142,17 +147,12 @@ class FieldPainter {
   std::string tip(std::size_t block) const {
     const IndexRange nodes = picture_.mesh.block_nodes[block];
     const auto uy = picture_.field.row(1).segment(nodes.begin, nodes.size());
-    return fmt::format("({})\nuy {:.4g} to {:.4g} mm", picture_.layout.blocks[block].label,
+    return fmt::format("({})\nuy {:.3f} to {:.3f} mm", picture_.layout.blocks[block].label,
                        kMillimetres * uy.maxCoeff(), kMillimetres * uy.minCoeff());
   }
 
-  std::vector<std::string> marks() const {
-    std::vector<std::string> texts;
-    for (int i = 0; i < kBarMarks; ++i)
-      texts.push_back(fmt::format(
-          "{:.3g}",
-          kMillimetres * (range_.highest - (range_.highest - range_.lowest) * i / (kBarMarks - 1))));
-    return texts;
+  std::vector<BarMark> marks() const {
+    return round_marks(kMillimetres * range_.highest, kMillimetres * range_.lowest);
   }
 
   const FieldPicture& picture_;
@@ -170,9 +170,7 @@ double exaggeration(const Mesh& mesh, const Field& field) {
   if (largest == 0.0) return 1.0;
   const double length = mesh.nodes.row(0).maxCoeff() - mesh.nodes.row(0).minCoeff();
   const double most = kLargestDrawn * length / largest;
-  if (most < 1.0) return 1.0;
-  const double power = std::pow(10.0, std::floor(std::log10(most)));
-  return power * (most >= 5.0 * power ? 5.0 : most >= 2.0 * power ? 2.0 : 1.0);
+  return most < 1.0 ? 1.0 : round_below(most);
 }
 
 }  // namespace

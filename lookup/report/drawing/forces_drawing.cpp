@@ -102,6 +102,22 @@ std::string thrust_elements(std::span<const ThrustPoint> thrust, const BridgeFra
   return elements;
 }
 
+/// Of every ring, joint by joint as far as they follow each other.
+std::string middle_thirds(std::span<const ThrustPoint> thrust, const BridgeFrame& frame) {
+  std::string data;
+  for (std::size_t i = 0; i + 1 < thrust.size(); ++i) {
+    const ThrustPoint& a = thrust[i];
+    const ThrustPoint& b = thrust[i + 1];
+    if (a.ring != b.ring || a.second != b.first) continue;
+    const auto edge = [&](const ThrustPoint& at, double side) {
+      return frame(at.centre + side / 6.0 * at.thickness * at.outward);
+    };
+    const std::array<Point, 4> part = {edge(a, -1.0), edge(b, -1.0), edge(b, 1.0), edge(a, 1.0)};
+    data += closed_path(part);
+  }
+  return data.empty() ? "" : path_element("band f3", data);
+}
+
 std::string legend_entry(double left, double y, std::string_view look, std::string_view text) {
   const std::array<Point, 2> stroke = {Point(left, y - 4.0), Point(left + 26.0, y - 4.0)};
   const std::array<Point, 4> bar = {stroke[0] + Point(0, 2.5), stroke[1] + Point(0, 2.5),
@@ -135,10 +151,8 @@ Drawing draw_stresses(const ForcesPicture& picture, std::span<const TriangleStre
     return BlockLook{
         "outline", fmt::format("({})\nTresca stress up to {:.3g} MPa", block.label, kMegapascals * largest)};
   });
-  std::vector<std::string> marks;
-  for (int i = 0; i < kBarMarks; ++i)
-    marks.push_back(fmt::format("{:.3g}", kMegapascals * highest * i / (kBarMarks - 1)));
-  elements += colour_bar({"Tresca stress [MPa]", marks}, frame.width, height);
+  elements +=
+      colour_bar({"Tresca stress [MPa]", round_marks(0.0, kMegapascals * highest)}, frame.width, height);
   return {frame.width, height, "Bridge, coloured by Tresca stress", elements};
 }
 
@@ -158,6 +172,22 @@ Drawing draw_joints(const ForcesPicture& picture, std::span<const JointForces> j
   elements += legend(frame.width, frame.height + 22.0, highest, !thrust.empty());
   return {frame.width, frame.height + kLegendHeight,
           "Bridge with its joints by pressure and contact, and thrust lines", elements};
+}
+
+Drawing draw_thrust(const ForcesPicture& picture, std::span<const ThrustPoint> thrust) {
+  const BridgeFrame frame = frame_of(picture);
+  std::string elements = background(picture, frame);
+  elements += block_elements(picture.layout, frame, [&](BlockId id) {
+    const Block& block = picture.layout.blocks[static_cast<std::size_t>(value(id))];
+    if (picture.scene.lacks(id)) return BlockLook{"gone", missing_tip(block)};
+    return BlockLook{block.role == BlockRole::ring ? "stone" : "outline", "(" + block.label + ")"};
+  });
+  elements += middle_thirds(thrust, frame) + thrust_elements(thrust, frame);
+  const double y = frame.height + 22.0;
+  elements += legend_entry(0.06 * frame.width, y, "line thrust", "thrust line") +
+              legend_entry(0.22 * frame.width, y, "band f3",
+                           "middle third: where the thrust line is inside, the whole joint is pressed");
+  return {frame.width, frame.height + kLegendHeight, "Rings of the bridge with their thrust lines", elements};
 }
 
 }  // namespace voussoir

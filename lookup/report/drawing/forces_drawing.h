@@ -9,7 +9,7 @@
 
 namespace voussoir {
 
-/// What both pictures are of; references into a database.
+/// What the pictures are of; references into a database.
 struct ForcesPicture {
   const BlockLayout& layout;
   const Mesh& mesh;
@@ -25,5 +25,8 @@ Drawing draw_stresses(const ForcesPicture& picture, std::span<const TriangleStre
 /// of their own; the thrust line of every ring.
 Drawing draw_joints(const ForcesPicture& picture, std::span<const JointForces> joints,
                     std::span<const ThrustPoint> thrust);
+
+/// Blocks as outlines, those of rings as stone; every ring's middle third and thrust line.
+Drawing draw_thrust(const ForcesPicture& picture, std::span<const ThrustPoint> thrust);
 
 }  // namespace voussoir

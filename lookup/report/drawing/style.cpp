@@ -26,6 +26,8 @@ svg text.strong{font-weight:600}
 .gone{fill:transparent;stroke:var(--text);stroke-width:1.4;stroke-dasharray:4 2.5}
 .block{stroke:var(--edge);stroke-width:.7}
 .outline{fill:transparent;stroke:var(--edge);stroke-width:.6}
+.stripe{stroke:var(--text);stroke-width:1.6;opacity:.55}
+.striped{fill:url(#stripes);stroke:var(--edge);stroke-width:.7;pointer-events:none}
 .mark{fill:none;stroke:var(--text);stroke-width:2.2}
 svg text.tiny{font-size:8.5px;fill:var(--muted);pointer-events:none}
 .mesh{fill-opacity:.3;stroke:var(--edge);stroke-width:.6}
@@ -54,7 +56,7 @@ p{margin:.5em 0;max-width:75ch}
 a{color:var(--s1)}
 figure{margin:0;min-width:0}
 figcaption{font-size:.9rem;margin:.3em 0}
-.figures{display:grid;grid-template-columns:repeat(auto-fit,minmax(min(100%,420px),1fr));gap:1.8rem 1.6rem;margin:1.2em 0}
+.figures{display:grid;grid-template-columns:repeat(auto-fill,minmax(min(100%,350px),1fr));gap:1.8rem 1.6rem;margin:1.2em 0}
 .thirds{grid-template-columns:repeat(auto-fit,minmax(min(100%,300px),1fr))}
 .wide{grid-column:1/-1}
 .pictures{display:grid;gap:.8rem}
@@ -74,13 +76,19 @@ summary{cursor:pointer;color:var(--s1);font-size:.88rem}
 dl{display:grid;grid-template-columns:max-content 1fr;gap:.2em 1.2em;margin:.6em 0}
 dt{color:var(--muted)}
 dd{margin:0;min-width:0;overflow-wrap:anywhere}
-.verdict{border-left:4px solid var(--s2);padding:.2em 0 .2em 1em}
+.verdict{border-left:4px solid var(--edge);padding:.2em 0 .2em 1em}
+.verdict.located,.verdict.damaged-unlocated{border-left-color:var(--s2)}
+.verdict.unexplained,.verdict.cannot-tell{border-left-color:var(--s4)}
 #tip{position:fixed;z-index:9;max-width:min(22rem,90vw);padding:.35em .6em;border-radius:5px;font-size:.85rem;line-height:1.35;
 white-space:pre-line;background:var(--text);color:var(--page);pointer-events:none}
 #tip[hidden]{display:none}
 @media(max-width:640px){td:last-child:not(.number){min-width:19rem}body{padding:1rem .9rem 3rem}h1{font-size:1.4rem}dl{grid-template-columns:1fr}dd{margin-bottom:.4em}
-svg text{font-size:16px}svg text.small{font-size:15px}.panorama text{font-size:26px}.panorama text.small{font-size:25px}.panorama text.label{font-size:24px}.panorama text.tiny{display:none}
-.pictures svg{overflow:visible}}
+svg text{font-size:16px}svg text.small{font-size:15px}.panorama text{font-size:26px}.panorama text.small{font-size:25px}.panorama text.label{font-size:24px}.panorama text.tiny,.panorama text.sensor{display:none}
+.pictures svg{overflow:visible}
+#candidates :is(table,thead,tbody){display:block}#candidates tr{display:grid;grid-template-columns:2.4rem minmax(0,1fr) 5.6rem 6.4rem;border-bottom:1px solid var(--grid)}
+#candidates :is(td,th){border:0;min-width:0}#candidates :is(td,th):is(:nth-child(4),:nth-child(6)),#candidates th:nth-child(7){display:none}
+#candidates td:nth-child(7){grid-column:2/-1;grid-row:2;color:var(--muted)}}
+@media(min-width:641px) and (max-width:960px){svg text,svg text.small{font-size:14px}.panorama text,.panorama text.small,.panorama text.label{font-size:16px}}
 @media print{table{font-size:8.2pt}td,th{padding-right:.55em}@page{size:A4;margin:15mm}html{font-size:10.5pt}body{max-width:none;padding:0}
 .figures{grid-template-columns:1fr 1fr;gap:1rem}figure,table tr{break-inside:avoid}h2,h3{break-after:avoid}
 .scroll,details .scroll{overflow:visible;max-height:none;background:none}summary{display:none}details.printed::details-content{content-visibility:visible;display:block}

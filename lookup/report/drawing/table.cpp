@@ -26,11 +26,16 @@ std::string with_minus_sign(std::string number) {
   return number;
 }
 
-std::string html_cell(const TableCell& cell, int digits) {
+/// With so many decimals, zero without a sign; or with significant digits.
+std::string number_text(double number, int decimals, int digits) {
+  if (std::isnan(number)) return "";
+  if (decimals == kAsNeeded) return with_minus_sign(fmt::format("{:.{}g}", number, digits));
+  return with_minus_sign(fixed_decimals(number, decimals));
+}
+
+std::string html_cell(const TableCell& cell, int decimals, int digits) {
   if (const auto* text = std::get_if<std::string>(&cell)) return "<td>" + escaped(*text) + "</td>";
-  const double number = std::get<double>(cell);
-  return fmt::format("<td class=\"number\">{}</td>",
-                     std::isnan(number) ? "" : with_minus_sign(fmt::format("{:.{}g}", number, digits)));
+  return fmt::format("<td class=\"number\">{}</td>", number_text(std::get<double>(cell), decimals, digits));
 }
 
 bool holds_numbers(const Table& table, std::size_t column) {
@@ -40,6 +45,12 @@ bool holds_numbers(const Table& table, std::size_t column) {
 }
 
 }  // namespace
+
+std::string fixed_decimals(double number, int decimals) {
+  const std::string text = fmt::format("{:.{}f}", number, decimals);
+  const bool is_zero = text.find_first_not_of("-0.") == std::string::npos;
+  return is_zero && text.front() == '-' ? text.substr(1) : text;
+}
 
 std::string to_csv(const Table& table) {
   std::string text;
@@ -77,7 +88,8 @@ std::string to_html(const Table& table, int digits) {
   html += "</tr></thead><tbody>\n";
   for (const std::vector<TableCell>& row : table.rows) {
     html += "<tr>";
-    for (const TableCell& cell : row) html += html_cell(cell, digits);
+    for (std::size_t i = 0; i < row.size(); ++i)
+      html += html_cell(row[i], i < table.decimals.size() ? table.decimals[i] : kAsNeeded, digits);
     html += "</tr>\n";
   }
   return html + "</tbody></table>\n";

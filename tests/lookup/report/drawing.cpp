@@ -1,9 +1,12 @@
 /// Pictures and tables: colours, axes, charts, escaping.
 
+#include <fmt/format.h>
+
 #include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "lookup/report/drawing/bridge_drawing.h"
 #include "lookup/report/drawing/chart.h"
 #include "lookup/report/drawing/colour_map.h"
 #include "lookup/report/drawing/page.h"
@@ -82,6 +85,50 @@ TEST_CASE("A chart's discs lie where the axes say, and what has no value is not 
   CHECK(count(drawing.elements.substr(band, drawing.elements.find("/>", band) - band), "Z") ==
         2);  // in two parts
   CHECK_THAT(svg_file(draw_with_legend(chart)), Contains("a &lt;b&gt;") && !Contains("<b>"));
+}
+
+TEST_CASE("A value without neighbours is a tick, not an invisible line, and hollow marks need no value") {
+  Chart chart{"test", {"x", AxisScale::linear, {{0.0, 10.0}}}, {"y", AxisScale::linear, {{0.0, 1.0}}}, {}};
+  chart.series = {{"line", 2, Mark::line, {5.0}, {0.5}},
+                  {"ticks", 1, Mark::ticks, {2.0, 8.0}, {0.5, 0.5}},
+                  {"none", 0, Mark::hollow, {5.0}, {std::nan("")}}};
+  const Drawing drawing = draw(chart);
+  // The middle of the axes, 16 units wide: from 62 to 466, and from 254 to 10.
+  CHECK_THAT(drawing.elements, Contains("class=\"line s2\" d=\"M256.0 132.0h16\""));
+  CHECK_THAT(drawing.elements, Contains("class=\"line s1\" d=\"M134.8 132.0h16M377.2 132.0h16\""));
+  CHECK_THAT(drawing.elements, Contains("class=\"silent\" cx=\"264.0\" cy=\"254.0\""));
+}
+
+TEST_CASE("An axis of names has all names that have room, and none on the frame") {
+  const ChartAxis few = named_axis("sensor", {"TILT-NW1", "TILT-NW2"});
+  REQUIRE(few.ticks.size() == 2);
+  CHECK(few.ticks[1].text == "TILT-NW2");
+  CHECK(few.range->first < few.ticks.front().value);
+  CHECK(few.range->second > few.ticks.back().value);
+  std::vector<std::string> names;
+  for (int i = 1; i <= 100; ++i) names.push_back(i == 1 ? "" : fmt::format("T{}", i));
+  const ChartAxis many = named_axis("sensor", names);
+  CHECK(many.ticks.front().text == "T2");  // the first place is free
+  CHECK(many.ticks.size() > 5);
+  for (std::size_t i = 1; i < many.ticks.size(); ++i)  // 404 units hold a hundred places
+    CHECK(4.04 * (many.ticks[i].value - many.ticks[i - 1].value) > 7.0 * 4.0);
+}
+
+TEST_CASE("Marks beside a bar of colours are round, whichever way it grows") {
+  std::string texts;
+  for (const BarMark& mark : round_marks(0.231, -4.84)) {
+    texts += mark.text + " ";
+    CHECK(mark.share == Approx((0.231 - std::stod(mark.text)) / (0.231 + 4.84)).margin(1e-12));
+  }
+  CHECK(texts == "-4 -3 -2 -1 0 ");
+  CHECK(round_marks(2.0, 2.0).size() == 1);
+}
+
+TEST_CASE("Columns with decimals are fixed on pages, zero without a sign, and whole in CSV") {
+  const Table table{{"point", "mm"}, {{"T1", 1.23456e-5}, {"T2", -1e-9}, {"T3", -1.5}}, {kAsNeeded, 3}};
+  CHECK_THAT(to_html(table), Contains(">0.000<") && Contains(">\u22121.500<") && !Contains("e\u2212") &&
+                                 !Contains(">\u22120.000<"));
+  CHECK_THAT(to_csv(table), Contains("1.23456e-05"));
 }
 
 TEST_CASE("Tables keep all digits and quote as RFC 4180 says in CSV, and escape in HTML") {

@@ -114,7 +114,7 @@ TEST_CASE("A database that was asked is told with its share, its digest and its 
                                .digest = "0123456789abcdef",
                                .verdict = Verdict::located,
                                .first = "4,2"}) ==
-        "     0 %  a.h5 (digest 0123456789ab): located, first 4,2");
+        " < 0.1 %  a.h5 (digest 0123456789ab): located, first 4,2");
 }
 
 TEST_CASE(

@@ -142,9 +142,9 @@ PartCauses causes_of_part(const MixedQuestion& question, const Scene& scene, con
 /// What one part of the mixture says.
 struct MixedPart {
   double log = 0.0, weight = 0.0, kappa = 1.0, chance = 0.0;
-  VectorXd mean, signal, bridge, epochs, unevenness, beside, others;
+  VectorXd mean, signal, bridge, epochs, unevenness, beside, others, spread;
   std::vector<VectorXd*> vectors() {
-    return {&mean, &signal, &bridge, &epochs, &unevenness, &beside, &others};
+    return {&mean, &signal, &bridge, &epochs, &unevenness, &beside, &others, &spread};
   }
   MatrixXd covariance;
 };
@@ -159,7 +159,7 @@ double even_chance_of(double square, Index degrees) {
 /// Each reading against what all others let expect.
 void add_leave_one_out(const VectorXd& difference, const MatrixXd& covariance, MixedPart& part) {
   const Index n = difference.size();
-  part.beside = part.others = VectorXd::Zero(n);
+  part.beside = part.spread = part.others = VectorXd::Zero(n);
   for (Index i = 0; i < n; ++i) {
     std::vector<Index> rest(static_cast<std::size_t>(n));
     std::iota(rest.begin(), rest.end(), Index{0});
@@ -167,7 +167,8 @@ void add_leave_one_out(const VectorXd& difference, const MatrixXd& covariance, M
     const Eigen::FullPivLU<MatrixXd> solver(covariance(rest, rest));
     const VectorXd gain = solver.solve(covariance(rest, i));
     part.beside[i] = difference[i] - gain.dot(VectorXd(difference(rest)));
-    part.others[i] = part.beside[i] / std::sqrt(covariance(i, i) - gain.dot(VectorXd(covariance(rest, i))));
+    part.spread[i] = std::sqrt(covariance(i, i) - gain.dot(VectorXd(covariance(rest, i))));
+    part.others[i] = part.beside[i] / part.spread[i];
   }
 }
 
@@ -231,12 +232,14 @@ MixedPart mean_of_parts(const std::vector<MixedPart>& all) {
     if (held < kHeaviest) {
       held += part.weight;
       mean.chance += part.weight * part.chance;
+      part.spread = part.spread.cwiseAbs2() + part.beside.cwiseAbs2();
       for (std::size_t i = 0; i < mean.vectors().size(); ++i)
         *mean.vectors()[i] += part.weight * *part.vectors()[i];
       mean.covariance += part.weight * (part.covariance + part.mean * part.mean.transpose());
     }
   mean.chance /= held;
   for (VectorXd* of : mean.vectors()) *of /= held;
+  mean.spread = (mean.spread - mean.beside.cwiseAbs2()).cwiseSqrt();
   mean.covariance = mean.covariance / held - mean.mean * mean.mean.transpose();
   return mean;
 }
@@ -294,5 +297,6 @@ TEST_CASE("What readings say of a bridge is the mean over scenes, conditions, no
   CHECK(VectorXd(found.from_epochs.rowwise().sum()).isApprox(mean.epochs, 1e-6));
   CHECK(found.from_unevenness.isApprox(mean.unevenness, 1e-6));
   CHECK(found.beside.isApprox(mean.beside, 1e-6));
+  CHECK(found.spread.isApprox(mean.spread, 1e-6));
   CHECK(found.others.isApprox(mean.others, 1e-6));
 }
