@@ -9,6 +9,7 @@
 #include "core/error.h"
 #include "core/structure/top_surface.h"
 #include "core/text.h"
+#include "core/units.h"
 #include "generator/load_drawing.h"
 
 namespace voussoir {
@@ -108,7 +109,7 @@ std::string soil(const std::vector<Soil>& pieces, double unit_weight, const Fram
   if (data.empty()) return "";
   return fmt::format(
       "<path class=\"soil\" d=\"{}\"><title>soil that only weighs, {:g} kN/m3</title></path>\n", data,
-      1e-3 * unit_weight);
+      kKilonewtons * unit_weight);
 }
 
 /// Labels of the blocks in which they have room, small ones where that helps, above a sensor in their place.

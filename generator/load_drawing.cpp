@@ -9,13 +9,13 @@
 
 #include "core/structure/loads.h"
 #include "core/text.h"
+#include "core/units.h"
 
 namespace voussoir {
 namespace {
 
 constexpr double kArrow = 0.5 * kLoadRow;
 constexpr double kSignWidth = 5.4;  // [px]
-constexpr double kKilonewtons = 1e-3;
 
 /// Where a load case pushes; of the ends of a line no force of its own [N].
 struct Push {

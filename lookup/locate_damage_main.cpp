@@ -1,13 +1,14 @@
 /// @file locate-damage: which blocks are missing, from measured displacements.
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <set>
 
+#include "core/program/command_line.h"
 #include "core/program/heap.h"
 #include "core/text_file.h"
 #include "core/threads.h"
-#include "lookup/command_line.h"
 #include "lookup/locate_damage_options.h"
 #include "lookup/opened_databases.h"
 #include "lookup/report/report.h"

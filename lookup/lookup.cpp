@@ -146,6 +146,7 @@ Answer locate_damage(const Comparison& comparison, const LookupSettings& setting
                      const Preparation& preparation) {
   Answer answer = answer_to(comparison, settings, preparation);
   answer.without = answer_without_suspects(comparison, settings, preparation, answer);
+  answer.residuals = told_residuals(answer);
   return answer;
 }
 

@@ -105,7 +105,7 @@ CLI::Validator number_in_range(double least, double most, const std::string& nam
 
 void add_threads_option(CLI::App& app, int& threads) {
   constexpr int kMost = 4096;
-  app.add_option("--threads", threads, "default 0: one for each core")
+  app.add_option("--threads", threads, "how many threads, default 0: one for each core")
       ->check(CLI::Range(0, kMost))
       ->option_text("N");
 }

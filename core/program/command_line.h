@@ -2,6 +2,7 @@
 /// @file What the command lines of all programs have in common, and how programs end.
 
 #include <CLI/CLI.hpp>
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <utility>

@@ -1,4 +1,5 @@
 #include "core/structure/assembly_check.h"
+#include "core/units.h"
 
 #include <algorithm>
 #include <array>
@@ -69,7 +70,8 @@ void check_outline(const Block& block, double healed) {
         "block '{}' {} has less than {:g} m2 once corners within {:g} mm (blocks_tolerance_m) are one: "
         "expected "
         "a block of masonry",
-        block.label, block.polygon.empty() ? "" : at(block.polygon.front()), kSmallestArea, 1e3 * healed));
+        block.label, block.polygon.empty() ? "" : at(block.polygon.front()), kSmallestArea,
+        kMillimetres * healed));
   if (const auto place = self_crossing(block.polygon))
     throw InputError(
         fmt::format("block '{}': its outline crosses or touches itself {}", block.label, at(*place)));
@@ -149,10 +151,11 @@ bool touch(const Block& a, const Block& b, const std::vector<Block>& blocks, con
       const Point middle =
           place + 0.5 * (stretch->on_first[1] - stretch->on_first[0]) * along + 0.5 * gap * outwards;
       if (is_filled(middle, a, b, blocks)) continue;
-      throw InputError(fmt::format(
-          "blocks '{}' and '{}' lie {:.3g} mm apart {} along {:.3g} m: expected blocks that "
-          "touch within {:g} mm or are more than {:g} mm apart",
-          a.label, b.label, 1e3 * gap, at(place), stretch->length, 1e3 * gaps.touches, 1e3 * gaps.range));
+      throw InputError(
+          fmt::format("blocks '{}' and '{}' lie {:.3g} mm apart {} along {:.3g} m: expected blocks that "
+                      "touch within {:g} mm or are more than {:g} mm apart",
+                      a.label, b.label, kMillimetres * gap, at(place), stretch->length,
+                      kMillimetres * gaps.touches, kMillimetres * gaps.range));
     }
   return joined;
 }
@@ -201,7 +204,7 @@ std::vector<std::string> heal(std::vector<Block>& blocks, double tolerance) {
   for (std::size_t i = 0; i < blocks.size(); ++i) blocks[i].polygon = polygons[i];
   if (snapping.moved > 0)
     notes.push_back(fmt::format("moved {} corners and edges by up to {:.2g} mm so that blocks meet",
-                                snapping.moved, 1e3 * snapping.farthest));
+                                snapping.moved, kMillimetres * snapping.farthest));
   return notes;
 }
 

@@ -41,8 +41,8 @@ struct Answer {
   std::vector<Candidate> candidates;      ///< best first
   std::optional<Posterior> posterior;     ///< with Objective::posterior
   std::optional<NoiseEstimate> noise;     ///< if the best candidate is the truth; with Objective::posterior
-  std::optional<Fit> fit;                 ///< of the best candidate; with Objective::posterior
-  std::vector<SensorResidual> residuals;  ///< of the best candidate, a value for each reading
+  std::optional<Fit> fit;                 ///< of the likeliest scenes; with Objective::posterior
+  std::vector<SensorResidual> residuals;  ///< against what the answer lets expect, for each reading
   std::optional<BridgeAnswer> bridge;     ///< unless the bridge counts as known, or no scene is possible
   std::optional<AnswerWithout> without;   ///< the readings that suspects_of names, if there are some
   bool known_bridge = true;               ///< counts_as_known

@@ -59,4 +59,20 @@ std::vector<std::vector<std::size_t>> suspects_of(const Answer& answer) {
   return is_open ? answer.fit->suspects : std::vector<std::vector<std::size_t>>();
 }
 
+bool are_sensors_judged(const Answer& answer) {
+  const bool falls = answer.known_bridge && answer.candidates.front().outcome == Outcome::collapsed;
+  return !falls && !answer.without;
+}
+
+std::vector<SensorResidual> told_residuals(const Answer& answer) {
+  std::vector<SensorResidual> told = answer.residuals;
+  if (told.empty() || are_sensors_judged(answer)) return told;
+  const auto decides = [&](std::size_t point) {
+    return answer.without &&
+           std::ranges::find(answer.without->channels, point) != answer.without->channels.end();
+  };
+  for (SensorResidual& sensor : told) sensor.disagrees = sensor.disagrees && decides(sensor.point);
+  return told;
+}
+
 }  // namespace voussoir

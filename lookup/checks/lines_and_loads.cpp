@@ -12,10 +12,9 @@ namespace {
 
 constexpr std::size_t kMostLines = 4;  // of levelling that may be off alike
 constexpr std::size_t kMostLoads = 3;  // stretches of the top that a load may stand on
-constexpr double kNewtonsPerKilonewton = 1e3;
-constexpr double kMostForce = 500e3;  // [N/m] of any load: a crane on two supports, 300 t on six metres
-constexpr double kLeastForce = 10e3;  // [N/m] of a load that is spoken of where nothing explains readings
-constexpr double kLoadChance = 1e-3;  // beforehand that one stood there and is not stated
+constexpr double kMostForce = 500e3;   // [N/m] of any load: a crane on two supports, 300 t on six metres
+constexpr double kLeastForce = 10e3;   // [N/m] of a load that is spoken of where nothing explains readings
+constexpr double kLoadChance = 1e-3;   // beforehand that one stood there and is not stated
 
 std::vector<LineError> lines_of(const QuestionContext& asked) {
   return line_errors(asked.question.bridge(), asked.observation, asked.comparison, asked.gaussians,
@@ -55,7 +54,7 @@ std::string_view at_time(ReadingKind kind, bool first_epoch) {
 std::string in_words(const UnstatedLoad& load, ReadingKind kind) {
   return fmt::format(
       "a load of about {:g} kN for each metre of the bridge's width between x = {:.3g} and {:.3g} m{}",
-      to_one_digit(load.force / kNewtonsPerKilonewton), load.from, load.to, at_time(kind, load.first_epoch));
+      to_one_digit(kKilonewtons * load.force), load.from, load.to, at_time(kind, load.first_epoch));
 }
 
 /// "an error of about 0.3 mm that all readings at A1 to A38 share (a datum, tilt or set-up of their own, ..)"

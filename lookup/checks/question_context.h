@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "lookup/answer/fit.h"
 #include "lookup/checks/asked_readings.h"
 #include "lookup/unknown/unknown_question.h"
 

@@ -8,7 +8,7 @@
 
 namespace voussoir {
 
-/// Something that moved the sensors, as far as the answer believes in it: means, of the likeliest scene.
+/// Something that moved the sensors, as far as the answer believes in it: means over the likeliest scenes.
 struct Cause {
   std::string name;  ///< "missing blocks", "the bridge itself", "temperature", "supports", "joint stiffness"
                      ///< of an epoch, "uneven warmth and stiffness", "what is left"

@@ -10,7 +10,6 @@
 #include "core/units.h"
 #include "lookup/answer/expected_readings.h"
 #include "lookup/report/drawing/table.h"
-#include "lookup/report/report_words.h"
 
 namespace voussoir {
 namespace {

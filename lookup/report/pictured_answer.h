@@ -26,16 +26,16 @@ struct PicturedAnswer {
 enum class Site { arch, top, elsewhere };
 Site site_of(const PicturedAnswer& report, std::size_t point);
 
-/// Of the first candidate; nothing where there is no reading, and without a noise model.
+/// Against what the answer lets expect; nothing where there is no reading, and without a noise model.
 const SensorResidual* residual_of(const PicturedAnswer& report, std::size_t point);
 
-/// Whether the reading is far outside what the others show.
+/// Whether the reading is told to be far outside what the others show.
 bool disagrees(const PicturedAnswer& report, std::size_t point);
 
 /// "change" of readings that are changes, else "reading".
 std::string_view reading_word(const PicturedAnswer& report);
 
-/// Name, reading and what the first candidate lets expect, for pointing at it.
+/// Name, reading and what the answer lets expect, for pointing at it.
 std::string point_tip(const PicturedAnswer& report, std::size_t point);
 
 }  // namespace voussoir

@@ -178,12 +178,11 @@ bool is_read(const SensorPlan& plan, const StoredPoint& point) {
 }
 
 std::string planned_in_words(const SensorPlan& plan, const PlannedBridge& bridge) {
-  std::string text =
-      fmt::format("changes between two times at {} points, each with a standard deviation of {:g} mm{}",
-                  plan.points.size(), kMillimetres * bridge.settings.sigma,
-                  reads_tilts(plan, bridge.database) ? " (tilts: mm per m)" : "");
+  std::string text = fmt::format("changes between two times at {} points; standard deviations of {:g} mm{}",
+                                 plan.points.size(), kMillimetres * bridge.settings.sigma,
+                                 reads_tilts(plan, bridge.database) ? " (tilts: mm per m)" : "");
   for (const auto& [quantity, sigma] : bridge.settings.sigma_of)
-    text += fmt::format(", {} of {:g} {}", to_string(quantity), kMillimetres * sigma, unit_of(quantity));
+    text += fmt::format(", of {} {:g} {}", to_string(quantity), kMillimetres * sigma, unit_of(quantity));
   if (bridge.settings.datum > 0.0)
     text += fmt::format(", all heights of a levelling off by {:g} mm alike",
                         kMillimetres * bridge.settings.datum);
@@ -191,8 +190,9 @@ std::string planned_in_words(const SensorPlan& plan, const PlannedBridge& bridge
 }
 
 std::string conditions_in_words(const PlannedBridge& bridge) {
-  return fmt::format("taken as uncertain as its file states; temperature and supports{}",
-                     bridge.settings.conditions == Conditions::known ? " as known" : ", too");
+  return bridge.settings.conditions == Conditions::known
+             ? "uncertain as its file states; temperature and supports are taken as known"
+             : "uncertain as its file states, as are temperature and supports";
 }
 
 std::string plan_report(const SensorPlan& plan, const PlannedBridge& bridge, ReportFormat format) {

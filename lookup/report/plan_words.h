@@ -7,10 +7,10 @@
 
 namespace voussoir {
 
-/// "changes between two times at 12 points, each with a standard deviation of 0.02 mm, tilt of 0.01 mm per m"
+/// "changes between two times at 12 points; standard deviations of 0.02 mm, of tilt 0.01 mm per m"
 std::string planned_in_words(const SensorPlan& plan, const PlannedBridge& bridge);
 
-/// "taken as uncertain as its file states; temperature and supports, too"
+/// Of the bridge: "uncertain as its file states, as are temperature and supports"
 std::string conditions_in_words(const PlannedBridge& bridge);
 
 /// Is the point one of those that the plan reads?

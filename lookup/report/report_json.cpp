@@ -139,6 +139,7 @@ ordered_json without_json(const Answer& answer, const Comparison& comparison) {
           {"verdict", to_string(verdict_of(other))},
           {"named", std::move(named)},
           {"intact_probability", intact_probability(*other.posterior)},
+          {"open_losses", open_losses(other).size()},
           {"reason", other.fit->reason}};
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/error.h"
+#include "core/units.h"
 #include "lookup/answer/verdict.h"
 #include "lookup/report/bridge_report.h"
 #include "lookup/report/drawing/page.h"
@@ -81,17 +82,17 @@ Figure candidates_figure(const Answer& answer, const Library& library) {
 Figure causes_figure(const Answer& answer, const ReadingFactors& factors) {
   Table table{{"cause", "share of the squares [%]", "root mean square [mm]"}, {}, {kAsNeeded, 1, 3}};
   for (const Cause& cause : causes_of(*answer.bridge, factors))
-    table.rows.push_back({cause.name, 100.0 * cause.share, 1e3 * cause.size});
-  return {
-      "causes",
-      "What moved the sensors",
-      "As far as the answer believes in it, if the first scene is the truth. Shares sum up to 100 %; parts "
-      "that work against each other can have negative ones.",
-      "",
-      table,
-      false,
-      TableView::open,
-      3};
+    table.rows.push_back({cause.name, 100.0 * cause.share, kMillimetres * cause.size});
+  return {"causes",
+          "What moved the sensors",
+          "As far as the answer believes in it, averaged over the likeliest scenes. Shares sum up to 100 %; "
+          "parts "
+          "that work against each other can have negative ones.",
+          "",
+          table,
+          false,
+          TableView::open,
+          3};
 }
 
 Figure parameters_figure(const Answer& answer, const ReadingFactors& factors) {
@@ -145,7 +146,7 @@ std::string level_in_words(const NoiseModel& noise, ReadingKind kind) {
 std::string unknowns_in_words(const Nuisance& nuisance) {
   if (!nuisance.any()) return "";
   return fmt::format("scale of all displacements {:.3g} %, datum {:.3g} mm, tilt {:.3g} mm per m",
-                     100.0 * nuisance.scale, 1e3 * nuisance.datum, 1e3 * nuisance.tilt);
+                     100.0 * nuisance.scale, kMillimetres * nuisance.datum, kMillimetres * nuisance.tilt);
 }
 
 void add_noise_terms(const Answer& answer, const LookupSettings& settings, const Comparison& comparison,
@@ -155,7 +156,8 @@ void add_noise_terms(const Answer& answer, const LookupSettings& settings, const
   if (answer.noise)
     terms.emplace_back("Noise, if the first scene is the truth", noise_in_words(*answer.noise, comparison));
   if (settings.noise.floor > 0.0)
-    terms.emplace_back("Absolute part of the noise", fmt::format("{:.3g} mm", 1e3 * settings.noise.floor));
+    terms.emplace_back("Absolute part of the noise",
+                       fmt::format("{:.3g} mm", kMillimetres * settings.noise.floor));
   terms.emplace_back("Sensors that fail by themselves",
                      fmt::format("{:.3g} %", 100.0 * settings.noise.silence));
   if (settings.nuisance.any()) terms.emplace_back("Also unknown", unknowns_in_words(settings.nuisance));

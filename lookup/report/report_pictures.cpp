@@ -7,10 +7,10 @@
 #include <optional>
 
 #include "core/not_a_number.h"
+#include "lookup/answer/verdict.h"
 #include "lookup/report/drawing/bridge_drawing.h"
 #include "lookup/report/drawing/colour_map.h"
 #include "lookup/report/report_stems.h"
-#include "lookup/report/report_words.h"
 #include "lookup/report/words.h"
 
 namespace voussoir {

@@ -8,11 +8,12 @@
 
 namespace voussoir {
 
-/// Readings, what the first candidate lets expect and the noise band about it: a figure for the heights on
-/// top and on the arch under each load, and for each other quantity, as far as there are such sensors.
+/// Readings, what the answer lets expect and the band about it (expected_readings.h): a figure for the
+/// heights on top and on the arch under each load, and for each other quantity, as far as there are such
+/// sensors.
 std::vector<Figure> profile_figures(const PicturedAnswer& report);
 
-/// How far each reading is from the first candidate, in units of the noise; none without a noise model.
+/// How far each reading is from that, in what residuals are divided by; none without a noise model.
 std::vector<Figure> residual_figures(const PicturedAnswer& report);
 
 }  // namespace voussoir

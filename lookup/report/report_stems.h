@@ -2,7 +2,6 @@
 /// @file Readings in the picture of the bridge: lines that hang from the sensors, and their scale.
 
 #include <string>
-#include <vector>
 
 #include "lookup/report/drawing/bridge_drawing.h"
 #include "lookup/report/pictured_answer.h"

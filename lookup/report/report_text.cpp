@@ -8,6 +8,7 @@
 #include "database/records/content_digest.h"
 #include "lookup/answer/expected_readings.h"
 #include "lookup/answer/verdict.h"
+#include "lookup/checks/fewer_readings.h"
 #include "lookup/readings/shown_readings.h"
 #include "lookup/report/bridge_report.h"
 #include "lookup/report/reading_words.h"
@@ -128,7 +129,7 @@ void write_movements(Text& text, const Answer& answer, const Comparison& compari
 
 void write_sensors(Text& text, const Answer& answer, const Comparison& comparison) {
   const std::vector<std::string> odd = odd_sensors(answer, comparison);
-  if (odd.empty()) text.line("Sensors: none disagrees with the rest");
+  if (odd.empty() && are_sensors_judged(answer)) text.line("Sensors: none disagrees with the rest");
   for (const std::string& sentence : odd) text.line("{}", sentence);
 }
 

@@ -23,7 +23,7 @@ namespace {
 
 constexpr std::size_t kMostSensorsListed = 5;
 constexpr std::size_t kMostLossesNamed = 20;
-constexpr std::string_view kOneOfMany = "likeliest of many";
+constexpr std::string_view kOneOfMany = "likeliest of many", kByBelief = "likeliest by belief";
 
 /// The likeliest scene's row if it is none of the candidates, which a search by misfit may miss.
 std::optional<std::size_t> missed_row(const Answer& answer) {
@@ -36,12 +36,13 @@ std::optional<std::size_t> missed_row(const Answer& answer) {
 /// The blocks that are certainly missing.
 std::string located_in_words(const Posterior& posterior, const Library& library) {
   const std::vector<BlockId> blocks = likely_blocks(posterior, kCertain);
-  std::string names;
-  for (const BlockId id : blocks)
-    names += fmt::format("{}{} ({})", names.empty() ? "" : " and ", library.layout[id].label,
-                         percent(posterior.block_probability[static_cast<std::size_t>(value(id))]));
-  return fmt::format("Block{} {} {} missing.", blocks.size() == 1 ? "" : "s", names,
-                     blocks.size() == 1 ? "is" : "are");
+  std::vector<std::string> names, chances;
+  for (const BlockId id : blocks) {
+    names.push_back(library.layout[id].label);
+    chances.push_back(percent(posterior.block_probability[static_cast<std::size_t>(value(id))]));
+  }
+  return fmt::format("Block{} {} {} missing ({}).", blocks.size() == 1 ? "" : "s", fmt::join(names, " and "),
+                     blocks.size() == 1 ? "is" : "are", fmt::join(chances, " and "));
 }
 
 std::string supposed_in_words(Supposed supposed) {
@@ -52,7 +53,7 @@ std::string supposed_in_words(Supposed supposed) {
 /// What goes with the probability of the intact bridge.
 std::string belief_in_words(const Answer& answer) {
   if (!is_intact_by_belief(answer)) return "";
-  return fmt::format(", as intact bridges are believed to be far likelier; {} if they were not",
+  return fmt::format(", as intact bridges are believed to be likelier; {} if they were not",
                      percent(answer.posterior->intact_if_even));
 }
 
@@ -63,11 +64,12 @@ std::string blocks_in_words(std::size_t count) {
 /// An intact bridge, as far as these sensors would show what is lost.
 std::string intact_in_words(double probability, std::size_t open_losses, ReadingKind kind) {
   const std::string sure = percent(probability);
-  const std::string_view when = is_change(kind) ? "has gone between the two times" : "is missing";
-  if (open_losses == 0) return fmt::format("No block {} ({}).", when, sure);
+  const std::string_view verb = is_change(kind) ? "has gone" : "is missing";
+  const std::string_view when = is_change(kind) ? " between the two times" : "";
+  if (open_losses == 0) return fmt::format("No block {}{} ({}).", verb, when, sure);
   return fmt::format(
-      "Nothing shows that a block {} ({} that none is), but these readings do not exclude the loss of {}.",
-      when, sure, blocks_in_words(open_losses));
+      "Nothing shows that a block {}{} ({} that none {}), but these readings do not exclude the loss of {}.",
+      verb, when, sure, verb.substr(0, verb.find(' ')), blocks_in_words(open_losses));
 }
 
 std::string in_words(const Scene& scene, const Library& library) {
@@ -83,6 +85,7 @@ std::string_view first_candidate_in_words(const Answer& answer) {
     case Verdict::unexplained:
       return "closest";
     case Verdict::cannot_tell:
+      return is_intact_by_belief(answer) ? kByBelief : kOneOfMany;
     case Verdict::damaged_unlocated:
       return kOneOfMany;
     default:
@@ -116,7 +119,7 @@ std::string headline(const Answer& answer, const Comparison& comparison) {
 }
 
 std::string searched_in_words(const Answer& answer) {
-  std::string text = fmt::format("{} scenes", answer.searched);
+  std::string text = fmt::format("{} scene{}", answer.searched, answer.searched == 1 ? "" : "s");
   if (answer.unresolved > 0)
     text += fmt::format("; {} more have no solution and were left out", answer.unresolved);
   if (answer.fallen > 0)
@@ -132,9 +135,8 @@ std::string open_losses_in_words(const Answer& answer, const Library& library) {
   for (const OpenLoss& loss : std::span(open).first(std::min(open.size(), kMostLossesNamed)))
     names += (names.empty() ? "" : ", ") + to_string(library.table.scene(loss.row), library.layout);
   return fmt::format(
-      "The readings fit the loss of one of these nearly as well, at least a tenth as likely as with none: "
-      "{}{}. "
-      "plan-sensors says which sensors would show it.",
+      "With the loss of one of these blocks the readings would be more than a tenth as likely as with none: "
+      "{}{}. plan-sensors says which sensors would show it.",
       names, open.size() > kMostLossesNamed ? fmt::format(", .. ({} in all)", open.size()) : "");
 }
 
@@ -151,15 +153,16 @@ std::string suspect_in_words(const Answer& answer, const Library& library) {
       !answer.candidates.front().scene.removed.empty())
     return "";
   const RowValues& probability = answer.posterior->probability;
-  const double damage = 1.0 - intact_probability(*answer.posterior);
   std::size_t likeliest = 0;
-  double most = 0.0;
+  double most = 0.0, damage = 0.0;  // summed: the difference from 1 may be nothing but round-off
   for (std::size_t i = 0; i < probability.rows.size(); ++i) {
-    if (probability.values[i] <= most || missing_blocks(library.table, probability.rows[i]) == 0) continue;
+    if (missing_blocks(library.table, probability.rows[i]) == 0) continue;
+    damage += probability.values[i];
+    if (probability.values[i] <= most) continue;
     likeliest = probability.rows[i];
     most = probability.values[i];
   }
-  if (most == 0.0 || damage <= 0.0) return "";
+  if (most == 0.0) return "";
   return fmt::format("Of losses the likeliest is {}, with {} of the probability of damage",
                      in_words(library.table.scene(likeliest), library), percent(most / damage));
 }
@@ -182,14 +185,17 @@ std::vector<std::string> conclusions_in_words(const Answer& answer, const Librar
   const Candidate& best = answer.candidates.front();
   const std::optional<std::size_t> missed = missed_row(answer);
   std::vector<std::string> sentences;
-  if (first_candidate_in_words(answer) == kOneOfMany)
-    sentences.push_back(is_intact_by_belief(answer)
-                            ? "No scene is named: what follows is likeliest by belief, not by the readings."
+  const std::string_view first = first_candidate_in_words(answer);
+  if (first == kByBelief)
+    sentences.emplace_back("No scene is named: what follows is likeliest by belief, not by the readings.");
+  if (first == kOneOfMany)
+    sentences.push_back(supposed_by(answer.prior) == Supposed::no_damage
+                            ? "No scene is named: that no block is missing was supposed."
                             : "No scene is named: what follows is only the likeliest of many.");
   if (!missed && answer.fit && !answer.fit->explained)
     sentences.push_back(fmt::format("No scene in this database is an answer to these measurements: {}{}",
                                     answer.fit->reason, answer.fit->reason.ends_with('?') ? "" : "."));
-  std::string opening(first_candidate_in_words(answer));
+  std::string opening(first);
   opening.front() = static_cast<char>(std::toupper(opening.front()));
   sentences.push_back(fmt::format("{}: {}", opening, in_words(best.scene, library)));
   if (best.posterior)
@@ -222,7 +228,7 @@ std::string verdict_in_words(const Answer& answer) {
       case Verdict::intact:
         return sure + "that no block is missing";
       case Verdict::cannot_tell:
-        if (answer.contested) return "the databases whose assumptions may hold differ in their verdicts";
+        if (answer.contested) return "the databases whose assumptions may hold come to different answers";
         return supposed == Supposed::nothing ? "the readings do not tell whether blocks are missing"
                                              : supposed_in_words(supposed);
       default:
@@ -307,12 +313,12 @@ std::string same_in_words(const Candidate& candidate, const Library& library) {
 }
 
 std::string missing_in_words(const Answer& answer) {
-  const Posterior& posterior = *answer.posterior;
-  std::string numbers;
-  for (std::size_t missing = 0; missing < posterior.missing_probability.size(); ++missing)
-    numbers += fmt::format("{}{}: {}", missing == 0 ? "" : ", ", missing,
-                           percent(posterior.missing_probability[missing]));
-  return numbers;
+  std::vector<std::string> numbers;
+  for (const int missing : answer.prior.missing)
+    numbers.push_back(
+        fmt::format("{}: {}", missing,
+                    percent(answer.posterior->missing_probability[static_cast<std::size_t>(missing)])));
+  return fmt::format("{}", fmt::join(numbers, ", "));
 }
 
 std::string_view if_true(const Answer& answer) {
@@ -321,14 +327,7 @@ std::string_view if_true(const Answer& answer) {
 
 std::vector<std::string> odd_sensors(const Answer& answer, const Comparison& comparison) {
   const std::vector<double> origin = origin_of(comparison);
-  // A scene that falls lets expect its snapshot, which is no measure of sensors.
-  if (answer.known_bridge && answer.candidates.front().outcome == Outcome::collapsed) return {};
   std::vector<SensorResidual> odd = disagreeing(answer.residuals);
-  // Where some readings may be wrong and decide, what all others let expect hangs on them.
-  if (answer.without)
-    std::erase_if(odd, [&](const SensorResidual& sensor) {
-      return std::ranges::find(answer.without->channels, sensor.point) == answer.without->channels.end();
-    });
   odd.resize(std::min(odd.size(), kMostSensorsListed));
   std::vector<std::string> sentences;
   for (const SensorResidual& sensor : odd)

@@ -15,15 +15,16 @@ namespace voussoir {
 /// candidate.
 std::vector<std::string> conclusions_in_words(const Answer& answer, const Library& library);
 
-/// "located (a block is missing and named, at least 90 % sure)"
+/// "located (at least 90 % sure that each block named is missing)"
 std::string verdict_in_words(const Answer& answer);
 
 /// The verdict as a sentence: "Block 10,4 is missing (98.2 %)." Without probabilities nothing.
 std::string headline(const Answer& answer, const Comparison& comparison);
 
-/// What the first candidate is: "most likely", or only "likeliest of many" where the verdict names no scene
-/// and "closest" if nothing explains the readings, "nearest by misfit" if the search did not find the
-/// likeliest scene, "best match" without probabilities.
+/// What the first candidate is: "most likely", or only "likeliest of many" where the verdict names no scene,
+/// "likeliest by belief" where that alone makes the intact bridge so, "closest" if nothing explains the
+/// readings, "nearest by misfit" if the search did not find the likeliest scene, "best match" without
+/// probabilities.
 std::string_view first_candidate_in_words(const Answer& answer);
 
 /// "99.1 %  clamped.h5 (digest 0123456789ab): intact, first intact"
@@ -39,7 +40,7 @@ std::string searched_in_words(const Answer& answer);
 /// The losses that stay open (open_losses) as a sentence; empty if there are none.
 std::string open_losses_in_words(const Answer& answer, const Library& library);
 
-/// "Without F64: Block 4,1 (> 99.9 %) is missing.": what the readings say without one that may be wrong;
+/// "Without F64: Block 4,1 is missing (> 99.9 %).": what the readings say without one that may be wrong;
 /// empty if none is suspected.
 std::string without_in_words(const Answer& answer, const Comparison& comparison);
 

@@ -17,7 +17,8 @@ namespace {
 
 Table table_of(const std::vector<SurveyRow>& rows) {
   Table table{{"file", "verdict", "named", "certainty", "scene", "posterior", "intact_probability", "misfit",
-               "readings", "reason", "error", "suspects", "verdict_without", "named_without", "open_losses"},
+               "readings", "reason", "error", "suspects", "verdict_without", "named_without", "open_losses",
+               "open_losses_without"},
               {}};
   const bool several = std::ranges::any_of(rows, [](const SurveyRow& row) { return !row.database.empty(); });
   if (several) table.columns.push_back("database");
@@ -27,10 +28,17 @@ Table table_of(const std::vector<SurveyRow>& rows) {
                           answered ? row.posterior : kNan, answered ? row.intact_probability : kNan,
                           answered ? row.misfit : kNan, answered ? static_cast<double>(row.readings) : kNan,
                           row.reason, row.error, row.suspects, row.verdict_without, row.named_without,
-                          answered ? static_cast<double>(row.open_losses) : kNan});
+                          answered ? static_cast<double>(row.open_losses) : kNan,
+                          row.suspects.empty() ? kNan : static_cast<double>(row.open_losses_without)});
     if (several) table.rows.back().push_back(row.database);
   }
   return table;
+}
+
+/// What goes with `intact`.
+std::string not_excluded(std::size_t losses) {
+  if (losses == 0) return "";
+  return fmt::format(", but {} {} not excluded", losses, losses == 1 ? "loss is" : "losses are");
 }
 
 std::string line_of(const SurveyRow& row) {
@@ -41,11 +49,10 @@ std::string line_of(const SurveyRow& row) {
       row.named.empty() ? "" : fmt::format(" {} ({})", row.named, percent(row.certainty));
   std::string reason = row.reason.empty() ? "" : fmt::format(" ({})", row.reason);
   if (!row.suspects.empty())
-    reason += fmt::format(", without {} {}{}{}", row.suspects, row.verdict_without,
-                          row.named_without.empty() ? "" : " ", row.named_without);
-  if (row.open_losses > 0)
-    reason += fmt::format(", but {} {} not excluded", row.open_losses,
-                          row.open_losses == 1 ? "loss is" : "losses are");
+    reason += fmt::format(", without {} {}{}{}{}", row.suspects, row.verdict_without,
+                          row.named_without.empty() ? "" : " ", row.named_without,
+                          not_excluded(row.open_losses_without));
+  reason += not_excluded(row.open_losses);
   return fmt::format("{}: {}{}{}; first {} ({}), intact {}{}\n", row.file, row.verdict, named, reason,
                      row.scene, percent(row.posterior), percent(row.intact_probability),
                      row.database.empty() ? "" : fmt::format("; {}", row.database));
@@ -63,6 +70,7 @@ void add_without(const Answer& answer, const Comparison& comparison, SurveyRow& 
   row.suspects = fmt::format("{}", fmt::join(suspects_in_words(answer, comparison), ", "));
   row.verdict_without = to_string(verdict_of(other));
   row.named_without = named_in_words(other, comparison.library.layout);
+  row.open_losses_without = open_losses(other).size();
 }
 
 }  // namespace

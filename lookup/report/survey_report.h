@@ -26,6 +26,7 @@ struct SurveyRow {
   std::string verdict_without{};  ///< of the readings without them
   std::string named_without{};    ///< and blocks that are missing for certain then
   std::size_t open_losses = 0;    ///< how many losses `intact` does not exclude
+  std::size_t open_losses_without = 0;  ///< and without the suspects
 };
 
 /// `database`: as in SurveyRow.
@@ -33,8 +34,8 @@ SurveyRow survey_row(const std::string& file, const Answer& answer, const Compar
                      const std::string& database = {});
 
 /// file,verdict,named,certainty,scene,posterior,intact_probability,misfit,readings,reason,error,suspects,
-/// verdict_without,named_without,open_losses and, if several databases were asked, database as CSV, the same
-/// as a list of objects in JSON, or a line a file for people.
+/// verdict_without,named_without,open_losses,open_losses_without and, if several databases were asked,
+/// database as CSV, the same as a list of objects in JSON, or a line a file for people.
 std::string survey_report(const std::vector<SurveyRow>& rows, ReportFormat format);
 
 }  // namespace voussoir

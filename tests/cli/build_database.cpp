@@ -1,3 +1,6 @@
+/// @file build-database as people run it: killed, on full disks, twice at once. Oracle: the digest of an
+/// undisturbed build; what a shell sees (exit code, streams, the files that are there).
+
 #include <catch2/catch.hpp>
 #include <chrono>
 #include <nlohmann/json.hpp>

@@ -73,7 +73,7 @@ TEST_CASE("A file that is none has a row of a survey that says why, and the othe
   CHECK_THAT(csv.out,
              Catch::StartsWith("file,verdict,named,certainty,scene,posterior,intact_probability,misfit,"
                                "readings,reason,error,suspects,verdict_without,named_without,"
-                               "open_losses\n"));
+                               "open_losses,open_losses_without\n"));
   CHECK(std::ranges::count(csv.out, '\n') == 6);
   CHECK_THAT(csv.out, Catch::Contains("bad.csv:2") && Catch::Contains("absent.csv"));
   const test::ProgramResult text = survey.locate(survey.files, "text");

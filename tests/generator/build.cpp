@@ -1,3 +1,6 @@
+/// @file Builds of one file, again and interrupted, by a made-up solver (made_up_solver.h) and the real one.
+/// Oracle: the digest of a build from nothing.
+
 #include <catch2/catch.hpp>
 #include <cstring>
 #include <fstream>

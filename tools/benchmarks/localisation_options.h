@@ -1,7 +1,7 @@
 #pragma once
 /// @file What benchmark-localisation --irregular can be told.
 
-#include "lookup/command_line.h"
+#include "core/program/command_line.h"
 #include "tools/benchmarks/irregular.h"
 
 namespace voussoir {

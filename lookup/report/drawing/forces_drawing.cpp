@@ -16,7 +16,6 @@ namespace voussoir {
 namespace {
 
 constexpr double kMegapascals = 1e-6;
-constexpr double kKilonewtons = 1e-3;
 constexpr double kHeadingShare = 0.125;  // of a flat bridge's height
 constexpr double kLegendHeight = 34.0;
 constexpr double kThickest = 7.0;  // units, of the joint with the highest pressure

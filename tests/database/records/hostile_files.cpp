@@ -1,3 +1,5 @@
+/// @file Databases that were changed on purpose. Oracle: the schema, broken in one place at a time.
+
 #include <hdf5.h>
 #include <catch2/catch.hpp>
 #include <fstream>

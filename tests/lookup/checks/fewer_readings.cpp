@@ -76,4 +76,27 @@ TEST_CASE("An answer without a wrong reading is that to the file without it (ask
   CHECK(answer.without->answer->posterior->probability.values == alone.posterior->probability.values);
 }
 
+TEST_CASE("No sensor is held against what hangs on a reading that may be wrong, nor against what falls") {
+  const auto told = [](const Answer& answer) {
+    std::vector<std::size_t> points;
+    for (const SensorResidual& sensor : told_residuals(answer))
+      if (sensor.disagrees) points.push_back(sensor.point);
+    return points;
+  };
+  Answer answer;
+  answer.known_bridge = false;
+  answer.candidates.emplace_back();
+  answer.residuals = {residual(0, 20.0, true), residual(1, -9.0, true), residual(2, 0.5, false)};
+  CHECK(told(answer) == std::vector<std::size_t>{0, 1});
+  CHECK(are_sensors_judged(answer));
+  answer.without = AnswerWithout{{1}, nullptr};
+  CHECK(told(answer) == std::vector<std::size_t>{1});
+  CHECK_FALSE(are_sensors_judged(answer));
+  answer.without.reset();
+  answer.candidates.front().outcome = Outcome::collapsed;
+  CHECK(told(answer) == std::vector<std::size_t>{0, 1});  // what is expected then is no snapshot
+  answer.known_bridge = true;
+  CHECK(told(answer).empty());
+}
+
 }  // namespace voussoir

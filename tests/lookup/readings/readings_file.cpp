@@ -1,3 +1,5 @@
+/// @file What files of readings mean. Oracle: the values written out.
+
 #include <catch2/catch.hpp>
 #include <clocale>
 #include <cmath>
