@@ -1,14 +1,14 @@
 #include "core/program/heap.h"
 
-#ifdef __GLIBC__
-#include <malloc.h>
-#endif
-
 #include <sys/mman.h>
 #include <unistd.h>
 
 #include <cstdint>
 #include <cstdlib>
+
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 
 namespace voussoir {
 namespace {

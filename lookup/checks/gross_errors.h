@@ -1,6 +1,7 @@
 #pragma once
 /// @file Is it one reading alone that says what an answer calls missing?
 
+#include "lookup/answer/fit.h"
 #include "lookup/checks/question_context.h"
 
 namespace voussoir {

@@ -2,6 +2,7 @@
 /// @file Is it something that nobody stated, a line of levelling that is off or a load, that an answer calls
 /// missing blocks?
 
+#include "lookup/answer/fit.h"
 #include "lookup/checks/question_context.h"
 
 namespace voussoir {

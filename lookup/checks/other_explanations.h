@@ -2,6 +2,7 @@
 /// @file What would explain readings of a bridge that is not exactly known, and has no part in its posterior:
 /// then the answer means nothing.
 
+#include "lookup/answer/fit.h"
 #include "lookup/checks/question_context.h"
 
 namespace voussoir {
