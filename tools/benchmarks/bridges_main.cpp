@@ -1,5 +1,7 @@
 /// @file benchmark-bridges: random plausible bridges beside the reference bridge.
 
+#include <fmt/format.h>
+
 #include <filesystem>
 #include <iostream>
 

@@ -1,5 +1,7 @@
 /// @file benchmark-growth: how time and memory grow.
 
+#include <fmt/format.h>
+
 #include <filesystem>
 #include <iostream>
 
