@@ -166,8 +166,7 @@ void add_options(CLI::App& app, BuildOptions& options) {
       "quasi-static (default): Newton for scenes that stand, motion for the others; dynamic: motion for all");
   add_motion_options(app, options.motion);
   add_kept_options(app, options);
-  add_choice<bool>(app, "--format", options.json, {{"text", false}, {"json", true}},
-                   "of the summary: text (default) or json");
+  add_format_option(app, options.json, "of the summary");
   app.add_option("--xdmf", options.request.xdmf_scenes,
                  "also write an index (.xdmf, .views.h5) with which ParaView opens these scenes")
       ->option_text("SCENES");

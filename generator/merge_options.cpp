@@ -18,8 +18,7 @@ void add_options(CLI::App& app, MergeOptions& options) {
   app.add_option("-o,--output", options.request.output, "database to write, default bridge.h5")
       ->option_text("FILE");
   add_threads_option(app, options.request.threads);
-  add_choice<bool>(app, "--format", options.json, {{"text", false}, {"json", true}},
-                   "of the summary: text (default) or json");
+  add_format_option(app, options.json, "of the summary");
   app.add_flag("--force", options.request.force, "build anew even if the file is up to date");
   app.add_flag(
       "--drop", options.request.drop,

@@ -24,8 +24,7 @@ void add_options(CLI::App& app, VerifyOptions& options) {
       ->option_text("N");
   add_seed_option(app, options.request.seed, "of the choice of these scenes, default 1");
   add_threads_option(app, options.request.threads);
-  add_choice<bool>(app, "--format", options.json, {{"text", false}, {"json", true}},
-                   "of the report: text (default) or json");
+  add_format_option(app, options.json, "of the report");
 }
 
 }  // namespace voussoir

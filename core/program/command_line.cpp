@@ -110,6 +110,11 @@ void add_threads_option(CLI::App& app, int& threads) {
       ->option_text("N");
 }
 
+void add_format_option(CLI::App& app, bool& json, const std::string& of_what) {
+  add_choice<bool>(app, "--format", json, {{"text", false}, {"json", true}},
+                   of_what + ": text (default) or json");
+}
+
 void add_seed_option(CLI::App& app, std::uint64_t& seed, const std::string& of_what) {
   app.add_option("--seed", seed, of_what)
       ->check(CLI::Range(std::uint64_t{0}, kLargestSeed))

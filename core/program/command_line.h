@@ -76,6 +76,9 @@ CLI::Validator number_in_range(double least, double most, const std::string& nam
 /// --threads, 0: one for each core.
 void add_threads_option(CLI::App& app, int& threads);
 
+/// --format text or json, "of the ...".
+void add_format_option(CLI::App& app, bool& json, const std::string& of_what);
+
 /// --seed of random numbers.
 void add_seed_option(CLI::App& app, std::uint64_t& seed, const std::string& of_what);
 

@@ -9,6 +9,7 @@
 #include "core/structure/exposed_edges.h"
 #include "core/units.h"
 #include "lookup/answer/expected_readings.h"
+#include "lookup/answer/verdict.h"
 #include "lookup/report/drawing/table.h"
 
 namespace voussoir {
@@ -47,7 +48,11 @@ PicturedAnswer::PicturedAnswer(const Answer& of, const Comparison& with)
       library(with.library),
       shown(shown_readings(with, of.candidates.front().row)),
       expected(expected_readings(of, with)),
-      decimals(decimals_of(of.residuals)) {}
+      residual(with.library.points.size(), nullptr),
+      open_losses(of.posterior ? voussoir::open_losses(of) : std::vector<OpenLoss>{}),
+      decimals(decimals_of(of.residuals)) {
+  for (const SensorResidual& one : of.residuals) residual[one.point] = &one;
+}
 
 Site site_of(const PicturedAnswer& report, std::size_t point) {
   const StoredPoint& at = report.library.points[point];
@@ -58,10 +63,7 @@ Site site_of(const PicturedAnswer& report, std::size_t point) {
 }
 
 const SensorResidual* residual_of(const PicturedAnswer& report, std::size_t point) {
-  const auto& residuals = report.answer.residuals;
-  const auto found = std::find_if(residuals.begin(), residuals.end(),
-                                  [&](const SensorResidual& residual) { return residual.point == point; });
-  return found == residuals.end() ? nullptr : &*found;
+  return report.residual[point];
 }
 
 bool disagrees(const PicturedAnswer& report, std::size_t point) {

@@ -3,6 +3,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "lookup/answer/answer.h"
 #include "lookup/readings/shown_readings.h"
@@ -16,8 +17,10 @@ struct PicturedAnswer {
   const Answer& answer;
   const Comparison& comparison;
   const Library& library;
-  ShownReadings shown;           ///< beside the first candidate as the bridge file states it
-  std::vector<double> expected;  ///< expected_readings
+  ShownReadings shown;                          ///< beside the first candidate as the bridge file states it
+  std::vector<double> expected;                 ///< expected_readings
+  std::vector<const SensorResidual*> residual;  ///< by point; null: see residual_of
+  std::vector<OpenLoss> open_losses;            ///< as the verdict has them
   int decimals = 3;  ///< of readings in millimetres: more where errors are smaller than a micrometre
 };
 

@@ -113,12 +113,6 @@ std::string discs(const std::vector<NamedPlace>& places) {
   return elements;
 }
 
-std::string unknown_stripes(const SensorPlan& plan, const BlockLayout& layout, const BridgeFrame& frame) {
-  std::string elements;
-  for (const BlockId block : plan.unknown) elements += striped(layout[block], frame);
-  return elements.empty() ? "" : stripes_definition() + elements;
-}
-
 /// What is planned, and under which assumptions.
 std::string headings(const SensorPlan& plan, const PlannedBridge& bridge, std::size_t unnamed) {
   std::string second = "The bridge is " + conditions_in_words(bridge) + ".";
@@ -143,8 +137,7 @@ std::string keys(const SensorPlan& plan, const Drawing& drawing) {
 
 std::string plan_picture(const SensorPlan& plan, const PlannedBridge& bridge) {
   const BlockLayout& layout = bridge.database.layout();
-  const double scale = frame_of(layout, kPlanWidth, 0.0, 0.0).scale;
-  const BridgeFrame frame = frame_of(layout, kPlanWidth, kRoomForNames / scale, 0.15);
+  const BridgeFrame frame = frame_below(kRoomForNames, layout, kPlanWidth);
   Drawing drawing{frame.width,
                   kPlanTitle + frame.height + kColourBarHeight + (plan.unknown.empty() ? 0.0 : kUnknownKey),
                   "The bridge; each block coloured by the chance that its loss is seen, and the sensors", ""};
@@ -154,7 +147,7 @@ std::string plan_picture(const SensorPlan& plan, const PlannedBridge& bridge) {
       headings(plan, bridge, names.left_out()) +
       fmt::format("<g transform=\"translate(0 {})\">\n", kPlanTitle) + ground_element(layout, frame) +
       block_elements(layout, frame, [&](BlockId block) { return look_of(plan, bridge.database, block); }) +
-      unknown_stripes(plan, layout, frame) + discs(places) + names.elements() + "</g>\n" +
+      striped_blocks(plan.unknown, layout, frame) + discs(places) + names.elements() + "</g>\n" +
       keys(plan, drawing);
   return svg_file(drawing);
 }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <optional>
 
 #include "core/not_a_number.h"
@@ -29,7 +30,7 @@ double probability_of(const PicturedAnswer& report, BlockId block) {
 /// How much likelier the readings are with the loss of this block alone than with none, of losses that are
 /// not excluded; else nothing.
 std::optional<double> open_loss_of(const PicturedAnswer& report, BlockId block) {
-  for (const OpenLoss& loss : open_losses(report.answer))
+  for (const OpenLoss& loss : report.open_losses)
     if (report.library.table.scene(loss.row).lacks(block)) return loss.times_as_likely;
   return std::nullopt;
 }
@@ -57,27 +58,26 @@ std::string best_scene_marks(const PicturedAnswer& report, const BridgeFrame& fr
   return elements;
 }
 
-std::string open_loss_stripes(const PicturedAnswer& report, const BridgeFrame& frame) {
-  std::string elements;
-  for (const OpenLoss& loss : open_losses(report.answer))
-    for (const BlockId id : report.library.table.scene(loss.row).removed)
-      elements += striped(report.library.layout[id], frame);
-  return elements.empty() ? "" : stripes_definition() + elements;
+/// The blocks whose loss is not excluded, the likeliest first.
+std::vector<BlockId> open_blocks(const PicturedAnswer& report) {
+  std::vector<BlockId> blocks;
+  for (const OpenLoss& loss : report.open_losses)
+    std::ranges::copy(report.library.table.scene(loss.row).removed, std::back_inserter(blocks));
+  return blocks;
 }
 
 /// Likely blocks, then those whose loss is not excluded; without probabilities the first candidate's.
 std::vector<BlockId> listed_blocks(const PicturedAnswer& report) {
   if (!has_probabilities(report.answer)) return report.answer.candidates.front().scene.removed;
   std::vector<BlockId> blocks = likely_blocks(*report.answer.posterior, kWorthListing);
-  for (const OpenLoss& loss : open_losses(report.answer))
-    for (const BlockId id : report.library.table.scene(loss.row).removed)
-      if (std::ranges::find(blocks, id) == blocks.end()) blocks.push_back(id);
+  for (const BlockId id : open_blocks(report))
+    if (std::ranges::find(blocks, id) == blocks.end()) blocks.push_back(id);
   return blocks;
 }
 
 Table block_table(const PicturedAnswer& report) {
   Table table{{"block", "probability", "where"}, {}};
-  const bool has_open = !open_losses(report.answer).empty();
+  const bool has_open = !report.open_losses.empty();
   if (has_open) table.columns.emplace_back("its loss");
   for (const BlockId id : listed_blocks(report)) {
     const double probability = probability_of(report, id);
@@ -94,7 +94,7 @@ Table block_table(const PicturedAnswer& report) {
 
 /// What colours, lines and stripes mean, below the bridge.
 std::string keys(const PicturedAnswer& report, const Drawing& drawing, const BridgeFrame& frame) {
-  const bool has_open = !open_losses(report.answer).empty();
+  const bool has_open = !report.open_losses.empty();
   const double bottom = drawing.height - (has_open ? kKeyHeight : 0.0);
   std::string elements = stem_scale(report, {14.0, bottom - kColourBarHeight + 16.0}) +
                          metre_scale(frame, {drawing.width - 14.0, bottom - kColourBarHeight + 36.0});
@@ -122,8 +122,7 @@ std::string signs_in_words(const PicturedAnswer& report) {
   const ShownStems shown = shown_stems(report);
   std::string text;
   if (!report.answer.candidates.front().scene.removed.empty()) text += " Outlined: the first candidate.";
-  if (!open_losses(report.answer).empty())
-    text += " Striped: blocks whose loss is not excluded; the table has all.";
+  if (!report.open_losses.empty()) text += " Striped: blocks whose loss is not excluded; the table has all.";
   if (shown.lines)
     text +=
         fmt::format(" Lines hang from the sensors by their {}s{}{}; those with names are the largest{}.",
@@ -137,10 +136,8 @@ std::string signs_in_words(const PicturedAnswer& report) {
 }  // namespace
 
 Drawing draw_bridge(const PicturedAnswer& report) {
-  const double scale = frame_of(report.library.layout, kPictureWidth, 0.0, 0.0).scale;
-  const BridgeFrame frame =
-      frame_of(report.library.layout, kPictureWidth, room_for_stems(report) / scale, 0.15);
-  const bool has_open = !open_losses(report.answer).empty();
+  const BridgeFrame frame = frame_below(room_for_stems(report), report.library.layout, kPictureWidth);
+  const bool has_open = !report.open_losses.empty();
   Drawing drawing{frame.width, frame.height + kColourBarHeight + (has_open ? kKeyHeight : 0.0),
                   has_probabilities(report.answer)
                       ? "The bridge; each block coloured by the probability that it is missing"
@@ -149,8 +146,8 @@ Drawing draw_bridge(const PicturedAnswer& report) {
   drawing.elements =
       ground_element(report.library.layout, frame) +
       block_elements(report.library.layout, frame, [&](BlockId id) { return block_look(report, id); }) +
-      open_loss_stripes(report, frame) + best_scene_marks(report, frame) + stem_elements(report, frame) +
-      keys(report, drawing, frame);
+      striped_blocks(open_blocks(report), report.library.layout, frame) + best_scene_marks(report, frame) +
+      stem_elements(report, frame) + keys(report, drawing, frame);
   return drawing;
 }
 

@@ -54,7 +54,12 @@ double longest_reading(const PicturedAnswer& report) {
 class Stems {
  public:
   Stems(const PicturedAnswer& report, const BridgeFrame& frame)
-      : report_(report), frame_(frame), longest_(longest_reading(report)), shift_(shifts()) {}
+      : report_(report),
+        frame_(frame),
+        is_lifted_(shown_stems(report).lifted),
+        height_above_(room_for_stems(report) - kAboveBridge - kLongestStem),
+        longest_(longest_reading(report)),
+        shift_(shifts()) {}
 
   std::string elements() {
     std::string text = line_above();
@@ -86,17 +91,14 @@ class Stems {
 
   Point place(std::size_t point) const {
     Point at = frame_(report_.library.points[point].position) + Point(shift_[point], 0.0);
-    if (site_of(report_, point) == Site::top) at.y() = height_above();
+    if (site_of(report_, point) == Site::top) at.y() = height_above_;
     return at;
   }
 
-  double height_above() const { return room_for_stems(report_) - kAboveBridge - kLongestStem; }
-
   /// What the top's lines hang from.
   std::string line_above() const {
-    if (!shown_stems(report_).lifted) return "";
-    return path_element("grid",
-                        fmt::format("M{:.1f} {:.1f}H{:.1f}", 8.0, height_above(), frame_.width - 8.0));
+    if (!is_lifted_) return "";
+    return path_element("grid", fmt::format("M{:.1f} {:.1f}H{:.1f}", 8.0, height_above_, frame_.width - 8.0));
   }
 
   /// [units] downwards; of what is cut as long as lines are.
@@ -151,6 +153,8 @@ class Stems {
 
   const PicturedAnswer& report_;
   const BridgeFrame& frame_;
+  bool is_lifted_;
+  double height_above_;  // of the line that the top's lines hang from
   double longest_;
   std::vector<double> shift_;
   std::vector<Box> taken_;

@@ -97,13 +97,19 @@ double chance_of(const UnknownBridge& bridge, const CaseNoise& noise, const Scen
   return chi_square_chance(square, n);
 }
 
-/// What a part's means make of its scene's readings.
-void add_causes(const UnknownBridge& bridge, const SceneGaussian& scene, double weight,
-                const VectorXd& bridge_mean, const VectorXd& epoch_mean, BridgePosterior& result) {
+/// What the parts of one scene hold together, and the sums of their means, each with its weight.
+struct SceneMeans {
+  double weight = 0.0;
+  VectorXd bridge, epoch;
+};
+
+/// What these make of the scene's readings.
+void add_causes(const UnknownBridge& bridge, const SceneGaussian& scene, const SceneMeans& means,
+                BridgePosterior& result) {
   const Index parameters = bridge.factors->epoch_parameters();
-  result.signal += weight * scene.loss.signal;
-  result.from_bridge += weight * (scene.bridge * bridge_mean);
-  const MatrixXd each = weight * (scene.epoch * epoch_mean.asDiagonal());
+  result.signal += means.weight * scene.loss.signal;
+  result.from_bridge += scene.bridge * means.bridge;
+  const MatrixXd each = scene.epoch * means.epoch.asDiagonal();
   result.from_epochs += each.rightCols(bridge.factors->of_epoch()).leftCols(parameters);
   if (bridge.epochs > 1) result.from_epochs += each.leftCols(parameters);
 }
@@ -112,7 +118,7 @@ void add_causes(const UnknownBridge& bridge, const SceneGaussian& scene, double 
 /// 1 / (C^-1)_ii. The epochs' parameters have the mean E^T C^-1 r and the covariance I - E^T C^-1 E, in
 /// deviations of the case.
 void add_part(const UnknownBridge& bridge, const CaseNoise& noise, const SceneGaussian& scene, double kappa,
-              double weight, BridgePosterior& result) {
+              double weight, SceneMeans& means, BridgePosterior& result) {
   const Index n = scene.difference.size();
   const double size = noise.conditions;
   const MatrixXd covariance = scene_noise(bridge, noise, scene.loss) + kappa * scene.scatter;
@@ -123,9 +129,9 @@ void add_part(const UnknownBridge& bridge, const CaseNoise& noise, const SceneGa
   part.mean = kappa * (scene.bridge.transpose() * pulled);
   const VectorXd epoch = size * size * (scene.epoch.transpose() * pulled);
   const MatrixXd fall = size * size * lower.solve(scene.epoch);
-  result.bridge_mean += weight * part.mean;
-  result.epoch_mean += weight * epoch;
-  add_causes(bridge, scene, weight, part.mean, epoch, result);
+  means.weight += weight;
+  means.bridge += weight * part.mean;
+  means.epoch += weight * epoch;
   result.from_unevenness += weight * (bridge.unevenness * pulled);
   // The expected common factor of all movements (Nuisance::scale), which moves the intact bridge, too.
   const double factor = bridge.scale * bridge.scale * (bridge.movement + scene.loss.signal).dot(pulled);
@@ -148,24 +154,13 @@ double times_of(const VectorXd& movement, const VectorXd& more) {
   return movement.isZero(0.0) ? 1.0 : 1.0 + movement.dot(more) / movement.squaredNorm();
 }
 
-/// The bridge's columns if the likeliest scene is the truth.
-VectorXd mean_of_first(const BridgePosterior& result, std::span<const Part> kept) {
-  VectorXd mean = VectorXd::Zero(result.bridge_mean.size());
-  double weight = 0.0;
-  for (std::size_t i = 0; i < kept.size(); ++i) {
-    if (kept[i].scene != 0) continue;
-    mean += kept[i].weight * result.parts[i].mean;
-    weight += kept[i].weight;
-  }
-  return weight > 0.0 ? VectorXd(mean / weight) : mean;
-}
-
 /// By how many times as much as in the model things move: what the likeliest scene loses if it is the truth,
 /// and the intact bridge.
 void compare_with_model(const UnknownBridge& bridge, const Observation& observation,
-                        const SceneGaussian& first, std::span<const Part> kept, BridgePosterior& result) {
+                        const SceneGaussian& first, const SceneMeans& means, BridgePosterior& result) {
   const MatrixXd intact = bridge_columns(bridge, {});
-  result.times_signal = times_of(first.loss.signal, (first.bridge - intact) * mean_of_first(result, kept));
+  if (means.weight > 0.0)
+    result.times_signal = times_of(first.loss.signal, (first.bridge - intact) * means.bridge / means.weight);
   // A levelling may shift all heights by as much as the bridge settles.
   const VectorXd of_intact = intact * result.bridge_mean;
   const bool is_level_known = !observation.has_levelling();
@@ -201,15 +196,23 @@ BridgePosterior bridge_posterior(const UnknownBridge& bridge, const Observation&
     if (!gaussians[i]) gaussians[i] = scene_gaussian(bridge, observation, table, scenes[i].row);
     return *gaussians[i];
   };
+  std::vector<SceneMeans> means(scenes.size(), {0.0, result.bridge_mean, result.epoch_mean});
   for (const Part& part : kept) {
     const CaseNoise noise = case_noise(bridge, observation, cases[part.in_case]);
-    add_part(bridge, noise, gaussian(part.scene), kScatterFactors[part.kappa], part.weight, result);
+    add_part(bridge, noise, gaussian(part.scene), kScatterFactors[part.kappa], part.weight, means[part.scene],
+             result);
+  }
+  for (std::size_t i = 0; i < scenes.size(); ++i) {
+    if (means[i].weight == 0.0) continue;
+    result.bridge_mean += means[i].bridge;
+    result.epoch_mean += means[i].epoch;
+    add_causes(bridge, gaussian(i), means[i], result);
   }
   result.epoch_covariance -= result.epoch_mean * result.epoch_mean.transpose();
   result.spread = (result.spread - result.beside.cwiseAbs2()).cwiseMax(0.0).cwiseSqrt();
   result.left = bridge.reading - result.signal - result.from_bridge - result.from_epochs.rowwise().sum() -
                 result.from_unevenness;
-  compare_with_model(bridge, observation, gaussian(0), kept, result);
+  compare_with_model(bridge, observation, gaussian(0), means.front(), result);
   return result;
 }
 

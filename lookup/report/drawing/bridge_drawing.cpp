@@ -13,6 +13,7 @@ namespace voussoir {
 namespace {
 
 constexpr double kSide = 0.25;     // [m] free at the left and right
+constexpr double kBelow = 0.15;    // [m] free below the bridge
 constexpr double kBarShare = 0.5;  // of the frame's width
 constexpr double kBarThickness = 12.0;
 constexpr double kStoneField = 34.0;
@@ -30,6 +31,11 @@ BridgeFrame frame_of(const BlockLayout& layout, double width, double above, doub
   frame.width = width;
   frame.height = frame.scale * (frame.top - box.min().y() + below);
   return frame;
+}
+
+BridgeFrame frame_below(double room, const BlockLayout& layout, double width) {
+  const double scale = frame_of(layout, width, 0.0, 0.0).scale;
+  return frame_of(layout, width, room / scale, kBelow);
 }
 
 std::vector<Point> placed(const Polygon& polygon, const BridgeFrame& frame) {
@@ -106,13 +112,15 @@ std::string metre_scale(const BridgeFrame& frame, const Point& right_end) {
                       fmt::format("{:g} m", metres));
 }
 
-std::string striped(const Block& block, const BridgeFrame& frame) {
-  return path_element("striped", closed_path(placed(block.polygon, frame)));
-}
-
-std::string stripes_definition() {
-  return "<defs><pattern id=\"stripes\" width=\"7\" height=\"7\" patternUnits=\"userSpaceOnUse\" "
-         "patternTransform=\"rotate(45)\"><path class=\"stripe\" d=\"M3.5 0V7\"/></pattern></defs>\n";
+std::string striped_blocks(std::span<const BlockId> blocks, const BlockLayout& layout,
+                           const BridgeFrame& frame) {
+  if (blocks.empty()) return "";
+  std::string elements =
+      "<defs><pattern id=\"stripes\" width=\"7\" height=\"7\" patternUnits=\"userSpaceOnUse\" "
+      "patternTransform=\"rotate(45)\"><path class=\"stripe\" d=\"M3.5 0V7\"/></pattern></defs>\n";
+  for (const BlockId block : blocks)
+    elements += path_element("striped", closed_path(placed(layout[block].polygon, frame)));
+  return elements;
 }
 
 std::string stripes_key(const Point& left_end, const std::string& meaning) {

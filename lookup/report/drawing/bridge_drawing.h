@@ -29,6 +29,8 @@ inline constexpr int kBarMarks = 6;             ///< numbers beside a bar of col
 
 /// A frame `width` wide that holds the bridge and leaves `above` and `below` [m] free.
 BridgeFrame frame_of(const BlockLayout& layout, double width, double above, double below);
+/// The same with so much room above the bridge in the frame's units, for what stands there.
+BridgeFrame frame_below(double room, const BlockLayout& layout, double width);
 
 /// How one block is drawn.
 struct BlockLook {
@@ -77,11 +79,9 @@ std::string colour_bar(const ColourBar& bar, double width, double height);
 /// A round number of metres as a line, its right end at a place: about an eighth of the frame's width.
 std::string metre_scale(const BridgeFrame& frame, const Point& right_end);
 
-/// Stripes over a block, under which its look stays.
-std::string striped(const Block& block, const BridgeFrame& frame);
-
-/// What the stripes are made of: once in a picture that has striped blocks.
-std::string stripes_definition();
+/// Stripes over blocks, under which their look stays, and what the stripes are made of: once in a picture.
+std::string striped_blocks(std::span<const BlockId> blocks, const BlockLayout& layout,
+                           const BridgeFrame& frame);
 
 /// A field of stripes with what it means, its left end at a place.
 std::string stripes_key(const Point& left_end, const std::string& meaning);
