@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "core/structure/scene.h"
+#include "tests/support/refusal.h"
 #include "tests/support/temporary_folder.h"
 #include "tools/trials/paper_cases.h"
 
@@ -45,12 +46,7 @@ TEST_CASE("A file of cases that is not there, is no JSON or lacks a part is refu
   const test::TemporaryFolder folder;
   const auto message = [&](const std::string& text) -> std::string {
     std::ofstream(folder / "cases.json") << text;
-    try {
-      read_paper_cases(folder / "cases.json");
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "accepted";
+    return test::refusal_of([&] { read_paper_cases(folder / "cases.json"); });
   };
   CHECK_THAT(message("{"), Contains("cases.json") && Contains("expected"));
   CHECK_THAT(message("{\"source\": \"s\"}"), Contains("example"));

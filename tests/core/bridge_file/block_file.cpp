@@ -14,6 +14,7 @@
 #include "tests/support/bridges.h"
 #include "tests/support/dxf_drawing.h"
 #include "tests/support/fuzzing.h"
+#include "tests/support/refusal.h"
 #include "tests/support/temporary_folder.h"
 
 using namespace voussoir;
@@ -86,12 +87,7 @@ TEST_CASE("Of a JSON survey every key is known: a unit beside the blocks is none
 
 TEST_CASE("Bad JSON of blocks is refused with file, place and what was expected", "[block-file]") {
   const auto json = [](const std::string& text) {
-    try {
-      parse_json_blocks(text, "a.json");
-    } catch (const InputError& error) {
-      return std::string(error.what());
-    }
-    return std::string("accepted");
+    return test::refusal_of([&] { parse_json_blocks(text, "a.json"); });
   };
   CHECK_THAT(json("{"), Contains("a.json") && Contains("is no JSON"));
   CHECK_THAT(json("{\"blocks\": []}"), Contains("expected {\"blocks\""));

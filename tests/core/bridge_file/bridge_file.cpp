@@ -9,6 +9,7 @@
 
 #include "core/error.h"
 #include "tests/support/bridges.h"
+#include "tests/support/refusal.h"
 
 using namespace voussoir;
 using Catch::Matchers::Contains;
@@ -169,12 +170,7 @@ TEST_CASE("Example bridges from the literature take at most thirty lines (counte
 
 TEST_CASE("Bad bridge files are refused with file, line and what was expected", "[bridge-file]") {
   const auto message = [](const std::string& text) {
-    try {
-      make_model(parse_bridge_file(text, "b.toml").description);
-    } catch (const InputError& error) {
-      return std::string(error.what());
-    }
-    return std::string("accepted");
+    return test::refusal_of([&] { make_model(parse_bridge_file(text, "b.toml").description); });
   };
   CHECK_THAT(message("[wall]\nlength_m = \"long\"\n"),
              Contains("b.toml:2:") && Contains("expected a number"));

@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "tests/support/bridges.h"
+#include "tests/support/refusal.h"
 
 using namespace voussoir;
 using Catch::Matchers::Contains;
@@ -18,12 +19,7 @@ std::vector<std::string> idle_of(const std::string& text) {
 }
 
 std::string refusal_of(const std::string& text) {
-  try {
-    model_of(parse_bridge_file(text, "b.toml"));
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "accepted";
+  return test::refusal_of([&] { model_of(parse_bridge_file(text, "b.toml")); });
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 
 #include "core/error.h"
 #include "tests/support/dxf_drawing.h"
+#include "tests/support/refusal.h"
 
 using namespace voussoir;
 using Catch::Matchers::Contains;
@@ -17,12 +18,7 @@ namespace {
 
 /// What a drawing is refused with.
 std::string dxf(const std::string& text) {
-  try {
-    parse_dxf_blocks(text, "a.dxf");
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "accepted";
+  return test::refusal_of([&] { parse_dxf_blocks(text, "a.dxf"); });
 }
 
 }  // namespace

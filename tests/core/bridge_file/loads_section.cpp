@@ -4,6 +4,7 @@
 
 #include "core/bridge_file/bridge_file.h"
 #include "tests/support/bridges.h"
+#include "tests/support/refusal.h"
 
 using namespace voussoir;
 using Catch::Matchers::Contains;
@@ -13,12 +14,7 @@ namespace {
 const std::string kNamed = "[[loads]]\nname = \"a\"\n";
 
 std::string message(const std::string& text) {
-  try {
-    parse_bridge_file(text, "b.toml");
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "accepted";
+  return test::refusal_of([&] { parse_bridge_file(text, "b.toml"); });
 }
 
 }  // namespace

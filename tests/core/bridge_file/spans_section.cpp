@@ -9,6 +9,7 @@
 #include "core/structure/arch.h"
 #include "core/structure/model.h"
 #include "tests/support/bridges.h"
+#include "tests/support/refusal.h"
 
 using namespace voussoir;
 using Catch::Matchers::Contains;
@@ -20,12 +21,7 @@ SpanDescription span(const std::string& keys) {
 }
 
 std::string span_message(const std::string& text) {
-  try {
-    make_model(parse_bridge_file(text, "s.toml").description);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "accepted";
+  return test::refusal_of([&] { make_model(parse_bridge_file(text, "s.toml").description); });
 }
 
 }  // namespace

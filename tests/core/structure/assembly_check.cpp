@@ -7,6 +7,7 @@
 #include "core/error.h"
 #include "core/geometry/facing_edges.h"
 #include "core/geometry/overlap.h"
+#include "tests/support/refusal.h"
 
 using namespace voussoir;
 using Catch::Matchers::Contains;
@@ -26,12 +27,7 @@ std::vector<Block> sound() {
 }
 
 std::string message(std::vector<Block> blocks) {
-  try {
-    heal_and_check(blocks, {});
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "accepted";
+  return test::refusal_of([&] { heal_and_check(blocks, {}); });
 }
 
 void shift(Block& block, double x, double y) {
@@ -162,12 +158,8 @@ TEST_CASE("Blocks laid by rules have to meet and to be carried as drawn ones hav
     std::vector<Block> blocks = sound();
     blocks[3].role = role;
     shift(blocks[3], x, y);
-    try {
-      check_laid(blocks, tolerance, [](const Point& p) { return p.y() == 7.0; });
-    } catch (const InputError& error) {
-      return std::string(error.what());
-    }
-    return std::string("accepted");
+    return test::refusal_of(
+        [&] { check_laid(blocks, tolerance, [](const Point& p) { return p.y() == 7.0; }); });
   };
   CHECK(refusal(0.0, 0.0, {}) == "accepted");
   CHECK_THAT(refusal(0.0, 5e-4, {}), Contains("'b2' and 'b4' lie 0.5 mm apart") &&
