@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "core/not_a_number.h"
 #include "core/units.h"
+#include "lookup/checks/fewer_readings.h"
 #include "lookup/report/point_sets.h"
 #include "lookup/report/reading_words.h"
 #include "lookup/report/report_words.h"
@@ -146,17 +148,24 @@ Table profile_table(const PicturedAnswer& report, const PointSet& set) {
   return table;
 }
 
-/// Dashed from end to end where disagreement begins; nothing where there are too few sensors to say.
-std::vector<Series> limit_series(const PicturedAnswer& report, const PointSet& set) {
+/// Where disagreement begins; nothing where there are too few sensors to say, or they are not judged.
+std::optional<double> shown_limit(const PicturedAnswer& report) {
   const double limit = limit_of_agreement(report.answer.residuals);
-  if (!std::isfinite(limit) || limit <= 0.0) return {};
+  const bool says_something = std::isfinite(limit) && limit > 0.0 && are_sensors_judged(report.answer);
+  return says_something ? std::optional(limit) : std::nullopt;
+}
+
+/// Dashed from end to end.
+std::vector<Series> limit_series(const PicturedAnswer& report, const PointSet& set) {
+  const std::optional<double> limit = shown_limit(report);
+  if (!limit) return {};
   const std::vector<double> ends = {0.4, static_cast<double>(set.names.size()) + 0.6};
-  return {{"limit of agreement", 2, Mark::dashes, ends, {limit, limit}},
-          {"", 2, Mark::dashes, ends, {-limit, -limit}}};
+  return {{"limit of agreement", 2, Mark::dashes, ends, {*limit, *limit}},
+          {"", 2, Mark::dashes, ends, {-*limit, -*limit}}};
 }
 
 Chart residual_chart(const PicturedAnswer& report, const PointSet& set) {
-  Series agreeing{"agrees", 1, Mark::points, {}, {}};
+  Series agreeing{are_sensors_judged(report.answer) ? "agrees" : "residual", 1, Mark::points, {}, {}};
   Series odd{"disagrees with the rest", 2, Mark::points, {}, {}};
   for (std::size_t i = 0; i < set.points.size(); ++i) {
     const SensorResidual* const residual = residual_of(report, set.points[i]);
@@ -185,9 +194,10 @@ Table residual_table(const PicturedAnswer& report, const PointSet& set) {
     if (const SensorResidual* const residual = residual_of(report, point))
       table.rows.push_back({report.library.points[point].name,
                             kMillimetres * (residual->reading - residual->predicted), residual->error,
-                            residual->disagrees           ? "disagrees with the rest"
-                            : std::isnan(residual->error) ? "cannot move"
-                                                          : "agrees"});
+                            residual->disagrees                 ? "disagrees with the rest"
+                            : std::isnan(residual->error)       ? "cannot move"
+                            : are_sensors_judged(report.answer) ? "agrees"
+                                                                : "not judged"});
   return table;
 }
 
@@ -203,13 +213,12 @@ std::string residuals_in_words(const PicturedAnswer& report) {
 
 /// Nothing where no limit is drawn.
 std::string limit_in_words(const PicturedAnswer& report) {
-  const double limit = limit_of_agreement(report.answer.residuals);
-  return std::isfinite(limit) && limit > 0.0
-             ? fmt::format(
-                   " Beyond the dashed lines ({:.1f}, eight times what half of all sensors reach) a sensor "
-                   "disagrees with the rest.",
-                   limit)
-             : "";
+  const std::optional<double> limit = shown_limit(report);
+  if (!limit) return "";
+  return fmt::format(
+      " Beyond the dashed lines ({:.1f}, eight times what half of all sensors reach) a sensor disagrees with "
+      "the rest.",
+      *limit);
 }
 
 std::string sign_in_words(Quantity quantity) {

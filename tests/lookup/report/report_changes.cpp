@@ -132,3 +132,17 @@ TEST_CASE("Sensors of one quantity under one load share a figure") {
   CHECK_THAT(figures[1].pictures, Contains("added by the load: tilt [mm per m]"));
   CHECK(residual_figures(PicturedAnswer(answer, comparison))[1].table.columns[1] == "residual [mm per m]");
 }
+
+TEST_CASE("Where sensors are not judged no limit is drawn, and none is said to agree (fewer_readings.h)") {
+  const Comparison comparison = two_epochs();
+  Answer answer = locate_damage(comparison, stated_noise());
+  for (SensorResidual& sensor : answer.residuals) sensor.error = sensor.point % 2 == 0 ? 1.0 : -1.0;
+  const auto words = [&] {
+    const Figure figure = residual_figures(PicturedAnswer(answer, comparison)).front();
+    return std::pair(std::get<std::string>(figure.table.rows.front().back()),
+                     figure.caption.find("dashed lines") != std::string::npos);
+  };
+  CHECK(words() == std::pair(std::string("agrees"), true));
+  answer.without = AnswerWithout{{1}, nullptr};
+  CHECK(words() == std::pair(std::string("not judged"), false));
+}
