@@ -48,9 +48,12 @@ Candidate candidate_of(const Library& library, const ScoredRow& found,
   Candidate candidate{found.row,
                       library.table.scene(found.row),
                       static_cast<Outcome>(library.table.outcome[found.row]),
+                      std::nullopt,
                       misfit_of(found.sum),
                       std::nullopt,
                       {}};
+  if (library.table.is_uncertain_fall(found.row))
+    candidate.standing_share = library.table.standing_share[found.row];
   if (posterior) candidate.posterior = posterior->probability[found.row];
   return candidate;
 }

@@ -4,9 +4,11 @@
 #include <mutex>
 
 #include "database/format/hdf5_file.h"
+#include "database/records/if_standing.h"
 #include "database/records/schema.h"
 #include "database/records/stored_geometry.h"
 #include "database/records/stored_records.h"
+#include "database/records/stored_sensitivities.h"
 #include "database/records/stored_table.h"
 #include "database/search/stored_index.h"
 
@@ -90,6 +92,8 @@ struct Database::Implementation {
   OnFirstUse<std::vector<VariantParameters>> variants{};
   OnFirstUse<StoredRecords> records{};
   OnFirstUse<std::optional<Sensitivities>> sensitivities{};
+  std::vector<OnFirstUse<std::optional<IfStanding>>> if_standing =
+      std::vector<OnFirstUse<std::optional<IfStanding>>>(states.size());
 
   void check_row(std::size_t row) const {
     if (row >= rows.sizes().records)
@@ -163,6 +167,18 @@ SceneTable Database::table(std::int32_t variant, std::size_t state) const {
     implementation_->file.refuse(fmt::format("no variant {} (0 to {} exist)", variant, count - 1));
   implementation_->check_state(state);
   return implementation_->rows.part(static_cast<std::size_t>(variant), state);
+}
+
+SceneTable Database::table_if_standing(std::size_t state) const {
+  SceneTable result = table(kNominalVariant, state);
+  const Sensitivities* const known = sensitivities();
+  if (known == nullptr) return result;
+  const auto& made = implementation_->if_standing[state].get(
+      [&] { return if_standing(result, *known, state, control_points()); });
+  if (!made) return result;
+  result.vertical = made->vertical;
+  result.standing_share = made->standing_share;
+  return result;
 }
 
 const std::vector<VariantParameters>& Database::variants() const {

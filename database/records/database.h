@@ -62,6 +62,10 @@ class Database {
   const SceneTable& table() const;  ///< of the nominal variant in the first state
   /// Throws InputError for a variant or state that does not exist.
   SceneTable table(std::int32_t variant, std::size_t state) const;
+  /// The nominal variant's table with what a bridge that is not exactly known may show beside: of uncertain
+  /// falls what they would read if they stood (Sensitivities::find_fall). The table itself if there are none;
+  /// made on first use. Throws as table.
+  SceneTable table_if_standing(std::size_t state) const;
   /// Of the nominal variant in a history's own state, or in the first; read on first use. Throws InputError
   /// for other states, which have none.
   const SearchIndex& search_index(std::size_t state = 0) const;

@@ -1,6 +1,7 @@
 #pragma once
 /// @file What searches look at: one row of numbers for each scene.
 
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -24,9 +25,22 @@ struct SceneTable {
   std::span<const std::uint8_t> collapse{};  ///< values of CollapseExtent
   std::span<const std::uint8_t> origin{};    ///< values of Origin; empty: all are solved
   std::size_t first_record = 0;              ///< the database's row of row 0: 0 for the nominal variant
+  /// Of scenes that fall in the nominal bridge, but stand in some of those drawn at random, the share of
+  /// these, of others 0. Empty: the bridge is just as its file says.
+  std::span<const double> standing_share{};
 
   std::span<const double> row(std::size_t scene) const { return vertical.subspan(scene * points, points); }
   bool stands(std::size_t scene) const;
+  /// Does it fall, but stand in some bridges?
+  bool is_uncertain_fall(std::size_t scene) const {
+    return !standing_share.empty() && standing_share[scene] > 0.0;
+  }
+  bool may_stand(std::size_t scene) const { return stands(scene) || is_uncertain_fall(scene); }
+  /// How many scenes it counts for beforehand, among those that may be read; and the logarithm of that.
+  double weight(std::size_t scene) const { return is_uncertain_fall(scene) ? standing_share[scene] : 1.0; }
+  double log_weight(std::size_t scene) const {
+    return is_uncertain_fall(scene) ? std::log(standing_share[scene]) : 0.0;
+  }
   bool has_displacements(std::size_t scene) const;  ///< at any control point
   Origin origin_of(std::size_t scene) const {
     return origin.empty() ? Origin::solved : static_cast<Origin>(origin[scene]);

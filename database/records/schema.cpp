@@ -5,6 +5,7 @@
 
 #include "core/error.h"
 #include "database/format/names.h"
+#include "database/records/stored_sensitivities.h"
 
 namespace voussoir {
 namespace {

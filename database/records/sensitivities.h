@@ -16,14 +16,14 @@
 
 #include "core/structure/scene.h"
 #include "core/structure/uncertain_parameter.h"
-#include "database/format/hdf5_file.h"
 #include "database/records/stacked_matrices.h"
 #include "database/records/stored_signals.h"
 
 namespace voussoir {
 
 /// Derivatives of one scene's displacements at the control points in one state [m per standard deviation].
-/// Rows of points whose block is gone are zero. Both empty: not known, because the scene does not stand.
+/// Rows of points whose block is gone are zero. Both empty: not known, because the scene stands neither in
+/// the nominal bridge nor in any that was drawn at random.
 struct SceneFactors {
   Eigen::MatrixXd bridge;  ///< A: points x columns of the basis
   Eigen::MatrixXd epoch;   ///< E: points x parameters of an epoch
@@ -59,6 +59,13 @@ struct FactorsView {
   StackedMatrices::View bridge, epoch, left;
 };
 
+/// A scene that falls in the nominal bridge, but stands in some of those drawn at random.
+struct UncertainFall {
+  double standing_share = 0.0;  ///< of those drawn at random, how many stand
+  Eigen::VectorXd if_standing;  ///< [m] what the points of the nominal bridge would read if it stood, to
+                                ///< first order; zero where the block is gone
+};
+
 /// Places on the top of a bridge that what a load adds is kept for, at most.
 inline constexpr std::size_t kMostLoadPlaces = 201;
 
@@ -69,15 +76,25 @@ struct LoadInfluence {
   Eigen::MatrixXd readings;
 };
 
+/// Are a scene's factors known in a state? As they stand in a file.
+enum class FactorsKnown : std::uint8_t {
+  no = 0,
+  yes = 1,
+  of_uncertain_fall = 2  ///< it falls in the nominal bridge, but stands in some of those drawn at random
+};
+
 /// What a build makes, or what a file holds, whose factors stay where they are: they outlive this.
 struct Sensitivities {
   std::vector<UncertainParameter> parameters;  ///< those of the bridge, then those of an epoch
   Eigen::MatrixXd basis;                       ///< L V: parameters of the bridge x columns, V orthonormal
-  std::vector<Scene> scenes;        ///< ascending by missing blocks, then lexicographic: intact first
-  std::vector<std::uint8_t> known;  ///< states x scenes: 1, or 0 for a scene that does not stand
-  StackedMatrices bridge;           ///< states x scenes: A, zero where nothing is known
-  StackedMatrices epoch;            ///< states x scenes: E
-  StackedMatrices left;             ///< states x scenes: what E leaves of signals in sampled bridges
+  std::vector<Scene> scenes;           ///< ascending by missing blocks, then lexicographic: intact first
+  std::vector<FactorsKnown> known;     ///< states x scenes
+  StackedMatrices bridge;              ///< states x scenes: A, zero where nothing is known
+  StackedMatrices epoch;               ///< states x scenes: E
+  StackedMatrices left;                ///< states x scenes: what E leaves of signals in sampled bridges
+  std::vector<double> standing_share;  ///< states x scenes: of uncertain falls, 0 of others; or nothing, if
+                                       ///< there are none
+  StackedMatrices if_standing;         ///< states x scenes: a column, of uncertain falls
   std::vector<FirstOrderResidual> residuals;  ///< of each state of the database
   /// What differs from part to part in an epoch (core/structure/unevenness.h) changes of the intact bridge
   /// [m], an error of its own in every epoch: of each state, points x columns that are independent and the
@@ -90,11 +107,17 @@ struct Sensitivities {
   Eigen::Index of_epoch() const { return static_cast<Eigen::Index>(parameters.size()) - basis.rows(); }
   Eigen::Index leading_columns() const { return std::min(kLeadingColumns, basis.cols()); }
 
-  /// Room for factors of all scenes at so many points, of which nothing is known yet, and for residuals.
+  bool is_known(std::size_t place) const { return known[place] != FactorsKnown::no; }
+
+  /// Room for factors of all scenes at so many points, of which nothing is known yet, and for residuals; no
+  /// uncertain falls.
   /// `samples`: bridges that show what E leaves of signals.
   void make_room(std::size_t states, Eigen::Index points, Eigen::Index samples = 0);
   /// Takes in what is known of a scene, or that nothing is.
   void set(std::size_t state, std::size_t scene, const SceneFactors& factors);
+
+  /// Precondition: its factors are known.
+  void set_fall(std::size_t state, std::size_t scene, const UncertainFall& fall);
 
   /// The scene's place in `known`, `bridge`, `epoch` and `left`; nothing if nothing is known of it.
   /// Precondition: the state exists.
@@ -102,22 +125,12 @@ struct Sensitivities {
   /// What is known of a scene in a state. Throws InputError if the file has a number there that is not
   /// finite.
   std::optional<FactorsView> find(std::size_t state, const Scene& scene) const;
+  /// Nothing if it is none. Throws as find.
+  std::optional<UncertainFall> find_fall(std::size_t state, const Scene& scene) const;
 };
 
-/// The datasets of sensitivities, which outlive them; datasets that would have no elements are left out.
-std::vector<DatasetValue> sensitivity_datasets(const Sensitivities& sensitivities);
-
-/// How many of everything there are in a file.
-struct SensitivitySizes {
-  std::size_t states = 0;
-  std::size_t points = 0;
-  std::size_t blocks = 0;
-};
-
-/// Nothing if the file has none. Throws InputError for wrong types, shapes and sizes, scenes that are out of
-/// order or without an intact bridge, and numbers that are not finite, but for the factors, which are looked
-/// at when they are asked for.
-std::optional<Sensitivities> read_sensitivities(const Hdf5File& file, const SensitivitySizes& sizes);
+/// The order of Sensitivities::scenes.
+bool precedes(const Scene& first, const Scene& second);
 
 /// Looks at all factors, one scene after the other. Throws InputError if a number is not finite; false if
 /// there are factors of scenes of which nothing is known, or if something is left of the intact bridge's

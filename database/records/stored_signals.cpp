@@ -19,10 +19,10 @@ template <class Known, class Unknown>
 void for_each_loss(const Sensitivities& sensitivities, const Known& known, const Unknown& unknown) {
   const std::size_t scenes = sensitivities.scenes.size();
   for (std::size_t first = 0; first < sensitivities.known.size(); first += scenes) {
-    const bool is_known = sensitivities.known[first] != 0;
+    const bool is_known = sensitivities.is_known(first);
     const SceneFactors intact = is_known ? factors_at(sensitivities, first) : SceneFactors{};
     for (std::size_t place = first; place < first + scenes; ++place)
-      if (is_known && place != first && sensitivities.known[place] != 0)
+      if (is_known && place != first && sensitivities.is_known(place))
         known(place, change_of(factors_at(sensitivities, place), intact), intact.bridge);
       else
         unknown(place);

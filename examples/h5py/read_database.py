@@ -44,6 +44,7 @@ DIGEST_ORDER = [
     "sensitivity/parameter_name", "sensitivity/parameter_unit", "sensitivity/parameter_sigma",
     "sensitivity/parameter_of_epoch", "sensitivity/basis", "sensitivity/removed", "sensitivity/known",
     "sensitivity/bridge_factors", "sensitivity/epoch_factors", "sensitivity/residual_signal",
+    "sensitivity/standing_share", "sensitivity/if_standing",
     "sensitivity/residual_bridge", "sensitivity/residual_epoch", "sensitivity/residual_share",
     "sensitivity/unevenness",
     "sensitivity/load_place",

@@ -11,6 +11,7 @@
 #include "generator/uncertainty/first_order_residual.h"
 #include "generator/uncertainty/load_influence.h"
 #include "generator/uncertainty/scene_derivatives.h"
+#include "generator/uncertainty/uncertain_falls.h"
 #include "generator/uncertainty/unevenness.h"
 
 namespace voussoir {
@@ -90,10 +91,13 @@ std::optional<Sensitivities> find_sensitivities(const SensitivityStudy& study,
   const std::optional<Solution>& intact = states.front()[kBuilt];
   if (!intact || !stands(*intact)) return std::nullopt;
   auto derivatives = derivatives_of(study, equations, result.scenes, states, progress);
+  const FirstOrder first_order{{result.scenes, states}, derivatives};
+  WhatIsLeft left = what_is_left(study, equations.uncertain, first_order, progress);
+  const std::vector<SampledFall> falls =
+      find_uncertain_falls(study, equations.uncertain, first_order, progress);
+  for (const SampledFall& one : falls) derivatives[one.state][one.scene] = one.derivatives;
   const auto of_bridge = static_cast<Eigen::Index>(equations.uncertain.of_bridge.size());
   result.basis = sensitivity_basis(derivatives, equations.uncertain.correlation_factor, study.threads);
-  WhatIsLeft left =
-      what_is_left(study, equations.uncertain, {{result.scenes, states}, derivatives}, progress);
   result.make_room(derivatives.size(), static_cast<Eigen::Index>(study.bridge.control_points.size()),
                    Eigen::Index{kBridgesWithSingles});
   result.residuals = std::move(left.residuals);
@@ -108,6 +112,7 @@ std::optional<Sensitivities> find_sensitivities(const SensitivityStudy& study,
                                 std::move(left.signals[state][i])});
     }
   });
+  for (const SampledFall& one : falls) result.set_fall(one.state, one.scene, one.fall);
   return result;
 }
 

@@ -17,9 +17,10 @@ namespace voussoir {
 struct Candidate {
   std::size_t row = 0;
   Scene scene;
-  Outcome outcome = Outcome::standing;
-  double misfit = 0.0;               ///< Eq. 1
-  std::optional<double> posterior;   ///< with Objective::posterior
+  Outcome outcome = Outcome::standing;     ///< in the bridge as its file states it
+  std::optional<double> standing_share{};  ///< of a scene that falls there but may stand (UncertainFall)
+  double misfit = 0.0;                     ///< Eq. 1
+  std::optional<double> posterior;         ///< with Objective::posterior
   std::vector<Scene> same_readings;  ///< scenes that these sensors cannot tell from this one under this noise
 };
 

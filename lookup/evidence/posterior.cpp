@@ -43,13 +43,13 @@ double intact_if_even(const Posterior& posterior, const SceneTable& table, const
                       const std::vector<double>& log_prior) {
   double before = 0.0, after = 0.0;
   for (std::size_t missing = 1; missing < eligible.standing.size(); ++missing)
-    before += static_cast<double>(eligible.standing[missing]) * std::exp(log_prior[missing]);
+    before += eligible.standing[missing] * std::exp(log_prior[missing]);
   const RowValues& probability = posterior.probability;
   for (std::size_t i = 0; i < probability.rows.size(); ++i)
-    if (missing_blocks(table, probability.rows[i]) > 0 && table.stands(probability.rows[i]))
+    if (missing_blocks(table, probability.rows[i]) > 0 && table.may_stand(probability.rows[i]))
       after += probability.values[i];
   const double intact = intact_probability(posterior);
-  const double intact_before = static_cast<double>(eligible.scenes[0]) * std::exp(log_prior[0]);
+  const double intact_before = eligible.scenes[0] * std::exp(log_prior[0]);
   if (before == 0.0 || intact_before == 0.0) return intact;
   return intact / intact_before / (intact / intact_before + after / before);
 }
@@ -64,8 +64,9 @@ std::vector<OpenLoss> open_losses(const SceneTable& table, const RowValues& prob
   for (std::size_t i = 1; i < probability.rows.size(); ++i) {
     const std::size_t row = probability.rows[i];
     if (missing_blocks(table, row) > 1) break;
-    const double ratio = probability.values[i] / intact * std::exp(log_prior[0] - log_prior[1]);
-    if (ratio > 1.0 / kSpokenAgainst && table.stands(row)) open.push_back({row, ratio});
+    const double ratio =
+        probability.values[i] / intact * std::exp(log_prior[0] - log_prior[1]) / table.weight(row);
+    if (ratio > 1.0 / kSpokenAgainst && table.may_stand(row)) open.push_back({row, ratio});
   }
   return open;
 }
@@ -115,8 +116,8 @@ std::vector<double> log_prior_by_missing(const SceneTable& table, const Eligible
   std::vector<double> result(table.most_missing + 1, kImpossible);
   for (std::size_t i = 0; i < prior.missing.size(); ++i) {
     const auto missing = static_cast<std::size_t>(prior.missing[i]);
-    if (missing < result.size() && eligible.scenes[missing] > 0)
-      result[missing] = std::log(weight[i] / total / static_cast<double>(eligible.scenes[missing]));
+    if (missing < result.size() && eligible.scenes[missing] > 0.0)
+      result[missing] = std::log(weight[i] / total / eligible.scenes[missing]);
   }
   if (std::all_of(result.begin(), result.end(), [](double log) { return !std::isfinite(log); }))
     throw InputError(fmt::format(
@@ -140,7 +141,7 @@ Posterior posterior(const SceneTable& table, const Eligible& eligible, const Row
     if (log_evidence.values[i] == kImpossible) continue;
     possible.push_back(log_evidence.rows[i]);
     missing.push_back(static_cast<std::size_t>(missing_blocks(table, possible.back())));
-    weight.push_back(log_prior[missing.back()] + log_evidence.values[i]);
+    weight.push_back(log_prior[missing.back()] + table.log_weight(possible.back()) + log_evidence.values[i]);
     best = std::max(best, weight.back());
   }
   if (best == kImpossible) {

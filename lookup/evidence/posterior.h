@@ -74,9 +74,9 @@ std::vector<BlockId> likely_blocks(const Posterior& posterior, double least);
 /// Share of the probability in Posterior::credible.
 inline constexpr double kCredibleShare = 0.95;
 
-/// log prior of one scene with 0, 1, 2... missing blocks, of a stated prior: its number's share of all
-/// weights over how many eligible scenes have it. Throws as weights_of, and InputError if the weights leave
-/// no eligible scene possible.
+/// log prior of one scene with 0, 1, 2... missing blocks, of a stated prior, but for its SceneTable::weight:
+/// its number's share of all weights over how many eligible scenes have it. Throws as weights_of, and
+/// InputError if the weights leave no eligible scene possible.
 std::vector<double> log_prior_by_missing(const SceneTable& table, const Eligible& eligible,
                                          const Prior& prior);
 

@@ -87,13 +87,16 @@ SightSettings sight_settings(const BlankQuestion& question, const Database& data
           .certain = kCertain};
 }
 
-/// Sorts the blocks without a sight.
+/// Sorts the blocks without a sight, and those of which it is not sure that there is one.
 void add_others(const BlankQuestion& question, SensorPlan& plan) {
   const SceneTable& table = question.comparison.library.table;
   for (std::size_t b = 0; b < question.bridge.blocks; ++b) {
     const BlockId block{static_cast<std::int32_t>(b)};
-    if (std::ranges::find(plan.sights, block, &Sight::block) != plan.sights.end()) continue;
     const auto row = table.find({{block}});
+    if (std::ranges::find(plan.sights, block, &Sight::block) != plan.sights.end()) {
+      if (row && table.is_uncertain_fall(*row)) plan.may_fall.push_back(block);
+      continue;
+    }
     const bool falls = row && static_cast<Outcome>(table.outcome[*row]) == Outcome::collapsed;
     (falls ? plan.falls : plan.unknown).push_back(block);
   }

@@ -26,7 +26,8 @@ struct SensorPlan {
   std::string history;                ///< that changes are compared with
   std::vector<std::string> points;    ///< that are read
   std::vector<std::string> chosen{};  ///< the same, those first that help most; empty: none was chosen
-  std::vector<Sight> sights;          ///< of the blocks without which the bridge stands
+  std::vector<Sight> sights;          ///< of the blocks without which the bridge stands, or may
+  std::vector<BlockId> may_fall{};    ///< those of them without which only some bridges stand
   std::vector<BlockId> falls{};       ///< blocks whose loss lets something fall: nobody needs to measure
   std::vector<BlockId> unknown{};     ///< whose loss has no answer, or stands without sensitivities
   const std::string& point_of(const Sight& sight) const {  ///< with the largest change

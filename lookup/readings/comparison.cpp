@@ -151,20 +151,22 @@ Comparison compare(const ReadingsFile& file, const SensorList& list, const Datab
   });
   const std::vector<Channel> channels =
       own_table ? control_point_channels(list) : channels_of(file, list, states);
+  const auto sampled = settings.known_bridge ? nullptr : settings.sampled;
+  const Sensitivities* const sensitivities = settings.known_bridge ? nullptr
+                                             : sampled             ? &sampled->sensitivities
+                                                                   : database.sensitivities();
+  const BridgeShown shown = sensitivities ? BridgeShown::not_quite_known : BridgeShown::as_stated;
   Comparison result{.kind = file.kind,
                     .history = states.history,
-                    .library = own_table ? library_of(database, states.base)
-                                         : library_of_channels(database, states.base, channels),
+                    .library = own_table ? library_of(database, states.base, shown)
+                                         : library_of_channels(database, states.base, channels, shown),
                     .measured = {},
                     .model_error = {}};
   require_standing(database, result.library);
   enter(file, settings.sigma, result);
   result.model_error = settings.model_error ? ModelError{*settings.model_error, 0.0, {}}
                                             : model_error_of(database, states.base, channels, result.library);
-  if (!settings.known_bridge) result.sampled = settings.sampled;
-  const Sensitivities* const sensitivities = settings.known_bridge ? nullptr
-                                             : result.sampled      ? &result.sampled->sensitivities
-                                                                   : database.sensitivities();
+  result.sampled = sampled;
   if (sensitivities != nullptr) {
     require_control_points(file, list);
     result.factors = reading_factors(*sensitivities, states.base, channels, result.library.layout.size());

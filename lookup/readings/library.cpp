@@ -14,15 +14,21 @@ bool is(Outcome outcome, const SceneTable& table, std::size_t row) {
   return table.outcome[row] == static_cast<std::uint8_t>(outcome);
 }
 
+SceneTable table_of(const Database& database, std::size_t state, BridgeShown shown) {
+  return shown == BridgeShown::as_stated ? database.table(kNominalVariant, state)
+                                         : database.table_if_standing(state);
+}
+
 /// Fills a library row by row; rows are independent of each other.
 class Predictions {
  public:
-  Predictions(const Database& database, std::size_t base, const std::vector<Channel>& channels)
+  Predictions(const Database& database, std::size_t base, const std::vector<Channel>& channels,
+              BridgeShown shown)
       : database_(database), channels_(channels), states_{base} {
     for (const Channel& channel : channels)
       if (channel.loaded && std::find(states_.begin(), states_.end(), *channel.loaded) == states_.end())
         states_.push_back(*channel.loaded);
-    for (const std::size_t state : states_) tables_.push_back(database.table(kNominalVariant, state));
+    for (const std::size_t state : states_) tables_.push_back(table_of(database, state, shown));
     with_fields_ = std::any_of(channels.begin(), channels.end(),
                                [](const Channel& channel) { return !channel.sensor->weights.empty(); });
   }
@@ -32,15 +38,27 @@ class Predictions {
   LibraryStorage compute() const {
     const std::size_t rows = base().rows;
     LibraryStorage storage{std::vector<double>(rows * channels_.size()), std::vector<std::uint8_t>(rows)};
+    if (std::ranges::any_of(tables_, [](const SceneTable& table) { return !table.standing_share.empty(); }))
+      storage.standing_share.resize(rows);
     const int threads = with_fields_ ? hardware_threads() : 1;
     for_each_index_on_threads(rows, threads, [&](std::size_t row) {
       storage.outcome[row] = outcome(row);
+      if (!storage.standing_share.empty()) storage.standing_share[row] = standing_share(row);
       fill(row, std::span(storage.predictions).subspan(row * channels_.size(), channels_.size()));
     });
     return storage;
   }
 
  private:
+  /// What stands under a load stands without it.
+  double standing_share(std::size_t row) const {
+    double least = 0.0;
+    for (const SceneTable& table : tables_)
+      if (table.is_uncertain_fall(row))
+        least = least > 0.0 ? std::min(least, table.standing_share[row]) : table.standing_share[row];
+    return least;
+  }
+
   std::uint8_t outcome(std::size_t row) const {
     const bool unresolved = std::any_of(tables_.begin(), tables_.end(), [&](const SceneTable& table) {
       return is(Outcome::unresolved, table, row);
@@ -64,7 +82,7 @@ class Predictions {
                        const std::vector<Field>& fields) const {
     const auto found = std::find(states_.begin(), states_.end(), *channel.loaded);
     const auto state = static_cast<std::size_t>(found - states_.begin());
-    const bool stands = is(Outcome::standing, base(), row) && is(Outcome::standing, tables_[state], row);
+    const bool stands = base().may_stand(row) && tables_[state].may_stand(row);
     return stands ? shown(channel, row, state, fields) - unloaded : kNan;
   }
 
@@ -83,24 +101,27 @@ class Predictions {
 
 }  // namespace
 
-Library library_of(const Database& database, std::size_t state) {
-  return {
-      database.table(kNominalVariant, state), database.control_points(), database.layout(),
-      state == 0 || is_history(database.states().at(state)) ? database.search_index(state) : SearchIndex{}};
+/// The index is that of the table as it is stored.
+Library library_of(const Database& database, std::size_t state, BridgeShown shown) {
+  Library library{table_of(database, state, shown), database.control_points(), database.layout()};
+  const bool has_index = state == 0 || is_history(database.states().at(state));
+  if (has_index && library.table.standing_share.empty()) library.index = database.search_index(state);
+  return library;
 }
 
 std::string under_load(const std::string& load) {
   return load.empty() ? "" : " under " + load;
 }
 
-Library library_of_channels(const Database& database, std::size_t base,
-                            const std::vector<Channel>& channels) {
-  const Predictions predictions(database, base, channels);
+Library library_of_channels(const Database& database, std::size_t base, const std::vector<Channel>& channels,
+                            BridgeShown shown) {
+  const Predictions predictions(database, base, channels, shown);
   const auto storage = std::make_shared<const LibraryStorage>(predictions.compute());
   Library library{predictions.base(), {}, database.layout(), {}, storage};
   library.table.points = channels.size();
   library.table.vertical = storage->predictions;
   library.table.outcome = storage->outcome;
+  library.table.standing_share = storage->standing_share;
   for (const Channel& channel : channels) {
     const Sensor& sensor = *channel.sensor;
     library.points.push_back({sensor.name + under_load(channel.load), sensor.position, sensor.blocks.front(),

@@ -12,8 +12,15 @@ namespace voussoir {
 
 /// The numbers of a library that is no database's own table.
 struct LibraryStorage {
-  std::vector<double> predictions;    ///< rows x channels [m or rad]
-  std::vector<std::uint8_t> outcome;  ///< of each row, values of Outcome
+  std::vector<double> predictions;       ///< rows x channels [m or rad]
+  std::vector<std::uint8_t> outcome;     ///< of each row, values of Outcome
+  std::vector<double> standing_share{};  ///< of each row, as SceneTable has it
+};
+
+/// Which bridge shows what is looked at.
+enum class BridgeShown {
+  as_stated,       ///< just that of the bridge file
+  not_quite_known  ///< one that may stand where that one falls (Database::table_if_standing)
 };
 
 /// Predictions of every scene. A column of the table is a channel: what one sensor shows in one state, or in
@@ -28,7 +35,8 @@ struct Library {
 };
 
 /// The control points in one state of the nominal variant; refers to the database.
-Library library_of(const Database& database, std::size_t state = 0);
+Library library_of(const Database& database, std::size_t state = 0,
+                   BridgeShown shown = BridgeShown::as_stated);
 
 /// A sensor in a state, or what a load adds to its reading.
 struct Channel {
@@ -46,7 +54,8 @@ std::string under_load(const std::string& load);
 /// the scene does not stand in one of the two states, it shows NaN: nobody reads such a difference. A scene
 /// is unresolved if one of its states is. Throws Failure if a sensor needs fields that the database does not
 /// have.
-Library library_of_channels(const Database& database, std::size_t base, const std::vector<Channel>& channels);
+Library library_of_channels(const Database& database, std::size_t base, const std::vector<Channel>& channels,
+                            BridgeShown shown);
 
 /// Throws Failure naming the scene and what was expected if of this one only the outcome is known.
 void expect_displacements(const Library& library, std::size_t row);

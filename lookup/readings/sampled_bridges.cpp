@@ -25,7 +25,7 @@ struct StateTables {
 
 std::optional<std::span<const double>> standing_row(const SceneTable& table, const Scene& scene) {
   const auto row = table.find(scene);
-  return row && table.stands(*row) ? std::optional(table.row(*row)) : std::nullopt;
+  return row && table.may_stand(*row) ? std::optional(table.row(*row)) : std::nullopt;
 }
 
 /// How bridges differ from the nominal one in a scene [m]: points x bridges. Zero at points whose block is
@@ -221,10 +221,15 @@ void add_state(const Database& database, const FirstOrder* first_order,
   if (!intact_stands(database, kNominalVariant, state) ||
       (first_order && !first_order->sensitivities.find(state, {})))
     return;
-  StateTables tables{database.table(kNominalVariant, state), {}};
+  StateTables tables{database.table_if_standing(state), {}};
   for (const std::int32_t variant : variants) tables.sampled.push_back(database.table(variant, state));
   const StateFactors factors(tables, first_order, state);
-  for (std::size_t i = 0; i < made.scenes.size(); ++i) made.set(state, i, factors(made.scenes[i]));
+  for (std::size_t i = 0; i < made.scenes.size(); ++i) {
+    made.set(state, i, factors(made.scenes[i]));
+    const auto fall =
+        first_order ? first_order->sensitivities.find_fall(state, made.scenes[i]) : std::nullopt;
+    if (fall && made.is_known(state * made.scenes.size() + i)) made.set_fall(state, i, *fall);
+  }
   made.residuals[state] = factors.residual();
 }
 
@@ -253,7 +258,7 @@ void order_columns(Index samples, Sensitivities& sensitivities) {
   std::iota(order.begin(), order.end(), Index{0});
   std::stable_sort(order.begin(), order.end(), [&](Index a, Index b) { return sizes[a] > sizes[b]; });
   for (std::size_t place = 0; place < sensitivities.known.size(); ++place) {
-    if (sensitivities.known[place] == 0) continue;
+    if (!sensitivities.is_known(place)) continue;
     MatrixXd columns = sensitivities.bridge[place];
     columns.rightCols(samples) = (columns.rightCols(samples) * principal.eigenvectors()).eval();
     sensitivities.bridge.own(place) = columns(Eigen::all, order);

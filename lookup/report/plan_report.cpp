@@ -59,8 +59,9 @@ double mean_of(const SensorPlan& plan, double Sight::*share) {
 Table block_table(const SensorPlan& plan, const Database& database) {
   Table table{{"block", "falls", "seen", "named", "largest_change_m", "at", "silent_sensors", "alike"}, {}};
   for (const Sight& sight : plan.sights)
-    table.rows.push_back({label(sight.block, database), "no", sight.seen, sight.named, sight.largest,
-                          plan.point_of(sight), static_cast<double>(sight.silent),
+    table.rows.push_back({label(sight.block, database),
+                          std::ranges::count(plan.may_fall, sight.block) > 0 ? "may" : "no", sight.seen,
+                          sight.named, sight.largest, plan.point_of(sight), static_cast<double>(sight.silent),
                           sight.alike ? label(*sight.alike, database) : ""});
   for (const auto& [blocks, falls] : {std::pair{&plan.falls, "yes"}, std::pair{&plan.unknown, "unknown"}})
     for (const BlockId block : *blocks)
@@ -88,6 +89,7 @@ std::string plan_json(const SensorPlan& plan, const PlannedBridge& bridge) {
                                    {"mean_seen", mean_of(plan, &Sight::seen)},
                                    {"mean_named", mean_of(plan, &Sight::named)},
                                    {"standing", plan.sights.size()},
+                                   {"may_fall", plan.may_fall.size()},
                                    {"falls", plan.falls.size()}};
   result["chosen"] = plan.chosen;
   result["blocks"] = nlohmann::ordered_json::parse(to_json(block_table(plan, bridge.database)));
@@ -137,6 +139,10 @@ void write_counts(Text to, const SensorPlan& plan, const PlannedBridge& bridge) 
   fmt::format_to(to, "Hardly seen:  {} would be seen with a chance of less than {:.0f} %{}\n",
                  some_of(hardly.size(), count, "losses"), 100.0 * kHardly,
                  hardly.empty() ? "" : ": " + labels(hardly, bridge.database));
+  if (!plan.may_fall.empty())
+    fmt::format_to(
+        to, "May fall:     a bridge just as its file says would without one of {} of these blocks: {}\n",
+        plan.may_fall.size(), labels(plan.may_fall, bridge.database));
   if (!plan.falls.empty())
     fmt::format_to(to, "Falls:        without one of {} more blocks something falls: {}\n", plan.falls.size(),
                    labels(plan.falls, bridge.database));

@@ -22,9 +22,11 @@ ordered_json candidate_json(const Candidate& candidate, const BlockLayout& layou
                          {"misfit", candidate.misfit},
                          {"posterior", nullptr},
                          {"outcome", to_string(candidate.outcome)},
+                         {"standing_share", nullptr},
                          {"place", place_in_words(candidate.scene, layout)},
                          {"indistinguishable", std::move(same)}};
   if (candidate.posterior) result["posterior"] = *candidate.posterior;
+  if (candidate.standing_share) result["standing_share"] = *candidate.standing_share;
   return result;
 }
 

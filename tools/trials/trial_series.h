@@ -15,9 +15,8 @@ struct Taking {
   std::size_t every = 1;   ///< take this one of so many scenes of a bridge
 };
 
-/// Readings of the true bridges' scenes with so many missing blocks, each bridge's own ones; scenes that do
-/// not stand in the database are left out. Absolute readings are of the scene as built, others of blocks that
-/// were lost.
+/// Readings of the true bridges' scenes with so many missing blocks, each bridge's own ones. Absolute
+/// readings are of the scene as built, others of blocks that were lost.
 std::vector<Trial> look_for_damage(const Asking& asking, const std::vector<TrueBridge>& bridges, int missing,
                                    const Taking& taking);
 

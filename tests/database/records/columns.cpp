@@ -238,7 +238,7 @@ TEST_CASE("The h5py example names the datasets in the digest in their order") {
   const BridgeFile file = test::small_bridge_file();
   const Model bridge = make_model(file.description);
   std::vector<std::string> expected;
-  const Sensitivities sensitivities = test::made_up_sensitivities(bridge, {Scene{}}, 1);
+  const Sensitivities sensitivities = test::made_up_sensitivities(bridge, all_scenes(38, 1), 1);
   for (const DatasetValue& value :
        shared_datasets(test::made_up_provenance(file), bridge, {test::made_up_parameters(bridge, 0)},
                        {kBuiltState}, {}, &sensitivities))

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <limits>
 
 #include "core/error.h"
@@ -106,6 +107,34 @@ TEST_CASE("Sensitivities are read back as they were written, to the last bit") {
   CHECK(stored->of_epoch() == 2);
 }
 
+TEST_CASE("What falls but may stand is read back, and a bridge that is not quite known shows it") {
+  SmallDatabase small;
+  const Database database = small.write(small.made);
+  const Scene& scene = small.made.scenes[test::kMadeUpFall];
+  const std::size_t state = kStates - 1, row = database.find(scene).value();
+  const auto fall = database.sensitivities()->find_fall(state, scene);
+  REQUIRE(fall);
+  CHECK(fall->standing_share == 0.25);
+  const Eigen::VectorXd expected = small.made.find_fall(state, scene)->if_standing;
+  CHECK(fall->if_standing == expected);
+  CHECK_FALSE(database.sensitivities()->find_fall(0, scene));
+  CHECK_FALSE(database.sensitivities()->find_fall(state, small.made.scenes[1]));
+  const SceneTable stored = database.table(kNominalVariant, state), shown = database.table_if_standing(state);
+  CHECK_FALSE(stored.may_stand(row));
+  CHECK(shown.may_stand(row));
+  CHECK(shown.weight(row) == 0.25);
+  for (std::size_t other = 0; other < stored.rows; ++other)
+    for (std::size_t i = 0; i < stored.points; ++i) {
+      const bool is_gone = database.control_points()[i].is_on(scene.removed.front());
+      const double now = shown.row(other)[i];
+      if (other == row)
+        CHECK((is_gone ? std::isnan(now) : now == expected[static_cast<Eigen::Index>(i)]));
+      else
+        CHECK((now == stored.row(other)[i] || (std::isnan(now) && std::isnan(stored.row(other)[i]))));
+    }
+  CHECK(database.table_if_standing(0).vertical.data() == database.table(kNominalVariant, 0).vertical.data());
+}
+
 TEST_CASE("A bridge without parameters of an epoch, or of its own, is read back as well") {
   SmallDatabase small;
   Sensitivities known = small.made;
@@ -176,15 +205,32 @@ TEST_CASE("Sensitivities that do not fit together are refused and named") {
   CHECK_THAT(small.refusal(wrong), Catch::Contains("load_place': expected places in ascending order"));
 }
 
+TEST_CASE("Shares of bridges that stand are refused of scenes that do not fall, and where they are none") {
+  SmallDatabase small;
+  Sensitivities wrong = small.made;
+  const std::size_t place = wrong.scenes.size() + test::kMadeUpFall;
+  for (const double share : {0.0, -0.5, 1.5}) {
+    wrong.standing_share[place] = share;
+    CHECK_THAT(small.refusal(wrong),
+               Catch::Contains(fmt::format("standing_share' says {} of a scene of which "
+                                           "'sensitivity/known' says 2",
+                                           share)));
+  }
+  wrong.standing_share[place] = 0.25;
+  wrong.standing_share[place + 1] = 0.25;
+  CHECK_THAT(small.refusal(wrong), Catch::Contains("'sensitivity/known' says 1"));
+}
+
 TEST_CASE("Datasets of sensitivities of another type or shape are refused and named") {
   for (const char* path :
        {dataset::kUncertainName,    dataset::kUncertainUnit,    dataset::kUncertainSigma,
         dataset::kUncertainOfEpoch, dataset::kSensitivityBasis, dataset::kSensitivityRemoved,
         dataset::kSensitivityKnown, dataset::kBridgeFactors,    dataset::kEpochFactors,
-        dataset::kSignalLeft,       dataset::kResidualBridge,   dataset::kResidualEpoch,
-        dataset::kResidualShare,    dataset::kUnevenness,       dataset::kLoadPlace,
-        dataset::kLoadInfluence,    dataset::kSignalFirst,      dataset::kSignalOwn,
-        dataset::kSignalIntact,     dataset::kSignalLead,       dataset::kSignalEpoch}) {
+        dataset::kStandingShare,    dataset::kIfStanding,       dataset::kSignalLeft,
+        dataset::kResidualBridge,   dataset::kResidualEpoch,    dataset::kResidualShare,
+        dataset::kUnevenness,       dataset::kLoadPlace,        dataset::kLoadInfluence,
+        dataset::kSignalFirst,      dataset::kSignalOwn,        dataset::kSignalIntact,
+        dataset::kSignalLead,       dataset::kSignalEpoch}) {
     INFO(path);
     SmallDatabase small;
     static_cast<void>(small.write(small.made));

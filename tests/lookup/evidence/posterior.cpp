@@ -66,6 +66,29 @@ TEST_CASE("So it is of up to three missing blocks") {
   check_against_brute_force(SyntheticLibrary(3, 5, 3), {{1.0, 2.0, 1.0, 3.0}, {1.0L, 15.0L, 105.0L, 455.0L}});
 }
 
+TEST_CASE("A scene that falls as the file says counts by the share of bridges that stand (closed form)") {
+  SyntheticLibrary library(2, 3, 1);
+  constexpr std::size_t kFall = 2;
+  std::ranges::fill(library.outcome, static_cast<std::uint8_t>(Outcome::standing));
+  library.outcome[kFall] = static_cast<std::uint8_t>(Outcome::collapsed);
+  std::vector<double> share(library.table.rows, 0.0);
+  share[kFall] = 0.25;
+  SceneTable table = library.table;
+  table.standing_share = share;
+  const Prior prior = {{0, 1}, {3.0, 1.0}};
+  const Eligible eligible = eligible_rows(table, prior.missing);
+  CHECK(eligible.scenes == std::vector{1.0, 5.25});
+  CHECK(eligible.standing == std::vector{1.0, 5.25});
+  const RowValues nothing_said{kImpossible, eligible.rows, std::vector<double>(eligible.rows.size(), 0.0)};
+  const Posterior result = posterior(table, eligible, nothing_said, prior, library.blocks);
+  CHECK(result.missing_probability[1] == Approx(0.25));
+  CHECK(result.probability[kFall] == Approx(0.25 * 0.25 / 5.25));
+  CHECK(result.probability[kFall + 1] == Approx(0.25 / 5.25));
+  CHECK(result.intact_if_even == Approx(0.5));
+  REQUIRE(result.open_losses.size() == 6);
+  for (const OpenLoss& open : result.open_losses) CHECK(open.times_as_likely == Approx(1.0));
+}
+
 TEST_CASE("A prior that is not given is of the numbers that the table holds, each as what is believed says") {
   const SyntheticLibrary pairs(3, 5), triples(3, 5, 3);
   CHECK(stated_prior({}, pairs.table, true).missing == std::vector<int>{0, 1, 2});
@@ -123,8 +146,8 @@ TEST_CASE("Scenes that fall and keep no field are nobody's readings, and no prio
   }
   const Eligible eligible = eligible_rows(library.table, {0, 1, 2});
   CHECK(eligible.fallen == std::vector<std::size_t>{0, 1, 1});
-  CHECK(eligible.scenes == std::vector<std::size_t>{1, 14, 104});
-  CHECK(eligible.standing == std::vector<std::size_t>{1, 14, 91});  // of 14 blocks: 14, 14 * 13 / 2
+  CHECK(eligible.scenes == std::vector<double>{1, 14, 104});
+  CHECK(eligible.standing == std::vector<double>{1, 14, 91});  // of 14 blocks: 14, 14 * 13 / 2
   const Prior prior{{0, 1, 2}, {8.0, 1.0, 1.0}};
   CHECK(std::exp(log_prior_by_missing(library.table, eligible, prior)[1]) == Approx(0.1 / 14.0));
 }

@@ -203,6 +203,23 @@ TEST_CASE("What the screen leaves out or estimates changes no probability by mor
       }
 }
 
+TEST_CASE("So is it where some scenes fall as the file says, but may stand") {
+  Random random(23);
+  for (const ReadingKind kind : {ReadingKind::absolute, ReadingKind::change}) {
+    Trial trial(4, 4, 5, 2e-4);
+    SceneTable& table = trial.library.table;
+    std::vector<double> share(table.rows, 0.0);
+    for (const std::size_t row : {std::size_t{3}, std::size_t{6}, std::size_t{40}}) {
+      trial.library.outcome[row] = static_cast<std::uint8_t>(Outcome::collapsed);
+      share[row] = 0.125;
+    }
+    table.standing_share = share;
+    trial.comparison.library.table = table;
+    trial.measure(kind, 6, 1e-5, random);
+    CHECK(largest_difference(trial, {}) < 1e-3);
+  }
+}
+
 TEST_CASE("Cases that are not looked at change no probability by more than a thousandth") {
   Trial trial(4, 6, 8, 3e-5);
   Random random(6);
