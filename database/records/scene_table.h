@@ -36,6 +36,10 @@ struct SceneTable {
     return !standing_share.empty() && standing_share[scene] > 0.0;
   }
   bool may_stand(std::size_t scene) const { return stands(scene) || is_uncertain_fall(scene); }
+  /// Is it known how it ends, or how it would if it stood?
+  bool has_answer(std::size_t scene) const {
+    return outcome[scene] != static_cast<std::uint8_t>(Outcome::unresolved) || is_uncertain_fall(scene);
+  }
   /// How many scenes it counts for beforehand, among those that may be read; and the logarithm of that.
   double weight(std::size_t scene) const { return is_uncertain_fall(scene) ? standing_share[scene] : 1.0; }
   double log_weight(std::size_t scene) const {

@@ -17,6 +17,7 @@ void Sensitivities::make_room(std::size_t states, Eigen::Index points, Eigen::In
   epoch = StackedMatrices(count, points, of_epoch());
   left = StackedMatrices(count, points, samples);
   standing_share.clear();
+  if_standing = {};
   residuals.resize(states);
 }
 
@@ -65,6 +66,9 @@ bool are_factors_sound(const Sensitivities& sensitivities) {
                               sensitivities.left[place]};
     const bool is_known = sensitivities.is_known(place);
     if (!is_known && !(factors.bridge.isZero(0.0) && factors.epoch.isZero(0.0))) return false;
+    const bool is_fall = sensitivities.known[place] == FactorsKnown::of_uncertain_fall;
+    if (!sensitivities.standing_share.empty() && !is_fall && !sensitivities.if_standing[place].isZero(0.0))
+      return false;
     const bool is_loss = place % sensitivities.scenes.size() != 0;
     if (!(is_known && is_loss) && !factors.left.isZero(0.0)) return false;
   }

@@ -133,8 +133,8 @@ struct Sensitivities {
 bool precedes(const Scene& first, const Scene& second);
 
 /// Looks at all factors, one scene after the other. Throws InputError if a number is not finite; false if
-/// there are factors of scenes of which nothing is known, or if something is left of the intact bridge's
-/// signal.
+/// there are factors of scenes of which nothing is known, or readings of what is no uncertain fall, or if
+/// something is left of the intact bridge's signal.
 bool are_factors_sound(const Sensitivities& sensitivities);
 
 }  // namespace voussoir

@@ -268,6 +268,9 @@ void read_load(const Hdf5File& file, const SensitivitySizes& sizes, Sensitivitie
 
 void read_falls(const Hdf5File& file, const SensitivitySizes& sizes, Sensitivities& into) {
   const std::uint64_t scenes = into.scenes.size();
+  file.require(file.has(dataset::kStandingShare) == file.has(dataset::kIfStanding),
+               fmt::format("has one of the datasets '{}' and '{}', expected both or none",
+                           dataset::kStandingShare, dataset::kIfStanding));
   if (file.has(dataset::kStandingShare)) {
     const auto shares = finite_numbers(file, dataset::kStandingShare, {sizes.states, scenes});
     into.standing_share.assign(shares.begin(), shares.end());
@@ -277,9 +280,9 @@ void read_falls(const Hdf5File& file, const SensitivitySizes& sizes, Sensitiviti
   for (std::size_t place = 0; place < into.known.size(); ++place) {
     const double share = into.standing_share.empty() ? 0.0 : into.standing_share[place];
     const bool is_fall = into.known[place] == FactorsKnown::of_uncertain_fall;
-    file.require(is_fall ? share > 0.0 && share <= 1.0 && place % scenes != 0 : share == 0.0,
-                 fmt::format("dataset '{}' says {} of a scene of which '{}' says {}", dataset::kStandingShare,
-                             share, dataset::kSensitivityKnown, static_cast<int>(into.known[place])));
+    if (is_fall ? share > 0.0 && share <= 1.0 && place % scenes != 0 : share == 0.0) continue;
+    file.refuse(fmt::format("dataset '{}' says {} of a scene of which '{}' says {}", dataset::kStandingShare,
+                            share, dataset::kSensitivityKnown, static_cast<int>(into.known[place])));
   }
 }
 

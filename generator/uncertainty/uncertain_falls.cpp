@@ -23,8 +23,17 @@ Model as_rough_as_any(Model bridge, const std::vector<SampledBridge>& sampled) {
   return bridge;
 }
 
-/// The intact scene, and those that fall in some kept state in which the intact bridge stands, unless limit
-/// analysis proves that they fall in each of the bridges. Places among the nominal bridge's scenes.
+/// Does the nominal bridge not stand without these blocks, in one of the kept states in which it does with
+/// them? Unresolved scenes, too.
+bool falls(const SensitivityStudy& study, const FirstOrder& first_order, std::size_t state,
+           std::size_t scene) {
+  const std::optional<Solution>& solution =
+      first_order.nominal.states[scene][kept_states(study.states)[state]];
+  return first_order.derivatives[state][kIntactScene].size() > 0 && !(solution && stands(*solution));
+}
+
+/// The intact scene, and those that fall in some kept state, unless limit analysis proves that they fall in
+/// each of the bridges. Places among the nominal bridge's scenes.
 std::vector<std::size_t> scenes_that_may_stand(const SensitivityStudy& study, const FirstOrder& first_order,
                                                const std::vector<SampledBridge>& sampled) {
   const Model rough = as_rough_as_any(study.bridge, sampled);
@@ -32,10 +41,10 @@ std::vector<std::size_t> scenes_that_may_stand(const SensitivityStudy& study, co
   const Coefficients coefficients(system, rough.parameters);
   std::vector<std::size_t> places = {kIntactScene};
   for (std::size_t scene = 1; scene < first_order.nominal.scenes.size(); ++scene) {
-    const bool falls = std::ranges::any_of(first_order.derivatives, [&](const auto& state) {
-      return state[kIntactScene].size() > 0 && state[scene].size() == 0;
-    });
-    if (!falls) continue;
+    bool falls_somewhere = false;
+    for (std::size_t state = 0; state < first_order.derivatives.size(); ++state)
+      falls_somewhere = falls_somewhere || falls(study, first_order, state, scene);
+    if (!falls_somewhere) continue;
     const Scene& lost = first_order.nominal.scenes[scene];
     const std::vector<BlockId>& moving = first_order.nominal.states[scene][kBuilt]->moving;
     const bool always = fall_beside(lost, rough, coefficients) ||
@@ -144,15 +153,15 @@ std::vector<SampledFall> find_uncertain_falls(const SensitivityStudy& study,
   for (const std::size_t place : places) scenes.push_back(first_order.nominal.scenes[place]);
 
   const std::vector<ShownAtRest> shown = all_at_rest(study, scenes, sampled, progress);
-  std::vector<SampledFall> falls;
+  std::vector<SampledFall> found;
   for (std::size_t state = 0; state < first_order.derivatives.size(); ++state)
     for (std::size_t i = 1; i < scenes.size(); ++i) {
       const std::vector<std::size_t> standing = standing_bridges(shown, state, i);
-      if (first_order.derivatives[state][places[i]].size() > 0 || standing.empty()) continue;
-      falls.push_back(average(sampled, shown, standing, state, i));
-      falls.back().scene = places[i];
+      if (standing.empty() || !falls(study, first_order, state, places[i])) continue;
+      found.push_back(average(sampled, shown, standing, state, i));
+      found.back().scene = places[i];
     }
-  return falls;
+  return found;
 }
 
 }  // namespace voussoir

@@ -69,7 +69,8 @@ SensitivityCheck check_sensitivities(const Database& database, const Model& brid
     ++check.scenes;
     const SceneStates states = stored_states(database, *row, plan);
     for (std::size_t state = 0; state < plan.size(); ++state) {
-      if (stored->find_fall(state, scene)) continue;  // its sensitivities are of other bridges
+      // Sensitivities of an uncertain fall are of other bridges.
+      if (stored->find_fall(state, scene) && !(states[state] && stands(*states[state]))) continue;
       const Eigen::MatrixXd anew = derivatives.of(scene, state, states, intact);
       const auto factors = stored->find(state, scene);
       const bool is_same =

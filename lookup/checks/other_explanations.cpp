@@ -102,7 +102,9 @@ std::optional<Fit> check_hidden_losses(const QuestionContext& asked) {
                     asked.preparation.eligible(), asked.gaussians);
   hidden.resize(std::min(hidden.size(), kMostHidden));
   for (const HiddenLoss& one : hidden) {
-    if (!is_likely_beside(prior[0], one.gain + prior[1] + std::log(kKeptChance))) break;
+    if (!is_likely_beside(prior[0],
+                          one.gain + prior[1] + library.table.log_weight(one.row) + std::log(kKeptChance)))
+      break;
     if (!would_be_lost(asked, one)) continue;
     return Fit{false, asked.believed.chance,
                fmt::format("only what is read at {} says that {} is still there; if that is on it no longer, "

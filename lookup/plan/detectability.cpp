@@ -97,11 +97,11 @@ std::optional<ArrayXd> log_densities(const DrawnReadings& drawn, const LossGauss
 }
 
 /// Adds what one loss, or none, says of all draws.
-void explain(std::optional<BlockId> lost, const LossGaussian& loss, const SightSettings& settings,
-             DrawnReadings& drawn) {
+void explain(std::optional<BlockId> lost, const LossGaussian& loss, double log_prior,
+             const SightSettings& settings, DrawnReadings& drawn) {
   const std::optional<ArrayXd> densities = log_densities(drawn, loss, settings.log_silence);
   if (!densities) return;
-  const ArrayXd logs = *densities + (lost ? settings.log_prior_loss : settings.log_prior_intact);
+  const ArrayXd logs = *densities + log_prior;
   for (Index i = 0; i < logs.size(); ++i) drawn.log_all[i] = log_sum(drawn.log_all[i], logs[i]);
   if (!lost) drawn.log_intact = logs;
   for (std::size_t b = 0; lost && b < drawn.blocks.size(); ++b) {
@@ -144,7 +144,10 @@ std::vector<Sight> sights_of(const UnknownBridge& bridge, const CaseNoise& noise
   for (const BlockId block : blocks_with_sensitivities(bridge)) losses.emplace_back(block);
   for (const std::optional<BlockId> lost : losses) {
     const LossGaussian loss = loss_gaussian(bridge, noise, lost);
-    for (auto& [rows, drawn] : all) explain(lost, loss, settings, drawn);
+    const double log_prior =
+        lost ? settings.log_prior_loss + bridge.losses[static_cast<std::size_t>(value(*lost))].log_weight
+             : settings.log_prior_intact;
+    for (auto& [rows, drawn] : all) explain(lost, loss, log_prior, settings, drawn);
   }
   std::vector<Sight> sights;
   for (const auto& [rows, drawn] : all)

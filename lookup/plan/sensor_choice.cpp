@@ -24,7 +24,7 @@ constexpr Index kWider = 8;
 
 /// What decides whether a loss is seen: logs of likelihood ratios.
 struct Odds {
-  double wanted;     // that makes it certain
+  double wanted;     // that makes it certain, but for the loss's weight
   double of_silent;  // that each sensor adds which falls silent
 
   explicit Odds(const SightSettings& settings)
@@ -32,8 +32,8 @@ struct Odds {
                settings.log_prior_loss),
         of_silent(-settings.log_silence) {}
 
-  double chance(double divergence, Index silent) const {
-    const double left = std::max(0.0, wanted - static_cast<double>(silent) * of_silent);
+  double chance(double divergence, Index silent, double log_weight) const {
+    const double left = std::max(0.0, wanted - log_weight - static_cast<double>(silent) * of_silent);
     return std::exp(-left / std::max(divergence, std::numeric_limits<double>::min()));
   }
 };
@@ -43,8 +43,9 @@ struct Odds {
 /// it.
 struct LossBesideIntact {
   std::vector<Index> silent;
-  MatrixXd pulled;  // K T
-  MatrixXd inner;   // T^T K T
+  MatrixXd pulled;    // K T
+  MatrixXd inner;     // T^T K T
+  double log_weight;  // Loss::log_weight
 };
 
 /// [s W] of a loss.
@@ -71,7 +72,8 @@ LossBesideIntact loss_beside_intact(const UnknownBridge& bridge, const CaseNoise
   const LossGaussian loss = loss_gaussian(bridge, noise, block);
   const std::vector<Index> read = rows_with_reading(loss.signal);
   const MatrixXd columns = columns_of(loss, covariance, read);
-  LossBesideIntact result{{}, precision * columns, {}};
+  LossBesideIntact result{
+      {}, precision * columns, {}, bridge.losses[static_cast<std::size_t>(value(block))].log_weight};
   result.inner = columns.transpose() * result.pulled;
   for (Index row = 0; row < loss.signal.size(); ++row)
     if (std::isnan(loss.signal[row])) result.silent.push_back(row);
@@ -140,12 +142,12 @@ class ReadRows {
     const auto count = static_cast<Index>(silent.size());
     for (const Index row : rows_) {
       if (std::ranges::binary_search(silent, row)) {
-        chances[row] = odds.chance(divergence, count - 1);
+        chances[row] = odds.chance(divergence, count - 1, loss.log_weight);
         continue;
       }
       const double less = pulled.row(row).squaredNorm() / diagonal[row] +
                           std::log1p(-within.col(row).squaredNorm() / diagonal[row]);
-      chances[row] = odds.chance(divergence - 0.5 * less, count);
+      chances[row] = odds.chance(divergence - 0.5 * less, count, loss.log_weight);
     }
     return chances;
   }

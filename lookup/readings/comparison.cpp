@@ -127,6 +127,23 @@ void require_control_points(const ReadingsFile& file, const SensorList& list) {
                               in_quotes(list.sensors[reading.sensor].name))));
 }
 
+/// What says how the readings of a bridge scatter that is not exactly known. Nothing: it counts as known.
+struct Evidence {
+  std::shared_ptr<const SampledBridges> sampled;
+  std::shared_ptr<const ReadingFactors> factors;
+};
+
+Evidence evidence_of(const ReadingsFile& file, const SensorList& list, const Database& database,
+                     const ComparisonSettings& settings, std::size_t base,
+                     const std::vector<Channel>& channels) {
+  if (settings.known_bridge) return {};
+  const Sensitivities* const sensitivities =
+      settings.sampled ? &settings.sampled->sensitivities : database.sensitivities();
+  if (sensitivities == nullptr) return {};
+  require_control_points(file, list);
+  return {settings.sampled, reading_factors(*sensitivities, base, channels, database.layout().size())};
+}
+
 /// A bridge that falls by itself shows nothing that readings could be compared with.
 void require_standing(const Database& database, const Library& library) {
   const std::span<const double> intact = intact_predictions(library.table);
@@ -151,26 +168,20 @@ Comparison compare(const ReadingsFile& file, const SensorList& list, const Datab
   });
   const std::vector<Channel> channels =
       own_table ? control_point_channels(list) : channels_of(file, list, states);
-  const auto sampled = settings.known_bridge ? nullptr : settings.sampled;
-  const Sensitivities* const sensitivities = settings.known_bridge ? nullptr
-                                             : sampled             ? &sampled->sensitivities
-                                                                   : database.sensitivities();
-  const BridgeShown shown = sensitivities ? BridgeShown::not_quite_known : BridgeShown::as_stated;
+  const Evidence evidence = evidence_of(file, list, database, settings, states.base, channels);
+  const BridgeShown shown = evidence.factors ? BridgeShown::not_quite_known : BridgeShown::as_stated;
   Comparison result{.kind = file.kind,
                     .history = states.history,
                     .library = own_table ? library_of(database, states.base, shown)
                                          : library_of_channels(database, states.base, channels, shown),
                     .measured = {},
-                    .model_error = {}};
+                    .model_error = {},
+                    .factors = evidence.factors,
+                    .sampled = evidence.sampled};
   require_standing(database, result.library);
   enter(file, settings.sigma, result);
   result.model_error = settings.model_error ? ModelError{*settings.model_error, 0.0, {}}
                                             : model_error_of(database, states.base, channels, result.library);
-  result.sampled = sampled;
-  if (sensitivities != nullptr) {
-    require_control_points(file, list);
-    result.factors = reading_factors(*sensitivities, states.base, channels, result.library.layout.size());
-  }
   const bool heights_alone = own_table && std::ranges::all_of(channels, is_vertical);
   const std::vector<std::string> levellings = levelling_names(file, result);
   const bool one_levelling =

@@ -50,13 +50,16 @@ class Predictions {
   }
 
  private:
-  /// What stands under a load stands without it.
+  /// What stands under a load stands without it. 0 as well if it never stands in one of the states.
   double standing_share(std::size_t row) const {
-    double least = 0.0;
-    for (const SceneTable& table : tables_)
-      if (table.is_uncertain_fall(row))
-        least = least > 0.0 ? std::min(least, table.standing_share[row]) : table.standing_share[row];
-    return least;
+    double least = 1.0;
+    bool is_uncertain = false;
+    for (const SceneTable& table : tables_) {
+      if (!table.may_stand(row)) return 0.0;
+      least = std::min(least, table.weight(row));
+      is_uncertain = is_uncertain || table.is_uncertain_fall(row);
+    }
+    return is_uncertain ? least : 0.0;
   }
 
   std::uint8_t outcome(std::size_t row) const {
@@ -71,6 +74,10 @@ class Predictions {
     if (with_fields_)
       for (const std::size_t state : states_)
         fields.push_back(database_.field(base().first_record + row, state));
+    if (base().is_uncertain_fall(row) && standing_share(row) == 0.0) {
+      std::ranges::fill(predictions, kNan);
+      return;
+    }
     for (std::size_t i = 0; i < channels_.size(); ++i) {
       const Channel& channel = channels_[i];
       predictions[i] = shown(channel, row, 0, fields);

@@ -37,7 +37,7 @@ struct Sample {
   Index standing = 0;  ///< bridges
 };
 
-/// Nothing if the scene does not stand in the nominal bridge.
+/// Nothing if the scene neither stands in the nominal bridge nor may.
 std::optional<Sample> sample_of(const StateTables& tables, const Scene& scene) {
   const auto nominal = standing_row(tables.nominal, scene);
   if (!nominal) return std::nullopt;
@@ -224,12 +224,7 @@ void add_state(const Database& database, const FirstOrder* first_order,
   StateTables tables{database.table_if_standing(state), {}};
   for (const std::int32_t variant : variants) tables.sampled.push_back(database.table(variant, state));
   const StateFactors factors(tables, first_order, state);
-  for (std::size_t i = 0; i < made.scenes.size(); ++i) {
-    made.set(state, i, factors(made.scenes[i]));
-    const auto fall =
-        first_order ? first_order->sensitivities.find_fall(state, made.scenes[i]) : std::nullopt;
-    if (fall && made.is_known(state * made.scenes.size() + i)) made.set_fall(state, i, *fall);
-  }
+  for (std::size_t i = 0; i < made.scenes.size(); ++i) made.set(state, i, factors(made.scenes[i]));
   made.residuals[state] = factors.residual();
 }
 

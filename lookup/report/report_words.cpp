@@ -211,10 +211,10 @@ std::vector<std::string> conclusions_in_words(const Answer& answer, const Librar
                                     percent(answer.posterior->probability[*missed]),
                                     in_words(library.table.scene(*missed), library)));
   if (best.standing_share)
-    sentences.push_back(fmt::format(
-        "A bridge just as the file says would fall without it; of those drawn at random as the file says "
-        "how well it is known {:.0f} % stand.",
-        100.0 * *best.standing_share));
+    sentences.push_back(
+        fmt::format("A bridge just as the file says would not stand without {}; of those drawn at "
+                    "random as the file says how well it is known {:.0f} % do.",
+                    to_string(best.scene, library.layout), 100.0 * *best.standing_share));
   else if (best.outcome == Outcome::collapsed)
     sentences.push_back("This scene collapses: its displacements are a snapshot, not an equilibrium.");
   return sentences;

@@ -35,8 +35,7 @@ Eligible eligible_rows(const SceneTable& table, const std::vector<int>& missing)
   for (std::size_t row = 0; row < table.rows; ++row) {
     const int lost = missing_blocks(table, row);
     if (!wanted[static_cast<std::size_t>(lost)]) continue;
-    if (table.outcome[row] == static_cast<std::uint8_t>(Outcome::unresolved) &&
-        !table.is_uncertain_fall(row)) {
+    if (!table.has_answer(row)) {
       ++result.unresolved;
       continue;
     }

@@ -203,9 +203,7 @@ std::size_t GeneSpace::row(std::span<const int> genes) const {
   }
   std::ranges::sort(blocks);
   const std::size_t row = row_of(blocks);
-  const bool is_solved =
-      row < table_.rows && table_.outcome[row] != static_cast<std::uint8_t>(Outcome::unresolved);
-  return is_solved ? row : none;
+  return row < table_.rows && table_.has_answer(row) ? row : none;
 }
 
 void mutate_block(std::span<int, 2> block, const GeneSpace& space, Random& random) {

@@ -127,8 +127,12 @@ void add_losses(const Comparison& comparison, const Observation& observation, Un
   bridge.blocks = factors.blocks.size();
   bridge.losses.resize(bridge.blocks);
   for_each_index_on_threads(bridge.blocks, hardware_threads(), [&](std::size_t block) {
-    if (const auto row = table.find({{BlockId{static_cast<std::int32_t>(block)}}}))
-      bridge.losses[block] = loss_of(bridge, observation, factors.blocks[block], table.row(*row));
+    const auto row = table.find({{BlockId{static_cast<std::int32_t>(block)}}});
+    if (!row) return;
+    Loss& loss = bridge.losses[block];
+    loss = loss_of(bridge, observation, factors.blocks[block], table.row(*row));
+    loss.may_fall = table.is_uncertain_fall(*row);
+    loss.log_weight = table.log_weight(*row);
   });
   for (const auto& [scene, change] : factors.several)
     if (const auto row = table.find(scene)) {

@@ -68,6 +68,8 @@ struct Loss {
   Eigen::VectorXd signal{};              ///< [m] NaN at readings that the loss makes impossible
   double bridge_variance = 0.0;  ///< [m2] that parameters of the bridge give the signal, summed over rows
   double epoch_variance = 0.0;   ///< [m2] the same of those of an epoch, as the bridge file states them
+  bool may_fall = false;         ///< in the nominal bridge it does (SceneTable::is_uncertain_fall)
+  double log_weight = 0.0;       ///< SceneTable::log_weight
   bool known() const { return factors != nullptr; }
 };
 
@@ -96,7 +98,8 @@ struct UnknownBridge {
 UnknownBridge unknown_bridge(const Comparison& comparison, const Observation& observation,
                              const UnknownSettings& settings);
 
-/// The losses with factors that a scene is made of: places in UnknownBridge::losses.
+/// The losses with factors that a scene is made of: places in UnknownBridge::losses. Of what falls those do
+/// not count that only some bridges survive.
 inline constexpr std::size_t kMostLosses = 3;
 struct KnownLosses {
   std::array<std::size_t, kMostLosses> place{};
@@ -113,7 +116,9 @@ inline KnownLosses known_losses(const UnknownBridge& bridge, const SceneTable& t
   KnownLosses found;
   for (const std::int32_t block : table.removed.subspan(row * table.most_missing, table.most_missing)) {
     if (block < 0) continue;
-    if (bridge.losses[static_cast<std::size_t>(block)].known() && found.count < kMostLosses)
+    const Loss& loss = bridge.losses[static_cast<std::size_t>(block)];
+    const bool is_known = loss.known() && !(loss.may_fall && !table.may_stand(row));
+    if (is_known && found.count < kMostLosses)
       found.place[found.count++] = static_cast<std::size_t>(block);
     else
       found.all = false;

@@ -102,10 +102,12 @@ inline DatabaseContent made_up_content(const BridgeFile& file, const Model& brid
   return content;
 }
 
+/// The place among the scenes of a single that falls (made_up_solution).
+inline constexpr std::size_t kMadeUpFall = 16;
+
 /// Made-up numbers for the intact bridge and the singles among the scenes, which are in their order; every
 /// fifth single has none in the last state. Two sampled bridges show what is left of signals. In the last
 /// state a single that falls (made_up_solution) stands in some bridges.
-inline constexpr std::size_t kMadeUpFall = 16;
 inline Sensitivities made_up_sensitivities(const Model& bridge, const std::vector<Scene>& scenes,
                                            std::size_t states) {
   const auto points = static_cast<Eigen::Index>(bridge.control_points.size());
