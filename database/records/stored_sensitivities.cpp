@@ -38,6 +38,13 @@ struct Filling {
   }
 };
 
+void append_matrix(const char* path, const char* units, const char* meaning, const Eigen::MatrixXd& matrix,
+                   std::vector<DatasetValue>& datasets) {
+  Filling<double> filling{path, ElementType::float64, units, meaning};
+  filling.add(matrix);
+  filling.finish({extent(matrix.rows()), extent(matrix.cols())}, datasets);
+}
+
 void append_parameters(const Sensitivities& from, std::vector<DatasetValue>& datasets) {
   std::vector<std::string> names, units;
   Filling<double> sigma{dataset::kUncertainSigma, ElementType::float64, "1",
@@ -151,12 +158,10 @@ void append_unevenness(const Sensitivities& from, std::vector<DatasetValue>& dat
 void append_load(const LoadInfluence& load, std::vector<DatasetValue>& datasets) {
   Filling<double>{dataset::kLoadPlace, ElementType::float64, "m", "places along the top, x", load.places}
       .finish({load.places.size()}, datasets);
-  Filling<double> influence{
-      dataset::kLoadInfluence, ElementType::float64, "m2/N",
-      "what a force down of 1 N for each metre of the bridge's width at each place adds "
-      "to what the points of the intact bridge read"};
-  influence.add(load.readings);
-  influence.finish({extent(load.readings.rows()), extent(load.readings.cols())}, datasets);
+  append_matrix(dataset::kLoadInfluence, "m2/N",
+                "what a force down of 1 N for each metre of the bridge's width at each place adds "
+                "to what the points of the intact bridge read",
+                load.readings, datasets);
 }
 
 // Reading.
@@ -308,12 +313,10 @@ void read_factors(const Hdf5File& file, const SensitivitySizes& sizes, Sensitivi
 std::vector<DatasetValue> sensitivity_datasets(const Sensitivities& sensitivities) {
   std::vector<DatasetValue> datasets;
   append_parameters(sensitivities, datasets);
-  Filling<double> basis{
-      dataset::kSensitivityBasis, ElementType::float64, "1",
-      "the bridge's standardised parameters along the columns: L V, V orthonormal directions of "
-      "the independent parameters that L makes them of"};
-  basis.add(sensitivities.basis);
-  basis.finish({extent(sensitivities.basis.rows()), extent(sensitivities.basis.cols())}, datasets);
+  append_matrix(dataset::kSensitivityBasis, "1",
+                "the bridge's standardised parameters along the columns: L V, V orthonormal directions of "
+                "the independent parameters that L makes them of",
+                sensitivities.basis, datasets);
   append_scenes(sensitivities, datasets);
   append_factors(sensitivities, datasets);
   append_falls(sensitivities, datasets);

@@ -221,6 +221,16 @@ void StateSolving::solve_from_intact(const StageSolver& solver, std::span<SceneG
   solve(solver, basis(solver, std::move(starts), PlanRules{}), groups.subspan(1));
 }
 
+std::vector<SceneStates> StateSolving::states_from_intact(const StageSolver& solver,
+                                                          const std::vector<Scene>& scenes) const {
+  std::vector<SceneGroup> groups;
+  for (const Scene& scene : scenes) groups.push_back({.solved = scene, .states = {}, .image = {}});
+  solve_from_intact(solver, groups);
+  std::vector<SceneStates> states;
+  for (SceneGroup& group : groups) states.push_back(std::move(group.states));
+  return states;
+}
+
 /// By solving those of the singles that stand as lost again in one step.
 StepsOfLoss StateSolving::steps_of_loss(const StageSolver& solver, const SearchBasis& basis,
                                         std::size_t lost) const {

@@ -61,6 +61,10 @@ class StateSolving {
   /// What of them is known is not searched for again.
   void solve_from_intact(const StageSolver& solver, std::span<SceneGroup> groups) const;
 
+  /// The states of scenes of which nothing is known, the intact bridge first.
+  std::vector<SceneStates> states_from_intact(const StageSolver& solver,
+                                              const std::vector<Scene>& scenes) const;
+
   /// What the joints remember when a state of a scene begins; of a stage of many steps, when its first step
   /// does. Precondition: the states before it are there, which then keep what is remembered of them.
   std::vector<JointMemory> memory_before(const Scene& scene, std::size_t state, SceneStates& states,

@@ -23,13 +23,17 @@ Model as_rough_as_any(Model bridge, const std::vector<SampledBridge>& sampled) {
   return bridge;
 }
 
-/// Does the nominal bridge not stand without these blocks, in one of the kept states in which it does with
-/// them? Unresolved scenes, too.
-bool falls(const SensitivityStudy& study, const FirstOrder& first_order, std::size_t state,
-           std::size_t scene) {
-  const std::optional<Solution>& solution =
-      first_order.nominal.states[scene][kept_states(study.states)[state]];
-  return first_order.derivatives[state][kIntactScene].size() > 0 && !(solution && stands(*solution));
+/// The kept states in which the nominal bridge does not stand without these blocks, but does with them.
+/// Unresolved ones, too.
+std::vector<std::size_t> states_of_falls(const std::vector<std::size_t>& kept, const FirstOrder& first_order,
+                                         std::size_t scene) {
+  std::vector<std::size_t> falls;
+  for (std::size_t state = 0; state < kept.size(); ++state) {
+    const std::optional<Solution>& solution = first_order.nominal.states[scene][kept[state]];
+    const bool intact_stands = first_order.derivatives[state][kIntactScene].size() > 0;
+    if (intact_stands && !(solution && stands(*solution))) falls.push_back(state);
+  }
+  return falls;
 }
 
 /// The intact scene, and those that fall in some kept state, unless limit analysis proves that they fall in
@@ -39,12 +43,10 @@ std::vector<std::size_t> scenes_that_may_stand(const SensitivityStudy& study, co
   const Model rough = as_rough_as_any(study.bridge, sampled);
   const EquilibriumSystem system(rough);
   const Coefficients coefficients(system, rough.parameters);
+  const std::vector<std::size_t> kept = kept_states(study.states);
   std::vector<std::size_t> places = {kIntactScene};
   for (std::size_t scene = 1; scene < first_order.nominal.scenes.size(); ++scene) {
-    bool falls_somewhere = false;
-    for (std::size_t state = 0; state < first_order.derivatives.size(); ++state)
-      falls_somewhere = falls_somewhere || falls(study, first_order, state, scene);
-    if (!falls_somewhere) continue;
+    if (states_of_falls(kept, first_order, scene).empty()) continue;
     const Scene& lost = first_order.nominal.scenes[scene];
     const std::vector<BlockId>& moving = first_order.nominal.states[scene][kBuilt]->moving;
     const bool always = fall_beside(lost, rough, coefficients) ||
@@ -61,23 +63,14 @@ struct ShownAtRest {
   std::vector<std::vector<MatrixXd>> slopes;  ///< points x parameters
 };
 
-std::vector<SceneStates> solved_states(const SensitivityStudy& study, const std::vector<Scene>& scenes) {
-  std::vector<SceneGroup> groups;
-  for (const Scene& scene : scenes)
-    groups.push_back({.solved = scene, .states = SceneStates(study.states.size()), .image = {}});
-  StateSolving(study.bridge, study.states)
-      .solve_from_intact(study.solver.make_solver(study.bridge, study.settings), groups);
-  std::vector<SceneStates> states;
-  for (SceneGroup& group : groups) states.push_back(std::move(group.states));
-  return states;
-}
-
 /// Its states are found as those of a nominal bridge are.
 ShownAtRest at_rest(const SensitivityStudy& nominal, const std::vector<Scene>& scenes,
                     const SampledBridge& sampled) {
   const Model bridge = with_parameters(nominal.bridge, sampled.parameters);
   const SensitivityStudy study{nominal.description, bridge, nominal.states, nominal.solver, nominal.settings};
-  const std::vector<SceneStates> states = solved_states(study, scenes);
+  const std::vector<SceneStates> states =
+      StateSolving(bridge, study.states)
+          .states_from_intact(study.solver.make_solver(bridge, study.settings), scenes);
   const SensitivityEquations equations(bridge, uncertain_parameters(bridge, study.description.uncertainty));
   SceneDerivatives derivatives(study, equations);
   ShownAtRest shown;
@@ -153,11 +146,12 @@ std::vector<SampledFall> find_uncertain_falls(const SensitivityStudy& study,
   for (const std::size_t place : places) scenes.push_back(first_order.nominal.scenes[place]);
 
   const std::vector<ShownAtRest> shown = all_at_rest(study, scenes, sampled, progress);
+  const std::vector<std::size_t> kept = kept_states(study.states);
   std::vector<SampledFall> found;
-  for (std::size_t state = 0; state < first_order.derivatives.size(); ++state)
-    for (std::size_t i = 1; i < scenes.size(); ++i) {
+  for (std::size_t i = 1; i < scenes.size(); ++i)
+    for (const std::size_t state : states_of_falls(kept, first_order, places[i])) {
       const std::vector<std::size_t> standing = standing_bridges(shown, state, i);
-      if (standing.empty() || !falls(study, first_order, state, places[i])) continue;
+      if (standing.empty()) continue;
       found.push_back(average(sampled, shown, standing, state, i));
       found.back().scene = places[i];
     }

@@ -36,7 +36,7 @@ using AllDrawn = std::map<std::vector<Index>, DrawnReadings>;
 AllDrawn blocks_by_rows(const UnknownBridge& bridge, int draws) {
   AllDrawn all;
   for (const BlockId block : blocks_with_sensitivities(bridge)) {
-    const VectorXd& signal = bridge.losses[static_cast<std::size_t>(value(block))].signal;
+    const VectorXd& signal = bridge.loss_of(block).signal;
     all[rows_with_reading(signal)].blocks.push_back(block);
   }
   for (auto& [rows, drawn] : all) {
@@ -119,7 +119,7 @@ void explain(std::optional<BlockId> lost, const LossGaussian& loss, double log_p
 Sight sight_of(const UnknownBridge& bridge, const DrawnReadings& drawn, std::size_t place,
                const SightSettings& settings) {
   Sight sight{.block = drawn.blocks[place], .alike = drawn.other[place]};
-  const VectorXd& signal = bridge.losses[static_cast<std::size_t>(value(sight.block))].signal;
+  const VectorXd& signal = bridge.loss_of(sight.block).signal;
   sight.silent = static_cast<std::size_t>(signal.size()) - drawn.rows.size();
   for (const Index row : drawn.rows)
     if (std::abs(signal[row]) > std::abs(sight.largest)) {
@@ -145,8 +145,7 @@ std::vector<Sight> sights_of(const UnknownBridge& bridge, const CaseNoise& noise
   for (const std::optional<BlockId> lost : losses) {
     const LossGaussian loss = loss_gaussian(bridge, noise, lost);
     const double log_prior =
-        lost ? settings.log_prior_loss + bridge.losses[static_cast<std::size_t>(value(*lost))].log_weight
-             : settings.log_prior_intact;
+        lost ? settings.log_prior_loss + bridge.loss_of(*lost).log_weight : settings.log_prior_intact;
     for (auto& [rows, drawn] : all) explain(lost, loss, log_prior, settings, drawn);
   }
   std::vector<Sight> sights;

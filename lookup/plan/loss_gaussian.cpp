@@ -9,7 +9,7 @@ LossGaussian loss_gaussian(const UnknownBridge& bridge, const CaseNoise& noise, 
   SceneLoss loss{{}, nothing, nothing, 0.0};
   Scene scene;
   if (lost) {
-    loss.known = {&bridge.losses[static_cast<std::size_t>(value(*lost))]};
+    loss.known = {&bridge.loss_of(*lost)};
     loss.signal = loss.known.front()->signal;
     scene.removed = {*lost};
   }

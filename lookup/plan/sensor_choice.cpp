@@ -72,8 +72,7 @@ LossBesideIntact loss_beside_intact(const UnknownBridge& bridge, const CaseNoise
   const LossGaussian loss = loss_gaussian(bridge, noise, block);
   const std::vector<Index> read = rows_with_reading(loss.signal);
   const MatrixXd columns = columns_of(loss, covariance, read);
-  LossBesideIntact result{
-      {}, precision * columns, {}, bridge.losses[static_cast<std::size_t>(value(block))].log_weight};
+  LossBesideIntact result{{}, precision * columns, {}, bridge.loss_of(block).log_weight};
   result.inner = columns.transpose() * result.pulled;
   for (Index row = 0; row < loss.signal.size(); ++row)
     if (std::isnan(loss.signal[row])) result.silent.push_back(row);

@@ -44,7 +44,12 @@ class Predictions {
     for_each_index_on_threads(rows, threads, [&](std::size_t row) {
       storage.outcome[row] = outcome(row);
       if (!storage.standing_share.empty()) storage.standing_share[row] = standing_share(row);
-      fill(row, std::span(storage.predictions).subspan(row * channels_.size(), channels_.size()));
+      const auto predictions =
+          std::span(storage.predictions).subspan(row * channels_.size(), channels_.size());
+      if (base().is_uncertain_fall(row) && storage.standing_share[row] == 0.0)
+        std::ranges::fill(predictions, kNan);
+      else
+        fill(row, predictions);
     });
     return storage;
   }
@@ -74,10 +79,6 @@ class Predictions {
     if (with_fields_)
       for (const std::size_t state : states_)
         fields.push_back(database_.field(base().first_record + row, state));
-    if (base().is_uncertain_fall(row) && standing_share(row) == 0.0) {
-      std::ranges::fill(predictions, kNan);
-      return;
-    }
     for (std::size_t i = 0; i < channels_.size(); ++i) {
       const Channel& channel = channels_[i];
       predictions[i] = shown(channel, row, 0, fields);

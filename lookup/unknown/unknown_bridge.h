@@ -91,6 +91,7 @@ struct UnknownBridge {
   Eigen::MatrixXd unevenness;   ///< [m2] of them: of what is uneven in an epoch
   Eigen::MatrixXd epoch_noise;  ///< what the first order leaves of conditions as the file states them
 
+  const Loss& loss_of(BlockId block) const { return losses[static_cast<std::size_t>(value(block))]; }
   bool has_first_epoch() const { return rows.front().after == 0.0; }  ///< before the rows of changes
 };
 

@@ -2,8 +2,6 @@
 
 #include <oneapi/tbb/parallel_for.h>
 
-#include <optional>
-
 namespace voussoir {
 namespace {
 

@@ -21,10 +21,7 @@ struct Sampling {
         plan(plan_states({"built", "lost"}, bridge, description)),
         settings(solver.settings(bridge)),
         scenes(few_scenes) {
-    std::vector<SceneGroup> groups;
-    for (const Scene& scene : scenes) groups.push_back({.solved = scene, .states = {}, .image = {}});
-    StateSolving(bridge, plan).solve_from_intact(solver.make_solver(bridge, settings), groups);
-    for (SceneGroup& group : groups) states.push_back(std::move(group.states));
+    states = StateSolving(bridge, plan).states_from_intact(solver.make_solver(bridge, settings), scenes);
     for (const std::uint64_t seed : seeds)
       drawn.push_back(draw_bridge(bridge, uncertain_parameters(bridge, description.uncertainty), seed));
   }

@@ -33,12 +33,7 @@ struct Study {
 
   SensitivityStudy study() const { return {description, bridge, plan, solver, settings, 1}; }
   std::vector<SceneStates> states_of(const Model& model) const {
-    std::vector<SceneGroup> groups;
-    for (const Scene& scene : scenes) groups.push_back({.solved = scene, .states = {}, .image = {}});
-    StateSolving(model, plan).solve_from_intact(solver.make_solver(model, settings), groups);
-    std::vector<SceneStates> found;
-    for (SceneGroup& group : groups) found.push_back(std::move(group.states));
-    return found;
+    return StateSolving(model, plan).states_from_intact(solver.make_solver(model, settings), scenes);
   }
   std::vector<SampledFall> falls() const {
     Progress quiet(Progress::Mode::quiet);

@@ -36,8 +36,7 @@ double weight(const PlannedBridge& planned, std::optional<BlockId> lost, const s
   const VectorXd mean = loss.signal(rows);
   if (mean.hasNaN()) return 0.0;
   const auto silent = static_cast<double>(rows_with_reading(loss.signal).size() - rows.size());
-  const double share =
-      lost ? std::exp(planned.bridge.losses[static_cast<std::size_t>(value(*lost))].log_weight) : 1.0;
+  const double share = lost ? std::exp(planned.bridge.loss_of(*lost).log_weight) : 1.0;
   return (lost ? 0.01 * share : 0.9) * std::pow(0.1, silent) *
          std::exp(test::log_normal(readings - mean, Eigen::MatrixXd(loss.covariance(rows, rows))) -
                   10.0 * static_cast<double>(rows.size()));  // within range

@@ -51,8 +51,7 @@ double sum_of_chances(const PlannedBridge& planned, const std::vector<Index>& ro
                          [&](Index row) { return !std::isnan(loss.signal[row]); });
     const auto silent = static_cast<double>(rows.size() - read.size());
     const double wanted = std::log(settings.certain / (1.0 - settings.certain)) + settings.log_prior_intact -
-                          settings.log_prior_loss -
-                          planned.bridge.losses[static_cast<std::size_t>(value(block))].log_weight +
+                          settings.log_prior_loss - planned.bridge.loss_of(block).log_weight +
                           silent * settings.log_silence;
     double divergence = 0.0;
     if (!read.empty()) {
