@@ -19,7 +19,7 @@ namespace voussoir {
 inline constexpr char kFormatName[] = "voussoir database";
 /// What the first dataset says of itself: a damaged file is known by it.
 inline constexpr char kBridgeTextMeaning[] = "the bridge file (TOML) as it was given";
-inline constexpr int kSchemaVersion = 6;
+inline constexpr int kSchemaVersion = 7;
 inline constexpr std::size_t kBlockLabelWidth = kLongestLabel + 1;  ///< bytes, padded with zeros
 inline constexpr std::size_t kPointNameWidth = kLongestSensorName;  ///< bytes, padded with zeros
 inline constexpr std::size_t kStateNameWidth = 32;                  ///< bytes, padded with zeros

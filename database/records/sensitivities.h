@@ -35,8 +35,8 @@ struct SceneFactors {
   bool known() const { return bridge.rows() > 0; }
 };
 
-/// What the first order leaves, in one state, found by solving bridges with parameters drawn at random. All
-/// states of a database have the same numbers of columns.
+/// What the first order leaves, in one state, found by solving bridges with parameters drawn at random. The
+/// columns are the same in all states of a database: what a load adds is off by their differences.
 struct FirstOrderResidual {
   /// The intact bridge's displacements: covariance bridge * bridge^T [m2], the same error in every epoch.
   Eigen::MatrixXd bridge;  ///< points x any number of columns

@@ -123,10 +123,12 @@ void append_falls(const Sensitivities& from, std::vector<DatasetValue>& datasets
 }
 
 void append_residual(const Sensitivities& from, std::vector<DatasetValue>& datasets) {
-  Filling<double> bridge{dataset::kResidualBridge, ElementType::float64, "m",
-                         "what the first order leaves of the intact bridge: independent columns"};
-  Filling<double> epoch{dataset::kResidualEpoch, ElementType::float64, "m",
-                        "what it leaves of an epoch's own parameters: independent columns"};
+  Filling<double> bridge{
+      dataset::kResidualBridge, ElementType::float64, "m",
+      "what the first order leaves of the intact bridge: independent columns, the same in all states"};
+  Filling<double> epoch{
+      dataset::kResidualEpoch, ElementType::float64, "m",
+      "what it leaves of an epoch's own parameters: independent columns, the same in all states"};
   Filling<double> share{
       dataset::kResidualShare, ElementType::float64, "1",
       "what it leaves of a signal: as a share of the signal's own standard deviation, and at all "

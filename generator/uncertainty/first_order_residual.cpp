@@ -7,22 +7,14 @@
 #include <cmath>
 
 #include "generator/running/parallel.h"
-#include "generator/uncertainty/covariance_factor.h"
 #include "generator/uncertainty/error_fit.h"
+#include "generator/uncertainty/joint_factors.h"
 
 namespace voussoir {
 namespace {
 
 constexpr std::size_t kBridgesAtOnce = 8;
 constexpr double kLargeShare = 3.0;  // FirstOrderResidual's, from which on the user is told
-
-/// Columns that have the covariance of these errors, each of variance 1.
-Eigen::MatrixXd factor_of(const std::vector<Eigen::VectorXd>& errors, Eigen::Index points) {
-  Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(points, points);
-  for (const Eigen::VectorXd& error : errors)
-    covariance += error * error.transpose() / static_cast<double>(errors.size());
-  return covariance_factor(covariance);
-}
 
 /// The intact scene and the singles that stand in some state.
 std::vector<std::size_t> sampled_scenes(const FirstOrder& first_order) {
@@ -82,34 +74,46 @@ Samples solve_samples(const SensitivityStudy& study, const UncertainParameters& 
   return samples;
 }
 
-/// One state, of which the intact bridge stands.
+/// One state.
 class StateResidual {
  public:
   StateResidual(const SensitivityStudy& study, const FirstOrder& first_order, const Samples& samples,
                 std::size_t state, const std::vector<Eigen::MatrixXd>& slopes)
-      : study_(study),
-        first_order_(first_order),
-        samples_(samples),
-        state_(state),
-        slopes_(slopes),
-        signals_(sampled_signals()) {}
+      : study_(study), first_order_(first_order), samples_(samples), state_(state), slopes_(slopes) {
+    if (stands()) signals_ = sampled_signals();
+  }
 
-  FirstOrderResidual find() const {
-    const Eigen::VectorXd intact = nominal(kIntactScene);
-    const Eigen::MatrixXd& slope = slopes_[kIntactScene];
-    std::vector<Eigen::VectorXd> of_bridge, of_epoch;
-    for (std::size_t i = 0; i < samples_.bridges.size(); ++i) {
-      const SampledBridge& bridge = samples_.bridges[i];
-      const Eigen::VectorXd& at_rest = samples_.intact[i].at_rest[state_];
-      const Eigen::VectorXd& in_epoch = samples_.intact[i].in_epoch[state_];
-      if (at_rest.size() == 0 || in_epoch.size() == 0) continue;
-      of_bridge.push_back(at_rest - intact - slope.leftCols(bridge.of_bridge.size()) * bridge.of_bridge);
-      of_epoch.push_back(in_epoch - at_rest - slope.rightCols(bridge.of_epoch.size()) * bridge.of_epoch);
-    }
+  /// Does the nominal intact bridge?
+  bool stands() const { return slopes_[kIntactScene].size() > 0; }
+
+  /// What the first order leaves of each intact bridge at rest.
+  StateErrors errors_of_bridges() const {
+    return errors([&](const SampledBridge& bridge, const Settled& at_rest, const Settled&) {
+      return (at_rest[state_] - nominal(kIntactScene) -
+              slopes_[kIntactScene].leftCols(bridge.of_bridge.size()) * bridge.of_bridge)
+          .eval();
+    });
+  }
+
+  /// And of what an epoch adds to it.
+  StateErrors errors_of_epochs() const {
+    return errors([&](const SampledBridge& bridge, const Settled& at_rest, const Settled& in_epoch) {
+      return (in_epoch[state_] - at_rest[state_] -
+              slopes_[kIntactScene].rightCols(bridge.of_epoch.size()) * bridge.of_epoch)
+          .eval();
+    });
+  }
+
+  /// The shares of signals.
+  FirstOrderResidual shares() const {
+    if (!stands()) return {};
     const SignalFits fits = signals_.empty() ? kAsMuchAsItSays : fits_of_signals();
-    return {
-        factor_of(of_bridge, intact.size()), factor_of(of_epoch, intact.size()), std::sqrt(fits.bridge[0]),
-        std::sqrt(fits.bridge[1]),           std::sqrt(fits.epoch[0]),           std::sqrt(fits.epoch[1])};
+    return {{},
+            {},
+            std::sqrt(fits.bridge[0]),
+            std::sqrt(fits.bridge[1]),
+            std::sqrt(fits.epoch[0]),
+            std::sqrt(fits.epoch[1])};
   }
 
   /// What the first order leaves of what epochs change of each scene's signal: points x bridges, over the
@@ -131,6 +135,18 @@ class StateResidual {
   bool has_signals() const { return !signals_.empty(); }
 
  private:
+  /// Of each bridge that stands at rest and in its epoch; of others nothing.
+  template <class ErrorOf>
+  StateErrors errors(ErrorOf error_of) const {
+    StateErrors result(samples_.bridges.size());
+    for (std::size_t i = 0; stands() && i < result.size(); ++i) {
+      const auto& [at_rest, in_epoch] = samples_.intact[i];
+      if (at_rest[state_].size() > 0 && in_epoch[state_].size() > 0)
+        result[i] = error_of(samples_.bridges[i], at_rest, in_epoch);
+    }
+    return result;
+  }
+
   Eigen::VectorXd nominal(std::size_t scene) const {
     return readings_at(study_.bridge.control_points,
                        first_order_.nominal.states[scene][state_]->displacement);
@@ -201,10 +217,16 @@ class StateResidual {
   const Samples& samples_;
   std::size_t state_;
   const std::vector<Eigen::MatrixXd>& slopes_;  ///< of each scene
-  std::vector<SampledSignal> signals_;
+  std::vector<SampledSignal> signals_{};
 };
 
-void warn_of(const FirstOrderResidual& residual, const std::string& state, Progress& progress) {
+void warn_of(const FirstOrderResidual& residual, bool has_signals, const std::string& state,
+             Progress& progress) {
+  if (!has_signals)
+    progress.say(fmt::format(
+        "{}: no single stands in the sampled bridges, so what the first order leaves of signals is "
+        "not known: it is taken to be as much as the first order itself",
+        state));
   const double largest =
       std::max({residual.share, residual.common, residual.epoch_share, residual.epoch_common});
   if (largest > kLargeShare)
@@ -225,23 +247,26 @@ WhatIsLeft what_is_left(const SensitivityStudy& study, const UncertainParameters
                         const FirstOrder& first_order, Progress& progress) {
   const std::vector<std::size_t> kept = kept_states(study.states);
   const auto points = static_cast<Eigen::Index>(study.bridge.control_points.size());
+  const Eigen::MatrixXd nothing = Eigen::MatrixXd::Zero(points, 1);
   WhatIsLeft left;
-  left.residuals.resize(kept.size(),
-                        {Eigen::MatrixXd::Zero(points, points), Eigen::MatrixXd::Zero(points, points)});
+  left.residuals.resize(kept.size(), {nothing, nothing});
   left.signals.resize(kept.size(), std::vector<Eigen::MatrixXd>(first_order.nominal.scenes.size()));
   if (!study.solver.make_equilibrium_solver) return left;
   const Samples samples = solve_samples(study, uncertain, first_order, progress);
+  std::vector<StateErrors> of_bridges, of_epochs;
   for (std::size_t k = 0; k < kept.size(); ++k) {
-    if (first_order.derivatives[k][kIntactScene].size() == 0) continue;
-    const StateResidual residual(study, first_order, samples, kept[k], first_order.derivatives[k]);
-    if (!residual.has_signals())
-      progress.say(
-          fmt::format("{}: no single stands in the sampled bridges, so what the first order leaves of "
-                      "signals is not known: it is taken to be as much as the first order itself",
-                      study.states[kept[k]].name));
-    left.residuals[k] = residual.find();
-    warn_of(left.residuals[k], study.states[kept[k]].name, progress);
-    left.signals[k] = residual.left_of_signals();
+    const StateResidual state(study, first_order, samples, kept[k], first_order.derivatives[k]);
+    of_bridges.push_back(state.errors_of_bridges());
+    of_epochs.push_back(state.errors_of_epochs());
+    if (!state.stands()) continue;
+    left.residuals[k] = state.shares();
+    left.signals[k] = state.left_of_signals();
+    warn_of(left.residuals[k], state.has_signals(), study.states[kept[k]].name, progress);
+  }
+  const auto bridge = joint_factors(of_bridges, points), epoch = joint_factors(of_epochs, points);
+  for (std::size_t k = 0; k < kept.size(); ++k) {
+    left.residuals[k].bridge = bridge[k];
+    left.residuals[k].epoch = epoch[k];
   }
   return left;
 }

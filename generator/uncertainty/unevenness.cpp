@@ -1,7 +1,8 @@
 #include "generator/uncertainty/unevenness.h"
 
+#include <Eigen/Eigenvalues>
+
 #include "core/structure/unevenness.h"
-#include "generator/uncertainty/covariance_factor.h"
 #include "generator/uncertainty/scene_derivatives.h"
 
 namespace voussoir {
@@ -26,6 +27,12 @@ Eigen::MatrixXd derivatives_of(const SensitivityStudy& study, const std::vector<
 
 Eigen::MatrixXd covariance_of(const Eigen::MatrixXd& derivatives, const Eigen::MatrixXd& correlations) {
   return derivatives * correlations * derivatives.transpose();
+}
+
+/// F with F F^T = covariance, along its principal directions; what rounding made negative is zero.
+Eigen::MatrixXd covariance_factor(const Eigen::MatrixXd& covariance) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> directions(covariance);
+  return directions.eigenvectors() * directions.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal();
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "lookup/readings/reading_factors.h"
 
 #include <algorithm>
+#include <functional>
 
 #include "core/threads.h"
 #include "database/records/scene_change.h"
@@ -116,47 +117,46 @@ MatrixXd signal_product(const std::vector<LossFactors>& losses, Index channels) 
   return product_with_itself(all.leftCols(end));
 }
 
-/// Of what a load adds the errors in both states count: nothing says how far they cancel.
+/// Columns that are the same in all states, by channel: of what a load adds those under it less those
+/// without.
+MatrixXd columns_of(const ReadingFactors& factors,
+                    const std::function<const MatrixXd&(std::size_t)>& of_state) {
+  const MatrixXd& base = of_state(factors.base);
+  MatrixXd columns(static_cast<Index>(factors.channels.size()), base.cols());
+  for (Index i = 0; i < columns.rows(); ++i) {
+    const Channel& channel = factors.channels[static_cast<std::size_t>(i)];
+    const auto point = static_cast<Index>(channel.point);
+    columns.row(i) = base.row(point);
+    if (channel.loaded) columns.row(i) = of_state(*channel.loaded).row(point) - base.row(point);
+  }
+  return columns;
+}
+
+/// The larger shares of both.
+void take_larger(const FirstOrderResidual& other, FirstOrderResidual& shares) {
+  for (double FirstOrderResidual::*share :
+       {&FirstOrderResidual::share, &FirstOrderResidual::common, &FirstOrderResidual::epoch_share,
+        &FirstOrderResidual::epoch_common})
+    shares.*share = std::max(shares.*share, other.*share);
+}
+
 FirstOrderResidual residual_of(const ReadingFactors& factors) {
   const std::vector<FirstOrderResidual>& states = factors.sensitivities->residuals;
-  FirstOrderResidual result = states[factors.base];
-  const auto both = [&](MatrixXd FirstOrderResidual::*columns) {
-    const MatrixXd& unloaded = states[factors.base].*columns;
-    MatrixXd rows = MatrixXd::Zero(static_cast<Index>(factors.channels.size()), 2 * unloaded.cols());
-    for (Index i = 0; i < rows.rows(); ++i) {
-      const Channel& channel = factors.channels[static_cast<std::size_t>(i)];
-      const auto point = static_cast<Index>(channel.point);
-      rows.row(i).head(unloaded.cols()) = unloaded.row(point);
-      if (channel.loaded) rows.row(i).tail(unloaded.cols()) = (states[*channel.loaded].*columns).row(point);
-    }
-    return rows;
-  };
-  result.bridge = both(&FirstOrderResidual::bridge);
-  result.epoch = both(&FirstOrderResidual::epoch);
+  FirstOrderResidual result{
+      columns_of(factors, [&](std::size_t state) -> const MatrixXd& { return states[state].bridge; }),
+      columns_of(factors, [&](std::size_t state) -> const MatrixXd& { return states[state].epoch; })};
+  take_larger(states[factors.base], result);
   for (const Channel& channel : factors.channels)
-    if (channel.loaded) {
-      result.share = std::max(result.share, states[*channel.loaded].share);
-      result.common = std::max(result.common, states[*channel.loaded].common);
-      result.epoch_share = std::max(result.epoch_share, states[*channel.loaded].epoch_share);
-      result.epoch_common = std::max(result.epoch_common, states[*channel.loaded].epoch_common);
-    }
+    if (channel.loaded) take_larger(states[*channel.loaded], result);
   return result;
 }
 
-/// What a load adds differs by what the same joints do in both states.
 MatrixXd unevenness_of(const ReadingFactors& factors) {
   const std::vector<MatrixXd>& states = factors.sensitivities->unevenness;
   const auto channels = static_cast<Index>(factors.channels.size());
   if (states.empty()) return MatrixXd::Zero(channels, channels);
-  MatrixXd columns(channels, states.front().cols());
-  for (Index i = 0; i < channels; ++i) {
-    const Channel& channel = factors.channels[static_cast<std::size_t>(i)];
-    const auto point = static_cast<Index>(channel.point);
-    columns.row(i) = channel.loaded
-                         ? (states[*channel.loaded].row(point) - states[factors.base].row(point)).eval()
-                         : states[factors.base].row(point).eval();
-  }
-  return product_with_itself(columns);
+  return product_with_itself(
+      columns_of(factors, [&](std::size_t state) -> const MatrixXd& { return states[state]; }));
 }
 
 }  // namespace

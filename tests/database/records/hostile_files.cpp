@@ -228,7 +228,7 @@ TEST_CASE("Another schema version is refused with both versions and with what to
     H5Awrite(version.get(), H5T_STD_I32LE, &earlier);
   }
   CHECK_THAT(forged.refusal(),
-             Catch::Contains("schema version 3 where 6 was expected: build the database again with this "
+             Catch::Contains("schema version 3 where 7 was expected: build the database again with this "
                              "program's build-database [BRIDGE.toml] -o ") &&
                  Catch::Contains("forged.h5"));
 }

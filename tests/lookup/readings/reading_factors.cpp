@@ -76,4 +76,25 @@ TEST_CASE("Stored signals are of single states: where loads are read they are ma
   CHECK(factors->intact.bridge.row(1) == loaded.row(2) - unloaded.row(2));
 }
 
+TEST_CASE("What the first order leaves of a load is the difference of columns that both states share") {
+  Sensitivities made = first_order_of_stored_bridge();
+  made.residuals[1].bridge *= 3.0;
+  made.residuals[1].epoch *= 0.5;
+  const auto channels = [] {
+    auto all = channels_at(1);
+    for (std::size_t k = 1; k < all.size(); k += 2) all[k].loaded = 1;
+    return all;
+  }();
+  const auto factors = factors_of(made, channels);
+  for (const auto columns : {&FirstOrderResidual::bridge, &FirstOrderResidual::epoch}) {
+    const MatrixXd &unloaded = made.residuals[0].*columns, &loaded = made.residuals[1].*columns;
+    REQUIRE(loaded != unloaded);
+    CHECK((factors->residual.*columns).row(0) == unloaded.row(0));
+    CHECK((factors->residual.*columns).row(1).isApprox(loaded.row(1) - unloaded.row(1), 1e-15));
+  }
+  made.residuals[1].share = 3.0;
+  CHECK(factors_of(made, channels)->residual.share == 3.0);
+  CHECK(factors_of(made, channels_at(1))->residual.share == made.residuals[0].share);
+}
+
 }  // namespace voussoir
