@@ -11,9 +11,11 @@ namespace voussoir {
 /// Conditions differ from the model's by this much of what the bridge file states, in every epoch alike: by
 /// all of it, or, each as likely beforehand, hardly. One standard deviation for all would count every epoch
 /// as warm and moved; what heat does to joints is not linear, and its error would drown what a block does.
-/// The readings decide. Without 0.5 a foot that alone is 1.1 to 1.5 deviations lower was damage at times:
-/// what else had not happened spoke for 0.2.
-inline constexpr std::array<double, 5> kConditionSizes = {0.03, 0.2, 0.5, 1.0, 3.0};
+/// The readings decide. Without anything between 0.2 and 1 a foot that alone is 1.1 to 1.5 deviations lower
+/// was damage at times: what else had not happened spoke for 0.2. At 0.8 what the first order leaves
+/// (case_noise) has a little more than the variance that it has on average; with 0.5 in its place it had a
+/// fourth or fourfold, and bridges that leave less than others were told as if they left half.
+inline constexpr std::array<double, 5> kConditionSizes = {0.03, 0.3, 0.8, 1.0, 3.0};
 
 /// What is gone through, as it is neither Gaussian nor linear.
 struct UnknownCase {

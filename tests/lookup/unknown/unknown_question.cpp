@@ -73,7 +73,7 @@ std::vector<UnknownCase> all_cases(const Observation& observation, Conditions co
   for (const double level : levels) {
     if (conditions == Conditions::known) cases.push_back({level, 0.0});
     if (conditions == Conditions::uncertain)
-      for (const double size : {0.03, 0.2, 0.5, 1.0, 3.0}) cases.push_back({level, size});
+      for (const double size : {0.03, 0.3, 0.8, 1.0, 3.0}) cases.push_back({level, size});
   }
   return cases;
 }
