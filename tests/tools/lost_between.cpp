@@ -48,6 +48,42 @@ TEST_CASE("If nothing happens but the loss, it is that of the database (build-da
   }
 }
 
+TEST_CASE("What a load adds is that of the database, in its second step, too (build-database)") {
+  test::TemporaryFolder folder;
+  const BridgeFile small = test::small_bridge_file();
+  const BridgeFile file = parse_bridge_file(small.text + R"(
+    [[loads]]
+    name = "cart"
+    axles = [{ at_m = 0.0, force_N = 20e3 }]
+    from_m = 2.0
+    to_m = 3.0
+    steps = 2
+  )",
+                                            "small");
+  const SampledTruth truth{"joints", scattered_joints(0.2), 2, 1, "cart@2"};
+  const DamagedTruth stored = solve_damaged(file, truth, "intact;4,2", folder.path());
+  const std::vector<BlockId> blocks = {stored.bridges[0].damaged.at(0).scene.removed.front()};
+  const DamagedTruth solved = solve_lost_between(file.description, truth, {}, blocks);
+  const IntactTruth intact = solve_intact(file.description, truth, {});
+  for (std::size_t b = 0; b < 2; ++b) {
+    const std::vector<double>&expected = stored.bridges[b].damaged.at(0).added,
+          &found = solved.bridges[b].damaged.at(0).added;
+    double largest = 0.0;
+    for (std::size_t point = 0; point < expected.size(); ++point) {
+      CHECK(stored.bridges[b].added[point] == Approx(solved.bridges[b].added[point]).margin(1e-8));
+      CHECK(intact.bridges[b].added_before[point] == Approx(solved.bridges[b].added[point]).margin(1e-8));
+      CHECK(intact.bridges[b].added_after[point] == Approx(solved.bridges[b].added[point]).margin(1e-8));
+      CHECK(std::isnan(found[point]) == std::isnan(expected[point]));
+      if (std::isnan(expected[point])) continue;
+      CHECK(found[point] == Approx(expected[point]).margin(1e-8));
+      largest = std::max(largest, std::abs(expected[point]));
+    }
+    CHECK(largest > 1e-5);
+  }
+  CHECK_THROWS_WITH(solve_intact(file.description, {"none", {}, 1, 1, "cart@3"}, {}),
+                    Catch::Matchers::Contains("no stage 'cart@3'"));
+}
+
 TEST_CASE("A bridge that warms after a loss rises as the intact one does") {
   const BridgeDescription description = test::small_bridge_file().description;
   const SampledTruth truth{"joints", scattered_joints(0.2), 2, 1};

@@ -21,6 +21,9 @@ namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
+constexpr std::array kAllTaken = {ReadingsTaken::change, ReadingsTaken::two_epochs, ReadingsTaken::absolute,
+                                  ReadingsTaken::load, ReadingsTaken::load_change};
+
 /// Mean and standard deviation.
 std::pair<double, double> moments(const std::vector<double>& values) {
   const auto n = static_cast<double>(values.size());
@@ -62,10 +65,10 @@ struct Site {
 TEST_CASE("Readings of trials are what the bridge shows, with the stated scatter (mean, deviation)") {
   constexpr std::size_t kMany = 20000;
   const std::vector<double> before(kMany, -1e-3), after(kMany, -3e-3);
-  for (const ReadingsTaken taken :
-       {ReadingsTaken::change, ReadingsTaken::two_epochs, ReadingsTaken::absolute}) {
+  for (const ReadingsTaken taken : kAllTaken) {
     Random random(1);
     const ReadingsFile file = take_readings({before, after}, taken, 1e-5, random);
+    const bool second_alone = taken == ReadingsTaken::absolute || taken == ReadingsTaken::load;
     std::vector<double> values, firsts;
     for (const Reading& reading : file.readings) {
       values.push_back(reading.value);
@@ -74,18 +77,19 @@ TEST_CASE("Readings of trials are what the bridge shows, with the stated scatter
       REQUIRE(reading.sigma == 1e-5);
     }
     const auto [mean, deviation] = moments(values);
-    CHECK(mean == Approx(taken == ReadingsTaken::absolute ? -3e-3 : -2e-3).margin(3e-7));
+    CHECK(mean == Approx(second_alone ? -3e-3 : -2e-3).margin(3e-7));
     CHECK(deviation == Approx(1e-5).epsilon(0.02));
     if (file.two_epochs) CHECK(moments(firsts).second == Approx(1e-5 / std::sqrt(2.0)).epsilon(0.02));
     CHECK(file.two_epochs == (taken == ReadingsTaken::two_epochs));
     CHECK((file.kind == ReadingKind::absolute) == (taken == ReadingsTaken::absolute));
+    CHECK(is_loaded(file.kind) == is_loaded(taken));
+    CHECK(is_change(file.kind) != second_alone);
   }
 }
 
 TEST_CASE("A sensor on a block that is gone is silent, in every kind of readings") {
   const std::vector<double> before = {-1e-3, -2e-3}, after = {kNan, -2e-3};
-  for (const ReadingsTaken taken :
-       {ReadingsTaken::change, ReadingsTaken::two_epochs, ReadingsTaken::absolute}) {
+  for (const ReadingsTaken taken : kAllTaken) {
     Random random(1);
     const ReadingsFile file = take_readings({before, after}, taken, 1e-5, random);
     CHECK(file.readings.at(0).silent);

@@ -57,7 +57,8 @@ struct Run {
 
 void try_given(Run& run) {
   for (const std::string& truth : run.options.truths)
-    run.damaged({std::filesystem::path(truth).stem().string(), read_true_bridges(Database::open(truth))});
+    run.damaged({std::filesystem::path(truth).stem().string(),
+                 read_true_bridges(Database::open(truth), run.options.settings.load)});
 }
 
 /// Scattered joints, and all that the bridge file says is uncertain, with blocks missing.
@@ -67,14 +68,14 @@ void try_damaged(Run& run) {
   const auto damaged = [&](const std::string& name, const Uncertainty& uncertainty, std::uint64_t seed,
                            const std::string& scenes) {
     if (run.wants(name))
-      run.damaged(
-          solve_damaged(run.bridge, {name, uncertainty, options.bridges, seed}, scenes, options.folder));
+      run.damaged(solve_damaged(run.bridge, {name, uncertainty, options.bridges, seed, options.settings.load},
+                                scenes, options.folder));
   };
   for (const double scatter : options.scatters)
     damaged(fmt::format("joints {}", scatter), scattered_joints(scatter), kDamagedSeed, wall_singles(layout));
   damaged("everything", run.bridge.description.uncertainty, kDamagedSeed, wall_singles(layout));
   const SampledTruth in_epochs{"everything, epochs too", run.bridge.description.uncertainty, options.bridges,
-                               kDamagedSeed};
+                               kDamagedSeed, options.settings.load};
   if (run.wants(in_epochs.name))
     run.damaged(solve_lost_between(run.bridge.description, in_epochs, {.at_random = true},
                                    wall_blocks(layout), options.settings.every),
@@ -89,7 +90,8 @@ void try_intact(Run& run) {
   const auto intact = [&](const std::string& name, const Uncertainty& uncertainty, const Between& between) {
     if (run.wants(name))
       run.intact(solve_intact(run.bridge.description,
-                              {name, uncertainty, options.intact_bridges, kIntactSeed}, between));
+                              {name, uncertainty, options.intact_bridges, kIntactSeed, options.settings.load},
+                              between));
   };
   for (const double scatter : options.scatters)
     intact(fmt::format("joints {}", scatter), scattered_joints(scatter), {});

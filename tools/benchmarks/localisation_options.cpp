@@ -17,9 +17,8 @@ void add_asking_options(CLI::App& app, IrregularOptions& options) {
              "of --irregular: what the lookup takes for evidence of how bridges scatter");
 }
 
-}  // namespace
-
-void add_irregular_options(CLI::App& app, IrregularOptions& options) {
+/// The bridges that readings come from.
+void add_truth_options(CLI::App& app, IrregularOptions& options) {
   app.add_option(
       "--truth", options.truths,
       "of --irregular: databases of sampled bridges (build-database --variants) that readings come from; "
@@ -35,6 +34,15 @@ void add_irregular_options(CLI::App& app, IrregularOptions& options) {
   app.add_option("--intact-bridges", options.intact_bridges, "of --irregular: intact bridges of each kind")
       ->check(CLI::Range(1, kMost))
       ->capture_default_str();
+  app.add_flag("--intact-only", options.intact_only, "of --irregular: intact bridges only");
+  app.add_option("--kind", options.kind,
+                 "of --irregular: only the kinds of bridges whose names contain this, such as 'epochs too'");
+}
+
+}  // namespace
+
+void add_irregular_options(CLI::App& app, IrregularOptions& options) {
+  add_truth_options(app, options);
   app.add_option_function<std::vector<double>>(
          "--sigma",
          [&](const std::vector<double>& sigmas) {
@@ -45,9 +53,9 @@ void add_irregular_options(CLI::App& app, IrregularOptions& options) {
       ->delimiter(',')
       ->check(CLI::PositiveNumber);
   add_asking_options(app, options);
-  app.add_flag("--intact-only", options.intact_only, "of --irregular: intact bridges only");
-  app.add_option("--kind", options.kind,
-                 "of --irregular: only the kinds of bridges whose names contain this, such as 'epochs too'");
+  app.add_option("--load", options.settings.load,
+                 "of --irregular: readings are of what this load of the bridge file adds, such as crown, "
+                 "truck@2; default: of the bridge under its own weight");
   app.add_option("--every", options.settings.every, "of --irregular: take one of so many singles")
       ->check(CLI::Range(1, kMost))
       ->capture_default_str();

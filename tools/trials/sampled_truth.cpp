@@ -7,9 +7,11 @@
 #include "core/geometry/polygon.h"
 #include "core/random.h"
 #include "core/solve/combined_solver.h"
+#include "core/solve/state_name.h"
 #include "core/solve/state_plan.h"
 #include "core/structure/rigid_movement.h"
 #include "core/structure/unevenness.h"
+#include "core/text.h"
 #include "core/threads.h"
 #include "generator/build.h"
 #include "generator/scenes/variants.h"
@@ -136,17 +138,38 @@ std::vector<Stage> stages_of_epoch(const Model& bridge, const SampledTruth& trut
   return stages;
 }
 
+/// "truck" of "truck@2"
+std::string load_case_of(const std::string& stage) {
+  return stage.substr(0, stage.find('@'));
+}
+
+/// The forces of a load case, stage by stage up to this one.
+std::vector<Field> forces_of(const std::string& load, const Model& bridge,
+                             const BridgeDescription& description) {
+  if (load.empty()) return {};
+  const StatePlan plan =
+      plan_states(state_names(kBuiltState, load_case_of(load), description.loads), bridge, description);
+  std::vector<Field> forces;
+  for (const PlannedState& state : plan) {
+    if (state.is_load) forces.push_back(state.load);
+    if (load_stage_of(state.name) == load) return forces;
+  }
+  throw InputError(fmt::format("--load: the load case has no stage {}", in_quotes(load)));
+}
+
 /// Sampled bridges that stand intact in the first of two epochs.
 struct EpochsOfBridges {
   Model nominal;
   std::vector<Model> bridges;
   std::vector<Stage> first, second;
+  std::vector<Field> load;          ///< forces_of
   std::vector<Case> built, before;  ///< of each bridge
 
   EpochsOfBridges(const BridgeDescription& description, const SampledTruth& truth, const Between& between)
       : nominal(make_model(description)),
         first(stages_of_epoch(nominal, truth, between, 1)),
-        second(stages_of_epoch(nominal, truth, between, 2)) {
+        second(stages_of_epoch(nominal, truth, between, 2)),
+        load(forces_of(truth.load, nominal, description)) {
     for (const VariantParameters& parameters :
          sampled_variants(nominal, truth.uncertainty, truth.bridges, truth.seed))
       bridges.push_back(variant_of(nominal, parameters));
@@ -156,12 +179,35 @@ struct EpochsOfBridges {
   }
 
   std::vector<Stage> at_rest() const { return std::vector<Stage>(bridges.size()); }
-};
 
-std::vector<double> shown(const State& state, const Model& bridge) {
-  const Eigen::VectorXd vertical = readings_at(bridge.control_points, state.displacement);
-  return {vertical.begin(), vertical.end()};
-}
+  /// What the control points show.
+  std::vector<double> shown(const Case& one) const {
+    const Eigen::VectorXd vertical = readings_at(nominal.control_points, one.state.displacement);
+    return {vertical.begin(), vertical.end()};
+  }
+
+  /// What the load adds to each case in its epoch: nothing without a load, and of those that do not bear it
+  /// no answer.
+  std::vector<std::optional<std::vector<double>>> added(QuasiStaticSolver& solver,
+                                                        const std::vector<Stage>& epoch,
+                                                        const std::vector<Case>& cases) const {
+    std::vector<std::optional<std::vector<double>>> result(cases.size());
+    if (load.empty()) return {cases.size(), std::vector<double>()};
+    std::vector<Case> loaded = cases;
+    for (const Field& force : load)
+      loaded = solve(solver, bridges, loaded, [&](const Case& before) {
+        StageTask task{
+            .stage = epoch[before.bridge], .start = &before.state.displacement, .before = &before.state};
+        task.stage.load = force;
+        return task;
+      });
+    for (std::size_t i = 0; const Case& one : loaded) {
+      while (cases[i].bridge != one.bridge || cases[i].scene != one.scene) ++i;
+      result[i] = added_by_load(shown(one), shown(cases[i]));
+    }
+    return result;
+  }
+};
 
 /// Of one bridge: what is left of it when a block goes in the first epoch and it enters the second; and when
 /// it was built without the block.
@@ -183,12 +229,14 @@ TrueBridge lose_each(const EpochsOfBridges& sampled, std::size_t number, const s
       enter_second(sampled.at_rest(), solve(solver, sampled.bridges, losses, [&](const Case&) {
                      return StageTask{.stage = {}, .start = &built.displacement};
                    }));
-  TrueBridge result{shown(before, sampled.nominal), {}};
-  for (const Case& one : lost) {
-    const auto same = std::ranges::find(without, one.scene, &Case::scene);
-    if (same != without.end())
-      result.damaged.push_back(
-          {one.scene, shown(same->state, sampled.nominal), shown(one.state, sampled.nominal)});
+  const auto added = sampled.added(solver, sampled.second, lost);
+  const auto added_before = sampled.added(solver, sampled.first, {sampled.before[number]}).front();
+  if (!added_before) return {};
+  TrueBridge result{sampled.shown(sampled.before[number]), {}, *added_before};
+  for (std::size_t i = 0; i < lost.size(); ++i) {
+    const auto same = std::ranges::find(without, lost[i].scene, &Case::scene);
+    if (same != without.end() && added[i])
+      result.damaged.push_back({lost[i].scene, sampled.shown(*same), sampled.shown(lost[i]), *added[i]});
   }
   return result;
 }
@@ -223,16 +271,17 @@ DamagedTruth solve_damaged(const BridgeFile& bridge, const SampledTruth& truth, 
   std::filesystem::create_directories(folder);
   BuildRequest request;
   request.bridge = bridge;
-  request.output = folder / (truth.name + ".h5");
+  request.output = folder / (truth.name + (truth.load.empty() ? "" : ", " + truth.load) + ".h5");
   request.scenes = scenes;
   request.histories = "built,lost";
+  if (!truth.load.empty()) request.loads = load_case_of(truth.load);
   request.fields = KeepField::no;
   request.known_bridge = true;  // nothing is looked up in it
   request.other_variants =
       sampled_variants(make_model(bridge.description), truth.uncertainty, truth.bridges, truth.seed);
   Progress progress(Progress::Mode::automatic);
   build_database(request, quasi_static(), progress);
-  return {truth.name, read_true_bridges(Database::open(request.output))};
+  return {truth.name, read_true_bridges(Database::open(request.output), truth.load)};
 }
 
 IntactTruth solve_intact(const BridgeDescription& description, const SampledTruth& truth,
@@ -242,10 +291,13 @@ IntactTruth solve_intact(const BridgeDescription& description, const SampledTrut
   const auto after =
       if_all_stand(go_to_epoch(solver, sampled.bridges, sampled.first, sampled.second, sampled.before),
                    sampled.bridges.size(), truth.name);
+  const auto added_before = sampled.added(solver, sampled.first, sampled.before);
+  const auto added_after = sampled.added(solver, sampled.second, after);
   IntactTruth result{truth.name, {}};
   for (std::size_t b = 0; b < sampled.bridges.size(); ++b)
-    result.bridges.push_back(
-        {shown(sampled.before[b].state, sampled.nominal), shown(after[b].state, sampled.nominal)});
+    if (added_before[b] && added_after[b])
+      result.bridges.push_back(
+          {sampled.shown(sampled.before[b]), sampled.shown(after[b]), *added_before[b], *added_after[b]});
   return result;
 }
 

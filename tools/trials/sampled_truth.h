@@ -15,6 +15,7 @@ struct SampledTruth {
   Uncertainty uncertainty;  ///< that they are drawn from
   int bridges = 20;
   std::uint64_t seed = 1;
+  std::string load{};  ///< a stage of a load case whose effect is solved for, too; none if empty
 };
 
 /// Nothing is uncertain but every joint's own stiffness, with these coefficients of variation: of the joint
@@ -37,14 +38,15 @@ struct Between {
                                  ///< joints, as uncertain and as uneven as they are
 };
 
-/// Solves the intact bridges at two times, the second from the state of the first. Throws Failure if one does
-/// not stand.
+/// Solves the intact bridges at two times, the second from the state of the first. Bridges that do not bear
+/// the load are left out. Throws Failure if one does not stand.
 IntactTruth solve_intact(const BridgeDescription& bridge, const SampledTruth& truth, const Between& between);
 
 /// Solves bridges that lose each of these blocks, or one of `every` so many, between the two times: in the
 /// first epoch, which the intact bridge has entered, the block goes, and what is left enters the second. As
 /// built it was missing from the start, and the second epoch alone was entered. Losses after which something
-/// falls are left out. Throws Failure if an intact bridge does not stand.
+/// falls, and bridges and scenes that do not bear the load, are left out. Throws Failure if an intact bridge
+/// does not stand.
 DamagedTruth solve_lost_between(const BridgeDescription& bridge, const SampledTruth& truth,
                                 const Between& between, const std::vector<BlockId>& blocks,
                                 std::size_t every = 1);

@@ -9,8 +9,6 @@
 namespace voussoir {
 namespace {
 
-constexpr std::array kAllTaken = {ReadingsTaken::change, ReadingsTaken::two_epochs, ReadingsTaken::absolute};
-
 /// Who is looked for among whom.
 struct LookFor {
   const char* name;
@@ -56,18 +54,23 @@ void run_search(const Database& database, const std::string& truth, const LookFo
                 const StudySettings& settings, const Trials& trials, const RowDone& done,
                 std::vector<StudyRow>& rows) {
   const SensorList sensors = control_point_sensors(database.control_points());
-  for (const ReadingsTaken taken : kAllTaken)
+  for (const ReadingsTaken taken : all_taken(settings))
     for (const double sigma : settings.sigmas)
       for (const bool known_bridge : {true, false}) {
         if (known_bridge && taken == ReadingsTaken::two_epochs)
           continue;  // the first teaches nothing: a change
         run_row({truth, search.name, taken, sigma, known_bridge, {}},
                 asking_for(database, sensors, search, settings, known_bridge),
-                {taken, sigma, settings.seed, every_of(search, settings)}, trials, done, rows);
+                {taken, sigma, settings.seed, every_of(search, settings), settings.load}, trials, done, rows);
       }
 }
 
 }  // namespace
+
+std::vector<ReadingsTaken> all_taken(const StudySettings& settings) {
+  if (!settings.load.empty()) return {ReadingsTaken::load_change, ReadingsTaken::load};
+  return {ReadingsTaken::change, ReadingsTaken::two_epochs, ReadingsTaken::absolute};
+}
 
 std::vector<StudyRow> study_damaged(const Database& database, const DamagedTruth& truth,
                                     const StudySettings& settings, const RowDone& done) {

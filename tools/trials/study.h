@@ -28,7 +28,11 @@ struct StudySettings {
   Conditions conditions = Conditions::uncertain;    ///< as the lookup is told where the bridge is unknown
   std::size_t every_all = 10;                       ///< and among all scenes
   std::shared_ptr<const SampledBridges> sampled{};  ///< what the lookup takes for evidence of the scatter
+  std::string load{};  ///< readings are of what this stage of a load case adds; empty: of the bridge's weight
 };
+
+/// In which ways readings are taken then.
+std::vector<ReadingsTaken> all_taken(const StudySettings& settings);
 
 /// One row of the tables.
 struct StudyRow {
@@ -45,7 +49,8 @@ struct StudyRow {
 using RowDone = std::function<void(const StudyRow&)>;
 
 /// Singles among singles and among all scenes, pairs among pairs and among all: each as a change, with both
-/// epochs and as absolute readings, with the bridge known and unknown.
+/// epochs and as absolute readings, or as what a load adds and how much more it adds, with the bridge known
+/// and unknown.
 std::vector<StudyRow> study_damaged(const Database& database, const DamagedTruth& truth,
                                     const StudySettings& settings, const RowDone& done);
 

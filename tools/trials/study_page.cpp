@@ -127,6 +127,7 @@ std::string source_html(const StudySource& source) {
                                   {"Digest", source.digest},
                                   {"Bridge", source.bridge},
                                   {"True bridges", fmt::format("{}", fmt::join(source.truths, "; "))},
+                                  {"Load", source.settings.load.empty() ? "none" : source.settings.load},
                                   {"How bridges scatter",
                                    source.settings.sampled ? fmt::format("{} sampled bridges of the database",
                                                                          source.settings.sampled->count)
@@ -139,9 +140,7 @@ std::string source_html(const StudySource& source) {
 
 std::string to_page(const StudySource& source, const std::vector<StudyRow>& rows) {
   std::vector<Figure> figures = {reliability_figure(rows)};
-  for (const ReadingsTaken taken :
-       {ReadingsTaken::change, ReadingsTaken::two_epochs, ReadingsTaken::absolute})
-    figures.push_back(success_figure(rows, taken));
+  for (const ReadingsTaken taken : all_taken(source.settings)) figures.push_back(success_figure(rows, taken));
   return html_page(
       "Voussoir: trials on irregular bridges",
       paragraph("Readings of sampled bridges, solved nonlinearly, that the database does not hold.", "lead") +

@@ -63,7 +63,7 @@ std::string heading_text() {
   for (const Verdict verdict : all_verdicts())
     verdicts += fmt::format("{}{}", verdicts.empty() ? "" : "/", to_string(verdict));
   return fmt::format(
-      "{:<22} {:<21} {:<10} {:>5} {:>7} {:>6} {:>13} {:>13} {:>13} {:>6} {:>7} {:>13} {:>13} {:>13} {:>6} "
+      "{:<22} {:<21} {:<11} {:>5} {:>7} {:>6} {:>13} {:>13} {:>13} {:>6} {:>7} {:>13} {:>13} {:>13} {:>6} "
       "{:>6} "
       " {}\n",
       "truth", "looked for", "readings", "sigma", "bridge", "trials", "first", "95 % set", "exactly 95 %",
@@ -73,7 +73,7 @@ std::string heading_text() {
 std::string to_text(const StudyRow& row) {
   const TrialRates& rates = row.rates;
   return fmt::format(
-      "{:<22} {:<21} {:<10} {:>5.2g} {:>7} {:>6} {:>13} {:>13} {:>13} {:>6.3f} {:>7.1f} {:>13} {:>13} {:>13} "
+      "{:<22} {:<21} {:<11} {:>5.2g} {:>7} {:>6} {:>13} {:>13} {:>13} {:>6.3f} {:>7.1f} {:>13} {:>13} {:>13} "
       "{:>6.3f} {:>6.1f}  {}\n",
       row.truth, row.looked_for, to_string(row.taken), kMillimetres * row.sigma,
       row.known_bridge ? "known" : "unknown", rates.trials, share_text(rates.first),
@@ -114,6 +114,7 @@ std::string to_json(const StudySource& source, const std::vector<StudyRow>& rows
         {"truths", source.truths},
         {"sampled_bridges", source.settings.sampled ? source.settings.sampled->count : 0},
         {"seed", source.settings.seed},
+        {"load", source.settings.load},
         {"every", source.settings.every},
         {"every_all", source.settings.every_all}}},
       {"rows", nlohmann::ordered_json::array()}};

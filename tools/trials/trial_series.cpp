@@ -12,13 +12,24 @@ struct Question {
   std::size_t truth = 0;  ///< row in the database
 };
 
+Shown shown_of(const TrueBridge& bridge, const TrueScene& scene, ReadingsTaken taken) {
+  if (is_loaded(taken)) return {bridge.added, scene.added};
+  return {bridge.intact, taken == ReadingsTaken::absolute ? scene.built : scene.lost};
+}
+
+Shown shown_of(const IntactBridge& bridge, ReadingsTaken taken) {
+  if (is_loaded(taken)) return {bridge.added_before, bridge.added_after};
+  return {bridge.before, bridge.after};
+}
+
 std::vector<Trial> ask_all(const Asking& asking, const std::vector<Question>& questions,
                            const Taking& taking) {
   std::vector<Trial> trials(questions.size());
   tbb::parallel_for(std::size_t{0}, questions.size(), [&](std::size_t i) {
     Random random(series_seed(taking.seed, i));
-    trials[i] = ask(asking, take_readings(questions[i].shown, taking.taken, taking.sigma, random),
-                    questions[i].truth);
+    trials[i] =
+        ask(asking, take_readings(questions[i].shown, taking.taken, taking.sigma, random, taking.load),
+            questions[i].truth);
     trials[i].bridge = questions[i].bridge;
   });
   return trials;
@@ -34,8 +45,7 @@ std::vector<Trial> look_for_damage(const Asking& asking, const std::vector<TrueB
     for (const TrueScene& scene : bridges[b].damaged) {
       const auto row = asking.database.find(scene.scene);
       if (scene.scene.missing() != missing || !row || number++ % taking.every != 0) continue;
-      const bool absolute = taking.taken == ReadingsTaken::absolute;
-      questions.push_back({b, {bridges[b].intact, absolute ? scene.built : scene.lost}, *row});
+      questions.push_back({b, shown_of(bridges[b], scene, taking.taken), *row});
     }
   }
   return ask_all(asking, questions, taking);
@@ -46,7 +56,7 @@ std::vector<Trial> look_at_intact(const Asking& asking, const std::vector<Intact
   const std::size_t truth = asking.database.find(Scene{}).value();
   std::vector<Question> questions;
   for (std::size_t b = 0; b < bridges.size(); ++b)
-    questions.push_back({b, {bridges[b].before, bridges[b].after}, truth});
+    questions.push_back({b, shown_of(bridges[b], taking.taken), truth});
   return ask_all(asking, questions, taking);
 }
 
