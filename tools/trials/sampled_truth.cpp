@@ -192,12 +192,14 @@ struct EpochsOfBridges {
                                                         const std::vector<Stage>& epoch,
                                                         const std::vector<Case>& cases) const {
     std::vector<std::optional<std::vector<double>>> result(cases.size());
-    if (load.empty()) return {cases.size(), std::vector<double>()};
+    if (load.empty()) {
+      std::ranges::fill(result, std::vector<double>());
+      return result;
+    }
     std::vector<Case> loaded = cases;
     for (const Field& force : load)
-      loaded = solve(solver, bridges, loaded, [&](const Case& before) {
-        StageTask task{
-            .stage = epoch[before.bridge], .start = &before.state.displacement, .before = &before.state};
+      loaded = solve(solver, bridges, loaded, [&](const Case& one) {
+        StageTask task{.stage = epoch[one.bridge], .start = &one.state.displacement, .before = &one.state};
         task.stage.load = force;
         return task;
       });
